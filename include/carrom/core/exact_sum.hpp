@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A sum of doubles that does not depend on the order of its terms: 128-bit fixed point.
+//
+// The unit is chosen from a bound on the total, so that the sum cannot overflow and each term loses at most 2^-125 of
+// that bound. Integer addition is associative: any split over threads and ranks gives the same bits.
+#pragma once
+
+#include <cstdint>
+
+namespace carrom {
+
+class ExactSum {
+public:
+    /// `bound` >= the sum of the terms' magnitudes, the same number wherever parts are to be added together.
+    explicit ExactSum(double bound);
+
+    void add(double term);
+    ExactSum& operator+=(const ExactSum& other);
+    double value() const;
+
+    /// The raw sum, to be added across ranks word by word with carries (see `add_words`).
+    std::uint64_t low_word() const { return static_cast<std::uint64_t>(sum_); }
+    std::uint64_t high_word() const { return static_cast<std::uint64_t>(sum_ >> 64); }
+    void add_words(std::uint64_t low, std::uint64_t high);
+
+private:
+    __extension__ using Wide = __int128;
+    Wide sum_ = 0;
+    int exponent_ = 0; ///< the unit is 2^-exponent_
+};
+
+} // namespace carrom

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// When two freely flying discs touch: the one predicate that every decision rests on (docs/method.md, section 4).
+//
+// The discriminant is taken as (sqrt(A) sigma - |X|)(sqrt(A) sigma + |X|) with the cross product X made exact by fused
+// multiply-adds, and the root as C / (-b + sqrt(disc)): no subtraction of like numbers (Lagrange's identity; Kahan 2004).
+// This form of X treats x and y alike, so transposed scenes give transposed bits. One square root for most misses,
+// two more and a division for a hit. No division before b < 0, so equal velocities need no case of their own.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace carrom {
+
+/// A contact at `base` + `delay`; `base` is the later of the two local times. `delay` < 0 means none.
+template <class Real> struct PairContact {
+    Real base = 0;
+    Real delay = -1;
+    bool exists() const { return delay >= 0; }
+};
+
+/// Twice the area spanned by (ax, ay) and (bx, by), to within about an ulp of the result.
+template <class Real> Real cross(Real ax, Real ay, Real bx, Real by) {
+    const Real p1 = ax * by;
+    const Real e1 = std::fma(ax, by, -p1);
+    const Real p2 = ay * bx;
+    const Real e2 = std::fma(ay, bx, -p2);
+    return (p1 - p2) + (e1 - e2);
+}
+
+/// Time until points at separation (dx, dy) with relative velocity (wx, wy) come within `sigma`; negative for never.
+/// Pairs that overlap by more than `deepest_overlap` never do (infinity: they collide at once if they approach).
+template <class Real> Real contact_delay(Real dx, Real dy, Real wx, Real wy, Real sigma, Real deepest_overlap) {
+    const Real none = -1;
+    const Real b = dx * wx + dy * wy;
+    if (!(b < 0)) return none;
+    const Real a = wx * wx + wy * wy;
+    const Real reach = std::sqrt(a) * sigma;
+    const Real x = std::fabs(cross(dx, dy, wx, wy));
+    const Real disc = (reach - x) * (reach + x);
+    if (!(disc > 0)) return none; // an exact graze is no contact
+    const Real distance = std::sqrt(dx * dx + dy * dy);
+    const Real gap = distance - sigma;
+    if (gap < -deepest_overlap) return none;
+    if (gap <= 0) return 0;
+    const Real c = gap * (distance + sigma);
+    return c / (-b + std::sqrt(disc));
+}
+
+/// The contact of discs `p` and `q` (any order) from their stored states alone: the same bits whoever asks, and when.
+template <class Real, class AnyDisc>
+PairContact<Real> pair_contact(const AnyDisc& p, const AnyDisc& q, Real sigma, Real deepest_overlap) {
+    const Real base = std::max(p.tau, q.tau);
+    const Real dx = q.x_at(base) - p.x_at(base);
+    const Real dy = q.y_at(base) - p.y_at(base);
+    return {base, contact_delay(dx, dy, q.vx - p.vx, q.vy - p.vy, sigma, deepest_overlap)};
+}
+
+} // namespace carrom

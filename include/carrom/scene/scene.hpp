@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One checked description of a run. Every reader ends in a `Scene`; nothing after it looks at the input's text again.
+//
+// Velocities and times here are the scene's (per step); the engine divides by `micro_steps` when it takes over.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "carrom/core/disc.hpp"
+
+namespace carrom {
+
+enum class CollisionRule { one, all };
+enum class Generator { random, lattice, ancestor, file };
+enum class VelocityKind { maxwell, uniform };
+
+/// What goes to standard output: nothing, steps 0 and S, or every step (the ancestor's `perf` and `print`).
+enum class TextOutput { none, first_and_last, every_step };
+
+/// A disc as an input gives it, velocity per step.
+struct InputDisc {
+    DiscId id = 0;
+    double x = 0, y = 0, vx = 0, vy = 0;
+
+    friend bool operator==(const InputDisc&, const InputDisc&) = default;
+};
+
+/// Discs generated inside this rectangle get this velocity added: a jet, a shear, a piston-like slab.
+struct Stream {
+    double x_low = 0, y_low = 0, x_high = 0, y_high = 0;
+    double vx = 0, vy = 0;
+};
+
+struct Scene {
+    std::string name;       ///< the file's name, "standard input" for `-`
+    std::string text;       ///< the input's own text without the lines of discs, for checkpoints
+
+    double box_size = 0;    ///< L
+    double radius = 0;      ///< r
+    std::uint64_t n_discs = 0;
+
+    Generator generator = Generator::random;
+    std::string discs_file; ///< for Generator::file, relative to the scene's folder; empty: lines follow the header
+    double speed = 1;       ///< root mean square of the generated speeds
+    VelocityKind velocities = VelocityKind::maxwell;
+    std::uint64_t seed = 3210;
+    std::vector<Stream> streams;
+    std::vector<InputDisc> listed_discs; ///< discs written in the scene itself (`discs.list`)
+
+    std::int64_t steps = 0;
+    CollisionRule rule = CollisionRule::one;
+    std::int64_t micro_steps = 1;
+    std::int64_t sync_every = 64;
+    std::optional<double> accuracy;
+
+    TextOutput text_output = TextOutput::none;
+
+    std::vector<std::string> warnings; ///< legal but worth a line: K not a power of two, ...
+
+    double packing() const;
+};
+
+} // namespace carrom

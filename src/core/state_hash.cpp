@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carrom/core/state_hash.hpp"
+
+#include <array>
+#include <bit>
+#include <cstdio>
+
+#include <xxhash.h>
+
+namespace carrom {
+
+static_assert(std::endian::native == std::endian::little, "the hashed record is little-endian");
+
+StateHash hash_of(const Disc& disc) {
+    // Adding +0 turns -0 into +0 and leaves every other number as it is.
+    const std::array<std::uint64_t, 8> record = {disc.id,
+                                                 std::bit_cast<std::uint64_t>(disc.x + 0.0),
+                                                 std::bit_cast<std::uint64_t>(disc.y + 0.0),
+                                                 std::bit_cast<std::uint64_t>(disc.vx + 0.0),
+                                                 std::bit_cast<std::uint64_t>(disc.vy + 0.0),
+                                                 std::bit_cast<std::uint64_t>(disc.tau + 0.0),
+                                                 disc.wall_collisions,
+                                                 disc.pair_collisions};
+    const XXH128_hash_t hash = XXH3_128bits(record.data(), sizeof record);
+    return {hash.low64, hash.high64};
+}
+
+StateHash hash_of(std::span<const Disc> discs) {
+    StateHash sum;
+    for (const Disc& disc : discs) sum += hash_of(disc);
+    return sum;
+}
+
+std::string to_string(const StateHash& hash) {
+    std::array<char, 33> text{};
+    std::snprintf(text.data(), text.size(), "%016llx%016llx", static_cast<unsigned long long>(hash.high),
+                  static_cast<unsigned long long>(hash.low));
+    return text.data();
+}
+
+} // namespace carrom
