@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The state of a run and how it moves forward in time. It opens no file and prints nothing.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "carrom/core/disc.hpp"
+#include "carrom/core/state_hash.hpp"
+#include "carrom/parallel/communicator.hpp"
+#include "carrom/scene/scene.hpp"
+
+namespace carrom {
+
+/// Choices that cost or save time and have no say in the bits. Unset ones are chosen from the scene as it runs.
+struct Tuning {
+    int threads = 1;
+    std::optional<double> window;      ///< micro-steps per window; below 1 the micro-step is cut into parts
+    std::optional<double> cell_width;  ///< in units of the window's reach
+    std::int64_t rebalance_every = 1;  ///< in syncs; 0 keeps the first strips for ever
+    double rebalance_above = 1.05;     ///< largest over mean load that is tolerated; 0 moves the cuts every time
+};
+
+/// What is known of a state; order-free, so the same bits for every machine shape. Energies in the scene's units.
+struct Totals {
+    std::uint64_t n_discs = 0;
+    std::uint64_t wall_collisions = 0;
+    std::uint64_t pair_collisions = 0;      ///< pairs, not discs
+    std::uint64_t rejected_candidates = 0;  ///< since this process started stepping
+    std::uint64_t overlapping_pairs = 0;    ///< now, deeper than the tolerance
+    double kinetic_energy = 0;
+    double momentum_x = 0, momentum_y = 0;
+    StateHash hash;
+};
+
+/// Seconds this rank has spent, by phase, in the order they are reported.
+using PhaseSeconds = std::vector<std::pair<std::string, double>>;
+
+class Simulation {
+public:
+    /// Takes over `discs` as the scene has them (velocities per step, tau 0), spread over the ranks in any way.
+    /// **Collective.**
+    Simulation(const Scene& scene, std::vector<InputDisc> discs, const Communicator& communicator, const Tuning& tuning);
+    ~Simulation();
+
+    /// Runs until `last_step`, or until an earlier step that is a good place to look up from (at least one step on).
+    /// Steps are the scene's. **Collective.**
+    void advance_towards(std::int64_t last_step);
+
+    std::int64_t step() const;
+
+    /// Own discs in no particular order: velocities per micro-step, times on `clock()`.
+    std::span<const Disc> discs() const;
+    /// The present time in micro-steps since the last sync, to evaluate Disc::x_at with.
+    double clock() const;
+    /// What velocities are multiplied by to be per step.
+    double velocity_unit() const;
+
+    /// **Collective.**
+    Totals totals() const;
+    PhaseSeconds phase_seconds() const;
+
+private:
+    class Engine;
+    std::unique_ptr<Engine> engine_;
+};
+
+} // namespace carrom
