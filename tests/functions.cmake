@@ -1,0 +1,89 @@
+# The one place that knows how tests are built and launched: mpiexec and its environment, thread counts, labels,
+# time limits and the cores a test takes. `ctest -L unit`, `-L mpi` and `-L system` select by kind.
+
+# More ranks than cores, as root in a container, threads free to use any core, waiting ranks give way.
+set(CARROM_TEST_ENVIRONMENT
+    OMPI_ALLOW_RUN_AS_ROOT=1
+    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+    OMPI_MCA_rmaps_base_oversubscribe=1
+    OMPI_MCA_hwloc_base_binding_policy=none
+    OMPI_MCA_mpi_yield_when_idle=1
+    PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe
+    CARROM_PROGRAM=${CMAKE_BINARY_DIR}/carrom
+    CARROM_MPIEXEC=${MPIEXEC_EXECUTABLE}
+    CARROM_SOURCE_DIR=${PROJECT_SOURCE_DIR})
+if(CARROM_SANITIZE MATCHES "address|leak")
+  list(APPEND CARROM_TEST_ENVIRONMENT ASAN_OPTIONS=detect_leaks=0 LSAN_OPTIONS=detect_leaks=0) # MPI itself leaks
+endif()
+
+# What every test executable shares. Tests may include their module's private headers and those of tests/support.
+function(carrom_test_executable target module)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support ${PROJECT_SOURCE_DIR}/src/${module})
+  if(TARGET carrom::${module})
+    target_link_libraries(${target} PRIVATE carrom::${module})
+  endif()
+  target_link_libraries(${target} PRIVATE carrom_warnings carrom_numerics Catch2::Catch2 ${ARGN})
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+endfunction()
+
+# carrom_unit_test(module SOURCES a_test.cpp ... [LINKS target ...] [TIMEOUT seconds])
+# Builds <module>_unit_test without MPI; each Catch2 case is a ctest entry. Links carrom::<module> by itself.
+function(carrom_unit_test module)
+  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LINKS" ${ARGN})
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
+  set(target ${module}_unit_test)
+  add_executable(${target} ${arg_SOURCES})
+  carrom_test_executable(${target} ${module} carrom_unit_main ${arg_LINKS})
+  catch_discover_tests(${target} TEST_PREFIX "${module}: "
+                       PROPERTIES LABELS unit TIMEOUT ${arg_TIMEOUT} ENVIRONMENT "OMP_NUM_THREADS=2")
+endfunction()
+
+# carrom_mpi_test(name RANKS 1 2 ... SOURCES a_test.cpp ... [LINKS target ...] [THREADS 1 2] [TIMEOUT seconds])
+# Builds <name>_mpi_test; one ctest entry per rank and thread count runs all its Catch2 cases on every rank.
+# Links carrom::<name>, if there is one, and carrom::parallel by itself.
+function(carrom_mpi_test name)
+  cmake_parse_arguments(arg "" "TIMEOUT" "RANKS;THREADS;SOURCES;LINKS" ${ARGN})
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
+  if(NOT arg_THREADS)
+    set(arg_THREADS 1)
+  endif()
+  set(target ${name}_mpi_test)
+  add_executable(${target} ${arg_SOURCES})
+  carrom_test_executable(${target} ${name} carrom_mpi_main carrom::parallel ${arg_LINKS})
+  foreach(ranks ${arg_RANKS})
+    foreach(threads ${arg_THREADS})
+      math(EXPR cores "${ranks} * ${threads}")
+      set(test "${name}: ${ranks} ranks x ${threads} threads")
+      add_test(NAME ${test} COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} ${MPIEXEC_PREFLAGS}
+                                    $<TARGET_FILE:${target}> ${MPIEXEC_POSTFLAGS})
+      set_tests_properties(${test} PROPERTIES LABELS mpi PROCESSORS ${cores} TIMEOUT ${arg_TIMEOUT})
+      set_tests_properties(${test} PROPERTIES ENVIRONMENT
+        "${CARROM_TEST_ENVIRONMENT};OMP_NUM_THREADS=${threads};CARROM_TEST_SECONDS=${arg_TIMEOUT}")
+    endforeach()
+  endforeach()
+endfunction()
+
+# carrom_system_test(name COMMAND program arg ... [LABELS label ...] [PROCESSORS n] [TIMEOUT seconds])
+# Runs a script or the real program in a folder of its own, so tests may run side by side. Scripts find the program
+# in $CARROM_PROGRAM, mpiexec in $CARROM_MPIEXEC and the source tree in $CARROM_SOURCE_DIR.
+function(carrom_system_test name)
+  cmake_parse_arguments(arg "" "TIMEOUT;PROCESSORS" "COMMAND;LABELS" ${ARGN})
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 300)
+  endif()
+  if(NOT arg_PROCESSORS)
+    set(arg_PROCESSORS 1)
+  endif()
+  if(NOT arg_LABELS)
+    set(arg_LABELS system)
+  endif()
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/run/${name})
+  file(MAKE_DIRECTORY ${folder})
+  add_test(NAME ${name} COMMAND ${arg_COMMAND} WORKING_DIRECTORY ${folder})
+  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" PROCESSORS ${arg_PROCESSORS} TIMEOUT ${arg_TIMEOUT})
+  set_tests_properties(${name} PROPERTIES ENVIRONMENT "${CARROM_TEST_ENVIRONMENT}")
+endfunction()
