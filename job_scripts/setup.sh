@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# What run_local.sh and test_local.sh share: packages, build, and Open MPI's settings for one machine. To be sourced.
+#
+# Nothing is installed that is there already, and nothing outside the build folder is written otherwise.
+# Settings that the caller has made (CMAKE_GENERATOR, OMPI_MCA_*, BUILD_DIR) are kept.
+
+top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=${BUILD_DIR:-$top/build}
+
+packages=(cmake ninja-build g++ pkg-config openmpi-bin libopenmpi-dev
+          libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev
+          librandom123-dev libhwy-dev libxxhash-dev catch2)
+
+say() { printf '%s\n' "$*" >&2; }
+die() { say "$(basename "$0"): $*"; exit 1; }
+
+missing_packages() {
+    local package
+    for package in "${packages[@]}"; do
+        dpkg-query -W -f '${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed || printf '%s\n' "$package"
+    done
+}
+
+# On a system without apt the build itself says what it does not find.
+install_packages() {
+    command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || return 0
+    local missing as_root=()
+    mapfile -t missing < <(missing_packages)
+    [ ${#missing[@]} -gt 0 ] || return 0
+    if [ "$(id -u)" -ne 0 ]; then
+        command -v sudo >/dev/null ||
+            die "packages are missing, and you are neither root nor have sudo. Ask for: apt-get install ${missing[*]}"
+        as_root=(sudo)
+    fi
+    say "installing ${missing[*]}"
+    local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300)
+    # The package lists may be old or not there at all: they are fetched only if the first try fails.
+    "${apt[@]}" install --no-install-recommends "${missing[@]}" >&2 </dev/null ||
+        { "${apt[@]}" update >&2 </dev/null &&
+          "${apt[@]}" install --no-install-recommends "${missing[@]}" >&2 </dev/null; } ||
+        die "apt-get could not install: ${missing[*]}"
+}
+
+# build_target TARGET...: configure where needed, then build (all, if no target is named).
+build_target() {
+    export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}
+    cmake -S "$top" -B "$build" >&2 </dev/null || die "cmake could not configure the build in $build"
+    cmake --build "$build" --parallel "$(nproc)" ${1:+--target "$@"} >&2 </dev/null || die "the build failed"
+}
+
+# Open MPI refuses to run as root and on more ranks than cores, binds a rank with all its threads to one core, and
+# spins while it waits. Each is undone only where it bites. n_workers: ranks x threads that will run at once.
+open_mpi_settings() {
+    local n_workers=$1
+    if [ "$(id -u)" -eq 0 ]; then
+        export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+    fi
+    # Open MPI counts whole cores, nproc counts hardware threads: with one rank per nproc its count may be exceeded.
+    export OMPI_MCA_rmaps_base_oversubscribe=${OMPI_MCA_rmaps_base_oversubscribe:-1}
+    export OMPI_MCA_hwloc_base_binding_policy=${OMPI_MCA_hwloc_base_binding_policy:-none}
+    if [ "$n_workers" -gt "$(nproc)" ]; then
+        export OMPI_MCA_mpi_yield_when_idle=${OMPI_MCA_mpi_yield_when_idle:-1}
+    fi
+}

@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Test this checkout, from nothing: install what is missing, build everything, run every test.
+#
+#   ./job_scripts/test_local.sh
+#   ./job_scripts/test_local.sh -L unit        (options go to ctest)
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+
+install_packages
+build_target
+# Tests run more ranks and threads than most machines have cores.
+open_mpi_settings 1000000
+exec ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$(nproc)" "$@" </dev/null
