@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A collision that may happen, and the total order that says which of two comes first.
+//
+// A candidate names its discs by their places in this rank's arrays; their ids are looked up only to break ties.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "carrom/core/disc.hpp"
+
+namespace carrom {
+
+/// Stands for the wall where a candidate has no second disc.
+inline constexpr LocalIndex wall = std::numeric_limits<LocalIndex>::max();
+
+struct Candidate {
+    double time = 0;             ///< in-step time of its micro-step, in [0, 1]
+    LocalIndex p = 0, q = wall;  ///< p has the lower id
+    std::uint32_t p_version = 0, q_version = 0; ///< the states it was predicted from
+
+    bool is_wall() const { return q == wall; }
+};
+static_assert(sizeof(Candidate) == 24);
+
+/// Time, then id of P, then wall before pair, then id of Q: exactly, never with a tolerance.
+class TotalOrder {
+public:
+    explicit TotalOrder(std::span<const Disc> discs) : discs_(discs) {}
+
+    bool operator()(const Candidate& a, const Candidate& b) const {
+        if (a.time != b.time) return a.time < b.time;
+        if (a.p != b.p) return discs_[a.p].id < discs_[b.p].id;
+        if (a.is_wall() || b.is_wall()) return a.is_wall() && !b.is_wall();
+        return discs_[a.q].id < discs_[b.q].id;
+    }
+
+private:
+    std::span<const Disc> discs_;
+};
+
+/// Whether both discs still are what the prediction saw.
+inline bool is_current(const Candidate& candidate, std::span<const Disc> discs) {
+    return discs[candidate.p].version() == candidate.p_version &&
+           (candidate.is_wall() || discs[candidate.q].version() == candidate.q_version);
+}
+
+} // namespace carrom

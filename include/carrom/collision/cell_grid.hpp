@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Discs sorted into square cells by where they are at a window's start, x-major: the cells of a column that lie within
+// reach of a disc are one contiguous run of slots, to be read 16 lanes at a time.
+//
+// Beside the order of slots the grid holds each disc's free flight in single precision, in units of cells and windows,
+// so that nothing can overflow. It serves to reject; the double predicate decides. Price: 28 bytes a disc and 4 a cell.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "carrom/core/disc.hpp"
+
+namespace carrom {
+
+/// Where the cells lie. Discs outside the frame are put into its border cells, which brings no two discs further apart.
+struct GridFrame {
+    double x_low = 0, y_low = 0;
+    double cell_width = 1;
+    int n_columns = 1, n_rows = 1;
+    int n_reach = 1; ///< cells on each side that can hold a partner
+
+    int column_of(double x) const { return clamp_cell((x - x_low) / cell_width, n_columns); }
+    int row_of(double y) const { return clamp_cell((y - y_low) / cell_width, n_rows); }
+
+private:
+    static int clamp_cell(double cell, int n) {
+        if (!(cell > 0)) return 0;
+        return cell < n ? static_cast<int>(cell) : n - 1;
+    }
+};
+
+/// A frame of cells over [x_low, x_high] x [y_low, y_high] for partners within `reach`, about `n_discs` cells at most.
+/// `cell_width` in units of reach, 0 for a choice by density.
+GridFrame make_frame(double x_low, double x_high, double y_low, double y_high, double reach, std::size_t n_discs,
+                     double cell_width);
+
+/// Free flights in slot order: position in cells from the frame's corner at the window's start, cells per window.
+struct FlightLanes {
+    const float* x = nullptr;
+    const float* y = nullptr;
+    const float* vx = nullptr;
+    const float* vy = nullptr;
+};
+
+struct SlotRange {
+    std::uint32_t begin = 0, end = 0;
+};
+
+struct SlotPair {
+    std::uint32_t first = 0, second = 0;
+};
+
+/// Slots that must be readable beyond the last one: a vector may look past its run's end.
+inline constexpr std::size_t filter_padding = 64;
+
+class CellGrid {
+public:
+    /// Sorts `discs` by their cells at `time`; flights last for `duration`.
+    void build(std::span<const Disc> discs, const GridFrame& frame, double time, double duration, int n_threads);
+
+    /// Takes over a disc's new free flight. Its cell stays what it was at the window's start.
+    void update_flight(LocalIndex index, const Disc& disc);
+
+    const GridFrame& frame() const { return frame_; }
+    FlightLanes lanes() const { return {x_.data(), y_.data(), vx_.data(), vy_.data()}; }
+    std::span<const LocalIndex> order() const { return order_; }
+    std::uint32_t slot_of(LocalIndex index) const { return slot_of_[index]; }
+    int column_of(LocalIndex index) const { return static_cast<int>(cell_of_[index] / rows()); }
+    int row_of(LocalIndex index) const { return static_cast<int>(cell_of_[index] % rows()); }
+
+    /// Slots of the cells (column, first_row .. last_row); rows are cut at the frame's ends.
+    SlotRange run(int column, int first_row, int last_row) const {
+        const int low = first_row < 0 ? 0 : first_row;
+        const int high = last_row >= frame_.n_rows ? frame_.n_rows - 1 : last_row;
+        const std::size_t base = static_cast<std::size_t>(column) * rows();
+        return {cell_start_[base + static_cast<std::size_t>(low)], cell_start_[base + static_cast<std::size_t>(high) + 1]};
+    }
+
+    /// Squared distance in cells, with a margin for single precision, beyond which flights cannot touch.
+    float touching_squared(double diameter) const;
+
+    bool is_valid(std::size_t n_discs) const;
+
+private:
+    std::uint32_t rows() const { return static_cast<std::uint32_t>(frame_.n_rows); }
+    void sort_column(std::span<const Disc> discs, int column);
+    void place(std::uint32_t slot, const Disc& disc);
+
+    GridFrame frame_;
+    double time_ = 0, duration_ = 1;
+    std::vector<std::uint32_t> cell_start_;  ///< by cell, and one more
+    std::vector<std::uint32_t> column_start_;
+    std::vector<std::uint32_t> thread_column_start_; ///< scratch: by thread and column
+    std::vector<LocalIndex> order_;          ///< by slot
+    std::vector<std::uint32_t> cell_of_, slot_of_; ///< by disc
+    std::vector<float> x_, y_, vx_, vy_;     ///< by slot, padded for whole vectors
+};
+
+} // namespace carrom

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carrom/collision/cell_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <omp.h>
+
+
+namespace carrom {
+
+namespace {
+
+/// First index of the `part`-th of `n_parts` equal shares of n.
+std::size_t share(std::size_t n, int part, int n_parts) {
+    return n * static_cast<std::size_t>(part) / static_cast<std::size_t>(n_parts);
+}
+
+int cells_along(double length, double width) {
+    return static_cast<int>(std::clamp(std::ceil(length / width), 1.0, 1e9));
+}
+
+} // namespace
+
+GridFrame make_frame(double x_low, double x_high, double y_low, double y_high, double reach, std::size_t n_discs,
+                     double cell_width) {
+    const double width = std::max(x_high - x_low, 0.0), height = std::max(y_high - y_low, 0.0);
+    const double sparse_width = std::sqrt(width / static_cast<double>(n_discs + 16)) * std::sqrt(height);
+    // Two cells to the reach save a third of the pairs where cells of one reach would hold many discs.
+    const double crowding = reach / std::max(sparse_width, reach * 1e-3);
+    const double wanted = cell_width > 0 ? cell_width * reach : (crowding > 2.4 ? reach / 2 : reach);
+    GridFrame frame;
+    frame.x_low = x_low;
+    frame.y_low = y_low;
+    frame.cell_width = std::max(wanted, 0.7 * sparse_width);
+    frame.n_reach = std::max(1, static_cast<int>(std::ceil(reach / frame.cell_width * (1 - 1e-9))));
+    frame.n_columns = cells_along(width, frame.cell_width);
+    frame.n_rows = cells_along(height, frame.cell_width);
+    return frame;
+}
+
+void CellGrid::build(std::span<const Disc> discs, const GridFrame& frame, double time, double duration, int n_threads) {
+    frame_ = frame;
+    time_ = time;
+    duration_ = duration;
+    const std::size_t n = discs.size();
+    const std::size_t n_columns = static_cast<std::size_t>(frame.n_columns);
+    order_.resize(n);
+    cell_of_.resize(n);
+    slot_of_.resize(n);
+    for (std::vector<float>* lane : {&x_, &y_, &vx_, &vy_}) lane->resize(n + filter_padding);
+    cell_start_.resize(n_columns * rows() + 1);
+    column_start_.resize(n_columns + 1);
+    thread_column_start_.assign(n_columns * static_cast<std::size_t>(n_threads), 0);
+
+    // Two counting sorts, first by column over equal shares of the discs, then by row inside each column: no atomics,
+    // and the scattered writes of the second stay within one column.
+#pragma omp parallel num_threads(n_threads)
+    {
+        const int thread = omp_get_thread_num();
+        std::uint32_t* counts = thread_column_start_.data() + n_columns * static_cast<std::size_t>(thread);
+        const std::size_t begin = share(n, thread, n_threads), end = share(n, thread + 1, n_threads);
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto column = static_cast<std::uint32_t>(frame_.column_of(discs[i].x_at(time)));
+            const auto row = static_cast<std::uint32_t>(frame_.row_of(discs[i].y_at(time)));
+            cell_of_[i] = column * rows() + row;
+            ++counts[column];
+        }
+#pragma omp barrier
+#pragma omp single
+        {
+            std::uint32_t start = 0;
+            for (std::size_t column = 0; column < n_columns; ++column) {
+                column_start_[column] = start;
+                for (int t = 0; t < n_threads; ++t) {
+                    std::uint32_t& count = thread_column_start_[n_columns * static_cast<std::size_t>(t) + column];
+                    const std::uint32_t next = start + count;
+                    count = start;
+                    start = next;
+                }
+            }
+            column_start_[n_columns] = start;
+            cell_start_.back() = start;
+        }
+        for (std::size_t i = begin; i < end; ++i) {
+            // slot_of_ serves as the list of discs by column until the second sort has read it.
+            slot_of_[counts[cell_of_[i] / rows()]++] = static_cast<LocalIndex>(i);
+        }
+#pragma omp barrier
+#pragma omp for schedule(static)
+        for (int column = 0; column < frame_.n_columns; ++column) sort_column(discs, column);
+        // slot_of_ is free again once every column is sorted (the loop ends with a barrier).
+#pragma omp for schedule(static)
+        for (std::size_t slot = 0; slot < n; ++slot) slot_of_[order_[slot]] = static_cast<std::uint32_t>(slot);
+    }
+    for (std::size_t pad = n; pad < n + filter_padding; ++pad) x_[pad] = y_[pad] = vx_[pad] = vy_[pad] = 0;
+}
+
+void CellGrid::sort_column(std::span<const Disc> discs, int column) {
+    const std::size_t base = static_cast<std::size_t>(column) * rows();
+    const std::uint32_t begin = column_start_[static_cast<std::size_t>(column)];
+    const std::uint32_t end = column_start_[static_cast<std::size_t>(column) + 1];
+    std::uint32_t* starts = cell_start_.data() + base;
+    std::fill(starts, starts + rows(), 0u);
+    for (std::uint32_t k = begin; k < end; ++k) ++starts[cell_of_[slot_of_[k]] - base];
+    std::uint32_t start = begin;
+    for (std::uint32_t row = 0; row < rows(); ++row) {
+        const std::uint32_t count = starts[row];
+        starts[row] = start;
+        start += count;
+    }
+    for (std::uint32_t k = begin; k < end; ++k) {
+        const LocalIndex index = slot_of_[k];
+        const std::uint32_t slot = starts[cell_of_[index] - base]++;
+        order_[slot] = index;
+        place(slot, discs[index]);
+    }
+    // Each start has moved to its cell's end, which is the next cell's start: shift them back by one cell.
+    for (std::uint32_t row = rows() - 1; row > 0; --row) starts[row] = starts[row - 1];
+    starts[0] = begin;
+}
+
+void CellGrid::place(std::uint32_t slot, const Disc& disc) {
+    const double cells = 1 / frame_.cell_width;
+    x_[slot] = static_cast<float>((disc.x_at(time_) - frame_.x_low) * cells);
+    y_[slot] = static_cast<float>((disc.y_at(time_) - frame_.y_low) * cells);
+    vx_[slot] = static_cast<float>(disc.vx * duration_ * cells);
+    vy_[slot] = static_cast<float>(disc.vy * duration_ * cells);
+}
+
+void CellGrid::update_flight(LocalIndex index, const Disc& disc) { place(slot_of_[index], disc); }
+
+float CellGrid::touching_squared(double diameter) const {
+    // Positions carry an error of 2^-23 of the frame's size; the tests' own rounding acts like a longer diameter by
+    // 2^-20 d^2 / diameter, d being the largest distance that is looked at.
+    const double extent = std::max(frame_.n_columns, frame_.n_rows) + 4.0 * frame_.n_reach;
+    const double farthest = 1.5 * (frame_.n_reach + 1) * 3;
+    const double cells = diameter / frame_.cell_width;
+    const double touching = cells * (1 + 0x1p-18) + 0x1p-20 * extent + 0x1p-20 * farthest * farthest / cells;
+    return static_cast<float>(touching * touching);
+}
+
+bool CellGrid::is_valid(std::size_t n_discs) const {
+    if (order_.size() != n_discs || cell_start_.back() != n_discs) return false;
+    for (std::size_t slot = 0; slot < n_discs; ++slot) {
+        const LocalIndex index = order_[slot];
+        if (slot_of_[index] != slot) return false;
+        const std::uint32_t cell = cell_of_[index];
+        if (slot < cell_start_[cell] || slot >= cell_start_[cell + 1]) return false;
+    }
+    return true;
+}
+
+} // namespace carrom
