@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carrom/parallel/agreement.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "carrom/parallel/exchange.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// A problem without its texts; those follow each other in a string.
+struct PackedProblem {
+    std::int64_t line = 0;
+    std::uint64_t place_length = 0;
+    std::uint64_t text_length = 0;
+};
+
+/// All ranks' items on every rank, in rank order.
+template <Message T> std::vector<T> concatenate(const Communicator& communicator, std::vector<T> mine) {
+    std::vector<std::vector<T>> out(static_cast<std::size_t>(communicator.size()));
+    out.front() = std::move(mine);
+    std::vector<T> all = send_to_owners(communicator, out).items;
+    communicator.broadcast(all);
+    return all;
+}
+
+} // namespace
+
+void agree(const Communicator& communicator, bool ok, const std::string& text, ExitCode code) {
+    const auto all_well = static_cast<std::int64_t>(communicator.size());
+    const std::int64_t failing = communicator.min(ok ? all_well : std::int64_t{communicator.rank()});
+    if (failing == all_well) return;
+    std::string agreed_text = text;
+    int agreed_code = static_cast<int>(code);
+    communicator.broadcast(agreed_text, static_cast<int>(failing));
+    communicator.broadcast(agreed_code, static_cast<int>(failing));
+    throw CollectiveError(agreed_text, static_cast<ExitCode>(agreed_code));
+}
+
+void agree_on_problems(const Communicator& communicator, const std::vector<Problem>& problems, std::size_t most) {
+    const std::uint64_t total = communicator.sum(std::uint64_t{problems.size()});
+    if (total == 0) return;
+
+    const std::uint64_t before = communicator.sum_before(problems.size());
+    const std::size_t room = most > before ? most - before : 0;
+    std::vector<PackedProblem> packed;
+    std::vector<char> letters;
+    for (std::size_t k = 0; k < std::min(room, problems.size()); ++k) {
+        const Problem& problem = problems[k];
+        packed.push_back({problem.line, problem.place.size(), problem.text.size()});
+        letters.insert(letters.end(), problem.place.begin(), problem.place.end());
+        letters.insert(letters.end(), problem.text.begin(), problem.text.end());
+    }
+    letters = concatenate(communicator, std::move(letters));
+
+    std::vector<Problem> agreed;
+    auto next = letters.cbegin();
+    const auto take = [&next](std::uint64_t length) {
+        const auto first = next;
+        next += static_cast<std::ptrdiff_t>(length);
+        return std::string(first, next);
+    };
+    for (const PackedProblem& problem : concatenate(communicator, std::move(packed))) {
+        const std::string place = take(problem.place_length);
+        agreed.push_back({place, problem.line, take(problem.text_length)});
+    }
+    if (agreed.size() < total) agreed.push_back({"", 0, std::to_string(total - agreed.size()) + " more problems"});
+    throw InputError(std::move(agreed));
+}
+
+} // namespace carrom

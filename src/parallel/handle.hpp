@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What stands behind a Communicator, and the sending of data of any size in messages of a limited one.
+//
+// Every byte that goes from one rank to another goes through `start_send`, so it is split and counted in one place.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <mpi.h>
+
+#include "carrom/parallel/communicator.hpp"
+
+namespace carrom {
+
+/// Tags that are taken; those from `first_free` on are given to neighbour exchanges, two each, round and round.
+namespace tag {
+inline constexpr int any_to_any = 1;
+inline constexpr int stream = 2;
+inline constexpr int first_free = 16;
+inline constexpr int last = 32766; ///< MPI promises 32767
+} // namespace tag
+
+struct Communicator::Handle {
+    Handle(MPI_Comm duplicated, std::size_t limit);
+    ~Handle();
+    Handle(const Handle&) = delete;
+    Handle& operator=(const Handle&) = delete;
+
+    MPI_Comm comm;
+    int rank = 0;
+    int size = 0;
+    std::size_t max_message;
+    int next_tag = tag::first_free;
+    Traffic traffic;
+};
+
+using Requests = std::vector<MPI_Request>;
+
+/// Starts sending `bytes` in pieces of at most `max_message`; no piece for no bytes. They must stay until the wait.
+void start_send(Communicator::Handle& handle, std::span<const std::byte> bytes, int to, int message_tag, Requests& requests);
+
+/// Starts receiving what `start_send` sends with the same number of bytes and the same tag.
+void start_receive(Communicator::Handle& handle, std::span<std::byte> bytes, int from, int message_tag, Requests& requests);
+
+/// Waits for all of `requests` and empties the list.
+void wait_for(Requests& requests);
+
+/// Calls `act` on successive pieces of at most `limit` bytes.
+template <class Byte, class Act> void for_pieces(std::span<Byte> bytes, std::size_t limit, const Act& act) {
+    for (std::size_t done = 0; done < bytes.size(); done += limit)
+        act(bytes.subspan(done, std::min(limit, bytes.size() - done)));
+}
+
+} // namespace carrom

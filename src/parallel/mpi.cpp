@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carrom/parallel/mpi.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include <mpi.h>
+
+#include "carrom/core/errors.hpp"
+#include "handle.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr int abort_code = 70;
+
+int world_rank = -1; // kept, so that any thread may print it without a call of MPI
+
+[[noreturn]] void abort_all(const char* kind, std::string_view text) {
+    std::fflush(stdout);
+    std::fprintf(stderr, "carrom: %s on rank %d: %.*s\n", kind, world_rank, static_cast<int>(text.size()), text.data());
+    std::fflush(stderr);
+    MPI_Abort(MPI_COMM_WORLD, abort_code);
+    std::abort();
+}
+
+void on_failure(std::string_view text, const char* file, int line) {
+    abort_all("internal error", std::string(text) + " (" + file + ':' + std::to_string(line) + ')');
+}
+
+void on_mpi_error(MPI_Comm*, int* code, ...) { // NOLINT(cert-dcl50-cpp): MPI prescribes the ellipsis
+    std::array<char, MPI_MAX_ERROR_STRING> text{};
+    int length = 0;
+    MPI_Error_string(*code, text.data(), &length);
+    abort_all("MPI error", std::string_view(text.data(), static_cast<std::size_t>(length)));
+}
+
+struct Outcome {
+    int code = 0;
+    std::string text; ///< of an error that all ranks should have met; empty if the body returned
+};
+
+Outcome run(const Communicator& communicator, const std::function<int(const Communicator&)>& body) {
+    try {
+        return {body(communicator), ""};
+    } catch (const InputError& error) {
+        return {static_cast<int>(ExitCode::bad_input), error.what()};
+    } catch (const CollectiveError& error) {
+        return {static_cast<int>(error.code()), error.what()};
+    } catch (const std::exception& error) {
+        abort_all("unexpected error", error.what());
+    } catch (...) {
+        abort_all("unexpected error", "an exception of unknown type");
+    }
+}
+
+/// The largest code of any rank; waits without limit after a return, for `patience` after an error.
+int agreed_code(const Communicator& communicator, const Outcome& outcome, std::chrono::duration<double> patience) {
+    int largest = outcome.code;
+    int is_done = 0;
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Iallreduce(&outcome.code, &largest, 1, MPI_INT, MPI_MAX, communicator.handle().comm, &request);
+    const auto start = std::chrono::steady_clock::now();
+    auto pause = std::chrono::microseconds(1);
+    while (MPI_Test(&request, &is_done, MPI_STATUS_IGNORE) == MPI_SUCCESS && is_done == 0) {
+        if (!outcome.text.empty() && std::chrono::steady_clock::now() - start > patience)
+            abort_all("error that other ranks did not meet", outcome.text);
+        std::this_thread::sleep_for(pause);
+        pause = std::min(2 * pause, std::chrono::microseconds(2000));
+    }
+    return largest;
+}
+
+} // namespace
+
+Mpi::Mpi(int& argc, char**& argv) {
+    int provided = MPI_THREAD_SINGLE;
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+    MPI_Comm_rank(MPI_COMM_WORLD, &world_rank);
+    set_failure_handler(on_failure);
+    if (provided < MPI_THREAD_FUNNELED) abort_all("error", "this MPI library does not allow threads");
+    MPI_Errhandler handler = MPI_ERRHANDLER_NULL;
+    MPI_Comm_create_errhandler(on_mpi_error, &handler);
+    MPI_Comm_set_errhandler(MPI_COMM_WORLD, handler); // duplicates inherit it
+    MPI_Comm_set_errhandler(MPI_COMM_SELF, handler);
+    MPI_Errhandler_free(&handler);
+}
+
+Mpi::~Mpi() { MPI_Finalize(); }
+
+int run_on_all(const Communicator& communicator, const std::function<int(const Communicator&)>& body,
+               double patience_seconds) {
+    const Outcome outcome = run(communicator, body);
+    // Rank 0 speaks for all; should it not have met the error, the rank that waits in vain will speak.
+    if (communicator.is_root() && !outcome.text.empty()) {
+        std::fflush(stdout);
+        std::fprintf(stderr, "%s\n", outcome.text.c_str());
+        std::fflush(stderr);
+    }
+    return agreed_code(communicator, outcome, std::chrono::duration<double>(patience_seconds));
+}
+
+} // namespace carrom

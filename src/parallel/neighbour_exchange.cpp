@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carrom/parallel/neighbour_exchange.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+#include "handle.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// What opens a first message. The number of the exchange tells when two ranks disagree on being neighbours.
+struct Header {
+    std::uint64_t n_bytes = 0;
+    std::uint64_t exchange = 0;
+};
+
+/// Below the size up to which common MPI libraries send at once, without asking the receiver (4096 in shared memory).
+constexpr std::size_t first_message_bytes = 3968;
+
+} // namespace
+
+struct NeighbourExchange::State {
+    explicit State(const Communicator& of_owner) : communicator(of_owner) {
+        Communicator::Handle& handle = communicator.handle();
+        first_tag = handle.next_tag;
+        handle.next_tag = first_tag + 2 < tag::last ? first_tag + 2 : tag::first_free;
+        first_capacity = std::max(std::min(first_message_bytes, handle.max_message), sizeof(Header)) - sizeof(Header);
+    }
+
+    std::size_t first_size() const { return sizeof(Header) + first_capacity; }
+    std::byte* first_in(std::size_t k) { return firsts.data() + k * first_size(); }
+    std::byte* first_out(std::size_t k) { return firsts.data() + (neighbours.size() + k) * first_size(); }
+
+    Communicator communicator;
+    int first_tag = 0;              ///< of first messages; what follows them has the next tag
+    std::size_t first_capacity = 0; ///< payload of a first message
+    std::uint64_t n_begun = 0;
+    bool is_under_way = false;
+    std::vector<int> neighbours;
+    std::vector<std::span<const std::byte>> parcels;
+    std::vector<std::byte> firsts; ///< the first messages to receive, then those to send
+    std::vector<std::size_t> offsets;
+    Requests receives, sends;
+};
+
+NeighbourExchange::NeighbourExchange(const Communicator& communicator) : state_(std::make_unique<State>(communicator)) {}
+NeighbourExchange::~NeighbourExchange() = default;
+NeighbourExchange::NeighbourExchange(NeighbourExchange&&) noexcept = default;
+NeighbourExchange& NeighbourExchange::operator=(NeighbourExchange&&) noexcept = default;
+
+void NeighbourExchange::clear_parcels() {
+    ensure(!state_->is_under_way, "a neighbour exchange began before the last one was complete");
+    state_->parcels.clear();
+}
+
+void NeighbourExchange::add_parcel(std::span<const std::byte> bytes) { state_->parcels.push_back(bytes); }
+
+void NeighbourExchange::begin_parcels(std::span<const int> neighbours) {
+    State& state = *state_;
+    Communicator::Handle& handle = state.communicator.handle();
+    state.is_under_way = true;
+    state.n_begun += 1;
+    state.neighbours.assign(neighbours.begin(), neighbours.end());
+    state.firsts.resize(2 * neighbours.size() * state.first_size());
+    for (std::size_t k = 0; k < neighbours.size(); ++k)
+        MPI_Irecv(state.first_in(k), static_cast<int>(state.first_size()), MPI_BYTE, neighbours[k], state.first_tag,
+                  handle.comm, &state.receives.emplace_back(MPI_REQUEST_NULL));
+    for (std::size_t k = 0; k < neighbours.size(); ++k) {
+        const std::span<const std::byte> parcel = state.parcels[k];
+        const std::span<const std::byte> head = parcel.first(std::min(parcel.size(), state.first_capacity));
+        const Header header = {parcel.size(), state.n_begun};
+        std::byte* const message = state.first_out(k);
+        std::memcpy(message, &header, sizeof header);
+        if (!head.empty()) std::memcpy(message + sizeof header, head.data(), head.size());
+        const std::size_t length = sizeof header + head.size();
+        ++handle.traffic.messages;
+        handle.traffic.bytes += length;
+        MPI_Isend(message, static_cast<int>(length), MPI_BYTE, neighbours[k], state.first_tag, handle.comm,
+                  &state.sends.emplace_back(MPI_REQUEST_NULL));
+        start_send(handle, parcel.subspan(head.size()), neighbours[k], state.first_tag + 1, state.sends);
+    }
+}
+
+std::span<const std::size_t> NeighbourExchange::receive_sizes() {
+    State& state = *state_;
+    ensure(state.is_under_way, "a neighbour exchange was completed that had not begun");
+    wait_for(state.receives);
+    state.offsets.assign(1, 0);
+    for (std::size_t k = 0; k < state.neighbours.size(); ++k) {
+        Header header;
+        std::memcpy(&header, state.first_in(k), sizeof header);
+        ensure(header.exchange == state.n_begun, "two ranks disagree on whether they are neighbours");
+        state.offsets.push_back(state.offsets.back() + header.n_bytes);
+    }
+    return state.offsets;
+}
+
+void NeighbourExchange::receive_parcels(std::span<std::byte> all) {
+    State& state = *state_;
+    for (std::size_t k = 0; k < state.neighbours.size(); ++k) {
+        const std::span<std::byte> parcel = all.subspan(state.offsets[k], state.offsets[k + 1] - state.offsets[k]);
+        const std::size_t head = std::min(parcel.size(), state.first_capacity);
+        if (head > 0) std::memcpy(parcel.data(), state.first_in(k) + sizeof(Header), head);
+        start_receive(state.communicator.handle(), parcel.subspan(head), state.neighbours[k], state.first_tag + 1,
+                      state.receives);
+    }
+    wait_for(state.receives);
+    wait_for(state.sends);
+    state.is_under_way = false;
+}
+
+} // namespace carrom

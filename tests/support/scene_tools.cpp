@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_tools.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+namespace carrom::test {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+bool is_free(const TestScene& scene, double x, double y) {
+    const double sigma = 2 * scene.setting.radius;
+    return std::none_of(scene.discs.begin(), scene.discs.end(), [&](const InputDisc& disc) {
+        const double dx = disc.x - x, dy = disc.y - y;
+        return dx * dx + dy * dy < sigma * sigma * (1 + 1e-9);
+    });
+}
+
+} // namespace
+
+Scene scene_of(const TestScene& test_scene) {
+    Scene scene;
+    scene.name = test_scene.name;
+    scene.box_size = test_scene.setting.box_size;
+    scene.radius = test_scene.setting.radius;
+    scene.n_discs = test_scene.discs.size();
+    scene.generator = Generator::file;
+    scene.listed_discs = test_scene.discs;
+    scene.steps = test_scene.steps;
+    scene.micro_steps = test_scene.setting.micro_steps;
+    scene.sync_every = test_scene.setting.sync_every;
+    return scene;
+}
+
+TestScene transposed(const TestScene& scene) {
+    TestScene result = scene;
+    result.name += ", transposed";
+    for (InputDisc& disc : result.discs) {
+        std::swap(disc.x, disc.y);
+        std::swap(disc.vx, disc.vy);
+    }
+    return result;
+}
+
+TestScene scaled(const TestScene& scene, int exponent) {
+    TestScene result = scene;
+    result.name += ", times 2^" + std::to_string(exponent);
+    const auto scale = [exponent](double& value) { value = std::ldexp(value, exponent); };
+    scale(result.setting.box_size);
+    scale(result.setting.radius);
+    for (InputDisc& disc : result.discs) {
+        scale(disc.x);
+        scale(disc.y);
+        scale(disc.vx);
+        scale(disc.vy);
+    }
+    return result;
+}
+
+TestScene shuffled(TestScene scene, std::uint64_t seed) {
+    Random random(seed);
+    scene.name += ", shuffled";
+    std::vector<DiscId> ids(scene.discs.size());
+    std::iota(ids.begin(), ids.end(), DiscId{0});
+    random.shuffle(ids);
+    for (std::size_t i = 0; i < ids.size(); ++i) scene.discs[i].id = ids[i];
+    random.shuffle(scene.discs);
+    return scene;
+}
+
+TestScene empty_scene(std::string name, double box_size, double radius, std::int64_t steps) {
+    TestScene scene;
+    scene.name = std::move(name);
+    scene.setting.box_size = box_size;
+    scene.setting.radius = radius;
+    scene.steps = steps;
+    return scene;
+}
+
+void add_disc(TestScene& scene, double x, double y, double vx, double vy) {
+    scene.discs.push_back({scene.discs.size(), x, y, vx, vy});
+}
+
+void add_gas(TestScene& scene, std::size_t n, Random& random) {
+    const double size = scene.setting.box_size, radius = scene.setting.radius;
+    const double packing_of_centres = static_cast<double>(n) * pi * radius * radius / ((size - radius) * (size - radius));
+    if (packing_of_centres < 0.4) {
+        for (std::size_t tries = 0; scene.discs.size() < n; ++tries) {
+            if (tries > 1000 * n + 100000) throw std::logic_error("no room for the gas of " + scene.name);
+            const double x = random.uniform(radius, size - radius), y = random.uniform(radius, size - radius);
+            if (is_free(scene, x, y)) add_disc(scene, x, y);
+        }
+        return;
+    }
+    const std::size_t k = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(n))));
+    const double spacing = size / static_cast<double>(k);
+    const double shake = 0.499 * (spacing - 2 * radius);
+    for (std::size_t i = 0; i < k * k; ++i) {
+        const double x = (static_cast<double>(i % k) + 0.5) * spacing, y = (static_cast<double>(i / k) + 0.5) * spacing;
+        add_disc(scene, x + random.uniform(-shake, shake), y + random.uniform(-shake, shake));
+    }
+}
+
+void set_speeds(TestScene& scene, double speed, Random& random) {
+    const double largest = speed * std::sqrt(1.5);
+    for (InputDisc& disc : scene.discs) {
+        disc.vx = random.uniform(-largest, largest);
+        disc.vy = random.uniform(-largest, largest);
+    }
+}
+
+TestScene gas(std::size_t n, double packing, double speed, std::uint64_t seed) {
+    Random random(seed);
+    const double box_size = std::max(2.5, std::sqrt(static_cast<double>(n) * pi / packing));
+    TestScene scene = empty_scene("gas of " + std::to_string(n) + ", packing " + std::to_string(packing) + ", speed " +
+                                      std::to_string(speed),
+                                  box_size, 1, 40);
+    add_gas(scene, n, random);
+    set_speeds(scene, 2 * speed, random);
+    return scene;
+}
+
+TestScene chain(std::size_t n, const std::string& times_kind, std::uint64_t seed) {
+    Random random(seed);
+    // Every pair closes in at two units a step, so a gap of g is a contact at g/2; all gaps are below 2.
+    const double count = static_cast<double>(n);
+    TestScene scene = empty_scene("chain of " + std::to_string(n) + ", times " + times_kind, 4 * count, 0.5, 12);
+    double x = count / 2;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double place = static_cast<double>(i);
+        add_disc(scene, x, 2 * count, count - 2 * place, 0);
+        const double rank = std::floor(1024 * (place + 1) / (count + 1)) / 1024;
+        double t = 0.5;
+        if (times_kind == "rising") t = rank;
+        if (times_kind == "falling") t = 1 - rank;
+        if (times_kind == "mixed") t = random.uniform(0.01, 0.99);
+        x += 1 + 2 * t;
+    }
+    return scene;
+}
+
+TestScene cradle(std::size_t n, double radius, double gap, double speed) {
+    const double pitch = 2 * radius + gap;
+    const double box_size = static_cast<double>(n) * pitch + gap;
+    TestScene scene = empty_scene("cradle of " + std::to_string(n) + ", radius " + std::to_string(radius) + ", gap " +
+                                      std::to_string(gap) + ", speed " + std::to_string(speed),
+                                  box_size, radius, 30);
+    for (std::size_t i = 0; i < n; ++i) {
+        add_disc(scene, (gap + radius) + static_cast<double>(i) * pitch, box_size / 2, i == 0 ? speed : 0, 0);
+    }
+    return scene;
+}
+
+TestScene lattice(std::size_t k, double spacing) {
+    TestScene scene = empty_scene("lattice of " + std::to_string(k * k) + ", spacing " + std::to_string(spacing),
+                                  spacing * static_cast<double>(k), 0.5, 24);
+    for (std::size_t i = 0; i < k * k; ++i) {
+        add_disc(scene, (static_cast<double>(i % k) + 0.5) * spacing, (static_cast<double>(i / k) + 0.5) * spacing);
+    }
+    return scene;
+}
+
+TestScene break_shot(std::size_t rows, double radius, double speed, double aim) {
+    const double width = 2 * radius * static_cast<double>(rows);
+    const double box_size = 4 * width;
+    TestScene scene = empty_scene("break of " + std::to_string(rows) + " rows, radius " + std::to_string(radius) +
+                                      ", speed " + std::to_string(speed) + ", aim " + std::to_string(aim),
+                                  box_size, radius, 40);
+    add_disc(scene, width, box_size / 2 + aim * radius, speed * radius, 0);
+    for (std::size_t row = 0; row < rows; ++row) {
+        const double x = 2 * width + static_cast<double>(row) * radius * std::sqrt(3.0);
+        for (std::size_t place = 0; place <= row; ++place) {
+            const double offset = 2 * static_cast<double>(place) - static_cast<double>(row);
+            add_disc(scene, x, box_size / 2 + offset * radius);
+        }
+    }
+    return scene;
+}
+
+TestScene ancestor_like(std::size_t n, double box_size, double radius, std::uint64_t seed) {
+    Random random(seed);
+    TestScene scene = empty_scene("ancestor's speeds, " + std::to_string(n) + " discs, L " + std::to_string(box_size) +
+                                      ", r " + std::to_string(radius),
+                                  box_size, radius, 50);
+    add_gas(scene, n, random);
+    for (InputDisc& disc : scene.discs) {
+        const auto [ex, ey] = random.direction();
+        const double speed = random.uniform(box_size / (8 * radius), box_size / 4);
+        disc.vx = speed * ex;
+        disc.vy = speed * ey;
+    }
+    return scene;
+}
+
+} // namespace carrom::test

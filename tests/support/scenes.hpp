@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Scenes that tests share, as plain data: ordinary gases, and everything that has ever broken a simulation of this kind.
+//
+// Every family has a fixed seed and uses + - * / sqrt only, so a scene has the same bits on every machine. The small
+// scenes are meant to be looped over against the brute-force reference; all of them together take a second or two.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "carrom/scene/scene.hpp"
+#include "one_rule.hpp"
+
+namespace carrom::test {
+
+struct TestScene {
+    std::string name; ///< unique; says the family and what varies
+    reference::Setting setting;
+    std::int64_t steps = 0;
+    std::vector<InputDisc> discs; ///< ids are a permutation of 0 .. N-1, often not in order
+
+    /// All numbers of the run are exact in binary, so any correct formula gives the same bits.
+    bool is_exact = false;
+    /// Zeno's scenes, with infinitely many collisions in no time under the rule "all".
+    bool is_endless_under_all = false;
+    /// Pairs that must collide, where the scene is built so that this is known.
+    std::optional<std::uint64_t> expected_pair_collisions;
+};
+
+/// The same scene in the engine's own input type.
+Scene scene_of(const TestScene& scene);
+
+/// x and y exchanged: states must come out exchanged, bit for bit.
+TestScene transposed(const TestScene& scene);
+/// Lengths and speeds times 2^exponent: states must come out scaled, bit for bit.
+TestScene scaled(const TestScene& scene, int exponent);
+/// Ids dealt anew and the list in another order; a different scene wherever ids break ties.
+TestScene shuffled(TestScene scene, std::uint64_t seed);
+
+std::vector<TestScene> gases();              ///< packing 0.05 to 0.7, 0.001 to 40 diameters per step
+std::vector<TestScene> still_gases();        ///< still discs and one fast one, or none
+std::vector<TestScene> fast_scenes();        ///< the ancestor's speeds, L/8r to L/4 per step
+std::vector<TestScene> cradles();            ///< lines from wall to wall, touching or not, along x and y
+std::vector<TestScene> chains();             ///< every disc in conflict with both neighbours, across the box
+std::vector<TestScene> lattices();           ///< square lattices with many equal contact times
+std::vector<TestScene> breaks();             ///< a triangle of touching discs and a cue disc
+std::vector<TestScene> wall_scenes();        ///< corners, discs at walls and in the band, boxes that hardly fit
+std::vector<TestScene> boundary_contacts();  ///< contacts on micro-step and sync boundaries to within k ulp
+std::vector<TestScene> overlaps();           ///< coincident and overlapping discs
+std::vector<TestScene> tiny_velocities();    ///< denormal, zero and minus zero
+
+/// All of the above. N <= 60 in most, 400 in a few.
+std::vector<TestScene> small_scenes();
+/// Some ten scenes of about 2000 discs, to cross many cells, strips and windows.
+std::vector<TestScene> large_scenes();
+
+} // namespace carrom::test
