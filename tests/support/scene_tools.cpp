@@ -2,6 +2,8 @@
 #include "scene_tools.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <numeric>
 #include <stdexcept>
 
@@ -20,6 +22,12 @@ bool is_free(const TestScene& scene, double x, double y) {
 }
 
 } // namespace
+
+std::string number(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%g", value);
+    return text.data();
+}
 
 Scene scene_of(const TestScene& test_scene) {
     Scene scene;
@@ -115,8 +123,8 @@ void set_speeds(TestScene& scene, double speed, Random& random) {
 TestScene gas(std::size_t n, double packing, double speed, std::uint64_t seed) {
     Random random(seed);
     const double box_size = std::max(2.5, std::sqrt(static_cast<double>(n) * pi / packing));
-    TestScene scene = empty_scene("gas of " + std::to_string(n) + ", packing " + std::to_string(packing) + ", speed " +
-                                      std::to_string(speed),
+    TestScene scene = empty_scene("gas of " + std::to_string(n) + ", packing " + number(packing) + ", speed " +
+                                      number(speed),
                                   box_size, 1, 40);
     add_gas(scene, n, random);
     set_speeds(scene, 2 * speed, random);
@@ -145,8 +153,8 @@ TestScene chain(std::size_t n, const std::string& times_kind, std::uint64_t seed
 TestScene cradle(std::size_t n, double radius, double gap, double speed) {
     const double pitch = 2 * radius + gap;
     const double box_size = static_cast<double>(n) * pitch + gap;
-    TestScene scene = empty_scene("cradle of " + std::to_string(n) + ", radius " + std::to_string(radius) + ", gap " +
-                                      std::to_string(gap) + ", speed " + std::to_string(speed),
+    TestScene scene = empty_scene("cradle of " + std::to_string(n) + ", radius " + number(radius) + ", gap " +
+                                      number(gap) + ", speed " + number(speed),
                                   box_size, radius, 30);
     for (std::size_t i = 0; i < n; ++i) {
         add_disc(scene, (gap + radius) + static_cast<double>(i) * pitch, box_size / 2, i == 0 ? speed : 0, 0);
@@ -155,7 +163,7 @@ TestScene cradle(std::size_t n, double radius, double gap, double speed) {
 }
 
 TestScene lattice(std::size_t k, double spacing) {
-    TestScene scene = empty_scene("lattice of " + std::to_string(k * k) + ", spacing " + std::to_string(spacing),
+    TestScene scene = empty_scene("lattice of " + std::to_string(k * k) + ", spacing " + number(spacing),
                                   spacing * static_cast<double>(k), 0.5, 24);
     for (std::size_t i = 0; i < k * k; ++i) {
         add_disc(scene, (static_cast<double>(i % k) + 0.5) * spacing, (static_cast<double>(i / k) + 0.5) * spacing);
@@ -166,8 +174,8 @@ TestScene lattice(std::size_t k, double spacing) {
 TestScene break_shot(std::size_t rows, double radius, double speed, double aim) {
     const double width = 2 * radius * static_cast<double>(rows);
     const double box_size = 4 * width;
-    TestScene scene = empty_scene("break of " + std::to_string(rows) + " rows, radius " + std::to_string(radius) +
-                                      ", speed " + std::to_string(speed) + ", aim " + std::to_string(aim),
+    TestScene scene = empty_scene("break of " + std::to_string(rows) + " rows, radius " + number(radius) +
+                                      ", speed " + number(speed) + ", aim " + number(aim),
                                   box_size, radius, 40);
     add_disc(scene, width, box_size / 2 + aim * radius, speed * radius, 0);
     for (std::size_t row = 0; row < rows; ++row) {
@@ -182,8 +190,8 @@ TestScene break_shot(std::size_t rows, double radius, double speed, double aim) 
 
 TestScene ancestor_like(std::size_t n, double box_size, double radius, std::uint64_t seed) {
     Random random(seed);
-    TestScene scene = empty_scene("ancestor's speeds, " + std::to_string(n) + " discs, L " + std::to_string(box_size) +
-                                      ", r " + std::to_string(radius),
+    TestScene scene = empty_scene("ancestor's speeds, " + std::to_string(n) + " discs, L " + number(box_size) +
+                                      ", r " + number(radius),
                                   box_size, radius, 50);
     add_gas(scene, n, random);
     for (InputDisc& disc : scene.discs) {

@@ -38,6 +38,9 @@ private:
     std::mt19937_64 engine_;
 };
 
+/// Six digits, as in 0.3, 20000 and 1e-09: names tell small numbers apart.
+std::string number(double value);
+
 /// A scene without discs.
 TestScene empty_scene(std::string name, double box_size, double radius, std::int64_t steps);
 

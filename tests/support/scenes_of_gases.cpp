@@ -30,7 +30,7 @@ std::vector<TestScene> still_gases() {
     for (const double speed : {0.0, 0.01, 0.7, 3.0, 25.0, 400.0}) {
         for (const double packing : {0.1, 0.35, 0.7}) {
             TestScene scene = gas(49, packing, 0, ++seed);
-            scene.name = "still, one fast: " + scene.name + ", fast speed " + std::to_string(speed);
+            scene.name = "still, one fast: " + scene.name + ", fast speed " + number(speed);
             scene.discs[seed % 49].vx = speed;
             scene.discs[seed % 49].vy = -0.37 * speed;
             scene.setting.sync_every = std::array{64, 3}[seed % 2];
@@ -66,7 +66,7 @@ std::vector<TestScene> overlaps() {
     Random random(500);
     for (const std::size_t n : {std::size_t{2}, std::size_t{5}, std::size_t{20}, std::size_t{60}}) {
         for (const double speed : {0.05, 1.0, 6.0}) {
-            TestScene scene = empty_scene("overlaps of " + std::to_string(n) + ", speed " + std::to_string(speed), 12, 1, 40);
+            TestScene scene = empty_scene("overlaps of " + std::to_string(n) + ", speed " + number(speed), 12, 1, 40);
             for (std::size_t i = 0; i < n; ++i) add_disc(scene, random.uniform(1, 11), random.uniform(1, 11));
             set_speeds(scene, speed, random);
             // Every third disc lies exactly on the one before it, every sixth moves exactly with it.
@@ -83,7 +83,7 @@ std::vector<TestScene> overlaps() {
     }
     // Overlaps about the tolerance: from deeper by 2^-30 of a diameter down to apart by as much.
     for (const double depth : {0x1p-30, 1.5e-12, 1e-12, 0.5e-12, 0x1p-52, 0.0, -0x1p-52, -1e-12}) {
-        TestScene scene = empty_scene("overlap of " + std::to_string(depth * 1e12) + "e-12 diameters", 64, 1, 20);
+        TestScene scene = empty_scene("overlap of " + number(depth) + " diameters", 64, 1, 20);
         add_disc(scene, 31, 32, 0.25, 0);
         add_disc(scene, 33 - 2 * depth, 32, -0.25, 0);
         add_disc(scene, 31, 20, 0.25, 0.125);

@@ -13,8 +13,8 @@ namespace {
 void add_corner_shots(std::vector<TestScene>& scenes) {
     for (const double speed : {0.5, 1.0, 3.7, 90.0}) {
         for (const double offset : {0.0, 0x1p-50, 1e-9, 1e-7, 1e-3}) {
-            TestScene scene = empty_scene("corner shots, speed " + std::to_string(speed) + ", off by " +
-                                              std::to_string(offset * 1e9) + "e-9",
+            TestScene scene = empty_scene("corner shots, speed " + number(speed) + ", off by " +
+                                              number(offset),
                                           7.3, 0.3, 40);
             add_disc(scene, 1.3 + offset, 1.3, -speed, -speed);
             add_disc(scene, 6.0, 6.0 + offset, speed, speed);
@@ -38,8 +38,8 @@ void add_tight_boxes(std::vector<TestScene>& scenes) {
     for (const double room : {0.0, 0x1p-52, 0x1p-40, 1e-8, 0.5}) {
         for (const double speed : {0.0, 1e-9, 0.3, 50.0}) {
             const double box_size = 2 * (1 + room);
-            TestScene scene = empty_scene("a disc that fills the box, room " + std::to_string(room * 1e9) +
-                                              "e-9, speed " + std::to_string(speed * 1e9) + "e-9",
+            TestScene scene = empty_scene("a disc that fills the box, room " + number(room) +
+                                              ", speed " + number(speed),
                                           box_size, 1, 20);
             scene.is_endless_under_all = room < 1e-3 && speed > 0;
             add_disc(scene, box_size / 2, box_size / 2, speed, -0.75 * speed);
@@ -47,7 +47,7 @@ void add_tight_boxes(std::vector<TestScene>& scenes) {
         }
     }
     for (const double speed : {0.125, 3.0}) {
-        TestScene scene = empty_scene("four discs that fill the box, speed " + std::to_string(speed), 4, 1, 30);
+        TestScene scene = empty_scene("four discs that fill the box, speed " + number(speed), 4, 1, 30);
         scene.is_endless_under_all = true;
         add_disc(scene, 1, 1, speed, 0.5 * speed);
         add_disc(scene, 3, 1, 0, -speed);
@@ -61,7 +61,7 @@ void add_tight_boxes(std::vector<TestScene>& scenes) {
 void add_wall_huggers(std::vector<TestScene>& scenes) {
     const double radius = 0.7, box_size = 30.1;
     for (const double speed : {1e-12, 1e-9, 0.01, 2.0, 60.0}) {
-        TestScene scene = empty_scene("discs at the walls, speed " + std::to_string(speed * 1e9) + "e-9", box_size, radius, 30);
+        TestScene scene = empty_scene("discs at the walls, speed " + number(speed), box_size, radius, 30);
         const double band = 1e-8 * radius;
         const std::array<double, 5> distances = {0, 0.5 * band, band, 1.5 * band, 1e-16};
         for (std::size_t i = 0; i < distances.size(); ++i) {
@@ -88,7 +88,7 @@ double by_ulps(double value, int ulps) {
 /// Sixteen lone pairs whose contact falls at micro-step `boundary` to within `ulps` of their coordinates.
 TestScene boundary_pairs(double ratio, std::int64_t boundary, std::int64_t sync_every, int ulps, Random& random) {
     TestScene scene = empty_scene("contacts at " + std::to_string(boundary) + " to within " + std::to_string(ulps) +
-                                      " ulp, sync every " + std::to_string(sync_every) + ", L/r " + std::to_string(ratio),
+                                      " ulp, sync every " + std::to_string(sync_every) + ", L/r " + number(ratio),
                                   ratio, 1, boundary + 2);
     scene.setting.sync_every = sync_every;
     const double cell = ratio / 4, time = static_cast<double>(boundary);

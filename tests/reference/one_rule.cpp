@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "one_rule.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <tuple>
+
+namespace carrom::reference {
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+bool before(const Collision& a, const Collision& b) {
+    const auto key = [](const Collision& c) { return std::make_tuple(c.t, c.p, c.q != Collision::wall, c.q); };
+    return key(a) < key(b);
+}
+
+} // namespace
+
+Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance) {
+    const double base = p.tau > q.tau ? p.tau : q.tau;
+    const double px = p.x + p.vx * (base - p.tau), py = p.y + p.vy * (base - p.tau);
+    const double qx = q.x + q.vx * (base - q.tau), qy = q.y + q.vy * (base - q.tau);
+    const double dx = qx - px, dy = qy - py;
+    const double wx = q.vx - p.vx, wy = q.vy - p.vy;
+
+    const double b = dx * wx + dy * wy;
+    if (b >= 0) return {base, -1};
+    const double a = wx * wx + wy * wy;
+    const double p1 = dx * wy, e1 = std::fma(dx, wy, -p1);
+    const double p2 = dy * wx, e2 = std::fma(dy, wx, -p2);
+    const double cross = std::fabs((p1 - p2) + (e1 - e2));
+    const double span = std::sqrt(a) * sigma;
+    const double discriminant = (span - cross) * (span + cross);
+    if (discriminant <= 0) return {base, -1};
+    const double distance = std::sqrt(dx * dx + dy * dy);
+    const double gap = distance - sigma;
+    if (gap < -tolerance) return {base, -1};
+    if (gap <= 0) return {base, 0};
+    const double c = gap * (distance + sigma);
+    return {base, c / (std::sqrt(discriminant) - b)};
+}
+
+void advance(Disc& disc, double time) {
+    const double elapsed = time - disc.tau;
+    disc.x = disc.x + disc.vx * elapsed;
+    disc.y = disc.y + disc.vy * elapsed;
+    disc.tau = time;
+}
+
+void exchange_momentum(Disc& p, Disc& q) {
+    const double ex = q.x - p.x, ey = q.y - p.y;
+    const double wx = q.vx - p.vx, wy = q.vy - p.vy;
+    const double k = (wx * ex + wy * ey) / (ex * ex + ey * ey);
+    p.vx += k * ex;
+    p.vy += k * ey;
+    q.vx -= k * ex;
+    q.vy -= k * ey;
+}
+
+std::vector<Disc> stored_states(const Setting& setting, std::span<const InputDisc> discs) {
+    const double micro_steps = static_cast<double>(setting.micro_steps);
+    std::vector<Disc> states(discs.size());
+    std::vector<bool> is_given(discs.size(), false);
+    for (const InputDisc& disc : discs) {
+        if (disc.id >= discs.size() || is_given[disc.id]) throw std::invalid_argument("ids are not 0 .. N-1");
+        is_given[disc.id] = true;
+        Disc& state = states[disc.id];
+        state.id = disc.id;
+        state.x = disc.x;
+        state.y = disc.y;
+        state.vx = disc.vx / micro_steps;
+        state.vy = disc.vy / micro_steps;
+    }
+    return states;
+}
+
+OneRuleReference::OneRuleReference(const Setting& setting, std::span<const InputDisc> discs)
+    : setting_(setting), low_(setting.radius), high_(setting.box_size - setting.radius), band_(1e-8 * setting.radius),
+      sigma_(2 * setting.radius), tolerance_(std::max(1e-12 * sigma_, 32 * 0x1p-53 * setting.box_size)),
+      discs_(stored_states(setting, discs)) {}
+
+void OneRuleReference::run_micro_steps(std::int64_t count) {
+    for (std::int64_t i = 0; i < count; ++i) run_micro_step();
+}
+
+void OneRuleReference::run_micro_step() {
+    const double m = clock();
+    find_candidates(m);
+    std::sort(candidates_.begin(), candidates_.end(), before);
+    counters_.candidates += candidates_.size();
+
+    std::vector<bool> is_taken(discs_.size(), false);
+    for (const Collision& candidate : candidates_) {
+        const bool is_wall = candidate.q == Collision::wall;
+        if (is_taken[candidate.p] || (!is_wall && is_taken[candidate.q])) {
+            counters_.rejected_candidates += 1;
+            continue;
+        }
+        is_taken[candidate.p] = true;
+        if (!is_wall) is_taken[candidate.q] = true;
+        keep(candidate, m);
+    }
+
+    micro_step_ += 1;
+    if (micro_step_ % setting_.sync_every == 0) synchronize();
+}
+
+void OneRuleReference::find_candidates(double m) {
+    candidates_.clear();
+    for (const Disc& p : discs_) {
+        const double t = wall_time(p, m);
+        if (t != never) candidates_.push_back({micro_step_, t, p.id, Collision::wall});
+        for (DiscId id = p.id + 1; id < discs_.size(); ++id) {
+            const Contact found = contact(p, discs_[id], sigma_, tolerance_);
+            if (found.delay < 0) continue;
+            const double in_step = (found.base - m) + found.delay;
+            if (in_step >= 0 && in_step <= 1) candidates_.push_back({micro_step_, in_step, p.id, id});
+        }
+    }
+}
+
+void OneRuleReference::keep(const Collision& candidate, double m) {
+    log_.push_back(candidate);
+    Disc& p = discs_[candidate.p];
+    if (candidate.q == Collision::wall) {
+        bounce(p, m, candidate.t);
+        p.wall_collisions += 1;
+        counters_.wall_collisions += 1;
+        stop_at_wall(p, m, candidate.t);
+        return;
+    }
+    Disc& q = discs_[candidate.q];
+    advance(p, m + candidate.t);
+    advance(q, m + candidate.t);
+    exchange_momentum(p, q);
+    p.pair_collisions += 1;
+    q.pair_collisions += 1;
+    counters_.pair_collisions += 1;
+    stop_at_wall(p, m, candidate.t);
+    stop_at_wall(q, m, candidate.t);
+}
+
+void OneRuleReference::synchronize() {
+    for (Disc& disc : discs_) {
+        advance(disc, static_cast<double>(setting_.sync_every));
+        disc.tau = 0;
+    }
+}
+
+double OneRuleReference::axis_time(double x, double v, double tau, double m) const {
+    double wall = 0;
+    if (v < 0 && x + v * ((m + 1) - tau) < low_ + band_) {
+        wall = low_;
+    } else if (v > 0 && x + v * ((m + 1) - tau) > high_ - band_) {
+        wall = high_;
+    } else {
+        return never;
+    }
+    const double t = (tau - m) + (wall - x) / v;
+    return t < 0 ? 0 : t > 1 ? 1 : t;
+}
+
+double OneRuleReference::wall_time(const Disc& disc, double m) const {
+    const double tx = axis_time(disc.x, disc.vx, disc.tau, m);
+    const double ty = axis_time(disc.y, disc.vy, disc.tau, m);
+    return tx < ty ? tx : ty;
+}
+
+void OneRuleReference::bounce(Disc& disc, double m, double t) const {
+    const bool x_is_due = axis_time(disc.x, disc.vx, disc.tau, m) == t;
+    const bool y_is_due = axis_time(disc.y, disc.vy, disc.tau, m) == t;
+    advance(disc, m + t);
+    const auto is_at_wall = [this](double x, double v) {
+        return (v < 0 && x <= low_ + band_) || (v > 0 && x >= high_ - band_);
+    };
+    const bool x_reverses = x_is_due || is_at_wall(disc.x, disc.vx);
+    const bool y_reverses = y_is_due || is_at_wall(disc.y, disc.vy);
+    if (x_reverses) disc.vx = -disc.vx;
+    if (y_reverses) disc.vy = -disc.vy;
+}
+
+double OneRuleReference::stop_time(double x, double v, double t) const {
+    double ts = never;
+    if (v < 0 && x + v * (1 - t) < low_) ts = (low_ - x) / v;
+    if (v > 0 && x + v * (1 - t) > high_) ts = (high_ - x) / v;
+    return ts < 0 ? 0 : ts;
+}
+
+void OneRuleReference::stop_at_wall(Disc& disc, double m, double t) const {
+    const double sx = stop_time(disc.x, disc.vx, t);
+    const double sy = stop_time(disc.y, disc.vy, t);
+    const double ts = sx < sy ? sx : sy;
+    if (ts == never) return;
+    disc.x = disc.x + disc.vx * ts;
+    disc.y = disc.y + disc.vy * ts;
+    disc.tau = m + 1;
+}
+
+} // namespace carrom::reference

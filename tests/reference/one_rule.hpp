@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The rule "one" said plainly (docs/method.md, sections 1 to 4): what the engine is held to, bit for bit.
+//
+// Every micro-step looks at all pairs, sorts all candidates by the total order and walks them. No cells, no windows, no
+// filters, no strips, and none of the engine's arithmetic: the formulas are written here a second time, from the page.
+// Price: N^2/2 predicates a micro-step, some 5 ns each.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "carrom/core/disc.hpp"
+#include "carrom/scene/scene.hpp"
+
+namespace carrom::reference {
+
+/// The box and the clock of a run. Inputs give velocities per step; `micro_steps` divides them.
+struct Setting {
+    double box_size = 0;
+    double radius = 0;
+    std::int64_t micro_steps = 1;
+    std::int64_t sync_every = 64;
+};
+
+struct Counters {
+    std::uint64_t candidates = 0;
+    std::uint64_t rejected_candidates = 0;
+    std::uint64_t wall_collisions = 0;
+    std::uint64_t pair_collisions = 0; ///< pairs, not discs
+
+    friend bool operator==(const Counters&, const Counters&) = default;
+};
+
+/// One kept collision: disc p with a wall, or the pair p < q. Sorted by (t, p, wall before pair, q) in a micro-step.
+struct Collision {
+    static constexpr DiscId wall = ~DiscId{0};
+
+    std::int64_t micro_step = 0; ///< n of [n, n+1], from the start of the run
+    double t = 0;                ///< in-step time, 0 to 1
+    DiscId p = 0;
+    DiscId q = wall;
+
+    friend bool operator==(const Collision&, const Collision&) = default;
+};
+
+/// A pair's contact: delay after `base`, the later of the two local times; negative for none.
+struct Contact {
+    double base = 0;
+    double delay = -1;
+};
+
+/// The predicate of section 4. `tolerance` is the deepest overlap that still collides; infinity under the rule "all".
+Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance);
+
+/// The two states' positions at `time`, the impulse of an elastic pair of equal masses; p has the lower id.
+void advance(Disc& disc, double time);
+void exchange_momentum(Disc& p, Disc& q);
+
+/// Numbers the discs 0 .. N-1 as given (ids must be a permutation of that) and divides velocities by `micro_steps`.
+std::vector<Disc> stored_states(const Setting& setting, std::span<const InputDisc> discs);
+
+class OneRuleReference {
+public:
+    OneRuleReference(const Setting& setting, std::span<const InputDisc> discs);
+
+    void run_micro_steps(std::int64_t count);
+    void run_steps(std::int64_t count) { run_micro_steps(count * setting_.micro_steps); }
+
+    /// In id order; velocities per micro-step, times on `clock()`.
+    std::span<const Disc> discs() const { return discs_; }
+    /// Micro-steps since the last sync.
+    double clock() const { return static_cast<double>(micro_step_ % setting_.sync_every); }
+    const Counters& counters() const { return counters_; }
+    const std::vector<Collision>& log() const { return log_; }
+
+private:
+    void run_micro_step();
+    void find_candidates(double m);
+    void keep(const Collision& candidate, double m);
+    void synchronize();
+
+    double wall_time(const Disc& disc, double m) const;
+    double axis_time(double x, double v, double tau, double m) const;
+    void bounce(Disc& disc, double m, double t) const;
+    void stop_at_wall(Disc& disc, double m, double t) const;
+    double stop_time(double x, double v, double t) const;
+
+    Setting setting_;
+    double low_, high_, band_, sigma_, tolerance_;
+    std::vector<Disc> discs_;
+    std::vector<Collision> candidates_;
+    std::int64_t micro_step_ = 0;
+    Counters counters_;
+    std::vector<Collision> log_;
+};
+
+} // namespace carrom::reference
