@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disc_lines.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <span>
+
+#include "carrom/core/errors.hpp"
+#include "carrom/parallel/agreement.hpp"
+#include "carrom/parallel/exchange.hpp"
+#include "run_options.hpp"
+
+namespace carrom {
+
+namespace {
+
+std::vector<LocalIndex> order_by_id(std::span<const Disc> discs) {
+    std::vector<LocalIndex> order(discs.size());
+    std::iota(order.begin(), order.end(), LocalIndex{0});
+    std::sort(order.begin(), order.end(), [discs](LocalIndex a, LocalIndex b) { return discs[a].id < discs[b].id; });
+    return order;
+}
+
+/// Adding +0 turns -0 into +0: two states of the same hash give the same text.
+DiscLine line_of(const Disc& disc, double clock, double velocity_unit) {
+    return {disc.id,
+            disc.x_at(clock) + 0.0,
+            disc.y_at(clock) + 0.0,
+            disc.vx * velocity_unit + 0.0,
+            disc.vy * velocity_unit + 0.0,
+            disc.pair_collisions,
+            disc.wall_collisions};
+}
+
+} // namespace
+
+void append_line(fmt::memory_buffer& text, std::int64_t step, const DiscLine& line, int digits, bool with_counters) {
+    const auto out = std::back_inserter(text);
+    if (digits == RunOptions::round_trip_digits)
+        fmt::format_to(out, "{} {} {:.17g} {:.17g} {:.17g} {:.17g}", step, line.id, line.x, line.y, line.vx, line.vy);
+    else
+        fmt::format_to(out, "{0} {1} {2:.{6}f} {3:.{6}f} {4:.{6}f} {5:.{6}f}", step, line.id, line.x, line.y, line.vx,
+                       line.vy, digits);
+    if (with_counters) fmt::format_to(out, " {} {}", line.pair_collisions, line.wall_collisions);
+    text.push_back('\n');
+}
+
+DiscLines::DiscLines(const Scene& scene, int digits, const Communicator& ranks, std::uint64_t slab)
+    : ranks_(ranks), wanted_(scene.text_output), last_step_(scene.steps), n_discs_(scene.n_discs), digits_(digits),
+      slab_(slab) {}
+
+std::int64_t DiscLines::next_due(std::int64_t step) const {
+    return wanted_ == TextOutput::every_step ? std::min(step + 1, last_step_) : last_step_;
+}
+
+bool DiscLines::is_due(std::int64_t step) const {
+    if (wanted_ == TextOutput::none) return false;
+    return wanted_ == TextOutput::every_step || step == 0 || step == last_step_;
+}
+
+void DiscLines::write_if_due(const Simulation& simulation) {
+    if (is_due(simulation.step())) write(simulation);
+}
+
+void DiscLines::write(const Simulation& simulation) {
+    const std::span<const Disc> discs = simulation.discs();
+    const double clock = simulation.clock(), velocity_unit = simulation.velocity_unit();
+    const std::vector<LocalIndex> order = order_by_id(discs);
+    auto next = order.begin();
+    std::vector<DiscLine> mine;
+    for (std::uint64_t begin = 0; begin < n_discs_; begin += slab_) {
+        const std::uint64_t end = std::min(begin + slab_, n_discs_);
+        mine.clear();
+        for (; next != order.end() && discs[*next].id < end; ++next)
+            mine.push_back(line_of(discs[*next], clock, velocity_unit));
+        write_slab(begin, end, simulation.step(), mine);
+    }
+}
+
+void DiscLines::write_slab(std::uint64_t begin, std::uint64_t end, std::int64_t step, const std::vector<DiscLine>& mine) {
+    std::vector<DiscLine> slab(ranks_.is_root() ? end - begin : 0);
+    std::uint64_t n_placed = 0;
+    const auto place = [&](std::span<const DiscLine> lines) {
+        for (const DiscLine& line : lines) slab[line.id - begin] = line;
+        n_placed += lines.size();
+    };
+    stream_to_root(ranks_, mine, place, slab_);
+    ensure(!ranks_.is_root() || n_placed == end - begin, "a disc is missing from the output, or is there twice");
+    const bool with_counters = step == last_step_ && step > 0;
+    for (const DiscLine& line : slab) {
+        append_line(output_.buffer(), step, line, digits_, with_counters);
+        output_.flush_if_full();
+    }
+    output_.flush();
+    agree(ranks_, output_.failure().empty(), output_.failure(), ExitCode::output_failure);
+}
+
+} // namespace carrom

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "load.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "carrom/parallel/agreement.hpp"
+#include "carrom/scene/read_scene.hpp"
+#include "carrom/simulation/initial_state.hpp"
+#include "report_file.hpp"
+
+namespace carrom {
+
+namespace {
+
+using Problems = std::vector<Problem>;
+
+/// Runs `read` and adds the problems of an InputError to `problems`; true if there was none. One rank may find problems
+/// that the others do not know of yet, so they must not fly as an exception before all ranks have agreed.
+template <class Read> bool collect(Problems& problems, const Read& read) {
+    try {
+        read();
+        return true;
+    } catch (const InputError& error) {
+        problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+        return false;
+    }
+}
+
+std::unique_ptr<std::istream> open(const std::string& input) {
+    if (input == "-") return std::make_unique<std::istream>(std::cin.rdbuf());
+    return std::make_unique<std::ifstream>(open_input(input));
+}
+
+/// Replaces the text on every rank by that of rank 0. **Collective.**
+void broadcast(SceneText& text, const Communicator& ranks) {
+    ranks.broadcast(text.name);
+    ranks.broadcast(text.text);
+    ranks.broadcast(text.lines_before_discs);
+    int discs_follow = text.discs_follow ? 1 : 0;
+    ranks.broadcast(discs_follow);
+    text.discs_follow = discs_follow == 1;
+}
+
+void check_report(const RunOptions& options, Problems& problems) {
+    if (options.report.empty()) return;
+    std::error_code no_such_files;
+    std::string obstacle = obstacle_to_writing(options.report);
+    if (std::filesystem::equivalent(options.report, options.input, no_such_files)) obstacle = "is the input itself";
+    if (!obstacle.empty()) problems.push_back({"--report " + options.report, 0, obstacle});
+}
+
+/// The scene; `stream`, on rank 0, is left at the first line of discs. **Collective.**
+Scene load_scene(const RunOptions& options, const Problems& problems_so_far, const Communicator& ranks,
+                 std::unique_ptr<std::istream>& stream) {
+    Problems problems; // of all ranks together: each problem is listed by one rank
+    SceneText text;
+    bool is_readable = true;
+    if (ranks.is_root()) {
+        problems = problems_so_far;
+        check_report(options, problems);
+        if (options.input.empty())
+            problems.push_back({"carrom run", 0, "no input; name a SCENE.toml, a FILE.in, or - for standard input"});
+        is_readable = !options.input.empty() && collect(problems, [&] {
+            stream = open(options.input);
+            text = read_scene_text(*stream, options.input == "-" ? "standard input" : options.input);
+        });
+    }
+    Scene scene;
+    if (ranks.all(is_readable)) {
+        broadcast(text, ranks);
+        Problems same_everywhere;
+        collect(same_everywhere, [&] { scene = read_scene(text, options.overrides); });
+        if (ranks.is_root()) problems.insert(problems.end(), same_everywhere.begin(), same_everywhere.end());
+    }
+    agree_on_problems(ranks, problems);
+    return scene;
+}
+
+} // namespace
+
+Loaded load(const RunOptions& options, const Problems& problems, const Communicator& ranks) {
+    std::unique_ptr<std::istream> stream;
+    Loaded loaded;
+    loaded.scene = load_scene(options, problems, ranks, stream);
+    const Scene& scene = loaded.scene;
+    if (scene.reads_disc_lines() && !scene.discs_file.empty()) {
+        Problems unreadable;
+        if (ranks.is_root()) collect(unreadable, [&] { stream = open(discs_path(scene)); });
+        agree_on_problems(ranks, unreadable);
+    }
+    loaded.discs = initial_state(scene, scene.reads_disc_lines() ? stream.get() : nullptr, ranks);
+    if (ranks.is_root())
+        for (const std::string& warning : scene.warnings) fmt::print(stderr, "{}: warning: {}\n", scene.name, warning);
+    return loaded;
+}
+
+} // namespace carrom

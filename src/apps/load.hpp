@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From the options of a run to its scene and first discs: the part that can find an input wrong.
+//
+// Rank 0 opens files and reads; the others get its bytes and come to the same scene or the same problems. Nothing of
+// the run has been written when a problem is told.
+#pragma once
+
+#include <vector>
+
+#include "carrom/core/errors.hpp"
+#include "carrom/parallel/communicator.hpp"
+#include "carrom/scene/scene.hpp"
+#include "run_options.hpp"
+
+namespace carrom {
+
+struct Loaded {
+    Scene scene;
+    std::vector<InputDisc> discs; ///< spread over the ranks in any way
+};
+
+/// Throws InputError on every rank: with `problems` (found so far, the same on all ranks), those of the report's path
+/// and those of the scene; if there are none, with those of the lines of discs. Rank 0 prints the scene's warnings.
+/// **Collective.**
+Loaded load(const RunOptions& options, const std::vector<Problem>& problems, const Communicator& ranks);
+
+} // namespace carrom

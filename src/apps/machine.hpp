@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run has to know of the machine it is on: cores to use, memory used, and the version of the program.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "carrom/parallel/communicator.hpp"
+
+namespace carrom {
+
+/// "0.1.0"
+std::string version();
+
+/// Threads for this rank when nobody chose: OMP_NUM_THREADS, else the cores it may use, shared out among the ranks of
+/// its node that may use the same ones; at least 1. **Collective.**
+int default_threads(const Communicator& ranks);
+
+/// The most memory this process has held at any time, in bytes; 0 where the system does not tell.
+std::uint64_t peak_resident_bytes();
+
+} // namespace carrom

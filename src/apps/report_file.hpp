@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A small file that is either written whole or not at all: beside its place first, then renamed.
+//
+// Whether it can be written is found out before the run, not after a week.
+#pragma once
+
+#include <string>
+
+namespace carrom {
+
+/// What would keep `write_whole_file` from writing to `path`, empty if nothing is known to. Leaves nothing behind.
+std::string obstacle_to_writing(const std::string& path);
+
+/// Replaces `path` by a file with this text. Returns what went wrong, empty if nothing did.
+std::string write_whole_file(const std::string& path, const std::string& text);
+
+} // namespace carrom

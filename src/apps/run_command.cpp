@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run_command.hpp"
+
+#include <cstdio>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "carrom/parallel/agreement.hpp"
+#include "carrom/simulation/simulation.hpp"
+#include "disc_lines.hpp"
+#include "load.hpp"
+#include "machine.hpp"
+#include "progress.hpp"
+#include "report_file.hpp"
+#include "run_options.hpp"
+#include "stopwatch.hpp"
+#include "summary.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// Times as they are on the slowest rank. **Collective.**
+void fill_times(RunResult& result, const PhaseSeconds& mine, const Communicator& ranks) {
+    ensure(ranks.min(std::uint64_t{mine.size()}) == mine.size(), "ranks have different phases");
+    result.wall_seconds = ranks.max(result.wall_seconds);
+    for (const auto& [name, seconds] : mine) result.phase_seconds.emplace_back(name, ranks.max(seconds));
+}
+
+/// **Collective.**
+void fill_machine(RunResult& result, int threads, const Communicator& ranks) {
+    result.ranks = ranks.size();
+    result.threads = static_cast<int>(ranks.max(std::int64_t{threads}));
+    const std::uint64_t bytes = ranks.sum(peak_resident_bytes());
+    result.peak_bytes_per_disc = static_cast<double>(bytes) / static_cast<double>(result.end.n_discs);
+}
+
+/// Summary and report, by rank 0. If the report cannot be written every rank throws. **Collective.**
+void tell(const RunOptions& options, const Scene& scene, const RunResult& result, const Communicator& ranks) {
+    std::string failure;
+    if (ranks.is_root()) {
+        if (!options.quiet) fmt::print(stderr, "{}", summary_text(scene, result));
+        if (!options.report.empty()) failure = write_whole_file(options.report, report_text(scene, result));
+    }
+    agree(ranks, failure.empty(), failure, ExitCode::output_failure);
+}
+
+/// Steps to the end of the scene and writes the lines of its steps on the way. **Collective.**
+void step_to_end(Simulation& simulation, RunResult& result, double& output_seconds, const RunOptions& options,
+                 const Scene& scene, const Communicator& ranks) {
+    Stopwatch watch;
+    DiscLines lines(scene, options.digits, ranks);
+    Progress progress(simulation.step(), scene.steps, ranks.is_root() && !options.quiet);
+    lines.write_if_due(simulation);
+    output_seconds += watch.lap();
+    while (simulation.step() < scene.steps) {
+        simulation.advance_towards(lines.next_due(simulation.step()));
+        result.wall_seconds += watch.lap();
+        lines.write_if_due(simulation);
+        progress.show(simulation.step());
+        output_seconds += watch.lap();
+    }
+}
+
+/// The run itself. **Collective.**
+ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, const Communicator& ranks) {
+    Stopwatch watch;
+    Loaded loaded = load(options, problems, ranks);
+    const Scene& scene = loaded.scene;
+    Tuning tuning = options.tuning;
+    tuning.threads = options.threads.value_or(default_threads(ranks));
+    Simulation simulation(scene, std::move(loaded.discs), ranks, tuning);
+
+    RunResult result;
+    result.first_step = simulation.step();
+    result.start = simulation.totals();
+    const double setup_seconds = watch.lap();
+    double output_seconds = 0;
+    step_to_end(simulation, result, output_seconds, options, scene, ranks);
+    result.last_step = simulation.step();
+    result.end = simulation.totals();
+
+    PhaseSeconds phases = simulation.phase_seconds();
+    phases.emplace_back("set-up", setup_seconds);
+    phases.emplace_back("output", output_seconds);
+    fill_times(result, phases, ranks);
+    fill_machine(result, tuning.threads, ranks);
+    tell(options, scene, result, ranks);
+    return ExitCode::success;
+}
+
+/// Words of the command line that fit nowhere. After an unknown option the others may be its values: left out then.
+void add_leftovers(const std::vector<std::string>& words, std::vector<Problem>& problems) {
+    bool has_unknown_option = false;
+    for (const std::string& word : words) {
+        if (word.size() < 2 || word.front() != '-') continue;
+        problems.push_back({word, 0, "no such option; carrom run --help lists them"});
+        has_unknown_option = true;
+    }
+    if (has_unknown_option) return;
+    for (const std::string& word : words) problems.push_back({word, 0, "one input is enough; carrom run takes one at a time"});
+}
+
+} // namespace
+
+void add_run_command(CLI::App& app, Action& action) {
+    auto words = std::make_shared<RunWords>();
+    CLI::App* command = app.add_subcommand("run", "Run a scene");
+    declare_run_options(*command, *words);
+    command->callback([words, command, &action] {
+        std::vector<Problem> problems;
+        add_leftovers(command->remaining(), problems);
+        const bool input_is_certain = problems.empty();
+        RunOptions options = checked_run_options(*words, problems);
+        if (!input_is_certain) throw InputError(std::move(problems));
+        action = [options = std::move(options), problems = std::move(problems)](const Communicator& ranks) {
+            return run(options, problems, ranks);
+        };
+    });
+}
+
+} // namespace carrom

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The options of `carrom run`, checked one by one so that all wrong ones can be told at once.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "carrom/core/errors.hpp"
+#include "carrom/simulation/simulation.hpp"
+
+namespace carrom {
+
+struct RunOptions {
+    static constexpr int round_trip_digits = 17;
+
+    std::string input;                  ///< a file's name, or "-" for standard input
+    std::vector<std::string> overrides; ///< key=value, over what the input says
+    int digits = round_trip_digits;
+    std::string report;                 ///< empty for none
+    bool quiet = false;
+    std::optional<int> threads;
+    Tuning tuning;                      ///< but for `threads`, which needs to know the machine
+};
+
+/// The words of the command line as they stand.
+struct RunWords {
+    std::string input, threads, steps, digits, report;
+    std::string window, cell_width, rebalance_every, rebalance_above;
+    std::vector<std::string> overrides;
+    bool quiet = false;
+};
+
+/// Declares the options on `command`. `words` must live until it has parsed.
+void declare_run_options(CLI::App& command, RunWords& words);
+
+/// Appends what is wrong with the words to `problems`.
+RunOptions checked_run_options(const RunWords& words, std::vector<Problem>& problems);
+
+} // namespace carrom

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Wall-clock time, lap by lap.
+#pragma once
+
+#include <chrono>
+#include <utility>
+
+namespace carrom {
+
+class Stopwatch {
+public:
+    /// Seconds since the last call, or since it was made.
+    double lap() {
+        const auto now = Clock::now();
+        return std::chrono::duration<double>(now - std::exchange(lap_start_, now)).count();
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    Clock::time_point lap_start_ = Clock::now();
+};
+
+} // namespace carrom

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run says of itself when it is over: a page for people, a JSON object for programs. Both show the same numbers.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "carrom/scene/scene.hpp"
+#include "carrom/simulation/simulation.hpp"
+
+namespace carrom {
+
+/// A finished run. Numbers of machine shape and time are over all ranks; the totals are the same for every shape.
+struct RunResult {
+    Totals start, end;
+    std::int64_t first_step = 0, last_step = 0;
+    int ranks = 1;
+    int threads = 1;                   ///< per rank; the largest where ranks differ
+    double wall_seconds = 0;           ///< spent stepping, on the slowest rank; reading and writing are phases
+    PhaseSeconds phase_seconds;        ///< each on the rank where it took longest
+    double peak_bytes_per_disc = 0;    ///< peak memory of all ranks together, per disc
+};
+
+double ns_per_disc_step(const RunResult& result);
+
+/// Change of the kinetic energy over the run, relative to its start.
+double energy_drift(const RunResult& result);
+
+/// Collisions that a disc takes part in per micro-step, on average: what the error of the rule "one" grows with.
+double collisions_per_disc(const Scene& scene, const RunResult& result);
+
+/// Lines of text, each ended.
+std::string summary_text(const Scene& scene, const RunResult& result);
+
+/// A JSON object; keys are described in docs/user.md.
+std::string report_text(const Scene& scene, const RunResult& result);
+
+} // namespace carrom
