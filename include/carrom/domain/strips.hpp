@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Who owns which slab of x, and which ranks can therefore have anything to tell each other. Pure arithmetic, no MPI.
+//
+// All lists follow from numbers that every rank knows, so both sides of an exchange know of it without a message, and
+// they are symmetric: a lists b if and only if b lists a. They are complete to the last bit for senders that
+// pick receivers with `ranks_touching(x - reach, x + reach)` or `owner(x)`: the comparisons round the same way.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace carrom {
+
+/// The ranks first, ..., last, both included.
+struct RankRange {
+    int first = 0;
+    int last = 0;
+
+    friend bool operator==(const RankRange&, const RankRange&) = default;
+};
+
+/// Half-open strips [low(k), high(k)) that cover all x; the first begins at -infinity, the last ends at +infinity.
+/// Equal cuts make empty strips; those own nothing and have no neighbours.
+class Strips {
+public:
+    /// One strip, everything.
+    Strips() = default;
+
+    /// `cuts` ascending, finite, one fewer than strips.
+    explicit Strips(std::vector<double> cuts);
+
+    int size() const { return static_cast<int>(cuts_.size()) + 1; }
+    std::span<const double> cuts() const { return cuts_; }
+    double low(int rank) const;
+    double high(int rank) const;
+    bool is_empty(int rank) const { return !(low(rank) < high(rank)); }
+
+    /// The rank whose strip holds `x`.
+    int owner(double x) const;
+
+    /// The ranks whose strips meet [low, high], low <= high. Empty strips may lie between the ends, never at them.
+    RankRange ranks_touching(double low, double high) const;
+
+    /// The other ranks r, ascending, such that a disc in one of the strips r and `rank` can lie within `reach` >= 0 of
+    /// the other. Cost: the number of strips within reach.
+    std::vector<int> neighbours_within(int rank, double reach) const;
+
+    friend bool operator==(const Strips&, const Strips&) = default;
+
+private:
+    bool are_within(int lower, int upper, double reach) const;
+
+    std::vector<double> cuts_;
+};
+
+/// The other ranks, ascending, that `rank` may have to send discs to or receive discs from when discs that were in
+/// their owners' `before` strips have moved by at most `distance` in x and go to their owners in `after`.
+/// Cost: the number of ranks.
+std::vector<int> movers_between(const Strips& before, const Strips& after, int rank, double distance);
+
+/// Cuts that give `n_ranks` strips equal weight. `weights` are those of equal bins of [0, box_size]; weight is taken
+/// as spread evenly inside a bin. Ascending, within the box, and a function of the arguments alone.
+std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double box_size, int n_ranks);
+
+} // namespace carrom

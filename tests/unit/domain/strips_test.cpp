@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Strips against brute force: every statement is tried on sampled positions, with many equal cuts.
+#include "carrom/domain/strips.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <set>
+
+#include <catch2/catch.hpp>
+
+using carrom::Strips;
+
+namespace {
+
+constexpr double box = 10;
+
+/// Cuts on a coarse lattice half of the time, so that equal ones, and ones at the box's ends, are common.
+Strips random_strips(std::mt19937& random, int n_strips) {
+    std::uniform_real_distribution<double> anywhere(0, box);
+    const bool coarse = random() % 2 == 0;
+    std::vector<double> cuts;
+    for (int k = 1; k < n_strips; ++k) cuts.push_back(coarse ? std::round(anywhere(random) / 2) * 2 : anywhere(random));
+    std::sort(cuts.begin(), cuts.end());
+    return Strips(cuts);
+}
+
+/// Positions where something may go wrong: on the cuts, just beside them, and anywhere.
+std::vector<double> probes(std::mt19937& random, const Strips& strips) {
+    std::vector<double> xs = {0, box};
+    for (const double cut : strips.cuts())
+        for (const double x : {cut, std::nextafter(cut, -1e9), std::nextafter(cut, 1e9)}) xs.push_back(x);
+    std::uniform_real_distribution<double> anywhere(-1, box + 1);
+    for (int k = 0; k < 40; ++k) xs.push_back(anywhere(random));
+    return xs;
+}
+
+int owner_by_search(const Strips& strips, double x) {
+    int found = -1;
+    for (int k = 0; k < strips.size(); ++k)
+        if (strips.low(k) <= x && x < strips.high(k)) found = found == -1 ? k : -2;
+    return found;
+}
+
+bool contains(const std::vector<int>& list, int rank) { return std::find(list.begin(), list.end(), rank) != list.end(); }
+
+/// Ascending, without the rank itself, and a lists b if and only if b lists a.
+void check_lists(const std::vector<std::vector<int>>& lists) {
+    for (std::size_t a = 0; a < lists.size(); ++a) {
+        CHECK(std::is_sorted(lists[a].begin(), lists[a].end()));
+        CHECK(std::set<int>(lists[a].begin(), lists[a].end()).size() == lists[a].size());
+        CHECK_FALSE(contains(lists[a], static_cast<int>(a)));
+        for (const int b : lists[a]) CHECK(contains(lists[static_cast<std::size_t>(b)], static_cast<int>(a)));
+    }
+}
+
+} // namespace
+
+TEST_CASE("one strip owns everything") {
+    const Strips all;
+    CHECK(all.size() == 1);
+    CHECK(all.owner(-1e300) == 0);
+    CHECK(all.owner(1e300) == 0);
+    CHECK_FALSE(all.is_empty(0));
+    CHECK(all.neighbours_within(0, 1e9).empty());
+    CHECK(movers_between(all, all, 0, 1e9).empty());
+}
+
+TEST_CASE("a position on a cut belongs to the strip above, past empty strips") {
+    const Strips strips({2, 5, 5, 5, 8});
+    CHECK(strips.owner(2) == 1);
+    CHECK(strips.owner(std::nextafter(2.0, 0.0)) == 0);
+    CHECK(strips.owner(5) == 4);
+    CHECK(strips.is_empty(2));
+    CHECK(strips.is_empty(3));
+    CHECK_FALSE(strips.is_empty(4));
+    CHECK(strips.ranks_touching(4, 6) == carrom::RankRange{1, 4});
+    CHECK(strips.ranks_touching(8, 8) == carrom::RankRange{5, 5});
+    CHECK(strips.neighbours_within(1, 0) == std::vector<int>{0, 4});
+    CHECK(strips.neighbours_within(1, 2.9) == std::vector<int>{0, 4});
+    CHECK(strips.neighbours_within(1, 3) == std::vector<int>{0, 4, 5});
+    CHECK(strips.neighbours_within(2, 100).empty());
+}
+
+TEST_CASE("every position has one owner, found by search") {
+    std::mt19937 random(1);
+    for (int trial = 0; trial < 200; ++trial) {
+        const Strips strips = random_strips(random, 1 + trial % 9);
+        for (const double x : probes(random, strips)) {
+            REQUIRE(strips.owner(x) == owner_by_search(strips, x));
+            REQUIRE_FALSE(strips.is_empty(strips.owner(x)));
+        }
+    }
+}
+
+TEST_CASE("ranks touching an interval are those whose strips meet it") {
+    std::mt19937 random(2);
+    for (int trial = 0; trial < 100; ++trial) {
+        const Strips strips = random_strips(random, 1 + trial % 9);
+        const std::vector<double> xs = probes(random, strips);
+        for (std::size_t k = 0; k + 1 < xs.size(); ++k) {
+            const auto [low, high] = std::minmax(xs[k], xs[k + 1]);
+            const carrom::RankRange range = strips.ranks_touching(low, high);
+            for (int rank = 0; rank < strips.size(); ++rank) {
+                if (strips.is_empty(rank)) continue;
+                const bool meets = strips.low(rank) <= high && low < strips.high(rank);
+                REQUIRE(meets == (range.first <= rank && rank <= range.last));
+            }
+            REQUIRE_FALSE(strips.is_empty(range.first));
+            REQUIRE_FALSE(strips.is_empty(range.last));
+        }
+    }
+}
+
+TEST_CASE("neighbours are symmetric, complete for every sender, and no more than needed") {
+    std::mt19937 random(3);
+    for (int trial = 0; trial < 300; ++trial) {
+        const Strips strips = random_strips(random, 1 + trial % 9);
+        const double reach = trial % 5 == 0 ? 2.0 * (trial % 3) : std::uniform_real_distribution<double>(0, 4)(random);
+        std::vector<std::vector<int>> lists;
+        for (int rank = 0; rank < strips.size(); ++rank) lists.push_back(strips.neighbours_within(rank, reach));
+        check_lists(lists);
+        for (const double x : probes(random, strips)) {
+            const int own = strips.owner(x);
+            const carrom::RankRange range = strips.ranks_touching(x - reach, x + reach);
+            for (int rank = range.first; rank <= range.last; ++rank)
+                if (rank != own && !strips.is_empty(rank)) REQUIRE(contains(lists[static_cast<std::size_t>(own)], rank));
+        }
+        for (int a = 0; a < strips.size(); ++a)
+            for (const int b : lists[static_cast<std::size_t>(a)]) {
+                REQUIRE_FALSE(strips.is_empty(b));
+                REQUIRE(strips.low(std::max(a, b)) - strips.high(std::min(a, b)) <= reach * (1 + 1e-12) + 1e-12);
+            }
+    }
+}
+
+TEST_CASE("neighbours are complete where x + reach rounds onto a cut") {
+    // The gap between the cuts rounds to more than the reach, yet a disc just below the lower cut reaches the upper.
+    const double lower = 0x1p-52 * (1 + 0x1p-50), upper = 1 + 0x1p-52, reach = 1 - 0x1p-53;
+    REQUIRE(upper - lower > reach);
+    const Strips strips({lower, upper});
+    const double x = std::nextafter(lower, 0.0);
+    CHECK(strips.ranks_touching(x - reach, x + reach).last == 2);
+    CHECK(strips.neighbours_within(0, reach) == std::vector<int>{1, 2});
+    CHECK(strips.neighbours_within(2, reach) == std::vector<int>{0, 1});
+}
+
+TEST_CASE("movers are symmetric and know every way a disc can go") {
+    std::mt19937 random(4);
+    for (int trial = 0; trial < 300; ++trial) {
+        const int n_strips = 1 + trial % 9;
+        const Strips before = random_strips(random, n_strips);
+        const Strips after = trial % 3 == 0 ? before : random_strips(random, n_strips);
+        const double distance = trial % 4 == 0 ? 0 : std::uniform_real_distribution<double>(0, 3)(random);
+        std::vector<std::vector<int>> lists;
+        for (int rank = 0; rank < n_strips; ++rank) lists.push_back(movers_between(before, after, rank, distance));
+        check_lists(lists);
+        std::uniform_real_distribution<double> shift(-distance, distance);
+        for (const double x : probes(random, before)) {
+            for (const double x_after : {x, x - distance, x + distance, x + shift(random)}) {
+                const int sender = before.owner(x), receiver = after.owner(x_after);
+                if (sender != receiver) REQUIRE(contains(lists[static_cast<std::size_t>(sender)], receiver));
+            }
+        }
+        for (int a = 0; a < n_strips; ++a)
+            for (const int b : lists[static_cast<std::size_t>(a)]) {
+                const auto can_go = [&](int from, int to) {
+                    return !before.is_empty(from) && !after.is_empty(to) &&
+                           before.high(from) - after.low(to) >= -distance - 1e-12 &&
+                           after.high(to) - before.low(from) >= -distance - 1e-12;
+                };
+                REQUIRE((can_go(a, b) || can_go(b, a)));
+            }
+    }
+}
+
+TEST_CASE("discs at rest in unchanged strips have nowhere to go but across a shared cut") {
+    const Strips strips({2, 5, 8});
+    CHECK(movers_between(strips, strips, 1, 0) == std::vector<int>{0, 2});
+    CHECK(movers_between(strips, Strips({6, 7, 8}), 0, 0) == std::vector<int>{1, 2});
+    CHECK(movers_between(strips, strips, 0, std::numeric_limits<double>::infinity()) == std::vector<int>{1, 2, 3});
+}
+
+TEST_CASE("balanced cuts halve, quarter and interpolate") {
+    using Weights = std::vector<std::uint64_t>;
+    CHECK(carrom::balanced_cuts(Weights{1, 1, 1, 1}, 8, 4) == std::vector<double>{2, 4, 6});
+    CHECK(carrom::balanced_cuts(Weights{3, 1}, 8, 2) == std::vector<double>{4.0 * 2 / 3});
+    CHECK(carrom::balanced_cuts(Weights{0, 0, 0, 8}, 8, 4) == std::vector<double>{6.5, 7, 7.5});
+    CHECK(carrom::balanced_cuts(Weights{0, 0}, 8, 2) == std::vector<double>{4});
+    CHECK(carrom::balanced_cuts(Weights{}, 8, 4) == std::vector<double>{2, 4, 6});
+    CHECK(carrom::balanced_cuts(Weights{5, 5}, 8, 1).empty());
+}
+
+TEST_CASE("balanced cuts ascend within the box and share the weight evenly") {
+    std::mt19937 random(5);
+    for (int trial = 0; trial < 300; ++trial) {
+        const std::size_t n_bins = 1 + random() % 30;
+        const int n_ranks = 1 + static_cast<int>(random() % 12);
+        std::vector<std::uint64_t> weights;
+        for (std::size_t k = 0; k < n_bins; ++k) weights.push_back(random() % 3 == 0 ? random() % 1000 : 0);
+        weights[random() % n_bins] += 1;
+        const std::vector<double> cuts = carrom::balanced_cuts(weights, box, n_ranks);
+        REQUIRE(cuts.size() == static_cast<std::size_t>(n_ranks - 1));
+        REQUIRE(std::is_sorted(cuts.begin(), cuts.end()));
+        const double total = static_cast<double>(std::accumulate(weights.begin(), weights.end(), std::uint64_t{0}));
+        for (std::size_t k = 0; k < cuts.size(); ++k) {
+            REQUIRE((0 <= cuts[k] && cuts[k] <= box));
+            double below = 0; // the weight below the cut, by adding up every bin's part
+            for (std::size_t bin = 0; bin < n_bins; ++bin) {
+                const double part = cuts[k] / box * static_cast<double>(n_bins) - static_cast<double>(bin);
+                below += static_cast<double>(weights[bin]) * std::clamp(part, 0.0, 1.0);
+            }
+            REQUIRE(below == Approx(total * static_cast<double>(k + 1) / n_ranks).epsilon(1e-9).margin(1e-9));
+        }
+    }
+}
