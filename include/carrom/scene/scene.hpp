@@ -37,6 +37,7 @@ struct Stream {
 struct Scene {
     std::string name;       ///< the file's name, "standard input" for `-`
     std::string text;       ///< the input's own text without the lines of discs, for checkpoints
+    std::int64_t lines_before_discs = 0; ///< lines of ancestor text that come before its list of discs
 
     double box_size = 0;    ///< L
     double radius = 0;      ///< r
@@ -60,7 +61,13 @@ struct Scene {
 
     std::vector<std::string> warnings; ///< legal but worth a line: K not a power of two, ...
 
+    /// The share of the box that the discs cover.
     double packing() const;
+    /// True where the discs come from lines of text: `discs_file`, or the lines after the ancestor's header.
+    bool reads_disc_lines() const { return generator == Generator::file && listed_discs.empty(); }
 };
+
+/// Where `discs_file` lies: relative to the folder of the scene's own file.
+std::string discs_path(const Scene& scene);
 
 } // namespace carrom

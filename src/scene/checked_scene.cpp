@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "checked_scene.hpp"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "carrom/scene/lattice.hpp"
+#include "keys.hpp"
+#include "limits.hpp"
+#include "number.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// What every check needs: the settings, the problems so far, and the scene as far as it is known.
+struct Check {
+    Scene& scene;
+    const Settings& settings;
+    Problems& problems;
+
+    void refuse(const Setting& setting, std::string text) const { add_problem(problems, setting.place, std::move(text)); }
+    void refuse_missing(std::string_view key, std::string_view what) const {
+        if (!settings.is_mentioned(key)) add_problem(problems, {scene.name, 0}, fmt::format("'{}' is missing: {}", key, what));
+    }
+};
+
+/// A finite number, or nothing after a problem (or where the key is absent).
+std::optional<double> finite_number(const Check& check, std::string_view key) {
+    const Setting* setting = check.settings.find(key);
+    if (!setting) return std::nullopt;
+    const double number = std::get<double>(setting->value);
+    if (std::isfinite(number)) return number;
+    check.refuse(*setting, fmt::format("'{}' must be a finite number, not {}", key, number));
+    return std::nullopt;
+}
+
+/// A length, greater than 0 and within 2^+-250.
+std::optional<double> size_number(const Check& check, std::string_view key) {
+    const auto number = finite_number(check, key);
+    if (!number) return std::nullopt;
+    if (*number >= smallest_size && *number <= largest_size) return number;
+    check.refuse(*check.settings.find(key),
+                 !(*number > 0) ? fmt::format("'{}' must be greater than 0, not {}", key, *number)
+                 : *number < smallest_size ? fmt::format("'{}' = {} is too small (at least 2^-250)", key, *number)
+                                           : fmt::format("'{}' = {} is too large (at most 2^250)", key, *number));
+    return std::nullopt;
+}
+
+/// A whole number from `low` to `high`; 1e5 counts as whole.
+std::optional<std::int64_t> whole_number(const Check& check, std::string_view key, std::int64_t low, std::int64_t high) {
+    const Setting* setting = check.settings.find(key);
+    if (!setting) return std::nullopt;
+    if (const auto* real = std::get_if<double>(&setting->value)) {
+        if (!std::isfinite(*real) || *real != std::floor(*real)) {
+            check.refuse(*setting, fmt::format("'{}' must be a whole number, not {}", key, *real));
+        } else if (*real < static_cast<double>(low) || *real > static_cast<double>(high)) {
+            check.refuse(*setting, fmt::format("'{}' must be from {} to {}, not {}", key, low, high, *real));
+        } else if (std::fabs(*real) < 0x1p63) {
+            return static_cast<std::int64_t>(*real);
+        }
+        return std::nullopt;
+    }
+    const auto number = std::get<std::int64_t>(setting->value);
+    if (number >= low && number <= high) return number;
+    check.refuse(*setting, fmt::format("'{}' must be from {} to {}, not {}", key, low, high, number));
+    return std::nullopt;
+}
+
+template <class Choice, std::size_t n> using Choices = std::array<std::pair<std::string_view, Choice>, n>;
+
+/// One of a few words.
+template <class Choice, std::size_t n>
+std::optional<Choice> choice(const Check& check, std::string_view key, const Choices<Choice, n>& choices) {
+    const Setting* setting = check.settings.find(key);
+    if (!setting) return std::nullopt;
+    const std::string& word = std::get<std::string>(setting->value);
+    std::array<std::string_view, n> names;
+    std::string list;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (choices[i].first == word) return choices[i].second;
+        names[i] = choices[i].first;
+        list += (i == 0 ? "" : i + 1 == n ? " or " : ", ") + fmt::format("\"{}\"", names[i]);
+    }
+    check.refuse(*setting, fmt::format("'{}' must be {}, not {}; did you mean \"{}\"?", key, list, quoted(word),
+                                       nearest_of(word, names.data(), n)));
+    return std::nullopt;
+}
+
+/// Discs that the scene itself lists; their ids are their order.
+void fill_listed_discs(const Check& check) {
+    const Setting* list = check.settings.find("discs.list");
+    if (!list) return;
+    for (const Row& row : std::get<std::vector<Row>>(list->value)) {
+        const auto& n = row.numbers;
+        const DiscId id = check.scene.listed_discs.size();
+        check.scene.listed_discs.push_back(n.empty() ? InputDisc{id} : InputDisc{id, n[0], n[1], n[2], n[3]});
+    }
+}
+
+void check_listed_discs(const Check& check) {
+    const Setting* list = check.settings.find("discs.list");
+    if (!list) return;
+    const auto& rows = std::get<std::vector<Row>>(list->value);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (rows[i].numbers.empty()) continue;
+        if (std::string text = disc_problem(check.scene.listed_discs[i], check.scene); !text.empty())
+            add_problem(check.problems, rows[i].place, std::move(text));
+    }
+}
+
+void fill_generator(const Check& check) {
+    static constexpr Choices<Generator, 4> generators = {{{"random", Generator::random},
+                                                          {"lattice", Generator::lattice},
+                                                          {"ancestor", Generator::ancestor},
+                                                          {"file", Generator::file}}};
+    const Setting* file = check.settings.find("discs.file");
+    const Setting* list = check.settings.find("discs.list");
+    const Setting* generator = check.settings.find("discs.generator");
+    if (file && list) check.refuse(*list, "'discs.list' and 'discs.file' exclude each other");
+    check.scene.generator = file || list ? Generator::file : Generator::random;
+    if (generator) {
+        const auto chosen = choice(check, "discs.generator", generators);
+        if (!chosen) return;
+        check.scene.generator = *chosen;
+    }
+    std::string_view name;
+    for (const auto& [word, value] : generators)
+        if (value == check.scene.generator) name = word;
+    for (const Setting& setting : check.settings.all())
+        if (!has_meaning_for(name, setting.key))
+            check.refuse(setting, fmt::format("'{}' has no meaning where {}", setting.key,
+                                              name == "file" ? "discs are listed"
+                                                             : fmt::format("discs.generator is \"{}\"", name)));
+    const bool is_ancestor_text = check.scene.lines_before_discs > 0;
+    if (name == "file" && !is_ancestor_text && !check.settings.is_mentioned("discs.file") &&
+        !check.settings.is_mentioned("discs.list"))
+        check.refuse(*generator, "discs.generator is \"file\", but there is no 'discs.file' and no 'discs.list'");
+    if (file) check.scene.discs_file = std::get<std::string>(file->value);
+    if (file && check.scene.discs_file.empty()) check.refuse(*file, "'discs.file' is empty");
+}
+
+/// The number of discs; it stays 0 after a problem.
+void fill_count(const Check& check) {
+    const auto count = whole_number(check, "discs.count", 1, static_cast<std::int64_t>(largest_count));
+    const Setting* list = check.settings.find("discs.list");
+    const std::size_t n_listed = list ? std::get<std::vector<Row>>(list->value).size() : 0;
+    if (count) check.scene.n_discs = static_cast<std::uint64_t>(*count);
+    if (!list) {
+        check.refuse_missing("discs.count", "the number of discs");
+        return;
+    }
+    if (!check.settings.is_mentioned("discs.count")) {
+        check.scene.n_discs = n_listed;
+        if (n_listed == 0) check.refuse(*list, "'discs.list' is empty");
+    } else if (count && n_listed != check.scene.n_discs) {
+        check.refuse(*list, fmt::format("'discs.list' has {} discs, but 'discs.count' is {}", n_listed, *count));
+    }
+}
+
+/// Whether the discs can fit at all. `radius_setting` gave the radius, or the packing it was taken from.
+bool check_sizes(const Check& check, const Setting& radius_setting) {
+    Scene& scene = check.scene;
+    const double r = scene.radius, l = scene.box_size;
+    const std::size_t n_problems = check.problems.size();
+    if (l < 2 * r) {
+        check.refuse(radius_setting, fmt::format("a disc of radius {} does not fit into a box of side {}: L < 2 r", r, l));
+    } else if (scene.packing() > largest_packing) {
+        check.refuse(radius_setting,
+                     fmt::format("{} discs of radius {} cannot fit into a box of side {}: they would cover {:.4g} of it, "
+                                 "and no packing covers more than {}",
+                                 scene.n_discs, r, l, scene.packing(), largest_packing));
+    }
+    if (l / r > largest_box_in_radii) {
+        const std::string text = fmt::format("the box is {:.4g} radii wide, and walls lose their precision above {:.0e}", l / r,
+                                             largest_box_in_radii);
+        if (scene.rule == CollisionRule::one) check.refuse(radius_setting, text + "; collisions = \"one\" refuses that");
+        else scene.warnings.push_back(text);
+    }
+    return check.problems.size() == n_problems;
+}
+
+/// Box and radius; a packing asks for the radius that gives it. True if the discs may fit.
+bool fill_sizes(const Check& check) {
+    Scene& scene = check.scene;
+    const Setting* radius = check.settings.find("discs.radius");
+    const Setting* packing = check.settings.find("discs.packing");
+    if (!check.settings.is_mentioned("discs.packing"))
+        check.refuse_missing("discs.radius", "give a radius, or 'discs.packing' for the share of the box the discs cover");
+    if (radius && packing) check.refuse(*packing, "'discs.radius' and 'discs.packing' exclude each other");
+    check.refuse_missing("box.size", "the side of the box");
+    const auto box = size_number(check, "box.size");
+    const auto given_radius = size_number(check, "discs.radius");
+    auto share = finite_number(check, "discs.packing");
+    if (share && !(*share > 0 && *share <= largest_packing)) {
+        check.refuse(*packing, fmt::format("'discs.packing' must be greater than 0 and at most {}, not {}", largest_packing, *share));
+        share.reset();
+    }
+    if (!box || scene.n_discs == 0 || (radius && packing) || (!given_radius && !share)) return false;
+    scene.box_size = *box;
+    scene.radius = given_radius ? *given_radius
+                                : *box * std::sqrt(*share / (static_cast<double>(scene.n_discs) * std::numbers::pi));
+    return check_sizes(check, given_radius ? *radius : *packing);
+}
+
+/// Random insertion stalls above a packing of about 0.54: denser requests start from a lattice.
+void check_generator(const Check& check) {
+    Scene& scene = check.scene;
+    if (scene.generator == Generator::random && scene.packing() > largest_random_packing) {
+        scene.generator = Generator::lattice;
+        scene.warnings.push_back(fmt::format("random insertion stalls above a packing of {}; the {} discs (packing {:.4g}) "
+                                             "start from a shaken lattice", largest_random_packing, scene.n_discs,
+                                             scene.packing()));
+    }
+    if (scene.generator == Generator::lattice && !widest_lattice(scene.n_discs, scene.box_size, scene.radius)) {
+        const Setting* setting = check.settings.find("discs.radius");
+        if (!setting) setting = check.settings.find("discs.packing");
+        check.refuse(*setting, fmt::format("no lattice of {} discs of radius {} fits into a box of side {}", scene.n_discs,
+                                           scene.radius, scene.box_size));
+    }
+}
+
+void fill_velocities(const Check& check) {
+    static constexpr Choices<VelocityKind, 2> kinds = {{{"maxwell", VelocityKind::maxwell}, {"uniform", VelocityKind::uniform}}};
+    if (const auto kind = choice(check, "discs.velocities", kinds)) check.scene.velocities = *kind;
+    if (const auto speed = finite_number(check, "discs.speed")) {
+        const bool is_sane = *speed == 0 || (*speed >= smallest_size && *speed <= 0x1p-8 * largest_size);
+        if (!is_sane)
+            check.refuse(*check.settings.find("discs.speed"),
+                         fmt::format("'discs.speed' must be 0, or from 2^-250 to 2^242, not {}", *speed));
+        check.scene.speed = *speed;
+    }
+    const std::int64_t largest_seed = check.scene.generator == Generator::ancestor ? 0xFFFFFFFFll : INT64_MAX;
+    if (const auto seed = whole_number(check, "discs.seed", 0, largest_seed)) check.scene.seed = static_cast<std::uint64_t>(*seed);
+}
+
+void fill_streams(const Check& check) {
+    const Setting* streams = check.settings.find("discs.streams");
+    if (!streams) return;
+    for (const StreamRows& row : std::get<std::vector<StreamRows>>(streams->value)) {
+        const Stream stream{row.region[0], row.region[1], row.region[2], row.region[3], row.velocity[0], row.velocity[1]};
+        const bool is_finite = std::isfinite(stream.x_low) && std::isfinite(stream.y_low) && std::isfinite(stream.x_high) &&
+                               std::isfinite(stream.y_high);
+        if (!is_finite || !(stream.x_low < stream.x_high && stream.y_low < stream.y_high))
+            add_problem(check.problems, row.place, "the region of a stream must be finite, with x0 < x1 and y0 < y1");
+        for (const double component : row.velocity)
+            if (std::string text = velocity_problem(component); !text.empty()) add_problem(check.problems, row.place, std::move(text));
+        check.scene.streams.push_back(stream);
+    }
+}
+
+void fill_time(const Check& check) {
+    static constexpr Choices<CollisionRule, 2> rules = {{{"one", CollisionRule::one}, {"all", CollisionRule::all}}};
+    Scene& scene = check.scene;
+    if (const auto rule = choice(check, "time.collisions", rules)) scene.rule = *rule;
+    check.refuse_missing("time.steps", "how many steps to run");
+    if (const auto steps = whole_number(check, "time.steps", 0, largest_steps)) scene.steps = *steps;
+    if (const auto micro = whole_number(check, "time.micro_steps", 1, largest_steps)) scene.micro_steps = *micro;
+    if (const auto sync = whole_number(check, "time.sync_every", 1, std::int64_t{1} << 30)) scene.sync_every = *sync;
+    if (scene.steps > largest_steps / scene.micro_steps)
+        check.refuse(*check.settings.find("time.steps"),
+                     fmt::format("{} steps of {} micro-steps are more than 2^53 micro-steps", scene.steps, scene.micro_steps));
+    if (!std::has_single_bit(static_cast<std::uint64_t>(scene.micro_steps)))
+        scene.warnings.push_back(fmt::format("time.micro_steps = {} is not a power of two: velocities are rounded when they are "
+                                             "divided by it", scene.micro_steps));
+    if (const auto accuracy = finite_number(check, "time.accuracy")) {
+        if (!(*accuracy > 0))
+            check.refuse(*check.settings.find("time.accuracy"), fmt::format("'time.accuracy' must be greater than 0, not {}", *accuracy));
+        scene.accuracy = *accuracy;
+    }
+}
+
+void fill_output(const Check& check) {
+    static constexpr Choices<TextOutput, 3> outputs = {
+        {{"none", TextOutput::none}, {"ends", TextOutput::first_and_last}, {"every_step", TextOutput::every_step}}};
+    if (const auto output = choice(check, "output.text", outputs)) check.scene.text_output = *output;
+}
+
+} // namespace
+
+void fill_scene(Scene& scene, const Settings& settings, Problems& problems) {
+    const Check check{scene, settings, problems};
+    fill_time(check);
+    fill_output(check);
+    fill_generator(check);
+    fill_velocities(check);
+    fill_streams(check);
+    fill_listed_discs(check);
+    fill_count(check);
+    if (fill_sizes(check)) {
+        check_listed_discs(check);
+        check_generator(check);
+    }
+    refuse_unbuilt(scene, settings, problems);
+}
+
+void refuse_unbuilt(const Scene& scene, const Settings& settings, Problems& problems) {
+    if (const Setting* rule = settings.find("time.collisions"); rule && scene.rule == CollisionRule::all)
+        add_problem(problems, rule->place, "collisions = \"all\" is not available in this version");
+    if (const Setting* accuracy = settings.find("time.accuracy"))
+        add_problem(problems, accuracy->place, "'time.accuracy' is not available in this version");
+}
+
+} // namespace carrom

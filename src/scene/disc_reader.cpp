@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carrom/scene/disc_reader.hpp"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "limits.hpp"
+#include "line_reader.hpp"
+#include "number.hpp"
+
+namespace carrom {
+
+class DiscReader::Lines : public LineReader {
+public:
+    using LineReader::LineReader;
+};
+
+DiscReader::DiscReader(std::istream& stream, const Scene& scene)
+    : scene_(scene), place_(scene.discs_file.empty() ? scene.name : discs_path(scene)),
+      lines_(std::make_unique<Lines>(stream, scene.discs_file.empty() ? scene.lines_before_discs : 0)), seen_(scene.n_discs) {}
+
+DiscReader::~DiscReader() = default;
+
+bool DiscReader::read(std::vector<InputDisc>& chunk, std::size_t limit) {
+    chunk.clear();
+    std::string_view line;
+    while (chunk.size() < limit && lines_->next(line)) {
+        if (lines_->is_cut()) {
+            refuse(fmt::format("a line of more than {} characters", LineReader::longest_line));
+            continue;
+        }
+        InputDisc disc;
+        if (!trimmed(line).empty() && parse(line, disc)) chunk.push_back(disc);
+    }
+    return !chunk.empty();
+}
+
+std::vector<Problem> DiscReader::problems() const {
+    std::vector<Problem> all = problems_;
+    if (n_problems_ > problems_.size())
+        all.push_back({place_, 0, fmt::format("and {} more lines with problems", n_problems_ - problems_.size())});
+    if (n_seen_ < seen_.size()) all.push_back({place_, 0, missing_ids()});
+    return all;
+}
+
+/// Whether the line is a disc; otherwise its first problem is noted.
+bool DiscReader::parse(std::string_view line, InputDisc& disc) {
+    split_words(line, 5, words_);
+    const bool has_id = note_id(words_[0], disc.id);
+    if (!has_id) return false;
+    if (words_.size() < 5) {
+        refuse(fmt::format("expected 'id x y vx vy', found only {} of the 5 numbers", words_.size()));
+        return false;
+    }
+    const std::array<double*, 4> numbers = {&disc.x, &disc.y, &disc.vx, &disc.vy};
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const auto number = parse_double(words_[i + 1]);
+        if (!number) {
+            refuse(fmt::format("{} is not a number", quoted(words_[i + 1])));
+            return false;
+        }
+        *numbers[i] = *number;
+    }
+    if (words_.size() > 5) {
+        refuse(fmt::format("{} after the 5 numbers 'id x y vx vy'", quoted(words_[5])));
+        return false;
+    }
+    std::string text = disc_problem(disc, scene_);
+    if (text.empty()) return true;
+    refuse(std::move(text));
+    return false;
+}
+
+bool DiscReader::note_id(std::string_view word, DiscId& id) {
+    const auto number = parse_id(word);
+    const auto integer = parse_integer(word);
+    if (!number && !integer) {
+        refuse(fmt::format("{} is not the id of a disc", quoted(word)));
+    } else if (!number || *number >= seen_.size()) {
+        refuse(fmt::format("disc {} is out of range: ids are 0 to {}", word, seen_.size() - 1));
+    } else if (seen_[*number]) {
+        refuse(fmt::format("disc {} is listed twice", *number));
+    } else {
+        seen_[*number] = true;
+        n_seen_ += 1;
+        id = *number;
+        return true;
+    }
+    return false;
+}
+
+void DiscReader::refuse(std::string text) {
+    n_problems_ += 1;
+    if (problems_.size() < most_problems) problems_.push_back({place_, lines_->line_number(), std::move(text)});
+}
+
+std::string DiscReader::missing_ids() const {
+    constexpr std::size_t most_ranges = 10;
+    std::string list;
+    std::size_t n_ranges = 0;
+    for (std::size_t id = 0; id < seen_.size() && n_ranges <= most_ranges; ++id) {
+        if (seen_[id]) continue;
+        const std::size_t first = id;
+        while (id + 1 < seen_.size() && !seen_[id + 1]) ++id;
+        if (++n_ranges > most_ranges) list += ", ...";
+        else list += fmt::format("{}{}", list.empty() ? "" : ", ", first == id ? fmt::format("{}", id) : fmt::format("{}-{}", first, id));
+    }
+    return fmt::format("{} of {} discs are missing: {}", seen_.size() - n_seen_, seen_.size(), list);
+}
+
+} // namespace carrom

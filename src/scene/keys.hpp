@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The keys a scene may have, and the one a misspelt key was most likely meant to be.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace carrom {
+
+enum class ValueKind { number, integer, text, rows, streams };
+
+/// What the key "table.name" holds, or nothing where there is no such key.
+std::optional<ValueKind> kind_of_key(std::string_view key);
+
+/// Whether `key` has a say in what discs the generator of that name makes; a key without one is an error.
+bool has_meaning_for(std::string_view generator, std::string_view key);
+
+/// "no such key; did you mean 'time.steps'?" with the nearest known key by edit distance, or why this version has
+/// none (`effects` and most of `output`).
+std::string unknown_key_text(std::string_view key);
+
+/// The same for a name out of a few.
+std::string nearest_of(std::string_view name, const std::string_view* names, std::size_t n_names);
+
+/// Insertions, deletions and replacements that turn `a` into `b`.
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+} // namespace carrom

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "limits.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace carrom {
+
+std::string velocity_problem(double component) {
+    const double size = std::fabs(component);
+    if (!std::isfinite(component)) return fmt::format("the velocity {} is not a finite number", component);
+    if (size > largest_size) return fmt::format("the velocity {} is too large (at most 2^250)", component);
+    if (size != 0 && size < smallest_size) return fmt::format("the velocity {} is too small (0, or at least 2^-250)", component);
+    return {};
+}
+
+std::string disc_problem(const InputDisc& disc, const Scene& scene) {
+    // L - r and whatever wrote the input round to within an ulp of L, at most 2^-52 L.
+    const double slack = 0x1p-52 * scene.box_size;
+    const double low = scene.radius - slack, high = (scene.box_size - scene.radius) + slack;
+    for (const double centre : {disc.x, disc.y}) {
+        if (!std::isfinite(centre)) return fmt::format("the position {} is not a finite number", centre);
+        if (centre < low || centre > high)
+            return fmt::format("disc {} at ({}, {}) is not inside the box: centres lie between r = {} and L - r = {}",
+                               disc.id, disc.x, disc.y, scene.radius, scene.box_size - scene.radius);
+    }
+    for (const double component : {disc.vx, disc.vy})
+        if (std::string text = velocity_problem(component); !text.empty()) return text;
+    return {};
+}
+
+} // namespace carrom

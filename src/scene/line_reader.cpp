@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "line_reader.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace carrom {
+
+namespace {
+constexpr std::size_t block = std::size_t{1} << 18;
+}
+
+LineReader::LineReader(std::istream& stream, std::int64_t lines_before)
+    : stream_(stream), buffer_(block), line_number_(lines_before) {}
+
+bool LineReader::next(std::string_view& line) {
+    if (is_cut_) skip_rest_of_line();
+    std::size_t searched = 0;
+    for (;;) {
+        const std::size_t available = end_ - begin_;
+        const std::size_t length = find_line_end(searched);
+        if (length < available || available > longest_line) {
+            is_cut_ = length > longest_line;
+            line = {buffer_.data() + begin_, std::min(length, longest_line)};
+            begin_ += is_cut_ ? longest_line : length + 1;
+            break;
+        }
+        searched = available;
+        if (refill()) continue;
+        if (available == 0) return false;
+        line = {buffer_.data() + begin_, available}; // the last line has no end
+        begin_ = end_;
+        break;
+    }
+    line_number_ += 1;
+    return true;
+}
+
+/// Characters before the first line end in the buffer, or all of them; the first `searched` are known to hold none.
+std::size_t LineReader::find_line_end(std::size_t searched) const {
+    const char* first = buffer_.data() + begin_;
+    const std::size_t available = end_ - begin_;
+    if (searched == available) return available;
+    const void* found = std::memchr(first + searched, '\n', available - searched);
+    return found ? static_cast<std::size_t>(static_cast<const char*>(found) - first) : available;
+}
+
+void LineReader::skip_rest_of_line() {
+    is_cut_ = false;
+    for (;;) {
+        const std::size_t length = find_line_end(0);
+        if (length < end_ - begin_) {
+            begin_ += length + 1;
+            return;
+        }
+        begin_ = end_;
+        if (!refill()) return;
+    }
+}
+
+bool LineReader::refill() {
+    std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_), buffer_.begin() + static_cast<std::ptrdiff_t>(end_),
+              buffer_.begin());
+    end_ -= begin_;
+    begin_ = 0;
+    stream_.read(buffer_.data() + end_, static_cast<std::streamsize>(buffer_.size() - end_));
+    const auto count = static_cast<std::size_t>(stream_.gcount());
+    end_ += count;
+    return count > 0;
+}
+
+} // namespace carrom

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lines of a stream in bounded memory: a line without an end must not fill the machine.
+//
+// Reads blocks, so what follows the last line taken is lost to other readers of the stream.
+#pragma once
+
+#include <cstdint>
+#include <istream>
+#include <string_view>
+#include <vector>
+
+namespace carrom {
+
+class LineReader {
+public:
+    static constexpr std::size_t longest_line = 4096;
+
+    /// `lines_before` lines of the stream have been read by somebody else. The stream must outlive the reader.
+    LineReader(std::istream& stream, std::int64_t lines_before);
+
+    /// The next line without its end; false at the end of the stream. `line` stays valid until the next call.
+    /// A line longer than `longest_line` is cut there and the rest of it is skipped.
+    bool next(std::string_view& line);
+
+    std::int64_t line_number() const { return line_number_; }
+    bool is_cut() const { return is_cut_; }
+
+private:
+    bool refill();
+    std::size_t find_line_end(std::size_t searched) const;
+    void skip_rest_of_line();
+
+    std::istream& stream_;
+    std::vector<char> buffer_;
+    std::size_t begin_ = 0, end_ = 0;
+    std::int64_t line_number_;
+    bool is_cut_ = false;
+};
+
+} // namespace carrom

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Numbers from text by std::from_chars: exact, and the same in every locale. The whole text must be the number.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace carrom {
+
+std::optional<double> parse_double(std::string_view text);
+std::optional<std::int64_t> parse_integer(std::string_view text);
+std::optional<std::uint64_t> parse_id(std::string_view text);
+
+/// Without blanks (space, tab, carriage return) at either end.
+std::string_view trimmed(std::string_view text);
+
+/// The words of `line` that blanks part, at most `limit` of them; more words than that end in one last entry.
+void split_words(std::string_view line, std::size_t limit, std::vector<std::string_view>& words);
+
+/// `text` in quotes, cut to a readable length, with control characters shown as `?`.
+std::string quoted(std::string_view text);
+
+} // namespace carrom

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "overrides.hpp"
+
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "keys.hpp"
+#include "number.hpp"
+#include "toml_settings.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// Pairs that say the same thing in two ways; the one from the command line wins.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> rivals = {
+    {{"discs.radius", "discs.packing"}, {"discs.file", "discs.list"}}};
+
+void remove_rivals(Settings& settings, const Settings& given) {
+    for (const auto& [a, b] : rivals) {
+        if (given.has(a) && !given.has(b)) settings.remove(b);
+        if (given.has(b) && !given.has(a)) settings.remove(a);
+    }
+    if (given.has("discs.file") || given.has("discs.list")) settings.remove("discs.generator");
+    const Setting* generator = given.find("discs.generator");
+    if (!generator) return;
+    const std::vector<Setting> present = settings.all();
+    for (const Setting& setting : present)
+        if (!has_meaning_for(std::get<std::string>(generator->value), setting.key)) settings.remove(setting.key);
+}
+
+} // namespace
+
+void add_overrides(Settings& settings, Problems& problems, const std::vector<std::string>& overrides) {
+    Settings given;
+    for (const std::string& text : overrides) {
+        const std::size_t equals = text.find('=');
+        const std::string key{trimmed(std::string_view(text).substr(0, equals))};
+        const Place place{"--set " + key, 0};
+        if (equals == std::string::npos || key.empty())
+            add_problem(problems, place, fmt::format("{} is not of the form key=value", quoted(text)));
+        else if (!kind_of_key(key))
+            add_problem(problems, place, unknown_key_text(key));
+        else
+            add_toml_value(given, problems, key, std::string(trimmed(std::string_view(text).substr(equals + 1))), place);
+    }
+    remove_rivals(settings, given);
+    for (const Setting& setting : given.all()) settings.set(setting);
+}
+
+} // namespace carrom

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Settings from the command line, `key=value`. They replace what the input says, and whatever excludes them there:
+// `discs.packing` replaces a radius, another generator the keys that have no meaning for it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "settings.hpp"
+
+namespace carrom {
+
+void add_overrides(Settings& settings, Problems& problems, const std::vector<std::string>& overrides);
+
+} // namespace carrom

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carrom/scene/random_numbers.hpp"
+
+#include <cmath>
+
+#include <Random123/philox.h>
+
+namespace carrom {
+
+std::array<std::uint64_t, 4> random_words(std::uint64_t seed, Purpose purpose, DiscId id, std::uint64_t attempt,
+                                          std::uint64_t block) {
+    const r123::Philox4x64::ctr_type counter = {{id, attempt, block, 0}};
+    const r123::Philox4x64::key_type key = {{seed, static_cast<std::uint64_t>(purpose)}};
+    const r123::Philox4x64::ctr_type words = r123::Philox4x64{}(counter, key);
+    return {words[0], words[1], words[2], words[3]};
+}
+
+double DiscRandom::uniform() {
+    if (used_ == words_.size()) {
+        words_ = random_words(seed_, purpose_, id_, 0, block_++);
+        used_ = 0;
+    }
+    return unit_number(words_[used_++]);
+}
+
+Direction random_direction(DiscRandom& random) {
+    for (;;) {
+        const double x = 2 * random.uniform() - 1;
+        const double y = 2 * random.uniform() - 1;
+        const double square = x * x + y * y;
+        if (square > 1 || square < 0x1p-20) continue; // very short ones would have coarse directions
+        const double length = std::sqrt(square);
+        return {x / length, y / length};
+    }
+}
+
+double random_exponential(DiscRandom& random) {
+    // A first number x is followed by numbers that fall, x >= u2 >= u3 >= ..., until one rises. That one has an even
+    // place with probability 1 - x + x^2/2! - ... = exp(-x). Each failure adds 1, so the whole is exp(-(1 + x)), ...
+    for (double whole = 0;; whole += 1) {
+        const double first = random.uniform();
+        double last = first;
+        bool rises_at_even = true;
+        for (;;) {
+            const double next = random.uniform();
+            if (next > last) break;
+            last = next;
+            rises_at_even = !rises_at_even;
+        }
+        if (rises_at_even) return whole + first;
+    }
+}
+
+} // namespace carrom

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carrom/scene/read_scene.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <limits>
+#include <sstream>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "ancestor_header.hpp"
+#include "checked_scene.hpp"
+#include "line_reader.hpp"
+#include "number.hpp"
+#include "overrides.hpp"
+#include "settings.hpp"
+#include "toml_settings.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr std::size_t longest_toml = std::size_t{64} << 20;
+
+bool is_toml(const std::string& name) { return std::filesystem::path(name).extension() == ".toml"; }
+
+[[noreturn]] void refuse(const std::string& name, std::int64_t line, const std::string& text) {
+    throw InputError({{name, line, text}});
+}
+
+void check_stream(const std::istream& stream, const std::string& name) {
+    if (stream.bad()) refuse(name, 0, "cannot be read to its end");
+}
+
+std::string read_all(std::istream& stream, const std::string& name) {
+    std::string text;
+    std::string block(std::size_t{1} << 16, '\0');
+    while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) || stream.gcount() > 0) {
+        text.append(block, 0, static_cast<std::size_t>(stream.gcount()));
+        if (text.size() > longest_toml)
+            refuse(name, 0, "a TOML scene of more than 64 MiB; put the discs into a file of their own (discs.file)");
+    }
+    check_stream(stream, name);
+    return text;
+}
+
+/// One line, taken character by character: the stream must stand right behind it afterwards.
+bool take_line(std::istream& stream, std::string& line) {
+    line.clear();
+    for (int c = stream.get(); c != std::istream::traits_type::eof(); c = stream.get()) {
+        line += static_cast<char>(c);
+        if (c == '\n' || line.size() > LineReader::longest_line) break;
+    }
+    return !line.empty();
+}
+
+/// Blank lines before the first disc; true if anything comes after them.
+bool skip_blank(std::istream& stream, std::int64_t& n_lines) {
+    for (int c = stream.peek(); c != std::istream::traits_type::eof(); c = stream.peek()) {
+        if (c != ' ' && c != '\t' && c != '\r' && c != '\n') return true;
+        n_lines += c == '\n';
+        stream.get();
+    }
+    return false;
+}
+
+} // namespace
+
+std::ifstream open_input(const std::string& path) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) refuse(path, 0, "is a directory, not a file");
+    errno = 0;
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) refuse(path, 0, "cannot be opened: " + std::generic_category().message(errno));
+    return stream;
+}
+
+SceneText read_scene_text(std::istream& stream, const std::string& name) {
+    SceneText input{name, {}, 0, false};
+    if (is_toml(name)) {
+        input.text = read_all(stream, name);
+        return input;
+    }
+    std::string line;
+    for (int found = 0; found < ancestor_header_lines && take_line(stream, line);) {
+        input.lines_before_discs += 1;
+        if (line.size() > LineReader::longest_line) refuse(name, input.lines_before_discs, "a line of more than 4096 characters");
+        std::string_view content = line;
+        if (content.back() == '\n') content.remove_suffix(1);
+        found += !trimmed(content).empty();
+        input.text += line;
+    }
+    input.discs_follow = skip_blank(stream, input.lines_before_discs);
+    check_stream(stream, name);
+    return input;
+}
+
+Scene read_scene(const SceneText& input, const std::vector<std::string>& overrides) {
+    Settings settings;
+    Problems problems;
+    bool is_parsed = true;
+    if (is_toml(input.name)) is_parsed = add_toml(settings, problems, input.text, input.name);
+    else add_ancestor_header(settings, problems, input.text, input.name, input.discs_follow);
+    add_overrides(settings, problems, overrides);
+    Scene scene;
+    scene.name = input.name;
+    scene.text = input.text;
+    scene.lines_before_discs = input.lines_before_discs;
+    if (is_parsed) fill_scene(scene, settings, problems);
+    if (!problems.empty()) {
+        const auto line_of = [](const Problem& p) { return p.line > 0 ? p.line : std::numeric_limits<std::int64_t>::max(); };
+        std::stable_sort(problems.begin(), problems.end(),
+                         [&](const Problem& a, const Problem& b) { return line_of(a) < line_of(b); });
+        throw InputError(std::move(problems));
+    }
+    return scene;
+}
+
+Scene read_scene(std::string_view text, const std::string& name, const std::vector<std::string>& overrides) {
+    std::istringstream stream{std::string(text)};
+    return read_scene(read_scene_text(stream, name), overrides);
+}
+
+} // namespace carrom
