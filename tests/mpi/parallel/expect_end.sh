@@ -1,0 +1,18 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# expect_end.sh CODE TIMES TEXT COMMAND ARG...: the command must end with CODE and print TEXT on so many lines of
+# standard error. Where ranks race to abort (TIMES above 1) at least one line is asked for.
+expected_code=$1 times=$2 text=$3
+shift 3
+"$@" 2> stderr.txt
+code=$?
+found=$(grep -c -F -e "$text" stderr.txt)
+cat stderr.txt
+if [ "$code" -ne "$expected_code" ]; then
+    echo "ended with $code, not $expected_code"
+    exit 1
+fi
+if [ "$found" -gt "$times" ] || { [ "$times" -gt 0 ] && [ "$found" -eq 0 ]; }; then
+    echo "\"$text\" was printed on $found lines, not $times"
+    exit 1
+fi

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fails in the way its argument names, on all ranks, on rank 0, or on the last one while the others wait for it.
+#include <stdexcept>
+#include <string>
+
+#include "carrom/core/errors.hpp"
+#include "carrom/parallel/agreement.hpp"
+#include "carrom/parallel/mpi.hpp"
+
+namespace {
+
+int fail_as(const std::string& kind, const carrom::Communicator& communicator) {
+    const bool is_last = communicator.rank() + 1 == communicator.size();
+    const carrom::InputError input_error({{"scene.toml", 7, "the radius is negative"}});
+    if (kind == "input_error") throw input_error;
+    if (kind == "collective_error")
+        carrom::agree(communicator, !is_last, "the disk is full", carrom::ExitCode::output_failure);
+    if (kind == "exception" && communicator.is_root()) throw std::runtime_error("out of luck");
+    if (kind == "broken_invariant") carrom::ensure(!communicator.is_root(), "two is not three");
+    if (kind == "mpi_error") {
+        std::string text;
+        communicator.broadcast(text, communicator.size());
+    }
+    if (kind == "different_codes") return communicator.rank() == 1 ? 5 : 0;
+    if (kind == "lone_exception" && is_last) throw std::runtime_error("out of luck");
+    if (kind == "lone_broken_invariant") carrom::ensure(!is_last, "two is not three");
+    if (kind == "lone_input_error" && is_last) throw input_error;
+    communicator.barrier();
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    carrom::Mpi mpi(argc, argv);
+    const std::string kind = argc > 1 ? argv[1] : "";
+    const auto body = [&kind](const carrom::Communicator& communicator) { return fail_as(kind, communicator); };
+    return carrom::run_on_all(carrom::Communicator::world(), body, 1);
+}
