@@ -40,6 +40,7 @@ std::vector<Problem> DiscReader::problems() const {
     std::vector<Problem> all = problems_;
     if (n_problems_ > problems_.size())
         all.push_back({place_, 0, fmt::format("and {} more lines with problems", n_problems_ - problems_.size())});
+    if (lines_->has_failed()) all.push_back({place_, lines_->line_number(), "cannot be read beyond this line"});
     if (n_seen_ < seen_.size()) all.push_back({place_, 0, missing_ids()});
     return all;
 }

@@ -31,6 +31,20 @@ constexpr std::array keys = {
 
 std::string_view part_after(std::string_view key, std::size_t dot) { return key.substr(dot + 1, key.find('.', dot + 1) - dot - 1); }
 
+/// Of a key without a table, the name is compared with the tables' names and with keys whose table was forgotten.
+std::string nearest_key(std::string_view key) {
+    const bool has_table = key.find('.') != std::string_view::npos;
+    std::vector<std::string_view> names, compared;
+    if (!has_table) names = compared = {"box", "discs", "time", "output", "effects"};
+    for (const Key& known : keys) {
+        names.push_back(known.name);
+        compared.push_back(has_table ? known.name : known.name.substr(known.name.find('.') + 1));
+    }
+    const std::string nearest = nearest_of(key, compared.data(), compared.size());
+    const auto found = std::find(compared.begin(), compared.end(), nearest);
+    return std::string(names[static_cast<std::size_t>(found - compared.begin())]);
+}
+
 } // namespace
 
 std::optional<ValueKind> kind_of_key(std::string_view key) {
@@ -49,9 +63,6 @@ bool has_meaning_for(std::string_view generator, std::string_view key) {
 }
 
 std::string unknown_key_text(std::string_view key) {
-    std::array<std::string_view, keys.size()> names;
-    std::transform(keys.begin(), keys.end(), names.begin(), [](const Key& known) { return known.name; });
-    const std::string nearest = nearest_of(key, names.data(), names.size());
     const std::size_t dot = key.find('.');
     const std::string_view table = key.substr(0, dot);
     if (table == "effects" || table == "output") {
@@ -61,7 +72,7 @@ std::string unknown_key_text(std::string_view key) {
         const bool is_misspelt = table == "output" && edit_distance(name, "text") <= 2;
         return "this version has no " + what + ' ' + quoted(name) + (is_misspelt ? "; did you mean 'output.text'?" : "");
     }
-    return "no such key " + quoted(key) + "; did you mean '" + nearest + "'?";
+    return "no such key " + quoted(key) + "; did you mean '" + nearest_key(key) + "'?";
 }
 
 std::string nearest_of(std::string_view name, const std::string_view* names, std::size_t n_names) {

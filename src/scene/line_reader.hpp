@@ -24,6 +24,7 @@ public:
 
     std::int64_t line_number() const { return line_number_; }
     bool is_cut() const { return is_cut_; }
+    bool has_failed() const { return stream_.bad(); } ///< the end that `next` met was not the stream's end
 
 private:
     bool refill();

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "random_insertion.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "carrom/core/errors.hpp"
+#include "carrom/parallel/exchange.hpp"
+#include "carrom/parallel/slabs.hpp"
+#include "carrom/scene/lattice.hpp"
+#include "carrom/scene/random_numbers.hpp"
+#include "point_grid.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr std::uint64_t most_idle_rounds = 20000; ///< without any disc finding a place, before all starts anew
+constexpr std::uint64_t most_starts = 20;
+constexpr DiscId copy_id = ~DiscId{0};            ///< marks a neighbour's disc among the placed ones
+
+/// A proposal, or the news of a place taken near a strip's edge.
+struct Notice {
+    double x = 0, y = 0;
+    std::uint32_t id = 0;
+    std::uint32_t is_placed = 0;
+};
+
+class Insertion {
+public:
+    Insertion(const Scene& scene, const Communicator& communicator, std::uint64_t start)
+        : scene_(scene), communicator_(communicator), start_(start), diameter_(2 * scene.radius),
+          placed_grid_(grid()), proposal_grid_(grid()) {
+        const std::uint64_t n = scene.n_discs;
+        const std::uint64_t first = slab_begin(communicator.rank(), n, communicator.size());
+        const std::uint64_t last = slab_begin(communicator.rank() + 1, n, communicator.size());
+        for (std::uint64_t id = first; id < last; ++id) unplaced_.push_back(static_cast<std::uint32_t>(id));
+        placed_.reserve(static_cast<std::size_t>(1.1 * share()) + 100);
+    }
+
+    /// The places, or nothing where the discs have jammed. **Collective.**
+    std::optional<std::vector<InputDisc>> run() {
+        std::uint64_t n_left = scene_.n_discs, idle_rounds = 0;
+        for (std::uint64_t round = 0; n_left > 0 && idle_rounds < most_idle_rounds; ++round) {
+            exchange(round);
+            judge();
+            const std::uint64_t n_before = std::exchange(n_left, communicator_.sum(std::uint64_t{unplaced_.size()}));
+            idle_rounds = n_left < n_before ? 0 : idle_rounds + 1;
+        }
+        if (n_left > 0) return std::nullopt;
+        placed_.erase(std::remove_if(placed_.begin(), placed_.end(), [](const InputDisc& d) { return d.id == copy_id; }),
+                      placed_.end());
+        return std::move(placed_);
+    }
+
+private:
+    double share() const { return static_cast<double>(scene_.n_discs) / communicator_.size(); }
+
+    PointGrid grid() const {
+        const double strip = scene_.box_size / communicator_.size();
+        const double low = strip * communicator_.rank() - margin(), high = strip * (communicator_.rank() + 1) + margin();
+        return {low, high, scene_.box_size, diameter_, share()};
+    }
+
+    double margin() const { return diameter_ * (1 + 1e-9); }
+
+    std::size_t owner(double x) const {
+        const double strip = x / scene_.box_size * communicator_.size();
+        return static_cast<std::size_t>(std::clamp(static_cast<int>(strip), 0, communicator_.size() - 1));
+    }
+
+    Point proposal(DiscId id, std::uint64_t round) const {
+        const auto words = random_words(scene_.seed, Purpose::position, id, round, start_);
+        const double low = scene_.radius, high = scene_.box_size - scene_.radius;
+        return {std::min(low + (high - low) * unit_number(words[0]), high),
+                std::min(low + (high - low) * unit_number(words[1]), high)};
+    }
+
+    /// Brings the round's proposals to whom they concern, together with the last round's news. **Collective.**
+    void exchange(std::uint64_t round) {
+        std::vector<std::vector<Notice>> out(static_cast<std::size_t>(communicator_.size()));
+        const auto me = static_cast<std::size_t>(communicator_.rank());
+        if (out.size() == 1) out[0].reserve(unplaced_.size());
+        for (const Notice& news : news_)
+            for (std::size_t k = owner(news.x - margin()); k <= owner(news.x + margin()); ++k)
+                if (k != me) out[k].push_back(news);
+        news_.clear();
+        for (const std::uint32_t id : unplaced_) {
+            const Point place = proposal(id, round);
+            for (std::size_t k = owner(place.x - margin()); k <= owner(place.x + margin()); ++k)
+                out[k].push_back({place.x, place.y, id, 0});
+        }
+        proposals_ = send_to_owners(communicator_, out).items;
+        unplaced_.clear();
+    }
+
+    void judge() {
+        const auto first_proposal = std::partition(proposals_.begin(), proposals_.end(), [](const Notice& n) { return n.is_placed; });
+        for (auto news = proposals_.begin(); news != first_proposal; ++news) place({copy_id, news->x, news->y, 0, 0});
+        proposals_.erase(proposals_.begin(), first_proposal);
+        for (const Notice& notice : proposals_) proposal_grid_.add({notice.x, notice.y});
+        for (const Notice& notice : proposals_) {
+            if (owner(notice.x) != static_cast<std::size_t>(communicator_.rank())) continue;
+            if (is_refused(notice)) {
+                unplaced_.push_back(notice.id);
+            } else {
+                place({notice.id, notice.x, notice.y, 0, 0});
+                if (communicator_.size() > 1) note_news(notice);
+            }
+        }
+        proposal_grid_.clear(proposals_);
+    }
+
+    /// Whether discs accepted earlier in this round are seen here makes no difference: they have lower ids and overlap,
+    /// or they do not overlap.
+    bool is_refused(const Notice& notice) const {
+        const Point at{notice.x, notice.y};
+        return placed_grid_.any_near(at, [&](std::uint32_t k) { return overlaps(at, placed_[k].x, placed_[k].y); }) ||
+               proposal_grid_.any_near(at, [&](std::uint32_t k) {
+                   return proposals_[k].id < notice.id && overlaps(at, proposals_[k].x, proposals_[k].y);
+               });
+    }
+
+    bool overlaps(Point a, double x, double y) const {
+        const double dx = x - a.x, dy = y - a.y;
+        return dx * dx + dy * dy < diameter_ * diameter_;
+    }
+
+    void place(const InputDisc& disc) {
+        placed_grid_.add({disc.x, disc.y});
+        placed_.push_back(disc);
+    }
+
+    void note_news(Notice notice) {
+        if (owner(notice.x - margin()) == owner(notice.x + margin())) return;
+        notice.is_placed = 1;
+        news_.push_back(notice);
+    }
+
+    const Scene& scene_;
+    const Communicator& communicator_;
+    std::uint64_t start_;
+    double diameter_;
+    PointGrid placed_grid_, proposal_grid_;
+    std::vector<InputDisc> placed_;        ///< own discs and, with copy_id, those within a diameter of the strip
+    std::vector<std::uint32_t> unplaced_;  ///< discs whose last proposal was refused here
+    std::vector<Notice> proposals_, news_;
+};
+
+} // namespace
+
+std::vector<InputDisc> insert_at_random(const Scene& scene, const Communicator& communicator) {
+    for (std::uint64_t start = 0; start < most_starts; ++start)
+        if (auto discs = Insertion(scene, communicator, start).run()) return std::move(*discs);
+    throw InputError({{scene.name, 0,
+                       fmt::format("random insertion of {} discs (packing {:.4g}) found no arrangement in {} tries; set "
+                                   "discs.generator to \"lattice\", or another discs.seed",
+                                   scene.n_discs, scene.packing(), most_starts)}});
+}
+
+} // namespace carrom
