@@ -46,9 +46,21 @@ void append_line(fmt::memory_buffer& text, std::int64_t step, const DiscLine& li
     text.push_back('\n');
 }
 
-DiscLines::DiscLines(const Scene& scene, int digits, const Communicator& ranks, std::uint64_t slab)
+DiscLines::DiscLines(const Scene& scene, const std::string& path, int digits, const Communicator& ranks,
+                     std::uint64_t slab)
     : ranks_(ranks), wanted_(scene.text_output), last_step_(scene.steps), n_discs_(scene.n_discs), digits_(digits),
-      slab_(slab) {}
+      slab_(slab), output_(ranks.is_root() ? path : std::string()) {
+    agree_on_failure();
+}
+
+void DiscLines::agree_on_failure() const {
+    agree(ranks_, output_.failure().empty(), output_.failure(), ExitCode::output_failure);
+}
+
+void DiscLines::close() {
+    output_.close();
+    agree_on_failure();
+}
 
 std::int64_t DiscLines::next_due(std::int64_t step) const {
     return wanted_ == TextOutput::every_step ? std::min(step + 1, last_step_) : last_step_;
@@ -93,7 +105,7 @@ void DiscLines::write_slab(std::uint64_t begin, std::uint64_t end, std::int64_t 
         output_.flush_if_full();
     }
     output_.flush();
-    agree(ranks_, output_.failure().empty(), output_.failure(), ExitCode::output_failure);
+    agree_on_failure();
 }
 
 } // namespace carrom

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discs of a step as lines on standard output, in id order: `step id x y vx vy`, with ` p_c w_c` on the last step.
+// The discs of a step as lines of text, in id order: `step id x y vx vy`, with ` p_c w_c` on the last step.
 //
 // Each rank sorts its own discs by id; then slab after slab of ids travels to rank 0, which never holds more than one.
 // Price: a sort of indices (4 bytes per disc), every disc sent once, some 0.5 us per line on rank 0.
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "carrom/parallel/communicator.hpp"
 #include "carrom/scene/scene.hpp"
 #include "carrom/simulation/simulation.hpp"
-#include "standard_output.hpp"
+#include "data_output.hpp"
 
 namespace carrom {
 
@@ -29,7 +30,9 @@ class DiscLines {
 public:
     static constexpr std::uint64_t default_slab = 1 << 16;
 
-    DiscLines(const Scene& scene, int digits, const Communicator& ranks, std::uint64_t slab = default_slab);
+    /// Writes to the file `path`, or to standard output if it is empty. `ranks` must outlive this.
+    DiscLines(const Scene& scene, const std::string& path, int digits, const Communicator& ranks,
+              std::uint64_t slab = default_slab);
 
     /// The next step after `step` that is to be written, or the last one.
     std::int64_t next_due(std::int64_t step) const;
@@ -37,8 +40,12 @@ public:
     /// Writes the present step if the scene asks for it. If that fails every rank throws. **Collective.**
     void write_if_due(const Simulation& simulation);
 
+    /// After the last step: makes sure that all of it has been taken. If not every rank throws. **Collective.**
+    void close();
+
 private:
     bool is_due(std::int64_t step) const;
+    void agree_on_failure() const;
     void write(const Simulation& simulation);
     void write_slab(std::uint64_t begin, std::uint64_t end, std::int64_t step, const std::vector<DiscLine>& mine);
 
@@ -48,7 +55,7 @@ private:
     std::uint64_t n_discs_;
     int digits_;
     std::uint64_t slab_;
-    StandardOutput output_;
+    DataOutput output_;
 };
 
 } // namespace carrom

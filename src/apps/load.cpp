@@ -12,6 +12,7 @@
 #include "carrom/parallel/agreement.hpp"
 #include "carrom/scene/read_scene.hpp"
 #include "carrom/simulation/initial_state.hpp"
+#include "data_output.hpp"
 #include "report_file.hpp"
 
 namespace carrom {
@@ -47,12 +48,23 @@ void broadcast(SceneText& text, const Communicator& ranks) {
     text.discs_follow = discs_follow == 1;
 }
 
-void check_report(const RunOptions& options, Problems& problems) {
-    if (options.report.empty()) return;
-    std::error_code no_such_files;
-    std::string obstacle = obstacle_to_writing(options.report);
-    if (std::filesystem::equivalent(options.report, options.input, no_such_files)) obstacle = "is the input itself";
-    if (!obstacle.empty()) problems.push_back({"--report " + options.report, 0, obstacle});
+bool is_same_file(const std::string& a, const std::string& b) {
+    std::error_code ignored; // a file that is not there is no other one
+    return std::filesystem::equivalent(a, b, ignored);
+}
+
+/// A run must not end in a file that cannot be written, nor begin by emptying its own input.
+void check_destination(const char* option, const std::string& path, std::string obstacle, const RunOptions& options,
+                       Problems& problems) {
+    if (is_same_file(path, options.input)) obstacle = "is the input itself";
+    if (!obstacle.empty()) problems.push_back({fmt::format("{} {}", option, path), 0, obstacle});
+}
+
+void check_destinations(const RunOptions& options, Problems& problems) {
+    if (!options.output.empty())
+        check_destination("--output", options.output, obstacle_to_opening(options.output), options, problems);
+    if (!options.report.empty())
+        check_destination("--report", options.report, obstacle_to_writing(options.report), options, problems);
 }
 
 /// The scene; `stream`, on rank 0, is left at the first line of discs. **Collective.**
@@ -63,7 +75,7 @@ Scene load_scene(const RunOptions& options, const Problems& problems_so_far, con
     bool is_readable = true;
     if (ranks.is_root()) {
         problems = problems_so_far;
-        check_report(options, problems);
+        check_destinations(options, problems);
         if (options.input.empty())
             problems.push_back({"carrom run", 0, "no input; name a SCENE.toml, a FILE.in, or - for standard input"});
         is_readable = !options.input.empty() && collect(problems, [&] {

@@ -51,7 +51,7 @@ void tell(const RunOptions& options, const Scene& scene, const RunResult& result
 void step_to_end(Simulation& simulation, RunResult& result, double& output_seconds, const RunOptions& options,
                  const Scene& scene, const Communicator& ranks) {
     Stopwatch watch;
-    DiscLines lines(scene, options.digits, ranks);
+    DiscLines lines(scene, options.output, options.digits, ranks);
     Progress progress(simulation.step(), scene.steps, ranks.is_root() && !options.quiet);
     lines.write_if_due(simulation);
     output_seconds += watch.lap();
@@ -62,6 +62,7 @@ void step_to_end(Simulation& simulation, RunResult& result, double& output_secon
         progress.show(simulation.step());
         output_seconds += watch.lap();
     }
+    lines.close();
 }
 
 /// The run itself. **Collective.**

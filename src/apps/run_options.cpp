@@ -84,6 +84,9 @@ void declare_run_options(CLI::App& command, RunWords& words) {
     command.add_option("--digits", words.digits,
                        "17 (the default): 17 significant digits, which read back as the same bits; "
                        "1 to 16: that many decimals (8 gives the ancestor's look)")->type_name("D");
+    command.add_option("--output", words.output,
+                       "Write the lines to FILE, not to standard output (under mpirun only so a full disk is noticed)")
+        ->type_name("FILE");
     command.add_option("--report", words.report, "Write the summary's numbers to FILE as JSON")->type_name("FILE");
     command.add_flag("--quiet", words.quiet, "No progress and no summary; errors are still told");
     const std::string group = "Cost only, never bits";
@@ -106,6 +109,7 @@ RunOptions checked_run_options(const RunWords& words, std::vector<Problem>& prob
     RunOptions options;
     options.input = words.input;
     options.overrides = words.overrides;
+    options.output = words.output;
     options.report = words.report;
     options.quiet = words.quiet;
     options.threads = checker.integer<int>("--threads", words.threads, 1, 1024);

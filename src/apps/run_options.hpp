@@ -19,6 +19,7 @@ struct RunOptions {
     std::string input;                  ///< a file's name, or "-" for standard input
     std::vector<std::string> overrides; ///< key=value, over what the input says
     int digits = round_trip_digits;
+    std::string output;                 ///< a file for the lines of text; empty for standard output
     std::string report;                 ///< empty for none
     bool quiet = false;
     std::optional<int> threads;
@@ -27,7 +28,7 @@ struct RunOptions {
 
 /// The words of the command line as they stand.
 struct RunWords {
-    std::string input, threads, steps, digits, report;
+    std::string input, threads, steps, digits, output, report;
     std::string window, cell_width, rebalance_every, rebalance_above;
     std::vector<std::string> overrides;
     bool quiet = false;

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the data of a run goes, standard output or a file: large writes, and a failure that is remembered instead of
+// ending the process.
+//
+// Works on a file descriptor: a closed pipe or a full disk is then an errno at a known place. The caller tells the
+// other ranks of a failure. Under mpirun standard output is a pipe to mpirun, which keeps a full disk to itself; a file
+// is written by the program.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace carrom {
+
+class DataOutput {
+public:
+    /// Opens the file, emptying it; standard output where `path` is empty. From here on a closed pipe is an error of
+    /// `flush`, not the end of the process.
+    explicit DataOutput(const std::string& path);
+    ~DataOutput();
+    DataOutput(const DataOutput&) = delete;
+    DataOutput& operator=(const DataOutput&) = delete;
+
+    /// Text to append to; full buffers are written by `flush_if_full`.
+    fmt::memory_buffer& buffer() { return buffer_; }
+
+    void flush_if_full();
+    void flush();
+
+    /// Some file systems tell of a full disk only when a file is closed. Nothing may be written after this.
+    void close();
+
+    /// What went wrong first, empty while all is well. After a failure nothing more is written.
+    const std::string& failure() const { return failure_; }
+
+private:
+    static constexpr std::size_t full = std::size_t{1} << 20;
+
+    void fail_with(int error);
+
+    std::string name_;
+    int file_;
+    bool is_ours_;
+    fmt::memory_buffer buffer_;
+    std::string failure_;
+};
+
+/// What would keep a DataOutput from opening `path`, empty if nothing is known to. Leaves the file as it is.
+std::string obstacle_to_opening(const std::string& path);
+
+} // namespace carrom
