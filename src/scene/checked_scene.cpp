@@ -210,7 +210,7 @@ bool fill_sizes(const Check& check) {
 /// Random insertion stalls above a packing of about 0.54: denser requests start from a lattice.
 void check_generator(const Check& check) {
     Scene& scene = check.scene;
-    if (scene.generator == Generator::random && scene.packing() > largest_random_packing) {
+    if (scene.generator == Generator::random && scene.packing() > largest_random_packing * (1 + 1e-12)) {
         scene.generator = Generator::lattice;
         scene.warnings.push_back(fmt::format("random insertion stalls above a packing of {}; the {} discs (packing {:.4g}) "
                                              "start from a shaken lattice", largest_random_packing, scene.n_discs,
