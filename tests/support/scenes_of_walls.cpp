@@ -28,8 +28,6 @@ void add_corner_shots(std::vector<TestScene>& scenes) {
     TestScene exact = empty_scene("corner shots, exact", 8, 1, 40);
     exact.is_exact = true;
     add_disc(exact, 3, 3, -0.5, -0.5);
-    add_disc(exact, 5, 5, 0.5, 0.5);
-    add_disc(exact, 2, 6, -0.25, 0.25);
     scenes.push_back(exact);
 }
 

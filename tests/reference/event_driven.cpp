@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "event_driven.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+namespace carrom::reference {
+
+EventDrivenReference::EventDrivenReference(const Setting& setting, std::span<const InputDisc> discs, std::size_t most_events)
+    : setting_(setting), discs_(stored_states(setting, discs)), past_(discs.size()), most_events_(most_events) {
+    predict_all();
+}
+
+void EventDrivenReference::run_micro_steps(std::int64_t count) {
+    const std::int64_t last = micro_step_ + count;
+    while (micro_step_ < last) {
+        const std::int64_t next_sync = (micro_step_ / setting_.sync_every + 1) * setting_.sync_every;
+        const std::int64_t until = std::min(last, next_sync);
+        run_until(static_cast<double>(until - (next_sync - setting_.sync_every)));
+        micro_step_ = until;
+        if (until < next_sync) continue;
+        for (Disc& disc : discs_) {
+            advance(disc, static_cast<double>(setting_.sync_every));
+            disc.tau = 0;
+        }
+        predict_all();
+    }
+}
+
+bool EventDrivenReference::comes_later(const Prediction& a, const Prediction& b) {
+    const auto key = [](const Event& e) { return std::make_tuple(e.time, e.generation, e.p, e.is_pair, e.q); };
+    return key(a.event) > key(b.event);
+}
+
+void EventDrivenReference::run_until(double time) {
+    while (!heap_.empty() && heap_.front().event.time <= time) {
+        std::pop_heap(heap_.begin(), heap_.end(), comes_later);
+        const Prediction next = heap_.back();
+        heap_.pop_back();
+        if (is_valid(next)) happen(next.event);
+    }
+}
+
+void EventDrivenReference::predict_all() {
+    heap_.clear();
+    for (Past& past : past_) {
+        past.time = -1;
+        past.partner = Past::no_partner;
+    }
+    for (DiscId p = 0; p < discs_.size(); ++p) {
+        predict_walls(p);
+        for (DiscId q = p + 1; q < discs_.size(); ++q) predict_pair(p, q);
+    }
+}
+
+void EventDrivenReference::predict_walls(DiscId p) {
+    const Disc& disc = discs_[p];
+    const auto predict = [&](double x, double v, DiscId axis) {
+        if (v == 0) return;
+        const double wall = v < 0 ? setting_.radius : setting_.box_size - setting_.radius;
+        const double delay = (wall - x) / v;
+        push({disc.tau + (delay > 0 ? delay : 0), 0, p, false, axis, 0});
+    };
+    predict(disc.x, disc.vx, Event::wall_x);
+    predict(disc.y, disc.vy, Event::wall_y);
+}
+
+void EventDrivenReference::predict_pair(DiscId p, DiscId q) {
+    if (p > q) std::swap(p, q);
+    if (past_[p].partner == q && past_[q].partner == p) return;
+    const Contact found = contact(discs_[p], discs_[q], 2 * setting_.radius, std::numeric_limits<double>::infinity());
+    if (found.delay >= 0) push({found.base + found.delay, 0, p, true, q, 0});
+}
+
+/// Later events than the next sync are dropped: the sync rewrites the states that they follow from.
+void EventDrivenReference::push(Event event) {
+    if (!(event.time <= static_cast<double>(setting_.sync_every))) return;
+    const auto raise = [&event, this](DiscId id) {
+        if (past_[id].time == event.time) event.generation = std::max(event.generation, past_[id].generation + 1);
+    };
+    raise(event.p);
+    if (event.is_pair) raise(event.q);
+    heap_.push_back({event, past_[event.p].version, event.is_pair ? past_[event.q].version : 0});
+    std::push_heap(heap_.begin(), heap_.end(), comes_later);
+}
+
+bool EventDrivenReference::is_valid(const Prediction& prediction) const {
+    const Event& event = prediction.event;
+    return past_[event.p].version == prediction.p_version &&
+           (!event.is_pair || past_[event.q].version == prediction.q_version);
+}
+
+void EventDrivenReference::happen(const Event& event) {
+    if (log_.size() == most_events_) throw std::runtime_error("more collisions than a test should have");
+    Disc& p = discs_[event.p];
+    advance(p, event.time);
+    if (event.is_pair) {
+        Disc& q = discs_[event.q];
+        advance(q, event.time);
+        exchange_momentum(p, q);
+        p.pair_collisions += 1;
+        q.pair_collisions += 1;
+        pair_collisions_ += 1;
+        note(event.q, event.p, event);
+    } else {
+        double& velocity = event.q == Event::wall_x ? p.vx : p.vy;
+        velocity = -velocity;
+        p.wall_collisions += 1;
+        wall_collisions_ += 1;
+    }
+    note(event.p, event.is_pair ? event.q : Past::no_partner, event);
+    log_.push_back(event);
+    log_.back().sync = micro_step_ / setting_.sync_every;
+
+    predict_walls(event.p);
+    if (event.is_pair) predict_walls(event.q);
+    for (DiscId other = 0; other < discs_.size(); ++other) {
+        if (other != event.p) predict_pair(event.p, other);
+        if (event.is_pair && other != event.q && other != event.p) predict_pair(event.q, other);
+    }
+}
+
+void EventDrivenReference::note(DiscId id, DiscId partner, const Event& event) {
+    past_[id].partner = partner;
+    past_[id].time = event.time;
+    past_[id].generation = event.generation;
+    past_[id].version += 1;
+}
+
+} // namespace carrom::reference

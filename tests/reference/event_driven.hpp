@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The rule "all" said plainly (docs/method.md, section 3, second half): every collision at its time, one after another.
+//
+// One heap, brute-force prediction: after each collision its discs are predicted anew against all others. The order is
+// time, generation, id of P, wall before pair, id of Q, x before y. Price: N predicates per collision and N^2/2 a sync.
+//
+// Three readings where the page is silent. A pair that has just collided cannot collide again until one of the two has
+// met something else: in a touching cluster rounding can leave b = -1e-18, which the impulse is too small to mend, and
+// the pair would collide for ever. A sync forgets generations and partners, for they are no part of the stored state.
+// And more than `most_events` collisions throw std::runtime_error: a disc that fills its box has them without end.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "one_rule.hpp"
+
+namespace carrom::reference {
+
+/// One collision that happened. `time` counts from sync number `sync`; for walls, `q` is wall_x or wall_y.
+struct Event {
+    static constexpr DiscId wall_x = 0, wall_y = 1;
+
+    double time = 0;
+    std::uint32_t generation = 0;
+    DiscId p = 0;
+    bool is_pair = false;
+    DiscId q = wall_x;
+    std::int64_t sync = 0;
+
+    friend bool operator==(const Event&, const Event&) = default;
+};
+
+class EventDrivenReference {
+public:
+    EventDrivenReference(const Setting& setting, std::span<const InputDisc> discs, std::size_t most_events = 1000000);
+
+    void run_micro_steps(std::int64_t count);
+    void run_steps(std::int64_t count) { run_micro_steps(count * setting_.micro_steps); }
+
+    std::span<const Disc> discs() const { return discs_; }
+    double clock() const { return static_cast<double>(micro_step_ % setting_.sync_every); }
+    std::uint64_t wall_collisions() const { return wall_collisions_; }
+    std::uint64_t pair_collisions() const { return pair_collisions_; }
+    const std::vector<Event>& log() const { return log_; }
+
+private:
+    struct Prediction {
+        Event event;
+        std::uint64_t p_version = 0, q_version = 0;
+    };
+    /// What a disc's last collision since the sync was; version counts all its collisions.
+    struct Past {
+        static constexpr DiscId no_partner = ~DiscId{0};
+        double time = -1;
+        DiscId partner = no_partner;
+        std::uint32_t generation = 0;
+        std::uint64_t version = 0;
+    };
+
+    static bool comes_later(const Prediction& a, const Prediction& b);
+    void run_until(double time);
+    void predict_all();
+    void predict_walls(DiscId p);
+    void predict_pair(DiscId p, DiscId q);
+    void push(Event event);
+    bool is_valid(const Prediction& prediction) const;
+    void happen(const Event& event);
+    void note(DiscId id, DiscId partner, const Event& event);
+
+    Setting setting_;
+    std::vector<Disc> discs_;
+    std::vector<Past> past_;
+    std::vector<Prediction> heap_;
+    std::int64_t micro_step_ = 0;
+    std::uint64_t wall_collisions_ = 0, pair_collisions_ = 0;
+    std::size_t most_events_;
+    std::vector<Event> log_;
+};
+
+} // namespace carrom::reference
