@@ -17,7 +17,7 @@ namespace {
 /// What `sender` has for `receiver`: nothing, little or much.
 std::vector<std::uint64_t> parcel(int trial, int sender, int receiver) {
     std::mt19937 random(static_cast<unsigned>(trial * 10007 + sender * 101 + receiver));
-    const std::size_t sizes[] = {0, 0, 1, 7, 2000};
+    const std::size_t sizes[] = {0, 0, 1, 7, 200};
     std::vector<std::uint64_t> items(sizes[random() % 5]);
     for (std::uint64_t& item : items) item = random();
     return items;

@@ -83,7 +83,7 @@ TEST_CASE("parcels larger than a first message arrive whole and in order") {
 }
 
 TEST_CASE("parcels that need many messages arrive whole and in order") {
-    for (const std::size_t max_message : {1, 16, 17, 40, 100}) check_many(Communicator::world(max_message), 15, 30);
+    for (const std::size_t max_message : {1u, 16u, 17u, 40u, 100u}) check_many(Communicator::world(max_message), 15, 30);
 }
 
 TEST_CASE("a rank without neighbours takes part at no cost") {
