@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include <omp.h>
 
+#include "carrom/core/errors.hpp"
 
 namespace carrom {
 
@@ -48,7 +50,8 @@ void CellGrid::build(std::span<const Disc> discs, const GridFrame& frame, double
     order_.resize(n);
     cell_of_.resize(n);
     slot_of_.resize(n);
-    for (std::vector<float>* lane : {&x_, &y_, &vx_, &vy_}) lane->resize(n + filter_padding);
+    lane_length_ = n + filter_padding;
+    lanes_.resize(4 * lane_length_);
     cell_start_.resize(n_columns * rows() + 1);
     column_start_.resize(n_columns + 1);
     thread_column_start_.assign(n_columns * static_cast<std::size_t>(n_threads), 0);
@@ -93,7 +96,9 @@ void CellGrid::build(std::span<const Disc> discs, const GridFrame& frame, double
 #pragma omp for schedule(static)
         for (std::size_t slot = 0; slot < n; ++slot) slot_of_[order_[slot]] = static_cast<std::uint32_t>(slot);
     }
-    for (std::size_t pad = n; pad < n + filter_padding; ++pad) x_[pad] = y_[pad] = vx_[pad] = vy_[pad] = 0;
+    for (std::size_t lane = 1; lane <= 4; ++lane) {
+        std::fill_n(lanes_.begin() + static_cast<std::ptrdiff_t>(lane * lane_length_ - filter_padding), filter_padding, 0.0f);
+    }
 }
 
 void CellGrid::sort_column(std::span<const Disc> discs, int column) {
@@ -122,10 +127,39 @@ void CellGrid::sort_column(std::span<const Disc> discs, int column) {
 
 void CellGrid::place(std::uint32_t slot, const Disc& disc) {
     const double cells = 1 / frame_.cell_width;
-    x_[slot] = static_cast<float>((disc.x_at(time_) - frame_.x_low) * cells);
-    y_[slot] = static_cast<float>((disc.y_at(time_) - frame_.y_low) * cells);
-    vx_[slot] = static_cast<float>(disc.vx * duration_ * cells);
-    vy_[slot] = static_cast<float>(disc.vy * duration_ * cells);
+    float* lane = lanes_.data() + slot;
+    lane[0] = static_cast<float>((disc.x_at(time_) - frame_.x_low) * cells);
+    lane[lane_length_] = static_cast<float>((disc.y_at(time_) - frame_.y_low) * cells);
+    lane[2 * lane_length_] = static_cast<float>(disc.vx * duration_ * cells);
+    lane[3 * lane_length_] = static_cast<float>(disc.vy * duration_ * cells);
+}
+
+void CellGrid::reorder(std::span<Disc> discs, std::size_t n_own, int n_threads) {
+    ensure(order_.size() >= n_own && discs.size() >= n_own, "discs are brought into the order of a grid that holds them");
+    std::size_t n_placed = 0; // slot_of_ becomes the list of own discs by slot
+    for (const LocalIndex index : order_) {
+        if (index < n_own) slot_of_[n_placed++] = index;
+    }
+    // A quarter of each state at a time goes through the lanes, so that no second array of states is needed.
+    constexpr std::size_t quarter = sizeof(Disc) / 4;
+    static_assert(quarter == 4 * sizeof(float));
+    auto* states = reinterpret_cast<std::byte*>(discs.data());
+    auto* lent = reinterpret_cast<std::byte*>(lanes_.data());
+    const auto n = static_cast<std::int64_t>(n_own);
+#pragma omp parallel num_threads(n_threads)
+    for (std::size_t part = 0; part < 4; ++part) {
+#pragma omp for schedule(static)
+        for (std::int64_t k = 0; k < n; ++k) {
+            const auto slot = static_cast<std::size_t>(k);
+            std::memcpy(lent + slot * quarter, states + slot_of_[slot] * sizeof(Disc) + part * quarter, quarter);
+        }
+#pragma omp for schedule(static)
+        for (std::int64_t k = 0; k < n; ++k) {
+            const auto slot = static_cast<std::size_t>(k);
+            std::memcpy(states + slot * sizeof(Disc) + part * quarter, lent + slot * quarter, quarter);
+        }
+    }
+    order_.clear();
 }
 
 void CellGrid::update_flight(LocalIndex index, const Disc& disc) { place(slot_of_[index], disc); }
@@ -138,6 +172,12 @@ float CellGrid::touching_squared(double diameter) const {
     const double cells = diameter / frame_.cell_width;
     const double touching = cells * (1 + 0x1p-18) + 0x1p-20 * extent + 0x1p-20 * farthest * farthest / cells;
     return static_cast<float>(touching * touching);
+}
+
+std::size_t CellGrid::bytes() const {
+    return sizeof(float) * lanes_.capacity() +
+           sizeof(std::uint32_t) * (cell_start_.capacity() + column_start_.capacity() + thread_column_start_.capacity() +
+                                    order_.capacity() + cell_of_.capacity() + slot_of_.capacity());
 }
 
 bool CellGrid::is_valid(std::size_t n_discs) const {

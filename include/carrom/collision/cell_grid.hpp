@@ -60,11 +60,18 @@ public:
     /// Sorts `discs` by their cells at `time`; flights last for `duration`.
     void build(std::span<const Disc> discs, const GridFrame& frame, double time, double duration, int n_threads);
 
+    /// Brings the first `n_own` of `discs`, those that the grid was built for, into the order of their slots, in place,
+    /// and makes the grid unusable until it is built again. Neighbours in space become neighbours in memory.
+    void reorder(std::span<Disc> discs, std::size_t n_own, int n_threads);
+
     /// Takes over a disc's new free flight. Its cell stays what it was at the window's start.
     void update_flight(LocalIndex index, const Disc& disc);
 
     const GridFrame& frame() const { return frame_; }
-    FlightLanes lanes() const { return {x_.data(), y_.data(), vx_.data(), vy_.data()}; }
+    FlightLanes lanes() const {
+        const float* x = lanes_.data();
+        return {x, x + lane_length_, x + 2 * lane_length_, x + 3 * lane_length_};
+    }
     std::span<const LocalIndex> order() const { return order_; }
     std::uint32_t slot_of(LocalIndex index) const { return slot_of_[index]; }
     int column_of(LocalIndex index) const { return static_cast<int>(cell_of_[index] / rows()); }
@@ -82,6 +89,7 @@ public:
     float touching_squared(double diameter) const;
 
     bool is_valid(std::size_t n_discs) const;
+    std::size_t bytes() const;
 
 private:
     std::uint32_t rows() const { return static_cast<std::uint32_t>(frame_.n_rows); }
@@ -95,7 +103,8 @@ private:
     std::vector<std::uint32_t> thread_column_start_; ///< scratch: by thread and column
     std::vector<LocalIndex> order_;          ///< by slot
     std::vector<std::uint32_t> cell_of_, slot_of_; ///< by disc
-    std::vector<float> x_, y_, vx_, vy_;     ///< by slot, padded for whole vectors
+    std::size_t lane_length_ = 0;            ///< slots and padding for whole vectors
+    std::vector<float> lanes_;               ///< x, y, vx, vy by slot, one after the other
 };
 
 } // namespace carrom

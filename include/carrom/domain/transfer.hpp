@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Who sends which discs to whom, and the sending: plan first, then move any array that goes along with the discs.
+//
+// Halo and migration are two plans for the same move. Both sides of a plan know their partners from the cuts and a
+// bound on distances alone, so the only messages are those that carry discs, one to each partner.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "carrom/core/disc.hpp"
+#include "carrom/domain/strips.hpp"
+#include "carrom/parallel/neighbour_exchange.hpp"
+
+namespace carrom {
+
+struct TransferPlan {
+    std::vector<int> partners;                     ///< ranks, each once
+    std::vector<std::vector<LocalIndex>> leaving;  ///< by partner, ascending
+};
+
+/// Discs whose place at `time` lies in another rank's strip. They were in `old_strips`' own strip at most `farthest` away.
+TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int rank, std::span<const Disc> own,
+                            double time, double farthest);
+
+/// Discs that at `time` lie within `reach` of another rank's strip. Empty strips get none.
+TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own, double time, double reach);
+
+/// Sends what `plan` says of an array that runs along the own discs; returns what came, grouped by partner.
+/// **Collective.**
+template <Message T>
+void transfer(NeighbourExchange& exchange, const TransferPlan& plan, std::span<const T> values, Received<T>& in) {
+    std::vector<std::vector<T>> out(plan.partners.size());
+    for (std::size_t k = 0; k < out.size(); ++k) {
+        out[k].reserve(plan.leaving[k].size());
+        for (const LocalIndex index : plan.leaving[k]) out[k].push_back(values[index]);
+    }
+    exchange.exchange(std::span<const int>(plan.partners), out, in);
+}
+
+/// Takes out what has left and closes the gaps from the end.
+template <class T> void remove_leaving(const TransferPlan& plan, std::vector<T>& values) {
+    std::vector<LocalIndex> all;
+    for (const std::vector<LocalIndex>& leaving : plan.leaving) all.insert(all.end(), leaving.begin(), leaving.end());
+    std::sort(all.begin(), all.end());
+    for (auto index = all.rbegin(); index != all.rend(); ++index) {
+        values[*index] = values.back();
+        values.pop_back();
+    }
+}
+
+} // namespace carrom

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carrom/domain/transfer.hpp"
+
+#include <algorithm>
+
+#include "carrom/core/errors.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// Finds a partner's place in the plan; a plan has few.
+class PartnerPlaces {
+public:
+    explicit PartnerPlaces(const std::vector<int>& partners) {
+        for (std::size_t k = 0; k < partners.size(); ++k) {
+            const auto rank = static_cast<std::size_t>(partners[k]);
+            if (places_.size() <= rank) places_.resize(rank + 1, none);
+            places_[rank] = k;
+        }
+    }
+    std::size_t operator[](int rank) const {
+        const auto r = static_cast<std::size_t>(rank);
+        ensure(r < places_.size() && places_[r] != none, "a disc goes to a rank that does not expect it");
+        return places_[r];
+    }
+
+private:
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+    std::vector<std::size_t> places_;
+};
+
+} // namespace
+
+TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int rank, std::span<const Disc> own,
+                            double time, double farthest) {
+    TransferPlan plan;
+    plan.partners = movers_between(old_strips, strips, rank, farthest);
+    plan.leaving.resize(plan.partners.size());
+    if (strips.size() == 1) return plan;
+    const PartnerPlaces places(plan.partners);
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const int owner = strips.owner(own[i].x_at(time));
+        if (owner != rank) plan.leaving[places[owner]].push_back(static_cast<LocalIndex>(i));
+    }
+    return plan;
+}
+
+TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own, double time, double reach) {
+    TransferPlan plan;
+    plan.partners = strips.neighbours_within(rank, reach);
+    plan.leaving.resize(plan.partners.size());
+    if (plan.partners.empty()) return plan;
+    const PartnerPlaces places(plan.partners);
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const double x = own[i].x_at(time);
+        const auto [first, last] = strips.ranks_touching(x - reach, x + reach);
+        for (int other = first; other <= last; ++other) {
+            if (other == rank || strips.is_empty(other)) continue;
+            plan.leaving[places[other]].push_back(static_cast<LocalIndex>(i));
+        }
+    }
+    return plan;
+}
+
+} // namespace carrom

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The rule "one" on ranks and threads: windows of time, each settled, searched, resolved and applied.
+//
+//   settle   own discs to their strips, halo discs from the neighbours, all into cells
+//   search   every contact of the window, from stored states alone
+//   then for each micro-step of the window, in step on all ranks:
+//     resolve  local rounds; what hangs together across strips by a distributed sort
+//     apply    new states for the discs that were taken; neighbours are told of theirs; those discs are searched again
+//
+// When discs are fast a micro-step is cut into parts, each a window of its own. States then stay as they were at the
+// micro-step's start until it ends, so that every candidate is seen, and `outcomes_` holds what they will become.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "carrom/collision/cell_grid.hpp"
+#include "carrom/collision/local_resolution.hpp"
+#include "carrom/collision/search.hpp"
+#include "carrom/domain/strips.hpp"
+#include "carrom/domain/transfer.hpp"
+#include "carrom/resolve/strip_resolution.hpp"
+#include "carrom/simulation/simulation.hpp"
+#include "phase_clock.hpp"
+#include "window_choice.hpp"
+
+namespace carrom {
+
+class Simulation::Engine {
+public:
+    using Law = PlainLaw;
+
+    Engine(const Scene& scene, std::vector<InputDisc> discs, const Communicator& communicator, const Tuning& tuning);
+
+    void advance_towards(std::int64_t last_step);
+    /// Settles discs, halo and grid as they are now, for partners within a diameter. No state changes. **Collective.**
+    void settle_now();
+
+    std::int64_t step() const { return n_micro_done_ / micro_steps_; }
+    std::int64_t micro_steps() const { return micro_steps_; }
+    std::span<const Disc> own() const { return std::span(discs_).first(n_own_); }
+    double clock() const { return micro_; }
+    const Law& law() const { return law_; }
+    const Communicator& communicator() const { return communicator_; }
+    Population population() const { return {discs_, n_own_}; }
+    const CellGrid& grid() const { return grid_; }
+    int n_threads() const { return tuning_.threads; }
+    std::uint64_t n_rejected() const { return n_candidates_ - n_kept_; } ///< of candidates whose first disc is own
+    std::uint64_t n_discs() const { return n_discs_; }
+    const PhaseClock& phases() const { return clock_; }
+
+private:
+    void run_window(int n_left);
+    Window settle(int n_left);
+    Window choose(int n_left);
+    WindowNeeds window_needs() const;
+    void migrate();
+    void fetch_halo(double time, double reach);
+    bool run_micro_step(const Window& window, int m);
+    void strike_taken(std::vector<Candidate>& live) const;
+    void apply(const Window& window, int m);
+    void remember_hits();
+    void tell_neighbours();
+    void sync();
+    void rebalance();
+    void build_grid(double time, double duration, double reach);
+    bool in_parts() const { return !outcomes_.empty(); }
+
+    Communicator communicator_;
+    Tuning tuning_;
+    Law law_;
+    std::int64_t micro_steps_, sync_every_;
+    std::uint64_t n_discs_ = 0;
+
+    std::vector<Disc> discs_;    ///< own, then halo
+    std::size_t n_own_ = 0;
+    std::vector<Disc> outcomes_; ///< runs along discs_ while a micro-step is cut into parts, else empty
+    std::int64_t n_micro_done_ = 0, n_syncs_ = 0, n_windows_ = 0;
+    int micro_ = 0;              ///< micro-steps since the last sync
+    int part_ = 0, n_parts_ = 1; ///< the next part of the present micro-step
+    double largest_speed_ = 0;   ///< of any disc since the last settling, on any rank once it is settled
+    double refreshed_speed_ = 0; ///< what becomes of it then, if a sync has looked at all discs
+    double window_speed_ = 0;    ///< what the window's reach allows for
+    bool speed_exceeded_ = false;
+
+    Strips strips_, settled_strips_; ///< wanted, and those of the last settling
+    double settled_time_ = 0;
+    NeighbourExchange exchange_;
+    TransferPlan halo_plan_;
+    std::vector<std::size_t> halo_offsets_; ///< of each partner's discs behind the own ones
+    std::vector<std::uint8_t> is_shown_;    ///< by own disc: whether a partner has it in its halo
+
+    CellGrid grid_;
+    Search<Law> search_;
+    LocalResolution local_;
+    StripResolution across_strips_;
+    std::vector<Candidate> live_;
+    Verdicts verdicts_;
+    std::vector<LocalIndex> hits_;
+    std::vector<std::uint8_t> is_hit_; ///< by disc, clean between micro-steps
+
+    std::uint64_t n_candidates_ = 0, n_kept_ = 0;
+    PhaseClock clock_;
+};
+
+} // namespace carrom

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "measurements.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "carrom/core/exact_sum.hpp"
+
+namespace carrom {
+
+void measure_collisions(std::span<const Disc> own, const Communicator& communicator, Totals& totals) {
+    std::uint64_t walls = 0, pairs = 0;
+    for (const Disc& disc : own) {
+        walls += disc.wall_collisions;
+        pairs += disc.pair_collisions;
+    }
+    const StateHash hash = hash_of(own);
+    std::uint64_t sums[] = {walls, pairs, hash.low, hash.high};
+    communicator.sum(sums);
+    totals.wall_collisions = sums[0];
+    totals.pair_collisions = sums[1] / 2;
+    totals.hash = {sums[2], sums[3]};
+}
+
+void measure_motion(std::span<const Disc> own, double velocity_unit, const Communicator& communicator, Totals& totals) {
+    double largest = 0; // of any component of a velocity
+    for (const Disc& disc : own) largest = std::max({largest, std::fabs(disc.vx), std::fabs(disc.vy)});
+    largest = communicator.max(largest) * velocity_unit;
+    const double n = static_cast<double>(totals.n_discs);
+    ExactSum energy(n * largest * largest), momentum_x(n * largest), momentum_y(n * largest);
+    for (const Disc& disc : own) {
+        const double vx = disc.vx * velocity_unit, vy = disc.vy * velocity_unit;
+        energy.add(0.5 * (vx * vx + vy * vy));
+        momentum_x.add(vx);
+        momentum_y.add(vy);
+    }
+    for (ExactSum* sum : {&energy, &momentum_x, &momentum_y}) communicator.sum(*sum);
+    totals.kinetic_energy = energy.value();
+    totals.momentum_x = momentum_x.value();
+    totals.momentum_y = momentum_y.value();
+}
+
+std::uint64_t count_overlaps(const Population& population, const CellGrid& grid, double time, const PlainLaw& law,
+                             const Communicator& communicator, int n_threads) {
+    const auto pair_is_mine = [&](LocalIndex a, LocalIndex b) { // the rank of the lower id counts the pair
+        return (population.discs[a].id < population.discs[b].id ? a : b) < population.n_own;
+    };
+    const auto overlap = [&](const Disc& p, const Disc& q) {
+        const double dx = q.x_at(time) - p.x_at(time), dy = q.y_at(time) - p.y_at(time);
+        return std::sqrt(dx * dx + dy * dy) - law.diameter() < -law.tolerance();
+    };
+    std::uint64_t n_pairs = 0;
+    const std::span<const LocalIndex> order = grid.order();
+    const int n_columns = grid.frame().n_columns, n_reach = grid.frame().n_reach;
+#pragma omp parallel for num_threads(n_threads) schedule(dynamic, 8) reduction(+ : n_pairs)
+    for (int column = 0; column < n_columns; ++column) {
+        const SlotRange all = grid.run(column, 0, grid.frame().n_rows - 1);
+        for (std::uint32_t slot = all.begin; slot < all.end; ++slot) {
+            const LocalIndex index = order[slot];
+            const int row = grid.row_of(index);
+            for (int other = column; other <= std::min(column + n_reach, n_columns - 1); ++other) {
+                const SlotRange run = grid.run(other, row - n_reach, row + n_reach);
+                for (std::uint32_t k = other == column ? slot + 1 : run.begin; k < run.end; ++k) {
+                    if (overlap(population.discs[index], population.discs[order[k]])) n_pairs += pair_is_mine(index, order[k]);
+                }
+            }
+        }
+    }
+    return communicator.sum(n_pairs);
+}
+
+} // namespace carrom

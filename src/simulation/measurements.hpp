@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sums over all discs that come out the same for every machine shape: integers and 128-bit fixed point.
+#pragma once
+
+#include <span>
+
+#include "carrom/collision/cell_grid.hpp"
+#include "carrom/collision/search.hpp"
+#include "carrom/core/disc.hpp"
+#include "carrom/effects/plain_law.hpp"
+#include "carrom/parallel/communicator.hpp"
+#include "carrom/simulation/simulation.hpp"
+
+namespace carrom {
+
+/// Fills in the collision counts and the state hash. **Collective.**
+void measure_collisions(std::span<const Disc> own, const Communicator& communicator, Totals& totals);
+
+/// Fills in energy and momentum; `velocity_unit` turns stored velocities into those per step. **Collective.**
+void measure_motion(std::span<const Disc> own, double velocity_unit, const Communicator& communicator, Totals& totals);
+
+/// Pairs whose discs overlap by more than the tolerance at `time`, each counted once. The grid holds the population at
+/// that time, and partners within a diameter are within its reach. **Collective.**
+std::uint64_t count_overlaps(const Population& population, const CellGrid& grid, double time, const PlainLaw& law,
+                             const Communicator& communicator, int n_threads);
+
+} // namespace carrom

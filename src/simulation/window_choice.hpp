@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How long a window should be: long ones share the cost of sorting discs into cells, but look further. Pure arithmetic
+// on numbers that all ranks know, so all choose the same; the choice costs or saves time and has no say in the bits.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace carrom {
+
+/// What the choice depends on: lengths in the scene's unit, speed in lengths per micro-step.
+struct WindowNeeds {
+    double box_size = 0, radius = 0;
+    double n_discs = 0;
+    double largest_speed = 0;
+};
+
+/// How far the membership of two discs that meet inside a window can be apart at its start (docs/method.md, section 6).
+double reach_of(const WindowNeeds& needs, double duration);
+
+/// Micro-steps in the next window, 1 .. n_left, or fewer than none: how many parts to cut the next micro-step into.
+struct WindowChoice {
+    int n_micro = 1;
+    int n_parts = 1;
+};
+WindowChoice choose_window(const WindowNeeds& needs, int n_left, std::optional<double> wanted);
+
+} // namespace carrom
