@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Numbers of 113 bits to hold the predicates to: products of two doubles are exact in them.
+//
+// GCC and Clang offer them as __float128, or as long double where that has 113 bits. The square root is Newton's, so
+// that no library is needed.
+#pragma once
+
+#include <cfloat>
+#include <cmath>
+
+namespace carrom::test {
+
+#if LDBL_MANT_DIG >= 113
+using Quad = long double;
+#else
+__extension__ using Quad = __float128;
+#endif
+
+inline Quad absolute(Quad value) { return value < 0 ? -value : value; }
+
+/// To within about 2^-111. Arguments may lie beyond the range of a double.
+inline Quad square_root(Quad value) {
+    if (value <= 0) return 0;
+    Quad scale = 1;
+    for (; value < Quad(0x1p-400); value *= Quad(0x1p400)) scale *= Quad(0x1p-200);
+    for (; value > Quad(0x1p400); value *= Quad(0x1p-400)) scale *= Quad(0x1p200);
+    Quad root = std::sqrt(static_cast<double>(value));
+    for (int i = 0; i < 3; ++i) root = (root + value / root) / 2;
+    return root * scale;
+}
+
+/// A contact worked out in quad precision from the same doubles that the predicate gets.
+struct ExactContact {
+    Quad b, a, distance, cross, discriminant;
+    Quad delay = -1; ///< negative for none; 0 for touching or overlapping and approaching
+
+    ExactContact(double dx, double dy, double wx, double wy, double sigma) {
+        b = Quad(dx) * wx + Quad(dy) * wy;
+        a = Quad(wx) * wx + Quad(wy) * wy;
+        cross = Quad(dx) * wy - Quad(dy) * wx;
+        distance = square_root(Quad(dx) * dx + Quad(dy) * dy);
+        discriminant = a * sigma * sigma - cross * cross;
+        if (b >= 0 || discriminant <= 0) return;
+        const Quad c = (Quad(dx) * dx - Quad(sigma) * sigma) + Quad(dy) * dy;
+        delay = c <= 0 ? Quad(0) : c / (-b + square_root(discriminant));
+    }
+
+    /// A sigma^2 / disc, which is large for grazes: the condition of the contact.
+    Quad condition(double sigma) const { return a * sigma * sigma / discriminant; }
+};
+
+} // namespace carrom::test
