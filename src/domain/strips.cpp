@@ -40,9 +40,9 @@ int Strips::owner(double x) const {
 RankRange Strips::ranks_touching(double low, double high) const { return {owner(low), owner(high)}; }
 
 bool Strips::are_within(int lower, int upper, double reach) const {
-    // Both ways of rounding are asked: a sender below rounds x + reach, one above rounds x - reach.
-    const double edge_below = high(lower), edge_above = low(upper);
-    return edge_below + reach >= edge_above || edge_above - reach <= edge_below;
+    // Rounding is monotone: x < high(lower) has x + reach, rounded, at most this sum; and where x - reach of a sender
+    // above, rounded, is less than high(lower), the sum is at least x. A difference of the two edges might miss both.
+    return high(lower) + reach >= low(upper);
 }
 
 std::vector<int> Strips::neighbours_within(int rank, double reach) const {

@@ -15,12 +15,12 @@
 
 namespace carrom {
 
-/// Tags that are taken; those from `first_free` on are given to neighbour exchanges, two each, round and round.
+/// Tags that are taken; those from `first_free` on are given to neighbour exchanges, round and round.
 namespace tag {
 inline constexpr int any_to_any = 1;
 inline constexpr int stream = 2;
 inline constexpr int first_free = 16;
-inline constexpr int last = 32766; ///< MPI promises 32767
+inline constexpr int last = 32767; ///< what MPI promises at least
 } // namespace tag
 
 struct Communicator::Handle {

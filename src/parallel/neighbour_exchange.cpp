@@ -25,8 +25,8 @@ constexpr std::size_t first_message_bytes = 3968;
 struct NeighbourExchange::State {
     explicit State(const Communicator& of_owner) : communicator(of_owner) {
         Communicator::Handle& handle = communicator.handle();
-        first_tag = handle.next_tag;
-        handle.next_tag = first_tag + 2 < tag::last ? first_tag + 2 : tag::first_free;
+        message_tag = handle.next_tag;
+        handle.next_tag = message_tag < tag::last ? message_tag + 1 : tag::first_free;
         first_capacity = std::max(std::min(first_message_bytes, handle.max_message), sizeof(Header)) - sizeof(Header);
     }
 
@@ -35,7 +35,7 @@ struct NeighbourExchange::State {
     std::byte* first_out(std::size_t k) { return firsts.data() + (neighbours.size() + k) * first_size(); }
 
     Communicator communicator;
-    int first_tag = 0;              ///< of first messages; what follows them has the next tag
+    int message_tag = 0;
     std::size_t first_capacity = 0; ///< payload of a first message
     std::uint64_t n_begun = 0;
     bool is_under_way = false;
@@ -66,7 +66,7 @@ void NeighbourExchange::begin_parcels(std::span<const int> neighbours) {
     state.neighbours.assign(neighbours.begin(), neighbours.end());
     state.firsts.resize(2 * neighbours.size() * state.first_size());
     for (std::size_t k = 0; k < neighbours.size(); ++k)
-        MPI_Irecv(state.first_in(k), static_cast<int>(state.first_size()), MPI_BYTE, neighbours[k], state.first_tag,
+        MPI_Irecv(state.first_in(k), static_cast<int>(state.first_size()), MPI_BYTE, neighbours[k], state.message_tag,
                   handle.comm, &state.receives.emplace_back(MPI_REQUEST_NULL));
     for (std::size_t k = 0; k < neighbours.size(); ++k) {
         const std::span<const std::byte> parcel = state.parcels[k];
@@ -78,9 +78,9 @@ void NeighbourExchange::begin_parcels(std::span<const int> neighbours) {
         const std::size_t length = sizeof header + head.size();
         ++handle.traffic.messages;
         handle.traffic.bytes += length;
-        MPI_Isend(message, static_cast<int>(length), MPI_BYTE, neighbours[k], state.first_tag, handle.comm,
+        MPI_Isend(message, static_cast<int>(length), MPI_BYTE, neighbours[k], state.message_tag, handle.comm,
                   &state.sends.emplace_back(MPI_REQUEST_NULL));
-        start_send(handle, parcel.subspan(head.size()), neighbours[k], state.first_tag + 1, state.sends);
+        start_send(handle, parcel.subspan(head.size()), neighbours[k], state.message_tag, state.sends);
     }
 }
 
@@ -104,7 +104,7 @@ void NeighbourExchange::receive_parcels(std::span<std::byte> all) {
         const std::span<std::byte> parcel = all.subspan(state.offsets[k], state.offsets[k + 1] - state.offsets[k]);
         const std::size_t head = std::min(parcel.size(), state.first_capacity);
         if (head > 0) std::memcpy(parcel.data(), state.first_in(k) + sizeof(Header), head);
-        start_receive(state.communicator.handle(), parcel.subspan(head), state.neighbours[k], state.first_tag + 1,
+        start_receive(state.communicator.handle(), parcel.subspan(head), state.neighbours[k], state.message_tag,
                       state.receives);
     }
     wait_for(state.receives);
