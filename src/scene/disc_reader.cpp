@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "carrom/scene/disc_reader.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -18,7 +19,7 @@ public:
 
 DiscReader::DiscReader(std::istream& stream, const Scene& scene)
     : scene_(scene), place_(scene.discs_file.empty() ? scene.name : discs_path(scene)),
-      lines_(std::make_unique<Lines>(stream, scene.discs_file.empty() ? scene.lines_before_discs : 0)), seen_(scene.n_discs) {}
+      lines_(std::make_unique<Lines>(stream, scene.discs_file.empty() ? scene.lines_before_discs : 0)) {}
 
 DiscReader::~DiscReader() = default;
 
@@ -41,7 +42,7 @@ std::vector<Problem> DiscReader::problems() const {
     if (n_problems_ > problems_.size())
         all.push_back({place_, 0, fmt::format("and {} more lines with problems", n_problems_ - problems_.size())});
     if (lines_->has_failed()) all.push_back({place_, lines_->line_number(), "cannot be read beyond this line"});
-    if (n_seen_ < seen_.size()) all.push_back({place_, 0, missing_ids()});
+    if (n_seen_ < scene_.n_discs) all.push_back({place_, 0, missing_ids()});
     return all;
 }
 
@@ -78,11 +79,12 @@ bool DiscReader::note_id(std::string_view word, DiscId& id) {
     const auto integer = parse_integer(word);
     if (!number && !integer) {
         refuse(fmt::format("{} is not the id of a disc", quoted(word)));
-    } else if (!number || *number >= seen_.size()) {
-        refuse(fmt::format("disc {} is out of range: ids are 0 to {}", word, seen_.size() - 1));
-    } else if (seen_[*number]) {
+    } else if (!number || *number >= scene_.n_discs) {
+        refuse(fmt::format("disc {} is out of range: ids are 0 to {}", word, scene_.n_discs - 1));
+    } else if (has_seen(*number)) {
         refuse(fmt::format("disc {} is listed twice", *number));
     } else {
+        if (*number >= seen_.size()) seen_.resize(std::min(scene_.n_discs, 2 * *number + 64)); // N may be a mistake
         seen_[*number] = true;
         n_seen_ += 1;
         id = *number;
@@ -100,14 +102,15 @@ std::string DiscReader::missing_ids() const {
     constexpr std::size_t most_ranges = 10;
     std::string list;
     std::size_t n_ranges = 0;
-    for (std::size_t id = 0; id < seen_.size() && n_ranges <= most_ranges; ++id) {
-        if (seen_[id]) continue;
-        const std::size_t first = id;
+    for (DiscId id = 0; id < scene_.n_discs && n_ranges <= most_ranges; ++id) {
+        if (has_seen(id)) continue;
+        const DiscId first = id;
         while (id + 1 < seen_.size() && !seen_[id + 1]) ++id;
+        if (id + 1 >= seen_.size()) id = scene_.n_discs - 1; // nothing was seen beyond
         if (++n_ranges > most_ranges) list += ", ...";
         else list += fmt::format("{}{}", list.empty() ? "" : ", ", first == id ? fmt::format("{}", id) : fmt::format("{}-{}", first, id));
     }
-    return fmt::format("{} of {} discs are missing: {}", seen_.size() - n_seen_, seen_.size(), list);
+    return fmt::format("{} of {} discs are missing: {}", scene_.n_discs - n_seen_, scene_.n_discs, list);
 }
 
 } // namespace carrom

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Discs from lines of text, "id x y vx vy" in any order of ids, in bounded chunks: one rank reads what it could never
-// hold. Costs N bits to see that every id comes once, and some 0.3 microseconds a line.
+// hold. Costs up to N bits to see that every id comes once, and some 0.3 microseconds a line.
 //
 // Problems are collected, not thrown: reading goes on, so that one look at a file finds them all.
 #pragma once
@@ -36,6 +36,7 @@ private:
     class Lines;
 
     bool parse(std::string_view line, InputDisc& disc);
+    bool has_seen(DiscId id) const { return id < seen_.size() && seen_[id]; }
     bool note_id(std::string_view word, DiscId& id);
     void refuse(std::string text);
     std::string missing_ids() const;
@@ -43,7 +44,7 @@ private:
     const Scene& scene_;
     std::string place_;
     std::unique_ptr<Lines> lines_;
-    std::vector<bool> seen_;
+    std::vector<bool> seen_; ///< by id, as far as ids have come
     std::uint64_t n_seen_ = 0;
     std::vector<std::string_view> words_;
     std::vector<Problem> problems_;

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lines of discs: round trips, chunks, and each way for a line to be wrong.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "carrom/scene/disc_reader.hpp"
+#include "line_reader.hpp"
+#include "problems_of.hpp"
+
+using namespace carrom;
+using test::mentions;
+using test::places_of;
+
+namespace {
+
+using Texts = std::vector<std::string>;
+
+Scene scene_of(std::uint64_t n_discs) {
+    Scene scene;
+    scene.name = "t.in";
+    scene.lines_before_discs = 5;
+    scene.generator = Generator::file;
+    scene.box_size = 10;
+    scene.radius = 1;
+    scene.n_discs = n_discs;
+    return scene;
+}
+
+struct Outcome {
+    std::vector<InputDisc> discs;
+    std::vector<Problem> problems;
+};
+
+Outcome read_all(const std::string& text, const Scene& scene, std::size_t chunk_size = 1000) {
+    std::istringstream stream(text);
+    DiscReader reader(stream, scene);
+    Outcome outcome;
+    std::vector<InputDisc> chunk;
+    while (reader.read(chunk, chunk_size)) {
+        CHECK(chunk.size() <= chunk_size);
+        outcome.discs.insert(outcome.discs.end(), chunk.begin(), chunk.end());
+    }
+    outcome.problems = reader.problems();
+    return outcome;
+}
+
+} // namespace
+
+TEST_CASE("Discs come back bit for bit, in any order of ids and any chunks") {
+    std::mt19937_64 engine(11);
+    const auto uniform = [&](double low, double high) { return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53; };
+    std::vector<InputDisc> discs;
+    for (DiscId id = 0; id < 20000; ++id) discs.push_back({id, uniform(1, 9), uniform(1, 9), uniform(-5, 5), uniform(-1e-9, 1e-9)});
+    std::shuffle(discs.begin(), discs.end(), engine);
+    std::string text = "\n";
+    for (const InputDisc& d : discs) text += fmt::format("{} {:.17g} {:.17g}\t{:.17g}  {:.17g}\r\n\n", d.id, d.x, d.y, d.vx, d.vy);
+    for (const std::size_t chunk_size : {std::size_t{1}, std::size_t{7}, std::size_t{20000}, std::size_t{100000}}) {
+        const Outcome outcome = read_all(text, scene_of(20000), chunk_size);
+        CHECK(outcome.problems.empty());
+        CHECK(outcome.discs == discs);
+    }
+}
+
+TEST_CASE("Each wrong line is one problem, and the good ones are still read") {
+    const std::string text = "0 5 5 0 0\n"          // 6
+                             "1 5 5 0\n"            // 7 short
+                             "2 5 5 0 0 7\n"        // 8 trailing rubbish
+                             "3 5 five 0 0\n"       // 9
+                             "4 nan 5 0 0\n"        // 10
+                             "5 5 5 inf 0\n"        // 11
+                             "0 5 5 0 0\n"          // 12 twice
+                             "99 5 5 0 0\n"         // 13 out of range
+                             "-1 5 5 0 0\n"         // 14
+                             "x 5 5 0 0\n"          // 15
+                             "6 0.999 5 0 0\n"      // 16 outside
+                             "7 5 9.001 0 0\n"      // 17 outside
+                             "1.0 5 5 0 0\n"        // 18
+                             "8 5 5 1e100 0\n"      // 19 too fast
+                             "99999999999999999999999 5 5 0 0\n"; // 20
+    const Outcome outcome = read_all(text, scene_of(12));
+    CHECK(outcome.discs == std::vector<InputDisc>{{0, 5, 5, 0, 0}});
+    Texts places;
+    for (int line = 7; line <= 20; ++line) places.push_back(fmt::format("t.in:{}", line));
+    places.push_back("t.in");
+    CHECK(places_of(outcome.problems) == places);
+    CHECK(mentions(outcome.problems, "3 of 12 discs are missing: 9-11"));
+}
+
+TEST_CASE("A file of discs counts its lines from its own start and is named with its folder") {
+    Scene scene = scene_of(1);
+    scene.name = "folder/s.toml";
+    scene.discs_file = "d.txt";
+    CHECK(places_of(read_all("\n0 5 5\n", scene).problems) == Texts{"folder/d.txt:2"});
+}
+
+TEST_CASE("Of many problems the first 20 are listed and the rest are counted") {
+    std::string text;
+    for (int i = 0; i < 1000; ++i) text += fmt::format("{} 0 0 0 0\n", i);
+    const Outcome outcome = read_all(text, scene_of(1000));
+    CHECK(outcome.problems.size() == 21);
+    CHECK(outcome.problems.back().text == "and 980 more lines with problems");
+}
+
+TEST_CASE("Missing ids are summed up as ranges") {
+    CHECK(read_all("", scene_of(7)).problems == std::vector<Problem>{{"t.in", 0, "7 of 7 discs are missing: 0-6"}});
+    CHECK(read_all("1 5 5 0 0\n3 5 5 0 0\n", scene_of(7)).problems ==
+          std::vector<Problem>{{"t.in", 0, "5 of 7 discs are missing: 0, 2, 4-6"}});
+    std::string text;
+    for (int i = 1; i < 100; i += 2) text += fmt::format("{} 5 5 0 0\n", i);
+    CHECK(read_all(text, scene_of(100)).problems ==
+          std::vector<Problem>{{"t.in", 0, "50 of 100 discs are missing: 0, 2, 4, 6, 8, 10, 12, 14, 16, 18, ..."}});
+}
+
+TEST_CASE("A centre may be off the range of centres by the rounding of L, not more") {
+    Scene scene = scene_of(1);
+    scene.radius = 0.1;
+    const double high = scene.box_size - scene.radius;
+    const auto n_problems = [&](double x) { return read_all(fmt::format("0 {:.17g} 5 0 0\n", x), scene).problems.size(); };
+    CHECK(n_problems(0.1) == 0);
+    CHECK(n_problems(high) == 0);
+    CHECK(n_problems(std::nextafter(high, 20)) == 0);
+    CHECK(n_problems(std::nextafter(0.1, 0)) == 0);
+    CHECK(n_problems(high + 1e-14) == 1);
+    CHECK(n_problems(0.1 - 1e-14) == 1);
+    scene.radius = 5;
+    CHECK(n_problems(5) == 0); // a disc of radius L/2 just fits
+}
+
+TEST_CASE("Lines are cut, not swallowed, when they have no end") {
+    const std::string text = "0 5 5 0 0\n" + std::string(3'000'000, '7') + "\n1 5 5 0 0\n" + std::string(5000, ' ');
+    const Outcome outcome = read_all(text, scene_of(2));
+    CHECK(outcome.discs.size() == 2);
+    CHECK(places_of(outcome.problems) == Texts{"t.in:7", "t.in:9"});
+}
+
+TEST_CASE("The line reader agrees with getline on any lengths of lines") {
+    std::mt19937_64 engine(3);
+    std::string text;
+    for (int i = 0; i < 3000; ++i) text += std::string(engine() % 4097, 'a') + '\n';
+    text += "last";
+    std::istringstream stream(text), plain(text);
+    LineReader reader(stream, 0);
+    std::string_view line;
+    std::string expected;
+    std::int64_t n_lines = 0;
+    bool all_equal = true;
+    while (std::getline(plain, expected)) {
+        all_equal = all_equal && reader.next(line) && line == expected && !reader.is_cut() && reader.line_number() == ++n_lines;
+    }
+    CHECK(all_equal);
+    CHECK_FALSE(reader.next(line));
+}

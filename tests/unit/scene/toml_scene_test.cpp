@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// TOML scenes: what a good one says, and each way to be wrong with the number and the lines of its problems.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "carrom/scene/read_scene.hpp"
+#include "problems_of.hpp"
+
+using namespace carrom;
+using test::mentions;
+using test::places_of;
+using test::problems_of;
+
+namespace {
+
+using Texts = std::vector<std::string>;
+
+const std::string good = "[box]\nsize = 100\n"                       // lines 1-2
+                         "[discs]\ncount = 50\nradius = 1\n"         // 3-5
+                         "[time]\nsteps = 10\n";                     // 6-7
+
+std::vector<Problem> problems_in(const std::string& text, const Texts& overrides = {}) {
+    return problems_of([&] { read_scene(text, "s.toml", overrides); });
+}
+
+/// The good scene with line `number` replaced.
+std::string with_line(int number, const std::string& line) {
+    std::string text;
+    std::size_t begin = 0;
+    for (int i = 1; begin < good.size(); ++i) {
+        const std::size_t end = good.find('\n', begin);
+        text += (i == number ? line : good.substr(begin, end - begin)) + '\n';
+        begin = end + 1;
+    }
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("A scene has what its text says and the defaults for the rest") {
+    const Scene scene = read_scene(good, "folder/s.toml");
+    CHECK(scene.name == "folder/s.toml");
+    CHECK(scene.text == good);
+    CHECK(scene.box_size == 100);
+    CHECK(scene.n_discs == 50);
+    CHECK(scene.radius == 1);
+    CHECK(scene.steps == 10);
+    CHECK(scene.generator == Generator::random);
+    CHECK(scene.seed == 3210);
+    CHECK(scene.rule == CollisionRule::one);
+    CHECK(scene.micro_steps == 1);
+    CHECK(scene.sync_every == 64);
+    CHECK(scene.text_output == TextOutput::none);
+    CHECK(scene.warnings.empty());
+    CHECK_FALSE(scene.reads_disc_lines());
+    CHECK(scene.packing() == Approx(50 * 3.14159265358979 / 10000));
+}
+
+TEST_CASE("Every key of a scene is taken over") {
+    const Scene scene = read_scene("[box]\nsize = 1e2\n[discs]\ncount = 1e2\npacking = 0.25\ngenerator = 'lattice'\n"
+                                   "speed = 0.5\nvelocities = \"uniform\"\nseed = 0x10\n"
+                                   "[[discs.streams]]\nregion = [0, 1, 2.5, 3]\nvelocity = [-1, 0.5]\n"
+                                   "[[discs.streams]]\nregion = [4, 5, 6, 7]\nvelocity = [0, 1]\n"
+                                   "[time]\nsteps = 0\ncollisions = 'one'\nmicro_steps = 8\nsync_every = 32\n"
+                                   "[output]\ntext = 'every_step'\n[effects]\n",
+                                   "s.toml");
+    CHECK(scene.n_discs == 100);
+    CHECK(scene.radius == Approx(100 * std::sqrt(0.25 / (100 * 3.14159265358979))));
+    CHECK(scene.generator == Generator::lattice);
+    CHECK(scene.speed == 0.5);
+    CHECK(scene.velocities == VelocityKind::uniform);
+    CHECK(scene.seed == 16);
+    REQUIRE(scene.streams.size() == 2);
+    CHECK(scene.streams[0].x_high == 2.5);
+    CHECK(scene.streams[0].vx == -1);
+    CHECK(scene.streams[1].y_low == 5);
+    CHECK(scene.steps == 0);
+    CHECK(scene.micro_steps == 8);
+    CHECK(scene.sync_every == 32);
+    CHECK(scene.text_output == TextOutput::every_step);
+}
+
+TEST_CASE("Discs can be listed in the scene or in a file beside it") {
+    const Scene listed = read_scene("[box]\nsize = 10\n[discs]\nradius = 5\nlist = [[5, 5, 1, -1]]\n[time]\nsteps = 1\n", "s.toml");
+    CHECK(listed.generator == Generator::file);
+    CHECK(listed.n_discs == 1);
+    CHECK(listed.listed_discs == std::vector<InputDisc>{{0, 5, 5, 1, -1}});
+    CHECK_FALSE(listed.reads_disc_lines());
+
+    const Scene filed = read_scene("[box]\nsize = 10\n[discs]\ncount = 3\nradius = 1\nfile = \"d.txt\"\n[time]\nsteps = 1\n",
+                                   "folder/s.toml");
+    CHECK(filed.reads_disc_lines());
+    CHECK(discs_path(filed) == "folder/d.txt");
+}
+
+TEST_CASE("Overrides replace what the text says, and what excludes them there") {
+    const Scene scene = read_scene(good, "s.toml", {"box.size=30", "discs.packing = 0.2", "output.text=ends", "discs.speed=2.5",
+                                                    "time.steps=5", "time.steps=6", "discs.velocities='uniform'"});
+    CHECK(scene.box_size == 30);
+    CHECK(scene.radius == Approx(30 * std::sqrt(0.2 / (50 * 3.14159265358979))));
+    CHECK(scene.text_output == TextOutput::first_and_last);
+    CHECK(scene.speed == 2.5);
+    CHECK(scene.steps == 6);
+    CHECK(scene.velocities == VelocityKind::uniform);
+
+    const Scene regenerated = read_scene(good, "s.toml", {"discs.generator=ancestor"});
+    CHECK(regenerated.generator == Generator::ancestor);
+    const std::string listed = "[box]\nsize = 10\n[discs]\nradius = 1\ncount = 1\nlist = [[5, 5, 1, -1]]\n[time]\nsteps = 1\n";
+    CHECK(read_scene(listed, "s.toml", {"discs.generator=random"}).listed_discs.empty());
+    CHECK(read_scene(listed, "s.toml", {"discs.list=[[2,3,4,5]]"}).listed_discs == std::vector<InputDisc>{{0, 2, 3, 4, 5}});
+}
+
+TEST_CASE("A dense random scene becomes a lattice, and says so") {
+    const Scene scene = read_scene(good, "s.toml", {"discs.packing=0.7"});
+    CHECK(scene.generator == Generator::lattice);
+    REQUIRE(scene.warnings.size() == 1);
+    CHECK(scene.warnings[0].find("lattice") != std::string::npos);
+    CHECK(read_scene(good, "s.toml", {"discs.packing=0.5"}).generator == Generator::random);
+}
+
+TEST_CASE("Micro-steps that are no power of two are allowed with a warning") {
+    CHECK(read_scene(good, "s.toml", {"time.micro_steps=1024"}).warnings.empty());
+    CHECK(read_scene(good, "s.toml", {"time.micro_steps=10"}).warnings.size() == 1);
+}
+
+TEST_CASE("One wrong value is one problem at its line") {
+    struct Wrong {
+        int line;
+        std::string text;
+    };
+    const std::vector<Wrong> all = {
+        {2, "size = nan"}, {2, "size = inf"}, {2, "size = -inf"}, {2, "size = 0"}, {2, "size = -5"}, {2, "size = '100'"},
+        {2, "size = true"}, {2, "size = [1]"}, {2, "size = 1e90"}, {2, "size = 1e-90"}, {2, "size = 1979-05-27"},
+        {4, "count = 0"}, {4, "count = -1"}, {4, "count = 1.5"}, {4, "count = 1e19"}, {4, "count = 4294967295"},
+        {4, "count = nan"}, {4, "count = 'many'"},
+        {5, "radius = 0"}, {5, "radius = -1"}, {5, "radius = nan"}, {5, "radius = 51"}, {5, "radius = 9"}, {5, "radius = 1e-5"},
+        {5, "packing = 0"}, {5, "packing = 0.91"}, {5, "packing = nan"}, {5, "packing = -0.1"},
+        {5, "packing = 0.9\ngenerator = 'lattice'"},
+        {7, "steps = -1"}, {7, "steps = 0.5"}, {7, "steps = 1e300"}, {7, "steps = 9223372036854775807"},
+    };
+    for (const Wrong& wrong : all) {
+        CAPTURE(wrong.text);
+        const auto problems = problems_in(with_line(wrong.line, wrong.text));
+        CHECK(places_of(problems) == Texts{"s.toml:" + std::to_string(wrong.line)});
+    }
+}
+
+TEST_CASE("One wrong further value is one problem at its line") {
+    const Texts all = {
+        "[discs]\nspeed = nan", "[discs]\nspeed = -1", "[discs]\nspeed = 1e100", "[discs]\nvelocities = 'maxwel'", "[discs]\nseed = -1",
+        "[discs]\ngenerator = 'latice'", "[discs]\ngenerator = 'file'", "[discs]\nfile = 3", "[discs]\nfile = ''",
+        "[discs]\nlist = 3", "[discs]\nlist = [[1, 2, 3, 4]]", "[discs]\nradios = 1", "[time]\ncollisions = 'two'", "[time]\ncollisions = 1",
+        "[time]\ncollisions = 'all'", "[time]\naccuracy = 1e-9", "[time]\nmicro_steps = 0",
+        "[time]\nsync_every = 0", "[time]\nsync_every = 1e12", "[output]\ntext = 'all'", "[output]\ntrajectory = 'x'",
+        "[effects]\ngravity = 1", "[speed]\n", "\nspeed = 1"};
+    for (const std::string& addition : all) {
+        CAPTURE(addition);
+        // Tables may not be opened twice: what is added takes the place of the header of its own table.
+        const std::string table = addition.substr(0, addition.find('\n'));
+        const std::string key = addition.substr(addition.find('\n') + 1);
+        std::string text = good;
+        std::int64_t line = 0;
+        if (table.empty()) {
+            text = key + '\n' + good;
+            line = 1;
+        } else if (const std::size_t at = good.find(table); at != std::string::npos) {
+            text.insert(at + table.size() + 1, key + '\n');
+            line = std::count(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(at), '\n') + 2;
+        } else {
+            text += addition + '\n';
+            line = key.empty() ? 8 : 9;
+        }
+        CHECK(places_of(problems_in(text)) == Texts{"s.toml:" + std::to_string(line)});
+    }
+}
+
+TEST_CASE("What goes wrong together is told where it can be mended") {
+    CHECK(places_of(problems_in(with_line(4, "count = 10_000_000"))) == Texts{"s.toml:5"}); // the radius is too large
+    CHECK(places_of(problems_in(with_line(7, "steps = 3\nmicro_steps = 9007199254740992"))) == Texts{"s.toml:7"});
+}
+
+TEST_CASE("Numbers too large for any type, and text that is not TOML, are one problem with a line") {
+    CHECK(places_of(problems_in(with_line(4, "count = 10000000000000000000"))) == Texts{"s.toml:4"});
+    CHECK(places_of(problems_in(with_line(2, "[ = 3"))) == Texts{"s.toml:2"});
+    CHECK(places_of(problems_in(with_line(7, "steps = "))) == Texts{"s.toml:7"});
+    CHECK(places_of(problems_in(good + "[time]\n")) == Texts{"s.toml:8"});
+    CHECK(places_of(problems_in(with_line(5, "radius = \xff"))) == Texts{"s.toml:5"});
+}
+
+TEST_CASE("What is missing is named") {
+    const auto problems = problems_in("");
+    CHECK(places_of(problems) == Texts{"s.toml", "s.toml", "s.toml", "s.toml"});
+    for (const char* key : {"box.size", "discs.count", "discs.radius", "time.steps"}) CHECK(mentions(problems, key));
+}
+
+TEST_CASE("All problems of a scene come at once, in the order of lines, those of overrides last") {
+    const std::string text = "[box]\nsise = 10\nsize = nan\n[discs]\ncount = 0\npacking = 1.5\nradius = -1\nlist = [[1, 2, 3],\n"
+                             "  [1, 2, 3, 'a']]\n[[discs.streams]]\nregion = [1, 2, 3]\nvelocity = [1, 2]\n[[discs.streams]]\n"
+                             "regio = [1, 2, 3, 4]\nvelocity = [1, 2]\n[time]\nsteps = 'ten'\n[effects.gravity]\ng = 1\n"
+                             "[output.trajectory]\nevery = 1\n[foo]\n";
+    const auto problems = problems_in(text, {"box.sise=1", "time.steps=1.5", "nonsense", "effects.drag.gamma=1", "box.size=abc"});
+    for (const Problem& problem : problems) UNSCOPED_INFO(to_string(problem));
+    CHECK(places_of(problems) ==
+          Texts{"s.toml:2", "s.toml:3", "s.toml:5", "s.toml:6", "s.toml:6", "s.toml:7", "s.toml:8", "s.toml:9", "s.toml:10",
+                "s.toml:11", "s.toml:13", "s.toml:14", "s.toml:17", "s.toml:18", "s.toml:20", "s.toml:22", "--set box.sise",
+                "--set nonsense", "--set effects.drag.gamma", "--set box.size", "--set time.steps"});
+    CHECK(mentions(problems, "did you mean 'box.size'?"));
+    CHECK(mentions(problems, "did you mean 'region'?"));
+    CHECK(mentions(problems, "no effect 'gravity'"));
+    CHECK(mentions(problems, "no effect 'drag'"));
+    CHECK(mentions(problems, "no output 'trajectory'"));
+}
+
+TEST_CASE("Misspelt keys name the nearest known one") {
+    const std::vector<std::pair<std::string, std::string>> pairs = {
+        {"time.stepz=1", "time.steps"}, {"discs.pakcing=0.1", "discs.packing"}, {"disks.radius=1", "discs.radius"},
+        {"steps=1", "time.steps"}, {"output.txt=ends", "output.text"}, {"time.micro_step=2", "time.micro_steps"}};
+    for (const auto& [wrong, right] : pairs) {
+        CAPTURE(wrong);
+        CHECK(mentions(problems_in(good, {wrong}), "did you mean '" + right + "'?"));
+    }
+}
+
+TEST_CASE("Keys that have no say in the discs are refused") {
+    CHECK(problems_in(with_line(5, "radius = 1\nfile = 'd'\nspeed = 1\nseed = 1")).size() == 2);
+    CHECK(problems_in(with_line(5, "radius = 1\ngenerator = 'ancestor'\nvelocities = 'uniform'")).size() == 1);
+    CHECK(problems_in(with_line(5, "radius = 1\ngenerator = 'lattice'\nfile = 'd'")).size() == 1);
+    CHECK(problems_in(with_line(5, "radius = 1\npacking = 0.1")).size() == 1);
+    CHECK(problems_in(with_line(4, "file = 'd'\nlist = [[1, 1, 1, 1]]")).size() == 1);
+}
+
+TEST_CASE("Discs listed in the scene must lie in the box and move") {
+    const std::string head = "[box]\nsize = 10\n[discs]\nradius = 1\nlist = [\n";
+    const std::string tail = "]\n[time]\nsteps = 1\n";
+    CHECK(problems_in(head + "[1, 9, 0, 0],\n[1, 9, 0, 0]\n" + tail).empty()); // at two walls, and overlapping
+    CHECK(places_of(problems_in(head + "[0.99, 5, 0, 0],\n[5, 5, 0, 0],\n[5, 9.01, 0, 0],\n[nan, 5, 0, 0],\n[5, 5, inf, 0],\n"
+                                       "[5, 5, 1e100, 0],\n[5, 5, 0, 1e-100],\n[5, 5, 0],\n[5, 5, 0, 0, 0],\n['a', 5, 0, 0]\n" + tail)) ==
+          Texts{"s.toml:6", "s.toml:8", "s.toml:9", "s.toml:10", "s.toml:11", "s.toml:12", "s.toml:13", "s.toml:14", "s.toml:15"});
+    CHECK(places_of(problems_in("[box]\nsize = 10\n[discs]\nradius = 1\nlist = []\n[time]\nsteps = 1\n")) == Texts{"s.toml:5"});
+}
+
+TEST_CASE("Streams need a region and a finite velocity") {
+    const std::string head = good + "[[discs.streams]]\n";
+    CHECK(problems_in(head + "region = [0, 0, 1, 1]\nvelocity = [1, 2]\n").empty());
+    for (const char* wrong : {"region = [0, 0, 1, nan]\nvelocity = [1, 2]\n", "region = [1, 0, 0, 1]\nvelocity = [1, 2]\n",
+                              "region = [0, 0, 1, 1]\nvelocity = [inf, 2]\n", "region = [0, 0, 1, 1]\nvelocity = 3\n",
+                              "region = [0, 0, 1, 1]\n", "velocity = [0, 1]\n",
+                              "region = [0, 0, 1, 1]\nvelocity = [1, 2]\nspeed = 3\n"}) {
+        CAPTURE(wrong);
+        CHECK(problems_in(head + wrong).size() == 1);
+    }
+    CHECK(problems_in(with_line(5, "radius = 1\nstreams = 3")).size() == 1);
+    CHECK(problems_in(with_line(5, "radius = 1\nstreams = [3]")).size() == 1);
+}
