@@ -107,8 +107,9 @@ void add_gas(TestScene& scene, std::size_t n, Random& random) {
     const double spacing = size / static_cast<double>(k);
     const double shake = 0.499 * (spacing - 2 * radius);
     for (std::size_t i = 0; i < k * k; ++i) {
-        const double x = (static_cast<double>(i % k) + 0.5) * spacing, y = (static_cast<double>(i / k) + 0.5) * spacing;
-        add_disc(scene, x + random.uniform(-shake, shake), y + random.uniform(-shake, shake));
+        const double x = (static_cast<double>(i % k) + 0.5) * spacing + random.uniform(-shake, shake);
+        const double y = (static_cast<double>(i / k) + 0.5) * spacing + random.uniform(-shake, shake);
+        add_disc(scene, x, y);
     }
 }
 

@@ -67,7 +67,10 @@ std::vector<TestScene> overlaps() {
     for (const std::size_t n : {std::size_t{2}, std::size_t{5}, std::size_t{20}, std::size_t{60}}) {
         for (const double speed : {0.05, 1.0, 6.0}) {
             TestScene scene = empty_scene("overlaps of " + std::to_string(n) + ", speed " + number(speed), 12, 1, 40);
-            for (std::size_t i = 0; i < n; ++i) add_disc(scene, random.uniform(1, 11), random.uniform(1, 11));
+            for (std::size_t i = 0; i < n; ++i) {
+                const double x = random.uniform(1, 11), y = random.uniform(1, 11);
+                add_disc(scene, x, y);
+            }
             set_speeds(scene, speed, random);
             // Every third disc lies exactly on the one before it, every sixth moves exactly with it.
             for (std::size_t i = 2; i < n; i += 3) {

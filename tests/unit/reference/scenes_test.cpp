@@ -80,3 +80,32 @@ TEST_CASE("the small scenes meet all that the rule has to decide") {
     CHECK(at_end > 100);
     CHECK(ties > 1000);
 }
+
+TEST_CASE("a transposed scene gives transposed bits, a scaled one scaled bits") {
+    std::vector<TestScene> scenes;
+    for (const auto family : {gases, fast_scenes, chains, breaks, wall_scenes, boundary_contacts, overlaps}) {
+        for (const TestScene& scene : family()) {
+            if (scene.discs.size() <= 60) scenes.push_back(scene);
+        }
+    }
+    for (const TestScene& scene : scenes) {
+        INFO(scene.name);
+        reference::OneRuleReference plain(scene.setting, scene.discs);
+        plain.run_steps(scene.steps);
+        const TestScene across = transposed(scene), larger = scaled(scene, 180), smaller = scaled(scene, -180);
+        reference::OneRuleReference turned(across.setting, across.discs);
+        reference::OneRuleReference grown(larger.setting, larger.discs), shrunk(smaller.setting, smaller.discs);
+        for (reference::OneRuleReference* run : {&turned, &grown, &shrunk}) run->run_steps(scene.steps);
+        CHECK(turned.log() == plain.log());
+        CHECK(grown.log() == plain.log());
+        CHECK(shrunk.log() == plain.log());
+        std::size_t differences = 0;
+        for (std::size_t i = 0; i < scene.discs.size(); ++i) {
+            const Disc &a = plain.discs()[i], &b = turned.discs()[i], &c = grown.discs()[i], &d = shrunk.discs()[i];
+            differences += !(a.x == b.y && a.y == b.x && a.vx == b.vy && a.vy == b.vx && a.tau == b.tau);
+            differences += !(std::ldexp(a.x, 180) == c.x && std::ldexp(a.vy, 180) == c.vy && a.tau == c.tau);
+            differences += !(std::ldexp(a.x, -180) == d.x && std::ldexp(a.vy, -180) == d.vy && a.tau == d.tau);
+        }
+        CHECK(differences == 0);
+    }
+}
