@@ -23,12 +23,14 @@ void remove_rivals(Settings& settings, const Settings& given) {
         if (given.has(a) && !given.has(b)) settings.remove(b);
         if (given.has(b) && !given.has(a)) settings.remove(a);
     }
-    if (given.has("discs.file") || given.has("discs.list")) settings.remove("discs.generator");
-    const Setting* generator = given.find("discs.generator");
-    if (!generator) return;
+    const bool lists_discs = given.has("discs.file") || given.has("discs.list");
+    if (lists_discs) settings.remove("discs.generator");
+    const Setting* setting = given.find("discs.generator");
+    if (!lists_discs && !setting) return;
+    const std::string generator = setting ? std::get<std::string>(setting->value) : "file";
     const std::vector<Setting> present = settings.all();
-    for (const Setting& setting : present)
-        if (!has_meaning_for(std::get<std::string>(generator->value), setting.key)) settings.remove(setting.key);
+    for (const Setting& other : present)
+        if (!has_meaning_for(generator, other.key)) settings.remove(other.key);
 }
 
 } // namespace

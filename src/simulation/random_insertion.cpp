@@ -18,8 +18,8 @@ namespace carrom {
 
 namespace {
 
-constexpr std::uint64_t most_idle_rounds = 20000; ///< without any disc finding a place, before all starts anew
-constexpr std::uint64_t most_starts = 20;
+constexpr std::uint64_t most_idle_rounds = 10000; ///< without any disc finding a place, before all starts anew
+constexpr std::uint64_t most_starts = 10;
 constexpr DiscId copy_id = ~DiscId{0};            ///< marks a neighbour's disc among the placed ones
 
 /// A proposal, or the news of a place taken near a strip's edge.

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The first discs against references written without ranks, grids or chunks. Every rank count must pass, so every rank
+// count gives the same discs.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "carrom/core/errors.hpp"
+#include "carrom/core/state_hash.hpp"
+#include "carrom/parallel/communicator.hpp"
+#include "carrom/parallel/exchange.hpp"
+#include "carrom/scene/lattice.hpp"
+#include "carrom/scene/random_numbers.hpp"
+#include "carrom/scene/read_scene.hpp"
+#include "carrom/scene/velocities.hpp"
+#include "carrom/simulation/initial_state.hpp"
+
+using namespace carrom;
+
+namespace {
+
+using Texts = std::vector<std::string>;
+using Discs = std::vector<InputDisc>;
+
+const Communicator& ranks() {
+    static const Communicator world = Communicator::world();
+    return world;
+}
+
+Scene scene_of(const Texts& overrides) {
+    return read_scene("[box]\nsize = 10\n[discs]\ncount = 100\nradius = 0.1\nspeed = 0.25\n[time]\nsteps = 1\n", "s.toml", overrides);
+}
+
+StateHash hash_of_discs(const Discs& discs) {
+    StateHash hash;
+    for (const InputDisc& d : discs) hash += hash_of(Disc{d.x, d.y, d.vx, d.vy, 0, d.id, 0, 0});
+    return hash;
+}
+
+/// The hash of all ranks' discs.
+StateHash hash_of_all(const Discs& mine) {
+    const StateHash hash = hash_of_discs(mine);
+    return {ranks().sum(hash.low), ranks().sum(hash.high)};
+}
+
+void check_same(const Discs& mine, const Discs& reference) {
+    CHECK(ranks().sum(std::uint64_t{mine.size()}) == reference.size());
+    CHECK(hash_of_all(mine) == hash_of_discs(reference));
+}
+
+/// All discs on rank 0, by id.
+Discs gathered(const Discs& mine) {
+    std::vector<Discs> out(static_cast<std::size_t>(ranks().size()));
+    out[0] = mine;
+    Discs all = send_to_owners(ranks(), out).items;
+    std::sort(all.begin(), all.end(), [](const InputDisc& a, const InputDisc& b) { return a.id < b.id; });
+    return all;
+}
+
+/// Rank 0 checks that all discs are there, lie in the box and do not overlap.
+void check_arrangement(const Discs& mine, const Scene& scene) {
+    Discs all = gathered(mine);
+    if (!ranks().is_root()) return;
+    CHECK(all.size() == scene.n_discs);
+    bool ids_are_right = true, all_are_inside = true;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        ids_are_right = ids_are_right && all[i].id == i;
+        for (const double c : {all[i].x, all[i].y})
+            all_are_inside = all_are_inside && c >= scene.radius && c <= scene.box_size - scene.radius;
+    }
+    CHECK(ids_are_right);
+    CHECK(all_are_inside);
+    std::sort(all.begin(), all.end(), [](const InputDisc& a, const InputDisc& b) { return a.x < b.x; });
+    double nearest = scene.box_size;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (std::size_t j = i + 1; j < all.size() && all[j].x - all[i].x < nearest; ++j)
+            nearest = std::min(nearest, std::hypot(all[j].x - all[i].x, all[j].y - all[i].y));
+    CHECK(nearest >= 2 * scene.radius * (1 - 1e-15));
+}
+
+/// The rule of random insertion, word for word: all pairs, round after round.
+Discs inserted_by_the_rule(const Scene& scene) {
+    const double r = scene.radius, span = scene.box_size - 2 * r;
+    const auto overlap = [r](Point a, Point b) { return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) < (2 * r) * (2 * r); };
+    std::vector<Point> places(scene.n_discs), proposals(scene.n_discs);
+    std::vector<int> placed_in(scene.n_discs, -1);
+    std::uint64_t n_placed = 0;
+    for (int round = 0; n_placed < scene.n_discs; ++round) {
+        for (DiscId id = 0; id < scene.n_discs; ++id) {
+            const auto words = random_words(scene.seed, Purpose::position, id, static_cast<std::uint64_t>(round));
+            proposals[id] = {r + span * unit_number(words[0]), r + span * unit_number(words[1])};
+        }
+        for (DiscId id = 0; id < scene.n_discs; ++id) {
+            if (placed_in[id] >= 0) continue;
+            bool is_refused = false;
+            for (DiscId other = 0; other < scene.n_discs; ++other) {
+                const bool was_placed = placed_in[other] >= 0 && placed_in[other] < round;
+                if (was_placed) is_refused = is_refused || overlap(proposals[id], places[other]);
+                else if (other < id) is_refused = is_refused || overlap(proposals[id], proposals[other]);
+            }
+            if (is_refused) continue;
+            placed_in[id] = round;
+            places[id] = proposals[id];
+            ++n_placed;
+        }
+    }
+    Discs discs;
+    for (DiscId id = 0; id < scene.n_discs; ++id) {
+        const Velocity v = generated_velocity(scene, id);
+        discs.push_back({id, places[id].x, places[id].y, v.x, v.y});
+    }
+    return discs;
+}
+
+/// The ancestor's generator, as one would write it in C: plain `rand`, all earlier discs compared.
+Discs ancestor_by_hand(std::uint64_t n, double box, double r) {
+    std::srand(3210);
+    const auto uniform = [](double low, double high) { return low + (high - low) * (std::rand() / static_cast<double>(RAND_MAX)); };
+    Discs discs;
+    while (discs.size() < n) {
+        InputDisc disc{discs.size(), 0, 0, 0, 0};
+        for (bool is_free = false; !is_free;) {
+            disc.x = uniform(r, box - r);
+            disc.y = uniform(r, box - r);
+            is_free = true;
+            for (const InputDisc& other : discs)
+                if (std::sqrt((disc.x - other.x) * (disc.x - other.x) + (disc.y - other.y) * (disc.y - other.y)) < 2 * r) is_free = false;
+        }
+        discs.push_back(disc);
+    }
+    for (InputDisc& disc : discs) {
+        const double speed = uniform(box / (8 * r), box / 4);
+        const double angle = uniform(0, 2 * std::acos(-1.0));
+        disc.vx = speed * std::cos(angle);
+        disc.vy = speed * std::sin(angle);
+    }
+    return discs;
+}
+
+struct Listing {
+    Scene scene;
+    std::unique_ptr<std::istringstream> stream;
+};
+
+/// A listing as the program opens it: rank 0 has the stream, all have the scene.
+Listing listing_of(const std::string& text) {
+    auto stream = std::make_unique<std::istringstream>(text);
+    const SceneText input = read_scene_text(*stream, "t.in");
+    Scene scene = read_scene(input);
+    if (!ranks().is_root()) stream.reset();
+    return {std::move(scene), std::move(stream)};
+}
+
+} // namespace
+
+TEST_CASE("Random insertion follows its rule on any number of ranks") {
+    for (const Texts& overrides : {Texts{"discs.packing=0.3"}, Texts{"discs.packing=0.45", "discs.seed=9"}, Texts{"discs.packing=0.01"},
+                                   Texts{"discs.packing=0.4", "discs.count=7"}, Texts{"discs.packing=0.1", "discs.count=1"},
+                                   Texts{"discs.packing=0.35", "discs.count=600", "discs.velocities=uniform"}}) {
+        CAPTURE(overrides);
+        const Scene scene = scene_of(overrides);
+        check_same(initial_state(scene, nullptr, ranks()), inserted_by_the_rule(scene));
+    }
+}
+
+TEST_CASE("Many random discs: all there, inside, apart, and always the same") {
+    const Scene scene = scene_of({"discs.packing=0.3", "discs.count=20000"});
+    const Discs discs = initial_state(scene, nullptr, ranks());
+    check_arrangement(discs, scene);
+    CHECK(to_string(hash_of_all(discs)) == "0be26c0a211b72f9ab3096d0e43a68a0");
+}
+
+TEST_CASE("Random discs are shared out evenly") {
+    const Discs discs = initial_state(scene_of({"discs.packing=0.3", "discs.count=20000"}), nullptr, ranks());
+    const std::uint64_t share = 20000 / static_cast<std::uint64_t>(ranks().size());
+    CHECK(discs.size() < share + share / 5);
+}
+
+TEST_CASE("A lattice is its sites, shaken") {
+    const Scene scene = scene_of({"discs.packing=0.8", "discs.count=3000", "discs.generator=lattice"});
+    const auto lattice = widest_lattice(scene.n_discs, scene.box_size, scene.radius);
+    REQUIRE(lattice.has_value());
+    Discs reference;
+    for (DiscId id = 0; id < scene.n_discs; ++id) {
+        const Point place = shaken_site(*lattice, id, scene.seed);
+        const Velocity v = generated_velocity(scene, id);
+        reference.push_back({id, place.x, place.y, v.x, v.y});
+    }
+    const Discs discs = initial_state(scene, nullptr, ranks());
+    check_same(discs, reference);
+    check_arrangement(discs, scene);
+}
+
+TEST_CASE("The ancestor's generator gives the ancestor's discs") {
+    struct Case {
+        std::uint64_t n;
+        double box;
+    };
+    for (const auto& [n, box] : {Case{1000, 20000}, Case{300, 48.5}, Case{1, 2}, Case{1500, 100}}) {
+        CAPTURE(n, box);
+        const Scene scene = read_scene(fmt::format("{}\n{}\n1\n10\nperf\n", n, box), "t.in");
+        check_same(initial_state(scene, nullptr, ranks()), ancestor_by_hand(n, box, 1));
+    }
+}
+
+TEST_CASE("A box too full for the ancestor's generator is refused on every rank") {
+    const Scene scene = read_scene("100\n20\n1\n10\nperf\n", "t.in");
+    CHECK_THROWS_AS(initial_state(scene, nullptr, ranks()), InputError);
+}
+
+TEST_CASE("Streams reach generated discs of every kind") {
+    for (const char* generator : {"random", "lattice", "ancestor"}) {
+        CAPTURE(generator);
+        const Texts settings = {"discs.packing=0.2", fmt::format("discs.generator={}", generator)};
+        Texts with_stream = settings;
+        with_stream.push_back("discs.streams=[{region = [0, 0, 10, 5], velocity = [3, -4]}]");
+        const Discs still = gathered(initial_state(scene_of(settings), nullptr, ranks()));
+        const Discs moved = gathered(initial_state(scene_of(with_stream), nullptr, ranks()));
+        CHECK(still.size() == moved.size());
+        bool all_right = true;
+        for (std::size_t i = 0; i < moved.size(); ++i) {
+            const double share = still[i].y <= 5 ? 1 : 0;
+            all_right = all_right && moved[i] == InputDisc{i, still[i].x, still[i].y, still[i].vx + 3 * share, still[i].vy - 4 * share};
+        }
+        CHECK(all_right);
+    }
+}
+
+TEST_CASE("Listed discs arrive, whatever their order, in shares") {
+    std::string text = "150000\n1000\n0.5\n1\nperf\n";
+    Discs reference;
+    for (DiscId i = 0; i < 150000; ++i) {
+        const DiscId id = i * 7919 % 150000;
+        reference.push_back({id, 1 + 0.006 * static_cast<double>(id), 500, 0.25, -0.5});
+        text += fmt::format("{} {} 500 0.25 -0.5\n", id, reference.back().x);
+    }
+    Listing listing = listing_of(text);
+    const Discs discs = initial_state(listing.scene, listing.stream.get(), ranks());
+    check_same(discs, reference);
+    CHECK(discs.size() <= 150000 / static_cast<std::size_t>(ranks().size()) + 1);
+}
+
+TEST_CASE("Discs listed in the scene are spread once") {
+    const Scene scene = scene_of({"discs.list=[[1,1,0,0],[2,2,1,0],[3,3,0,1]]", "discs.count=3"});
+    check_same(initial_state(scene, nullptr, ranks()), scene.listed_discs);
+}
+
+TEST_CASE("Wrong lines are the same problems on every rank") {
+    Listing listing = listing_of("4\n10\n1\n1\nperf\n0 5 5 0 0\n1 5 5 x 0\n0 2 2 0 0\n2 0.5 5 0 0\n");
+    std::vector<std::string> problems;
+    try {
+        initial_state(listing.scene, listing.stream.get(), ranks());
+    } catch (const InputError& error) {
+        for (const Problem& problem : error.problems()) problems.push_back(problem.place + ':' + std::to_string(problem.line));
+    }
+    CHECK(problems == Texts{"t.in:7", "t.in:8", "t.in:9", "t.in:0"});
+}
+
+TEST_CASE("Discs that jam in every try are refused") {
+    if (ranks().size() > 1) return; // the same on every rank, but a hundred thousand rounds of talk
+    Scene scene = scene_of({"discs.radius=2.49", "discs.count=4", "discs.generator=lattice"});
+    scene.generator = Generator::random; // the reader never asks for that at such a packing
+    CHECK_THROWS_AS(initial_state(scene, nullptr, ranks()), InputError);
+}
