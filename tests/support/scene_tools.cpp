@@ -151,6 +151,26 @@ TestScene chain(std::size_t n, const std::string& times_kind, std::uint64_t seed
     return scene;
 }
 
+TestScene zigzag(std::size_t n, const std::string& times_kind, std::uint64_t seed) {
+    Random random(seed);
+    const double count = static_cast<double>(n);
+    const double box_size = 2 + count;
+    TestScene scene = empty_scene("zigzag of " + std::to_string(n) + ", times " + times_kind, box_size, 0.5, 12);
+    double x = 1;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double side = i % 2 == 0 ? -1 : 1;
+        add_disc(scene, x, std::floor(box_size / 2) + 0.625 * side, 0, -0.625 * side);
+        // The wider a pair's places in x, the later its rows are close enough.
+        const double rank = std::floor(1024 * static_cast<double>(i) / count) / 1024;
+        double width = 0.75;
+        if (times_kind == "rising") width = 0.5625 + 0.375 * rank;
+        if (times_kind == "falling") width = 0.9375 - 0.375 * rank;
+        if (times_kind == "mixed") width = random.uniform(0.5625, 0.9375);
+        x += width;
+    }
+    return scene;
+}
+
 TestScene cradle(std::size_t n, double radius, double gap, double speed) {
     const double pitch = 2 * radius + gap;
     const double box_size = static_cast<double>(n) * pitch + gap;

@@ -59,6 +59,9 @@ TestScene gas(std::size_t n, double packing, double speed, std::uint64_t seed);
 /// Each disc's neighbours in x both reach it in the first micro-step; times_kind of "rising", "falling", "tied", "mixed".
 TestScene chain(std::size_t n, const std::string& times_kind, std::uint64_t seed);
 
+/// The same in a zigzag of bounded speed and length: two rows that close in, conflicts between neighbours only.
+TestScene zigzag(std::size_t n, const std::string& times_kind, std::uint64_t seed);
+
 /// n discs of radius r from wall to wall with equal gaps; the first one moves with `speed`.
 TestScene cradle(std::size_t n, double radius, double gap, double speed);
 

@@ -25,9 +25,13 @@ std::vector<TestScene> large_scenes() {
     add(gas(2025, 0.7, 0.1, 2004), 20);
     add(ancestor_like(2000, 20000, 1, 2005), 10);
     add(ancestor_like(2000, 250, 1, 2006), 4);
-    add(chain(2000, "tied", 2007), 4);
-    add(chain(2000, "rising", 2008), 4);
-    add(transposed(chain(2000, "mixed", 2009)), 4);
+    add(chain(2000, "mixed", 2007), 2);
+    add(zigzag(2000, "tied", 2008), 4);
+    add(zigzag(2000, "rising", 2009), 4);
+    add(transposed(zigzag(2000, "falling", 2010)), 4);
+    // In the order of their places, so that the first tie decides the second, and so on across the box.
+    scenes.push_back(zigzag(2000, "tied", 2011));
+    scenes.back().steps = 4;
     add(cradle(2000, 0.5, 0, 0.25), 20);
     add(lattice(45, 1.25), 1);
     for (InputDisc& disc : scenes.back().discs) {

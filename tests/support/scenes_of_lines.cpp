@@ -55,7 +55,9 @@ std::vector<TestScene> chains() {
             TestScene scene = chain(n, kind, ++seed);
             scene.setting.sync_every = std::array{64, 1, 4}[seed % 3];
             add_variants(scenes, scene, seed);
+            add_variants(scenes, zigzag(n, kind, seed), seed);
         }
+        scenes.push_back(zigzag(400, kind, ++seed));
     }
     scenes.push_back(shuffled(chain(400, "tied", 890), 890));
     scenes.push_back(chain(400, "rising", 891));
