@@ -1,0 +1,106 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Every wrong input is refused the same way: exit code 2, all problems with file and line on standard error, each once,
+# nothing on standard output, nothing written. The argument is the number of ranks.
+source "$(dirname "$0")/common.sh"
+ranks=$1
+
+# refuse WHAT TEXT WORD...: running the program with these words must be refused, with each line of TEXT told once.
+refuse() {
+    local what=$1 text=$2 before line
+    shift 2
+    before=$(ls -A)
+    run "$ranks" "$@" --report report.json --output lines.txt
+    expect_code 2 "$what"
+    expect_silence "$what"
+    while IFS= read -r line; do
+        expect_told "$line" "$what"
+        [ "$(grep -cF -- "$line" "$test_folder/err")" -le 1 ] || complain "told more than once: \"$line\", in: $what"
+    done <<<"$text"
+    [ "$(ls -A)" = "$before" ] || complain "files were written: $what"
+    grep -qE 'terminate called|MPI_ABORT|Signal:|internal error' "$test_folder/err" && { complain "not a clean end: $what"; show; }
+}
+
+# refuse_text WHAT CONTENT TEXT and refuse_toml: the same for a file with this content.
+refuse_text() { printf '%b' "$2" >bad.in; refuse "$1" "$3" run bad.in; rm bad.in; }
+refuse_toml() { printf '%s\n' "$2" >bad.toml; refuse "$1" "$3" run bad.toml; rm bad.toml; }
+
+header='2\n10\n1\n5\nprint\n'
+good=$'[box]\nsize = 10\n[discs]\ncount = 2\nradius = 1\n[time]\nsteps = 5'
+
+# Files and options.
+refuse 'a missing file' 'nowhere.toml: cannot be opened: No such file' run nowhere.toml
+refuse 'a directory' '.: is a directory' run .
+refuse 'no input' 'no input' run
+refuse 'two inputs' 'other.in: one input is enough' run some.in other.in
+refuse 'an unknown option' '--thread: no such option' run some.in --thread 2
+refuse 'several wrong options' $'--threads: must be\n--digits: must be\n--steps: must be\n--window: must be' \
+    run nowhere.toml --threads 0 --digits 18 --steps -1 --window 0
+refuse 'an option without its value' 'command line' run some.in --threads=
+refuse 'an unknown subcommand' 'command line' walk some.in
+mkdir secret && printf "$header" >secret/a.in && chmod 000 secret/a.in
+# Root may read everything; a file that gives an error on reading is as good.
+if [ -r secret/a.in ]; then refuse 'an unreadable file' '/proc/self/mem: cannot be read' run /proc/self/mem
+else refuse 'an unreadable file' 'secret/a.in: cannot be opened: Permission denied' run secret/a.in; fi
+rm -rf secret
+
+# Ancestor text, the header.
+refuse_text 'an empty file' '' 'bad.in: the input is empty'
+refuse_text 'a header that ends early' '2\n10\n1\n' 'bad.in:3: the input ends before'
+refuse_text 'no discs at all' '0\n10\n1\n5\nprint\n' 'bad.in:1: '
+refuse_text 'a negative number of discs' '-4\n10\n1\n5\nprint\n' 'bad.in:1: '
+refuse_text 'a count that is not whole' '2.5\n10\n1\n5\nprint\n' 'bad.in:1: '
+refuse_text '1e19 discs' '10000000000000000000\n10\n1\n5\nprint\n' 'bad.in:1: '
+refuse_text 'a radius of 0' '2\n10\n0\n5\nprint\n' 'bad.in:3: '
+refuse_text 'a negative radius' '2\n10\n-1\n5\nprint\n' 'bad.in:3: '
+refuse_text 'a box without size' '2\n0\n1\n5\nprint\n' 'bad.in:2: '
+refuse_text 'a box that is no number' '2\nnan\n1\n5\nprint\n' 'bad.in:2: '
+refuse_text 'an infinite box' '2\ninf\n1\n5\nprint\n' 'bad.in:2: '
+refuse_text 'a box narrower than a disc' '1\n1.5\n1\n5\nprint\n' 'L < 2 r'
+refuse_text 'more discs than fit' '40\n10\n1\n5\nprint\n' 'cannot fit into a box of side 10'
+refuse_text 'a box too wide for the wall band' '2\n2e6\n1\n5\nprint\n' 'radii wide'
+refuse_text 'negative steps' '2\n10\n1\n-5\nprint\n' 'bad.in:4: '
+refuse_text 'an unknown output' '2\n10\n1\n5\nprnt\n' 'bad.in:5: '
+refuse_text 'rubbish in the header' '2 x\n10\n1\n5\nprint\n' 'bad.in:1: '
+refuse_text 'several problems at once' '-2\n10\nnan\n5\nprnt\n' $'bad.in:1: \nbad.in:3: \nbad.in:5: '
+
+# Ancestor text, the discs.
+refuse_text 'a short line' "${header}0 3 3 1\n1 7 7 0 0\n" 'bad.in:6: '
+refuse_text 'rubbish after a disc' "${header}0 3 3 1 0 9\n1 7 7 0 0\n" 'bad.in:6: '
+refuse_text 'a disc outside the box' "${header}0 3 3 1 0\n1 9.5 7 0 0\n" 'bad.in:7: '
+refuse_text 'a position that is no number' "${header}0 3 3 1 0\n1 nan 7 0 0\n" 'bad.in:7: '
+refuse_text 'an infinite velocity' "${header}0 3 3 1 0\n1 7 7 inf 0\n" 'bad.in:7: '
+refuse_text 'a word for a number' "${header}0 3 3 1 0\n1 7 seven 0 0\n" 'bad.in:7: '
+refuse_text 'an id twice' "${header}0 3 3 1 0\n0 7 7 0 0\n" 'bad.in:7: disc 0 is listed twice'
+refuse_text 'an id out of range' "${header}0 3 3 1 0\n2 7 7 0 0\n" 'bad.in:7: disc 2 is out of range'
+refuse_text 'a missing disc' "${header}0 3 3 1 0\n" '1 of 2 discs are missing: 1'
+refuse_text 'a line too many' "${header}0 3 3 1 0\n1 7 7 0 0\n2 5 5 0 0\n" 'bad.in:8: '
+refuse_text 'problems on several lines' "${header}0 3 3 1\n1 99 7 0 0\n" $'bad.in:6: \nbad.in:7: '
+
+# TOML.
+refuse_toml 'no TOML' '[ = 3' 'bad.toml:1: not valid TOML'
+refuse_toml 'an empty scene' '' $'\'box.size\' is missing\n\'discs.count\' is missing\n\'time.steps\' is missing'
+refuse_toml 'an unknown key' "$good"$'\nstep = 3' $'bad.toml:8: \ndid you mean \'time.steps\'?'
+refuse_toml 'a wrong type' "${good/size = 10/size = \"ten\"}" 'bad.toml:2: '
+refuse_toml 'not a number' "${good/size = 10/size = nan}" 'bad.toml:2: '
+refuse_toml 'infinity' "${good/radius = 1/radius = inf}" 'bad.toml:5: '
+refuse_toml 'no discs at all' "${good/count = 2/count = 0}" 'bad.toml:4: '
+refuse_toml 'more discs than fit' "${good/count = 2/count = 200}" 'cannot fit into a box of side 10'
+refuse_toml 'an effect of a later version' "$good"$'\n[effects.gravity]\ng = 1' 'bad.toml:8: '
+refuse_toml 'discs from no file' "${good/radius = 1/radius = 1$'\n'generator = \"file\"}" 'bad.toml:6: '
+refuse_toml 'discs from a file that is not there' \
+    "${good/radius = 1/radius = 1$'\n'generator = \"file\"$'\n'file = \"nowhere.txt\"}" 'nowhere.txt: cannot be opened'
+printf '%s\n' "$good" >good.toml
+refuse 'a wrong override' '--set time.stps' run good.toml --set time.stps=3
+refuse 'an override that is none' '--set time.steps' run good.toml --set time.steps
+refuse 'wrong options and a wrong scene at once' $'--threads: must be\n--set discs.count' \
+    run good.toml --threads none --set discs.count=-1
+
+# Places to write to.
+run "$ranks" run good.toml --report nowhere/report.json
+expect_code 2 'a report in a folder that is not there'
+expect_told '--report nowhere/report.json: cannot be written' 'a report in a folder that is not there'
+run "$ranks" run good.toml --output good.toml
+expect_code 2 'output into the input'
+expect_told '--output good.toml: is the input itself' 'output into the input'
+finish

@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Help and version: on standard output, once for all ranks, exit code 0; and a help that names every exit code.
+source "$(dirname "$0")/common.sh"
+
+for ranks in 1 3; do
+    run "$ranks" --version
+    expect_code 0 '--version'
+    grep -qxE 'carrom [0-9]+\.[0-9]+\.[0-9]+' "$test_folder/out" || complain 'no version'
+    [ "$(wc -l <"$test_folder/out")" -eq 1 ] || complain "the version is told more than once on $ranks ranks"
+    run "$ranks" --help
+    expect_code 0 '--help'
+    [ "$(grep -c '^Usage:' "$test_folder/out")" -eq 1 ] || complain "the help is not told once on $ranks ranks"
+    for exit_code in 0 1 2 3 4 75; do
+        grep -qE "^ +$exit_code " "$test_folder/out" || complain "the help does not explain exit code $exit_code"
+    done
+done
+
+run 1 run --help
+expect_code 0 'run --help'
+for option in --threads --steps --set --digits --output --report --quiet --window --cell-width --rebalance-every --rebalance-above; do
+    grep -q -- "^  $option" "$test_folder/out" || complain "the help of run does not explain $option"
+done
+
+run 3
+expect_code 2 'no subcommand'
+expect_silence 'no subcommand'
+[ -z "$(ls -A)" ] || complain 'files were written'
+finish

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# What system tests share: run the real program, note what is wrong, fail at the end. To be sourced.
+#
+# Each test runs in a folder of its own. `files` is what the program sees as its working folder; what it says is kept
+# beside it in `out` and `err`, so that anything it writes uninvited shows.
+set -u
+exec </dev/null
+
+# More threads than cores: those that wait must not spin.
+export OMP_WAIT_POLICY=passive
+
+test_folder=$PWD
+rm -rf files out err
+mkdir files
+cd files
+
+n_failures=0
+complain() {
+    printf 'FAILED: %s\n' "$*"
+    n_failures=$((n_failures + 1))
+}
+finish() {
+    [ "$n_failures" -eq 0 ] || { printf '%s failures\n' "$n_failures"; exit 1; }
+    exit 0
+}
+
+# run RANKS WORD...: the program on that many ranks; sets `code`. Never waits longer than a minute.
+run() {
+    local ranks=$1
+    shift
+    timeout --kill-after=5 60 "$CARROM_MPIEXEC" -n "$ranks" "$CARROM_PROGRAM" "$@" >"$test_folder/out" 2>"$test_folder/err"
+    code=$?
+    [ "$code" -ne 124 ] || complain "no end within a minute: $*"
+}
+show() { sed 's/^/    /' "$test_folder/err"; }
+
+expect_code() { [ "$code" -eq "$1" ] || { complain "exit code $code, not $1: $2"; show; }; }
+expect_silence() { [ ! -s "$test_folder/out" ] || complain "standard output is not empty: $1"; }
+expect_told() { grep -qF -- "$1" "$test_folder/err" || { complain "not told: \"$1\", in: $2"; show; }; }
+expect_same() { cmp "$1" "$2" || complain "$3"; }
+
+# json_value FILE KEY: the value of a key that stands on a line of its own.
+json_value() { sed -n "s/^ *\"$2\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}\$/\1/p" "$1"; }

@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Output that cannot be written ends all ranks with exit code 4 and a message, and soon: a full disk, a closed pipe.
+source "$(dirname "$0")/common.sh"
+expected=$CARROM_SOURCE_DIR/tests/system/expected
+[ -c /dev/full ] || exit 0
+
+run 3 run "$expected/three_discs.in" --output /dev/full
+expect_code 4 'a full disk'
+expect_told 'cannot write to /dev/full: No space left' 'a full disk'
+
+# Without mpirun in between, standard output is the program's own.
+"$CARROM_PROGRAM" run "$expected/three_discs.in" >/dev/full 2>"$test_folder/err"
+code=$?
+expect_code 4 'standard output on a full disk'
+expect_told 'cannot write to standard output: No space left' 'standard output on a full disk'
+
+mkfifo pipe
+exec 3<>pipe
+"$CARROM_PROGRAM" run "$expected/three_discs.in" --steps 100000 --quiet >pipe 2>"$test_folder/err" 3>&- &
+program=$!
+exec 4<pipe
+exec 3>&-
+read -r line <&4
+exec 4<&-
+wait "$program"
+code=$?
+expect_code 4 'a closed pipe'
+expect_told 'cannot write to standard output: Broken pipe' 'a closed pipe'
+finish

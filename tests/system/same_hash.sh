@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# One scene, many machine shapes, one set of bits: the state hash and the lines of the last step must not change with
+# ranks, threads, windows, cell widths and rebalancing. Arguments: the input and options that make it small.
+source "$(dirname "$0")/common.sh"
+input=$CARROM_SOURCE_DIR/$1
+shift
+small=("$@")
+[ -r "$input" ] || { complain "no input $input"; finish; }
+
+# shape RANKS THREADS OPTION...: runs it and compares with the first run.
+shape() {
+    local ranks=$1 threads=$2
+    shift 2
+    run "$ranks" run "$input" "${small[@]}" --set output.text=ends --threads "$threads" "$@" --report report.json --quiet
+    expect_code 0 "$ranks ranks x $threads threads $*"
+    if [ -z "${hash:-}" ]; then
+        hash=$(json_value report.json state_hash)
+        [ -n "$hash" ] || complain 'no state hash'
+        cp "$test_folder/out" "$test_folder/first"
+    fi
+    [ "$(json_value report.json state_hash)" = "$hash" ] || complain "another state hash: $ranks ranks x $threads threads $*"
+    expect_same "$test_folder/out" "$test_folder/first" "other lines: $ranks ranks x $threads threads $*"
+}
+
+shape 1 1
+[ "$(json_value report.json pair_collisions)" -gt 0 ] || complain 'a scene without collisions shows nothing'
+for ranks in 1 2 3 4 7; do
+    for threads in 1 2 3; do
+        [ "$ranks$threads" = 11 ] || shape "$ranks" "$threads"
+    done
+done
+for window in 0.07 0.5 1 3 64; do
+    shape 1 2 --window "$window"
+    shape 3 1 --window "$window" --rebalance-every 1 --rebalance-above 0
+done
+for cell_width in 1 1.7 4; do
+    shape 2 2 --cell-width "$cell_width"
+done
+shape 4 1 --rebalance-every 0
+shape 3 2 --window 0.3 --cell-width 2.5 --rebalance-every 1 --rebalance-above 0
+finish
