@@ -85,7 +85,10 @@ void Simulation::Engine::run_window(int n_left) {
         if (++part_ < n_parts_) return;
         discs_.swap(outcomes_);
         outcomes_.clear();
+        in_parts_ = false;
         part_ = 0;
+        // A taken disc was settled where it would have come without its collision: as far again from where it is.
+        settled_time_ = m - 2.0;
     }
     n_micro_done_ += m - window.first_micro;
     micro_ = m;
@@ -98,7 +101,7 @@ Window Simulation::Engine::settle(int n_left) {
         grid_.reorder(discs_, n_own_, tuning_.threads);
     }
     discs_.resize(n_own_);
-    if (in_parts()) outcomes_.resize(n_own_);
+    if (in_parts_) outcomes_.resize(n_own_);
     migrate();
     const Window window = choose(n_left);
     const double reach = reach_of(window_needs(), window.duration());
@@ -132,7 +135,8 @@ Window Simulation::Engine::choose(int n_left) {
         const WindowChoice choice = choose_window(window_needs(), n_left, tuning_.window);
         window.n_micro = choice.n_micro;
         n_parts_ = choice.n_parts;
-        if (n_parts_ > 1) outcomes_ = discs_;
+        in_parts_ = n_parts_ > 1;
+        if (in_parts_) outcomes_ = discs_;
     }
     if (n_parts_ > 1) {
         window.part_begin = static_cast<double>(part_) / n_parts_;
@@ -149,9 +153,9 @@ void Simulation::Engine::migrate() {
     const double time = micro_ + static_cast<double>(part_) / n_parts_;
     if (part_ == 0) {
         const PhaseClock::Scope scope(clock_, Phase::wait);
-        largest_speed_ = communicator_.max(largest_speed_);
+        travel_speed_ = largest_speed_ = communicator_.max(largest_speed_);
     }
-    const double farthest = largest_speed_ * (time - settled_time_) * (1 + 1e-6) + 64 * 0x1p-53 * law_.box_size();
+    const double farthest = travel_speed_ * (time - settled_time_) * (1 + 1e-6) + 64 * 0x1p-53 * law_.box_size();
     const TransferPlan plan = plan_migration(settled_strips_, strips_, communicator_.rank(), own(), time, farthest);
     settled_strips_ = strips_;
     settled_time_ = time;
@@ -165,7 +169,7 @@ void Simulation::Engine::migrate() {
         values.insert(values.end(), arrived.items.begin(), arrived.items.end());
     };
     move_along(discs_);
-    if (in_parts()) move_along(outcomes_);
+    if (in_parts_) move_along(outcomes_);
     n_own_ = discs_.size();
 }
 
@@ -179,7 +183,7 @@ void Simulation::Engine::fetch_halo(double time, double reach) {
         values.insert(values.end(), halo.items.begin(), halo.items.end());
     };
     append(discs_);
-    if (in_parts()) append(outcomes_);
+    if (in_parts_) append(outcomes_);
     halo_offsets_.clear();
     for (const std::size_t offset : halo.offsets) halo_offsets_.push_back(n_own_ + offset);
     is_shown_.assign(n_own_, 0);
@@ -196,24 +200,22 @@ bool Simulation::Engine::run_micro_step(const Window& window, int m) {
     }
     std::uint64_t n_candidates = 0;
     for (const Candidate& candidate : live_) n_candidates += candidate.p < n_own_;
-    if (in_parts()) strike_taken(live_);
+    if (in_parts_) strike_taken(live_);
     {
         const PhaseClock::Scope scope(clock_, Phase::resolve);
         local_.resolve(population(), live_, verdicts_);
     }
+    // Within a micro-step no disc flies on after its collision, so only later ones have to worry about its speed.
+    std::uint64_t news[2] = {verdicts_.undecided.size(), speed_exceeded_ && m > window.first_micro ? 1u : 0u};
     if (communicator_.size() > 1) {
-        std::uint64_t news[2] = {verdicts_.undecided.size(), speed_exceeded_ ? 1u : 0u};
-        {
-            const PhaseClock::Scope scope(clock_, Phase::wait);
-            communicator_.sum(news);
-        }
-        speed_exceeded_ = news[1] > 0;
-        if (!speed_exceeded_ && news[0] > 0) {
-            const PhaseClock::Scope scope(clock_, Phase::contested);
-            across_strips_.decide(population(), verdicts_.undecided, news[0], verdicts_.kept);
-        }
+        const PhaseClock::Scope scope(clock_, Phase::wait);
+        communicator_.sum(news);
     }
-    if (speed_exceeded_ && m > window.first_micro) return false;
+    if (news[1] > 0) return false;
+    if (news[0] > 0) {
+        const PhaseClock::Scope scope(clock_, Phase::contested);
+        across_strips_.decide(population(), verdicts_.undecided, news[0], verdicts_.kept);
+    }
     n_candidates_ += n_candidates;
     for (const Candidate& candidate : verdicts_.kept) n_kept_ += candidate.p < n_own_;
     apply(window, m);
@@ -227,7 +229,7 @@ void Simulation::Engine::strike_taken(std::vector<Candidate>& live) const {
 }
 
 void Simulation::Engine::apply(const Window& window, int m) {
-    std::vector<Disc>& results = in_parts() ? outcomes_ : discs_;
+    std::vector<Disc>& results = in_parts_ ? outcomes_ : discs_;
     {
         const PhaseClock::Scope scope(clock_, Phase::move);
         const auto n_kept = static_cast<std::int64_t>(verdicts_.kept.size());

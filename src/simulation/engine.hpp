@@ -64,7 +64,6 @@ private:
     void sync();
     void rebalance();
     void build_grid(double time, double duration, double reach);
-    bool in_parts() const { return !outcomes_.empty(); }
 
     Communicator communicator_;
     Tuning tuning_;
@@ -74,11 +73,13 @@ private:
 
     std::vector<Disc> discs_;    ///< own, then halo
     std::size_t n_own_ = 0;
-    std::vector<Disc> outcomes_; ///< runs along discs_ while a micro-step is cut into parts, else empty
+    std::vector<Disc> outcomes_; ///< runs along discs_ while a micro-step is cut into parts
     std::int64_t n_micro_done_ = 0, n_syncs_ = 0, n_windows_ = 0;
     int micro_ = 0;              ///< micro-steps since the last sync
+    bool in_parts_ = false;      ///< whether the present micro-step is cut
     int part_ = 0, n_parts_ = 1; ///< the next part of the present micro-step
     double largest_speed_ = 0;   ///< of any disc since the last settling, on any rank once it is settled
+    double travel_speed_ = 0;    ///< bounds the motion since the last settling; the same on all ranks
     double refreshed_speed_ = 0; ///< what becomes of it then, if a sync has looked at all discs
     double window_speed_ = 0;    ///< what the window's reach allows for
     bool speed_exceeded_ = false;

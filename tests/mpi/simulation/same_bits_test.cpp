@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The engine against the brute-force reference, bit for bit, on every scene the tests have, for windows, cells, strips
+// and storage orders of all kinds. ctest runs this for many numbers of ranks and threads.
+#include "carrom/simulation/simulation.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include <omp.h>
+
+#include <catch2/catch.hpp>
+
+#include "one_rule.hpp"
+#include "scenes.hpp"
+
+using namespace carrom;
+
+namespace {
+
+/// What every machine shape must give, worked out on rank 0.
+struct Expected {
+    StateHash hash;
+    reference::Counters counters;
+};
+
+Expected expected_of(const test::TestScene& scene, const Communicator& world) {
+    Expected expected;
+    if (world.is_root()) {
+        reference::OneRuleReference reference(scene.setting, scene.discs);
+        reference.run_steps(scene.steps);
+        expected = {hash_of(reference.discs()), reference.counters()};
+    }
+    world.broadcast(expected);
+    return expected;
+}
+
+/// Every rank starts with an arbitrary share of the discs, in an arbitrary order.
+std::vector<InputDisc> share_of(const test::TestScene& scene, const Communicator& world, unsigned seed) {
+    std::mt19937 random(seed);
+    std::vector<InputDisc> mine;
+    for (const InputDisc& disc : scene.discs) {
+        if (static_cast<int>(random() % static_cast<unsigned>(world.size())) == world.rank()) mine.push_back(disc);
+    }
+    std::shuffle(mine.begin(), mine.end(), random);
+    return mine;
+}
+
+Totals run(const test::TestScene& scene, const Tuning& tuning, const Communicator& world, unsigned seed) {
+    Simulation simulation(test::scene_of(scene), share_of(scene, world, seed), world, tuning);
+    while (simulation.step() < scene.steps) simulation.advance_towards(scene.steps);
+    return simulation.totals();
+}
+
+/// Ways to run a scene; the numbers are drawn to meet one another in many combinations over the scenes.
+std::vector<Tuning> tunings(std::size_t scene_number, std::size_t count) {
+    const std::optional<double> windows[] = {std::nullopt, 1.0, 4.0, 64.0, 0.5, 0.09};
+    const std::optional<double> cells[] = {std::nullopt, 1.0, 0.5, 0.26, 2.0};
+    const double limits[] = {1.05, 0.0, 1e9};
+    std::vector<Tuning> list;
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t n = scene_number * count + k;
+        Tuning tuning;
+        tuning.threads = omp_get_max_threads();
+        tuning.window = windows[n % 6];
+        tuning.cell_width = cells[n % 5];
+        tuning.rebalance_above = limits[(n / 2) % 3];
+        list.push_back(tuning);
+    }
+    return list;
+}
+
+void check_against_reference(const std::vector<test::TestScene>& scenes, std::size_t n_tunings) {
+    const Communicator world = Communicator::world();
+    for (std::size_t s = 0; s < scenes.size(); ++s) {
+        const test::TestScene& scene = scenes[s];
+        const Expected expected = expected_of(scene, world);
+        for (const Tuning& tuning : tunings(s, n_tunings)) {
+            INFO(scene.name << ", N = " << scene.discs.size() << ", window " << tuning.window.value_or(0) << ", cells "
+                            << tuning.cell_width.value_or(0) << ", rebalance above " << tuning.rebalance_above);
+            const Totals totals = run(scene, tuning, world, static_cast<unsigned>(s));
+            CHECK(totals.wall_collisions == expected.counters.wall_collisions);
+            CHECK(totals.pair_collisions == expected.counters.pair_collisions);
+            CHECK(totals.rejected_candidates == expected.counters.rejected_candidates);
+            CHECK(to_string(totals.hash) == to_string(expected.hash));
+            if (scene.expected_pair_collisions) CHECK(totals.pair_collisions == *scene.expected_pair_collisions);
+        }
+    }
+}
+
+} // namespace
+
+TEST_CASE("small scenes have the reference's bits") { check_against_reference(test::small_scenes(), 2); }
+
+TEST_CASE("scenes across many strips and windows have the reference's bits") {
+    check_against_reference(test::large_scenes(), 3);
+}
