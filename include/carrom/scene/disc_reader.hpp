@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Discs from lines of text, "id x y vx vy" in any order of ids, in bounded chunks: one rank reads what it could never
-// hold. Costs up to N bits to see that every id comes once, and some 0.3 microseconds a line.
+// hold. Costs up to N bits to see that every id comes once, and under a microsecond a line.
 //
 // Problems are collected, not thrown: reading goes on, so that one look at a file finds them all.
 #pragma once

@@ -36,7 +36,10 @@ private:
         case 0: text[at] = static_cast<char>(below(256)); return text;
         case 1: return text.erase(at, 1 + below(8));
         case 2: return text.insert(at, pieces[below(pieces.size())]);
-        case 3: return text.insert(below(text.size()), text.substr(at, 1 + below(30)));
+        case 3: {
+            const std::string copy = text.substr(at, 1 + below(30)); // drawn first: arguments have no order
+            return text.insert(below(text.size()), copy);
+        }
         case 4: return below(10) == 0 ? text.substr(0, at) : text.insert(at, 1, static_cast<char>('0' + below(10)));
         default: std::swap(text[at], text[below(text.size())]); return text;
         }

@@ -24,11 +24,11 @@ TEST_CASE("Philox gives the words its authors publish") {
 
 TEST_CASE("Another seed, purpose, disc, attempt or block gives other words") {
     std::set<std::array<std::uint64_t, 4>> all;
-    for (std::uint64_t seed : {1, 2})
+    for (const std::uint64_t seed : {1u, 2u})
         for (const Purpose purpose : {Purpose::position, Purpose::shake, Purpose::velocity})
-            for (DiscId id : {0, 1, 2})
-                for (std::uint64_t attempt : {0, 1})
-                    for (std::uint64_t block : {0, 1}) all.insert(random_words(seed, purpose, id, attempt, block));
+            for (const DiscId id : {0u, 1u, 2u})
+                for (const std::uint64_t attempt : {0u, 1u})
+                    for (const std::uint64_t block : {0u, 1u}) all.insert(random_words(seed, purpose, id, attempt, block));
     CHECK(all.size() == 2 * 3 * 3 * 2 * 2);
 }
 
