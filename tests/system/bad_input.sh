@@ -36,7 +36,9 @@ refuse 'two inputs' 'other.in: one input is enough' run some.in other.in
 refuse 'an unknown option' '--thread: no such option' run some.in --thread 2
 refuse 'several wrong options' $'--threads: must be\n--digits: must be\n--steps: must be\n--window: must be' \
     run nowhere.toml --threads 0 --digits 18 --steps -1 --window 0
-refuse 'an option without its value' 'command line' run some.in --threads=
+run "$ranks" run some.in --threads
+expect_code 2 'an option without its value'
+expect_told 'command line: --threads' 'an option without its value'
 refuse 'an unknown subcommand' 'command line' walk some.in
 mkdir secret && printf "$header" >secret/a.in && chmod 000 secret/a.in
 # Root may read everything; a file that gives an error on reading is as good.
