@@ -17,11 +17,10 @@
 #include "carrom/collision/cell_grid.hpp"
 #include "carrom/collision/local_resolution.hpp"
 #include "carrom/collision/search.hpp"
-#include "carrom/domain/strips.hpp"
-#include "carrom/domain/transfer.hpp"
 #include "carrom/resolve/strip_resolution.hpp"
 #include "carrom/simulation/simulation.hpp"
 #include "phase_clock.hpp"
+#include "strip_discs.hpp"
 #include "window_choice.hpp"
 
 namespace carrom {
@@ -38,15 +37,15 @@ public:
 
     std::int64_t step() const { return n_micro_done_ / micro_steps_; }
     std::int64_t micro_steps() const { return micro_steps_; }
-    std::span<const Disc> own() const { return std::span(discs_).first(n_own_); }
+    std::span<const Disc> own() const { return discs_.own(); }
     double clock() const { return micro_; }
     const Law& law() const { return law_; }
     const Communicator& communicator() const { return communicator_; }
-    Population population() const { return {discs_, n_own_}; }
+    Population population() const { return discs_.population(); }
     const CellGrid& grid() const { return grid_; }
     int n_threads() const { return tuning_.threads; }
     std::uint64_t n_rejected() const { return n_candidates_ - n_kept_; } ///< of candidates whose first disc is own
-    std::uint64_t n_discs() const { return n_discs_; }
+    std::uint64_t n_discs() const { return discs_.n_total(); }
     const PhaseClock& phases() const { return clock_; }
 
 private:
@@ -60,20 +59,16 @@ private:
     void strike_taken(std::vector<Candidate>& live) const;
     void apply(const Window& window, int m);
     void remember_hits();
-    void tell_neighbours();
     void sync();
-    void rebalance();
     void build_grid(double time, double duration, double reach);
 
     Communicator communicator_;
     Tuning tuning_;
     Law law_;
     std::int64_t micro_steps_, sync_every_;
-    std::uint64_t n_discs_ = 0;
 
-    std::vector<Disc> discs_;    ///< own, then halo
-    std::size_t n_own_ = 0;
-    std::vector<Disc> outcomes_; ///< runs along discs_ while a micro-step is cut into parts
+    StripDiscs discs_;
+    std::vector<Disc> outcomes_; ///< runs along discs_.all() while a micro-step is cut into parts
     std::int64_t n_micro_done_ = 0, n_syncs_ = 0, n_windows_ = 0;
     int micro_ = 0;              ///< micro-steps since the last sync
     bool in_parts_ = false;      ///< whether the present micro-step is cut
@@ -84,12 +79,7 @@ private:
     double window_speed_ = 0;    ///< what the window's reach allows for
     bool speed_exceeded_ = false;
 
-    Strips strips_, settled_strips_; ///< wanted, and those of the last settling
     double settled_time_ = 0;
-    NeighbourExchange exchange_;
-    TransferPlan halo_plan_;
-    std::vector<std::size_t> halo_offsets_; ///< of each partner's discs behind the own ones
-    std::vector<std::uint8_t> is_shown_;    ///< by own disc: whether a partner has it in its halo
 
     CellGrid grid_;
     Search<Law> search_;
@@ -97,7 +87,7 @@ private:
     StripResolution across_strips_;
     std::vector<Candidate> live_;
     Verdicts verdicts_;
-    std::vector<LocalIndex> hits_;
+    std::vector<LocalIndex> hits_, news_;
     std::vector<std::uint8_t> is_hit_; ///< by disc, clean between micro-steps
 
     std::uint64_t n_candidates_ = 0, n_kept_ = 0;

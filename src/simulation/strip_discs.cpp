@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "strip_discs.hpp"
+
+#include <algorithm>
+
+#include "carrom/core/errors.hpp"
+#include "carrom/parallel/exchange.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// A disc's new state and its place among the discs that went to this neighbour's halo.
+struct News {
+    Disc disc;
+    std::uint64_t place;
+};
+
+Strips equal_strips(double box_size, int n_ranks) {
+    std::vector<double> cuts;
+    for (int k = 1; k < n_ranks; ++k) cuts.push_back(box_size * k / n_ranks);
+    return Strips(cuts);
+}
+
+} // namespace
+
+StripDiscs::StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs)
+    : communicator_(communicator), box_size_(box_size), strips_(equal_strips(box_size, communicator.size())),
+      settled_strips_(strips_), exchange_(communicator) {
+    if (communicator.size() == 1) {
+        discs_ = std::move(discs);
+    } else {
+        std::vector<std::vector<Disc>> to_owner(static_cast<std::size_t>(communicator.size()));
+        for (const Disc& disc : discs) to_owner[static_cast<std::size_t>(strips_.owner(disc.x))].push_back(disc);
+        discs = {};
+        discs_ = send_to_owners(communicator, to_owner).items;
+    }
+    n_own_ = discs_.size();
+    n_total_ = communicator.sum(std::uint64_t{n_own_});
+}
+
+void StripDiscs::migrate(double time, double farthest, std::vector<Disc>* companion) {
+    forget_halo();
+    if (companion) companion->resize(n_own_);
+    if (communicator_.size() > 1) {
+        const TransferPlan plan = plan_migration(settled_strips_, strips_, communicator_.rank(), own(), time, farthest);
+        Received<Disc> arrived;
+        for (std::vector<Disc>* values : {&discs_, companion}) {
+            if (!values) continue;
+            transfer(exchange_, plan, std::span<const Disc>(*values), arrived);
+            remove_leaving(plan, *values);
+            values->insert(values->end(), arrived.items.begin(), arrived.items.end());
+        }
+        n_own_ = discs_.size();
+    }
+    settled_strips_ = strips_;
+}
+
+void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* companion) {
+    if (communicator_.size() == 1) return;
+    halo_plan_ = plan_halo(strips_, communicator_.rank(), own(), time, reach);
+    Received<Disc> halo;
+    for (std::vector<Disc>* values : {&discs_, companion}) {
+        if (!values) continue;
+        transfer(exchange_, halo_plan_, std::span<const Disc>(*values), halo);
+        values->insert(values->end(), halo.items.begin(), halo.items.end());
+    }
+    halo_offsets_.clear();
+    for (const std::size_t offset : halo.offsets) halo_offsets_.push_back(n_own_ + offset);
+    is_shown_.assign(n_own_, 0);
+    for (const std::vector<LocalIndex>& shown : halo_plan_.leaving) {
+        for (const LocalIndex index : shown) is_shown_[index] = 1;
+    }
+}
+
+void StripDiscs::tell_neighbours(std::span<const LocalIndex> changed, std::vector<LocalIndex>& news) {
+    if (communicator_.size() == 1) return;
+    std::vector<std::vector<News>> out(halo_plan_.partners.size());
+    for (const LocalIndex index : changed) {
+        if (index >= n_own_ || is_shown_[index] == 0) continue;
+        for (std::size_t k = 0; k < out.size(); ++k) {
+            const std::vector<LocalIndex>& shown = halo_plan_.leaving[k];
+            const auto place = std::lower_bound(shown.begin(), shown.end(), index);
+            if (place == shown.end() || *place != index) continue;
+            out[k].push_back({discs_[index], static_cast<std::uint64_t>(place - shown.begin())});
+        }
+    }
+    Received<News> in;
+    exchange_.exchange(std::span<const int>(halo_plan_.partners), out, in);
+    for (std::size_t k = 0; k < in.n_senders(); ++k) {
+        for (const News& item : in.from(k)) {
+            const auto index = static_cast<LocalIndex>(halo_offsets_[k] + item.place);
+            ensure(discs_[index].id == item.disc.id, "a neighbour's news is about another disc than the halo has there");
+            discs_[index] = item.disc;
+            news.push_back(index);
+        }
+    }
+}
+
+void StripDiscs::rebalance(double time, double above) {
+    const auto n_ranks = static_cast<std::uint64_t>(communicator_.size());
+    if (n_ranks == 1) return;
+    const auto largest_share = static_cast<double>(communicator_.max(std::uint64_t{n_own_}) * n_ranks);
+    if (largest_share <= above * static_cast<double>(n_total_)) return;
+    std::vector<std::uint64_t> weights(std::clamp<std::size_t>(256 * n_ranks, 4096, 65536), 0);
+    const auto n_bins = static_cast<double>(weights.size());
+    for (const Disc& disc : own()) {
+        const double bin = disc.x_at(time) / box_size_ * n_bins;
+        weights[static_cast<std::size_t>(std::clamp(bin, 0.0, n_bins - 1))] += 1;
+    }
+    communicator_.sum(weights);
+    strips_ = Strips(balanced_cuts(weights, box_size_, communicator_.size()));
+}
+
+bool StripDiscs::is_valid(double time) const {
+    std::uint64_t sums[] = {n_own_, 0, 0};
+    bool in_strip = true;
+    for (const Disc& disc : own()) {
+        sums[1] += disc.id;
+        sums[2] += disc.id * disc.id;
+        in_strip = in_strip && settled_strips_.owner(disc.x_at(time)) == communicator_.rank();
+    }
+    communicator_.sum(sums);
+    std::uint64_t id_sum = 0, square_sum = 0; // modulo 2^64, as the sums
+    for (std::uint64_t id = 0; id < n_total_; ++id) {
+        id_sum += id;
+        square_sum += id * id;
+    }
+    return communicator_.all(in_strip) && sums[0] == n_total_ && sums[1] == id_sum && sums[2] == square_sum;
+}
+
+} // namespace carrom

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The discs of one rank: its own, and behind them the halo that its neighbours have sent. Moves them between ranks.
+//
+// Who may send to whom follows from the cuts and from bounds that all ranks share; so `farthest` and `reach` must be the
+// same on all ranks. Price of a settling: a pass over the own discs and one message to each neighbour, twice.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "carrom/collision/search.hpp"
+#include "carrom/core/disc.hpp"
+#include "carrom/domain/strips.hpp"
+#include "carrom/domain/transfer.hpp"
+#include "carrom/parallel/communicator.hpp"
+#include "carrom/parallel/neighbour_exchange.hpp"
+
+namespace carrom {
+
+class StripDiscs {
+public:
+    /// Takes discs that lie anywhere on any rank and gives them to the owners of equal strips. **Collective.**
+    StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs);
+
+    /// Forgets the halo and sends each own disc to the rank whose strip holds it at `time`. No disc has moved by more
+    /// than `farthest` since it was last settled. `companion` runs along the own discs, or is null. **Collective.**
+    void migrate(double time, double farthest, std::vector<Disc>* companion);
+
+    /// Appends to the own discs those of other ranks within `reach` of the own strip at `time`. **Collective.**
+    void fetch_halo(double time, double reach, std::vector<Disc>* companion);
+
+    /// Sends the new states of the own discs among `changed` to the ranks that have them in their halo, takes over those
+    /// of the own halo and appends their places to `news`. **Collective.**
+    void tell_neighbours(std::span<const LocalIndex> changed, std::vector<LocalIndex>& news);
+
+    /// Moves the cuts to equal shares by the discs' places at `time`, if the largest share exceeds the mean by a factor
+    /// of more than `above`. The discs follow when they migrate next. **Collective.**
+    void rebalance(double time, double above);
+
+    Population population() const { return {discs_, n_own_}; }
+    std::vector<Disc>& all() { return discs_; }
+    std::span<const Disc> own() const { return std::span(discs_).first(n_own_); }
+    std::span<Disc> own() { return std::span(discs_).first(n_own_); }
+    std::size_t n_own() const { return n_own_; }
+    std::uint64_t n_total() const { return n_total_; } ///< over all ranks
+    const Strips& strips() const { return strips_; }
+
+    /// Drops the halo's discs.
+    void forget_halo() { discs_.resize(n_own_); }
+
+    /// Each own disc lies in its strip at `time`, and all ranks together own each of 0 .. n-1 once. **Collective.**
+    bool is_valid(double time) const;
+
+private:
+    Communicator communicator_;
+    double box_size_;
+    std::vector<Disc> discs_; ///< own, then halo
+    std::size_t n_own_ = 0;
+    std::uint64_t n_total_ = 0;
+    Strips strips_, settled_strips_; ///< wanted, and those that the discs were last settled in
+    NeighbourExchange exchange_;
+    TransferPlan halo_plan_;
+    std::vector<std::size_t> halo_offsets_; ///< of each partner's discs behind the own ones
+    std::vector<std::uint8_t> is_shown_;    ///< by own disc: whether a partner has it in its halo
+};
+
+} // namespace carrom
