@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <catch2/catch.hpp>
+#include <unistd.h>
+
+#include "data_output.hpp"
+#include "report_file.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// A folder that goes away with everything in it.
+class ScratchFolder {
+public:
+    ScratchFolder() { std::filesystem::create_directory(path_); }
+    ~ScratchFolder() { std::filesystem::remove_all(path_); }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+    std::string file(const std::string& name) const { return (path_ / name).string(); }
+    auto n_files() const { return std::distance(std::filesystem::directory_iterator(path_), {}); }
+
+private:
+    std::filesystem::path path_ = std::filesystem::temp_directory_path() / ("carrom_test_" + std::to_string(::getpid()));
+};
+
+std::string content(const std::string& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+} // namespace
+
+TEST_CASE("A report replaces the file that was there and leaves nothing beside it") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("report.json");
+    CHECK(write_whole_file(path, "first, and longer\n").empty());
+    CHECK(write_whole_file(path, "second\n").empty());
+    CHECK(content(path) == "second\n");
+    CHECK(folder.n_files() == 1);
+}
+
+TEST_CASE("Places that cannot take a report are found out without a trace") {
+    const ScratchFolder folder;
+    CHECK(obstacle_to_writing(folder.file("report.json")).empty());
+    CHECK(folder.n_files() == 0);
+    CHECK(obstacle_to_writing(folder.file("nowhere/report.json")).find("No such file") != std::string::npos);
+    CHECK(obstacle_to_writing(folder.file(".")).find("directory") != std::string::npos);
+    CHECK(obstacle_to_writing("/dev/null").find("not a plain file") != std::string::npos);
+    CHECK(write_whole_file(folder.file("nowhere/report.json"), "x").find("No such file") != std::string::npos);
+}
+
+TEST_CASE("A file for data is emptied only when it is opened") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("lines.txt");
+    CHECK(obstacle_to_opening(path).empty());
+    CHECK(folder.n_files() == 0);
+    CHECK(write_whole_file(path, "old\n").empty());
+    CHECK(obstacle_to_opening(path).empty());
+    CHECK(content(path) == "old\n");
+    CHECK(obstacle_to_opening(folder.file(".")).find("cannot be written") != std::string::npos);
+    DataOutput output(path);
+    output.buffer().append(std::string("new\n"));
+    output.flush_if_full();
+    CHECK(content(path).empty());
+    output.flush();
+    output.close();
+    CHECK(content(path) == "new\n");
+    CHECK(output.failure().empty());
+}
+
+TEST_CASE("A full disk is remembered, not fatal") {
+    if (!std::filesystem::exists("/dev/full")) return;
+    DataOutput output("/dev/full");
+    output.buffer().append(std::string("lost\n"));
+    output.flush();
+    CHECK(output.failure() == "cannot write to /dev/full: No space left on device");
+    output.buffer().append(std::string("more\n"));
+    output.flush();
+    output.close();
+    CHECK(output.failure() == "cannot write to /dev/full: No space left on device");
+}
+
+} // namespace carrom

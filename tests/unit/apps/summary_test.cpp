@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "summary.hpp"
+
+namespace carrom {
+
+namespace {
+
+Scene small_scene() {
+    Scene scene;
+    scene.name = "small \xff.toml"; // a file's name need not be UTF-8
+    scene.box_size = 10;
+    scene.radius = 1;
+    scene.n_discs = 4;
+    scene.micro_steps = 2;
+    scene.steps = 50;
+    return scene;
+}
+
+RunResult small_result() {
+    RunResult result;
+    result.start.n_discs = result.end.n_discs = 4;
+    result.start.kinetic_energy = 8;
+    result.end.kinetic_energy = 10;
+    result.start.wall_collisions = 5;
+    result.end.wall_collisions = 25;
+    result.end.pair_collisions = 30;
+    result.last_step = 50;
+    result.wall_seconds = 2e-6;
+    result.phase_seconds = {{"search", 1.5}, {"output", 0.5}};
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("Rates are per disc, and per step or micro-step") {
+    CHECK(ns_per_disc_step(small_result()) == Approx(10));
+    CHECK(energy_drift(small_result()) == Approx(0.25));
+    CHECK(collisions_per_disc(small_scene(), small_result()) == Approx((20 + 2 * 30) / (4.0 * 50 * 2)));
+}
+
+TEST_CASE("A run of no steps, and one of discs at rest, have rates of zero") {
+    RunResult result = small_result();
+    result.last_step = 0;
+    result.start.kinetic_energy = 0;
+    CHECK(ns_per_disc_step(result) == 0);
+    CHECK(energy_drift(result) == 0);
+    CHECK(collisions_per_disc(small_scene(), result) == 0);
+}
+
+TEST_CASE("The report is JSON with the numbers of the result") {
+    const auto report = nlohmann::json::parse(report_text(small_scene(), small_result()));
+    CHECK(report.at("n_discs") == 4);
+    CHECK(report.at("steps") == 50);
+    CHECK(report.at("kinetic_energy") == 10.0);
+    CHECK(report.at("momentum").size() == 2);
+    CHECK(report.at("phase_seconds").at("search") == 1.5);
+    CHECK(report.at("state_hash") == "00000000000000000000000000000000");
+}
+
+} // namespace carrom
