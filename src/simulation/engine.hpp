@@ -1,97 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rule "one" on ranks and threads: windows of time, each settled, searched, resolved and applied.
-//
-//   settle   own discs to their strips, halo discs from the neighbours, all into cells
-//   search   every contact of the window, from stored states alone
-//   then for each micro-step of the window, in step on all ranks:
-//     resolve  local rounds; what hangs together across strips by a distributed sort
-//     apply    new states for the discs that were taken; neighbours are told of theirs; those discs are searched again
-//
-// When discs are fast a micro-step is cut into parts, each a window of its own. States then stay as they were at the
-// micro-step's start until it ends, so that every candidate is seen, and `outcomes_` holds what they will become.
+// What moves a run's discs: one engine for each rule. A run has one of them from its start to its end.
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <span>
 
-#include "carrom/collision/cell_grid.hpp"
-#include "carrom/collision/local_resolution.hpp"
-#include "carrom/collision/search.hpp"
-#include "carrom/resolve/strip_resolution.hpp"
+#include "carrom/core/disc.hpp"
 #include "carrom/simulation/simulation.hpp"
-#include "phase_clock.hpp"
-#include "strip_discs.hpp"
-#include "window_choice.hpp"
 
 namespace carrom {
 
-class Simulation::Engine {
+class Engine {
 public:
-    using Law = PlainLaw;
+    Engine() = default;
+    virtual ~Engine() = default;
+    Engine(const Engine&) = delete;
+    Engine& operator=(const Engine&) = delete;
 
-    Engine(const Scene& scene, std::vector<InputDisc> discs, const Communicator& communicator, const Tuning& tuning);
+    /// See Simulation::advance_towards. **Collective.**
+    virtual void advance_towards(std::int64_t last_step) = 0;
+    /// Fills in what only the engine knows or finds: overlaps, rejected candidates, windows. **Collective.**
+    virtual void add_to(Totals& totals) = 0;
 
-    void advance_towards(std::int64_t last_step);
-    /// Settles discs, halo and grid as they are now, for partners within a diameter. No state changes. **Collective.**
-    void settle_now();
-
-    std::int64_t step() const { return n_micro_done_ / micro_steps_; }
-    std::int64_t micro_steps() const { return micro_steps_; }
-    std::span<const Disc> own() const { return discs_.own(); }
-    double clock() const { return micro_; }
-    const Law& law() const { return law_; }
-    const Communicator& communicator() const { return communicator_; }
-    Population population() const { return discs_.population(); }
-    const CellGrid& grid() const { return grid_; }
-    int n_threads() const { return tuning_.threads; }
-    std::uint64_t n_rejected() const { return n_candidates_ - n_kept_; } ///< of candidates whose first disc is own
-    std::uint64_t n_discs() const { return discs_.n_total(); }
-    const PhaseClock& phases() const { return clock_; }
-
-private:
-    void run_window(int n_left);
-    Window settle(int n_left);
-    Window choose(int n_left);
-    WindowNeeds window_needs() const;
-    void migrate();
-    void fetch_halo(double time, double reach);
-    bool run_micro_step(const Window& window, int m);
-    void strike_taken(std::vector<Candidate>& live) const;
-    void apply(const Window& window, int m);
-    void remember_hits();
-    void sync();
-    void build_grid(double time, double duration, double reach);
-
-    Communicator communicator_;
-    Tuning tuning_;
-    Law law_;
-    std::int64_t micro_steps_, sync_every_;
-
-    StripDiscs discs_;
-    std::vector<Disc> outcomes_; ///< runs along discs_.all() while a micro-step is cut into parts
-    std::int64_t n_micro_done_ = 0, n_syncs_ = 0, n_windows_ = 0;
-    int micro_ = 0;              ///< micro-steps since the last sync
-    bool in_parts_ = false;      ///< whether the present micro-step is cut
-    int part_ = 0, n_parts_ = 1; ///< the next part of the present micro-step
-    double largest_speed_ = 0;   ///< of any disc since the last settling, on any rank once it is settled
-    double travel_speed_ = 0;    ///< bounds the motion since the last settling; the same on all ranks
-    double refreshed_speed_ = 0; ///< what becomes of it then, if a sync has looked at all discs
-    double window_speed_ = 0;    ///< what the window's reach allows for
-    bool speed_exceeded_ = false;
-
-    double settled_time_ = 0;
-
-    CellGrid grid_;
-    Search<Law> search_;
-    LocalResolution local_;
-    StripResolution across_strips_;
-    std::vector<Candidate> live_;
-    Verdicts verdicts_;
-    std::vector<LocalIndex> hits_, news_;
-    std::vector<std::uint8_t> is_hit_; ///< by disc, clean between micro-steps
-
-    std::uint64_t n_candidates_ = 0, n_kept_ = 0;
-    PhaseClock clock_;
+    virtual std::int64_t step() const = 0;
+    virtual std::span<const Disc> own() const = 0;
+    virtual double clock() const = 0;
+    virtual std::uint64_t n_discs() const = 0; ///< over all ranks
+    virtual PhaseSeconds phase_seconds() const = 0;
 };
 
 } // namespace carrom

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "carrom/simulation/simulation.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "engine.hpp"
 #include "measurements.hpp"
+#include "one_engine.hpp"
 
 namespace carrom {
 
 Simulation::Simulation(const Scene& scene, std::vector<InputDisc> discs, const Communicator& communicator,
                        const Tuning& tuning)
-    : engine_(std::make_unique<Engine>(scene, std::move(discs), communicator, tuning)) {}
+    : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)),
+      engine_(std::make_unique<OneEngine>(scene, std::move(discs), communicator, tuning)) {}
 
 Simulation::~Simulation() = default;
 
@@ -23,21 +24,15 @@ std::span<const Disc> Simulation::discs() const { return engine_->own(); }
 
 double Simulation::clock() const { return engine_->clock(); }
 
-double Simulation::velocity_unit() const { return static_cast<double>(engine_->micro_steps()); }
-
 Totals Simulation::totals() const {
-    const Communicator& communicator = engine_->communicator();
     Totals totals;
     totals.n_discs = engine_->n_discs();
-    totals.rejected_candidates = communicator.sum(engine_->n_rejected());
-    measure_collisions(engine_->own(), communicator, totals);
-    measure_motion(engine_->own(), velocity_unit(), communicator, totals);
-    engine_->settle_now();
-    totals.overlapping_pairs = count_overlaps(engine_->population(), engine_->grid(), engine_->clock(), engine_->law(),
-                                              communicator, engine_->n_threads());
+    measure_collisions(engine_->own(), communicator_, totals);
+    measure_motion(engine_->own(), velocity_unit_, communicator_, totals);
+    engine_->add_to(totals);
     return totals;
 }
 
-PhaseSeconds Simulation::phase_seconds() const { return engine_->phases().seconds(); }
+PhaseSeconds Simulation::phase_seconds() const { return engine_->phase_seconds(); }
 
 } // namespace carrom

@@ -41,6 +41,8 @@ struct Totals {
 /// Seconds this rank has spent, by phase, in the order they are reported.
 using PhaseSeconds = std::vector<std::pair<std::string, double>>;
 
+class Engine;
+
 class Simulation {
 public:
     /// Takes over `discs` as the scene has them (velocities per step, tau 0), spread over the ranks in any way.
@@ -59,14 +61,15 @@ public:
     /// The present time in micro-steps since the last sync, to evaluate Disc::x_at with.
     double clock() const;
     /// What velocities are multiplied by to be per step.
-    double velocity_unit() const;
+    double velocity_unit() const { return velocity_unit_; }
 
     /// **Collective.**
     Totals totals() const;
     PhaseSeconds phase_seconds() const;
 
 private:
-    class Engine;
+    Communicator communicator_;
+    double velocity_unit_;
     std::unique_ptr<Engine> engine_;
 };
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine.hpp"
+#include "one_engine.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "measurements.hpp"
 
 namespace carrom {
 
@@ -36,8 +37,8 @@ double speed_of(const Disc& disc) { return std::sqrt(disc.vx * disc.vx + disc.vy
 
 } // namespace
 
-Simulation::Engine::Engine(const Scene& scene, std::vector<InputDisc> discs, const Communicator& communicator,
-                           const Tuning& tuning)
+OneEngine::OneEngine(const Scene& scene, std::vector<InputDisc> discs, const Communicator& communicator,
+                     const Tuning& tuning)
     : communicator_(communicator), tuning_(tuning), law_(scene.box_size, scene.radius), micro_steps_(scene.micro_steps),
       sync_every_(scene.sync_every), discs_(communicator, scene.box_size, discs_from(discs, scene.micro_steps)),
       search_(law_, tuning.threads), local_(tuning.threads), across_strips_(communicator) {
@@ -45,7 +46,7 @@ Simulation::Engine::Engine(const Scene& scene, std::vector<InputDisc> discs, con
     discs_.rebalance(0, tuning_.rebalance_above);
 }
 
-void Simulation::Engine::advance_towards(std::int64_t last_step) {
+void OneEngine::advance_towards(std::int64_t last_step) {
     const std::int64_t next_sync = n_micro_done_ - micro_ + sync_every_;
     const std::int64_t good_stop = (next_sync + micro_steps_ - 1) / micro_steps_ * micro_steps_;
     const std::int64_t stop = std::min(last_step * micro_steps_, good_stop);
@@ -56,7 +57,7 @@ void Simulation::Engine::advance_towards(std::int64_t last_step) {
 }
 
 /// Runs one window of at most `n_left` micro-steps: to its end, or to where discs have become too fast for it.
-void Simulation::Engine::run_window(int n_left) {
+void OneEngine::run_window(int n_left) {
     const Window window = settle(n_left);
     {
         const PhaseClock::Scope scope(clock_, Phase::search);
@@ -79,7 +80,7 @@ void Simulation::Engine::run_window(int n_left) {
 }
 
 /// Brings every disc to its strip, the halo to every strip and all into cells, for the window that it chooses.
-Window Simulation::Engine::settle(int n_left) {
+Window OneEngine::settle(int n_left) {
     const PhaseClock::Scope scope(clock_, Phase::settle);
     if (part_ == 0 && n_windows_ % windows_per_reorder == 0 && n_windows_ > 0) {
         grid_.reorder(discs_.all(), discs_.n_own(), tuning_.threads);
@@ -92,14 +93,20 @@ Window Simulation::Engine::settle(int n_left) {
     return window;
 }
 
-void Simulation::Engine::settle_now() {
+void OneEngine::settle_now() {
     migrate();
     const double reach = reach_of({law_.box_size(), law_.radius(), static_cast<double>(discs_.n_total()), 0}, 0);
     fetch_halo(micro_, reach);
     build_grid(micro_, 1, reach);
 }
 
-void Simulation::Engine::build_grid(double time, double duration, double reach) {
+void OneEngine::add_to(Totals& totals) {
+    totals.rejected_candidates = communicator_.sum(n_candidates_ - n_kept_);
+    settle_now();
+    totals.overlapping_pairs = count_overlaps(population(), grid_, micro_, law_, communicator_, tuning_.threads);
+}
+
+void OneEngine::build_grid(double time, double duration, double reach) {
     const double x_low = std::max(0.0, discs_.strips().low(communicator_.rank()) - reach);
     const double x_high = std::min(law_.box_size(), discs_.strips().high(communicator_.rank()) + reach);
     const std::span<const Disc> all = population().discs;
@@ -108,7 +115,7 @@ void Simulation::Engine::build_grid(double time, double duration, double reach) 
     is_hit_.resize(all.size(), 0);
 }
 
-Window Simulation::Engine::choose(int n_left) {
+Window OneEngine::choose(int n_left) {
     Window window;
     window.first_micro = micro_;
     if (part_ == 0) {
@@ -127,11 +134,11 @@ Window Simulation::Engine::choose(int n_left) {
     return window;
 }
 
-WindowNeeds Simulation::Engine::window_needs() const {
+WindowNeeds OneEngine::window_needs() const {
     return {law_.box_size(), law_.radius(), static_cast<double>(discs_.n_total()), window_speed_};
 }
 
-void Simulation::Engine::migrate() {
+void OneEngine::migrate() {
     const double time = micro_ + static_cast<double>(part_) / n_parts_;
     if (part_ == 0) {
         const PhaseClock::Scope scope(clock_, Phase::wait);
@@ -144,13 +151,13 @@ void Simulation::Engine::migrate() {
     if (refreshed_speed_ > 0) largest_speed_ = std::exchange(refreshed_speed_, 0);
 }
 
-void Simulation::Engine::fetch_halo(double time, double reach) {
+void OneEngine::fetch_halo(double time, double reach) {
     const PhaseClock::Scope scope(clock_, Phase::exchange);
     discs_.fetch_halo(time, reach, in_parts_ ? &outcomes_ : nullptr);
 }
 
 /// Decides and applies micro-step m. False, with nothing done, if discs have become faster than the window allows for.
-bool Simulation::Engine::run_micro_step(const Window& window, int m) {
+bool OneEngine::run_micro_step(const Window& window, int m) {
     {
         const PhaseClock::Scope scope(clock_, Phase::resolve);
         search_.collect(population(), window, m, live_);
@@ -180,13 +187,13 @@ bool Simulation::Engine::run_micro_step(const Window& window, int m) {
 }
 
 /// Candidates with a disc that an earlier part of this micro-step has taken are lost, but they were candidates.
-void Simulation::Engine::strike_taken(std::vector<Candidate>& live) const {
+void OneEngine::strike_taken(std::vector<Candidate>& live) const {
     const std::span<const Disc> discs = population().discs;
     const auto is_taken = [&](LocalIndex index) { return outcomes_[index].version() != discs[index].version(); };
     std::erase_if(live, [&](const Candidate& c) { return is_taken(c.p) || (!c.is_wall() && is_taken(c.q)); });
 }
 
-void Simulation::Engine::apply(const Window& window, int m) {
+void OneEngine::apply(const Window& window, int m) {
     std::vector<Disc>& results = in_parts_ ? outcomes_ : discs_.all();
     {
         const PhaseClock::Scope scope(clock_, Phase::move);
@@ -194,6 +201,11 @@ void Simulation::Engine::apply(const Window& window, int m) {
         double fastest = 0;
 #pragma omp parallel for num_threads(tuning_.threads) schedule(static) reduction(max : fastest) if (n_kept > 256)
         for (std::int64_t k = 0; k < n_kept; ++k) {
+            if (k + 8 < n_kept) {
+                const Candidate& later = verdicts_.kept[static_cast<std::size_t>(k + 8)];
+                __builtin_prefetch(&results[later.p], 1);
+                if (!later.is_wall()) __builtin_prefetch(&results[later.q], 1);
+            }
             const Candidate& c = verdicts_.kept[static_cast<std::size_t>(k)];
             if (c.is_wall()) {
                 law_.bounce(results[c.p], m, c.time);
@@ -214,7 +226,7 @@ void Simulation::Engine::apply(const Window& window, int m) {
 }
 
 /// Lists the discs that have new states, those of the halo included, each once.
-void Simulation::Engine::remember_hits() {
+void OneEngine::remember_hits() {
     hits_.clear();
     for (const Candidate& c : verdicts_.kept) {
         hits_.push_back(c.p);
@@ -231,7 +243,7 @@ void Simulation::Engine::remember_hits() {
     }
 }
 
-void Simulation::Engine::sync() {
+void OneEngine::sync() {
     const PhaseClock::Scope scope(clock_, Phase::sync);
     const double time = micro_;
     double fastest = 0;
