@@ -88,10 +88,6 @@ bool DiscLines::is_due(std::int64_t step) const {
     return wanted_ == TextOutput::every_step || step == 0 || step == last_step_;
 }
 
-void DiscLines::write_if_due(const Simulation& simulation) {
-    if (is_due(simulation.step())) write(simulation);
-}
-
 void DiscLines::write(const Simulation& simulation) {
     const std::span<const Disc> discs = simulation.discs();
     const double clock = simulation.clock(), velocity_unit = simulation.velocity_unit();

@@ -37,16 +37,16 @@ public:
     /// The next step after `step` that is to be written, or the last one.
     std::int64_t next_due(std::int64_t step) const;
 
-    /// Writes the present step if the scene asks for it. If that fails every rank throws. **Collective.**
-    void write_if_due(const Simulation& simulation);
+    bool is_due(std::int64_t step) const;
+
+    /// Writes the present step. If that fails every rank throws. **Collective.**
+    void write(const Simulation& simulation);
 
     /// After the last step: makes sure that all of it has been taken. If not every rank throws. **Collective.**
     void close();
 
 private:
-    bool is_due(std::int64_t step) const;
     void agree_on_failure() const;
-    void write(const Simulation& simulation);
     void write_slab(std::uint64_t begin, std::uint64_t end, std::int64_t step, const std::vector<DiscLine>& mine);
 
     const Communicator& ranks_;

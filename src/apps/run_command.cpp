@@ -50,15 +50,20 @@ void tell(const RunOptions& options, const Scene& scene, const RunResult& result
 /// Steps to the end of the scene and writes the lines of its steps on the way. **Collective.**
 void step_to_end(Simulation& simulation, RunResult& result, double& output_seconds, const RunOptions& options,
                  const Scene& scene, const Communicator& ranks) {
-    Stopwatch watch;
     DiscLines lines(scene, options.output, options.digits, ranks);
     Progress progress(simulation.step(), scene.steps, ranks.is_root() && !options.quiet);
-    lines.write_if_due(simulation);
+    Stopwatch watch;
+    const auto write_if_due = [&] {
+        if (!lines.is_due(simulation.step())) return;
+        progress.finish(); // both may go to the same terminal
+        lines.write(simulation);
+    };
+    write_if_due();
     output_seconds += watch.lap();
     while (simulation.step() < scene.steps) {
         simulation.advance_towards(lines.next_due(simulation.step()));
         result.wall_seconds += watch.lap();
-        lines.write_if_due(simulation);
+        write_if_due();
         progress.show(simulation.step());
         output_seconds += watch.lap();
     }

@@ -25,7 +25,8 @@ std::string phases_text(const RunResult& result) {
     for (const auto& [name, seconds] : result.phase_seconds) all += seconds;
     std::string text;
     for (const auto& [name, seconds] : result.phase_seconds)
-        text += fmt::format("{}{} {:.3g} s ({:.0f} %)", text.empty() ? "" : ", ", name, seconds, 100 * ratio(seconds, all));
+        if (seconds >= 0.005 * all) // the report has the small ones too
+            text += fmt::format("{}{} {:.3g} s ({:.0f} %)", text.empty() ? "" : ", ", name, seconds, 100 * ratio(seconds, all));
     return text;
 }
 
