@@ -13,85 +13,100 @@ namespace carrom::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Writes the slots of `range` that might touch the flight (x, y, vx, vy); returns how many. `out` holds the range's
-/// length and a vector more.
-HWY_INLINE std::size_t filter_run(const FlightLanes& lanes, SlotRange range, float x, float y, float vx, float vy,
-                                  float touching_squared, std::uint32_t* out) {
-    const hn::ScalableTag<float> d;
-    const std::size_t n_lanes = hn::Lanes(d);
-    const auto px = hn::Set(d, x), py = hn::Set(d, y), pvx = hn::Set(d, vx), pvy = hn::Set(d, vy);
-    const auto touching = hn::Set(d, touching_squared);
+/// A flight in every lane of a vector.
+template <class D> struct Broadcast {
+    hn::Vec<D> x, y, vx, vy, touching;
+
+    HWY_INLINE Broadcast(D d, const FlightLanes& lanes, std::uint32_t slot, float touching_squared)
+        : x(hn::Set(d, lanes.x[slot])), y(hn::Set(d, lanes.y[slot])), vx(hn::Set(d, lanes.vx[slot])),
+          vy(hn::Set(d, lanes.vy[slot])), touching(hn::Set(d, touching_squared)) {}
+};
+
+/// Which lanes of the vector of flights that begins at `slot` might touch `flight`, as bits. With d the separation and w
+/// the relative velocity over the window, b = d.w, a = w.w and c = d.d - touching^2: those that are near already, and
+/// those that approach, do not pass by, and are there before the window ends.
+template <class D>
+HWY_INLINE std::uint64_t lanes_that_touch(D d, const FlightLanes& lanes, std::uint32_t slot, std::uint32_t n_inside,
+                                          const Broadcast<D>& flight) {
+    const auto dx = hn::Sub(hn::LoadU(d, lanes.x + slot), flight.x);
+    const auto dy = hn::Sub(hn::LoadU(d, lanes.y + slot), flight.y);
+    const auto wx = hn::Sub(hn::LoadU(d, lanes.vx + slot), flight.vx);
+    const auto wy = hn::Sub(hn::LoadU(d, lanes.vy + slot), flight.vy);
     const auto zero = hn::Zero(d);
-    std::size_t n_kept = 0;
-    for (std::uint32_t slot = range.begin; slot < range.end; slot += static_cast<std::uint32_t>(n_lanes)) {
-        const auto dx = hn::Sub(hn::LoadU(d, lanes.x + slot), px);
-        const auto dy = hn::Sub(hn::LoadU(d, lanes.y + slot), py);
-        const auto wx = hn::Sub(hn::LoadU(d, lanes.vx + slot), pvx);
-        const auto wy = hn::Sub(hn::LoadU(d, lanes.vy + slot), pvy);
-        const auto b = hn::MulAdd(dx, wx, hn::Mul(dy, wy));
-        const auto a = hn::MulAdd(wx, wx, hn::Mul(wy, wy));
-        const auto c = hn::Sub(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), touching);
-        const auto near = hn::Le(c, zero);
-        const auto meets = hn::And(hn::Lt(b, zero), hn::Ge(hn::Mul(b, b), hn::Mul(a, c)));
-        const auto b_end = hn::Add(b, a); // b and c at the window's end
-        const auto c_end = hn::Add(hn::Add(b, b_end), c);
-        const auto in_time = hn::Or(hn::Ge(b_end, zero), hn::Le(c_end, zero));
-        const auto inside = hn::FirstN(d, range.end - slot);
-        const auto keep = hn::And(hn::Or(near, hn::And(meets, in_time)), inside);
-        if (hn::AllFalse(d, keep)) continue;
-        std::uint64_t lanes_kept = 0; // at most 64 lanes: a vector of 256 bytes
-        hn::StoreMaskBits(d, keep, reinterpret_cast<std::uint8_t*>(&lanes_kept));
-        for (; lanes_kept != 0; lanes_kept &= lanes_kept - 1) {
-            out[n_kept++] = slot + static_cast<std::uint32_t>(std::countr_zero(lanes_kept));
-        }
-    }
-    return n_kept;
+    const auto b = hn::MulAdd(dx, wx, hn::Mul(dy, wy));
+    const auto a = hn::MulAdd(wx, wx, hn::Mul(wy, wy));
+    const auto c = hn::MulAdd(dx, dx, hn::MulSub(dy, dy, flight.touching));
+    const auto b_end = hn::Add(b, a);
+    const auto c_end = hn::Add(hn::Add(b, b_end), c);
+    const auto meets = hn::And(hn::Lt(b, zero), hn::Ge(hn::Mul(b, b), hn::Mul(a, c)));
+    const auto in_time = hn::Or(hn::Ge(b_end, zero), hn::Le(c_end, zero));
+    const auto keep = hn::Or(hn::Le(c, zero), hn::And(meets, in_time));
+    std::uint64_t bits = 0; // at most 64 lanes: a vector of 256 bytes
+    hn::StoreMaskBits(d, keep, reinterpret_cast<std::uint8_t*>(&bits));
+    return n_inside < 64 ? bits & ((std::uint64_t{1} << n_inside) - 1) : bits;
 }
 
-void FilterColumn(const CellGrid& grid, int column, float touching_squared, std::vector<SlotPair>& pairs) {
+/// Room for `wanted` more items behind the first `size`, without clearing what is there.
+template <class T> T* room(std::vector<T>& buffer, std::size_t size, std::size_t wanted) {
+    if (buffer.size() < size + wanted) buffer.resize(2 * (size + wanted));
+    return buffer.data();
+}
+
+std::size_t FilterColumn(const CellGrid& grid, int column, float touching_squared, std::vector<SlotPair>& pairs) {
+    const hn::ScalableTag<float> d;
+    const auto n_lanes = static_cast<std::uint32_t>(hn::Lanes(d));
     const FlightLanes lanes = grid.lanes();
-    const int reach = grid.frame().n_reach;
+    const int reach = grid.frame().n_reach, n_rows = grid.frame().n_rows;
     const int last_column = HWY_MIN(column + reach, grid.frame().n_columns - 1);
-    std::vector<std::uint32_t> kept;
-    for (int row = 0; row < grid.frame().n_rows; ++row) {
+    std::vector<SlotRange> runs(static_cast<std::size_t>(last_column - column + 1));
+    std::size_t n_pairs = 0;
+    for (int row = 0; row < n_rows; ++row) {
         const SlotRange cell = grid.run(column, row, row);
         if (cell.begin == cell.end) continue;
-        const SlotRange own_column = grid.run(column, row, row + reach);
+        std::size_t n_in_runs = 0;
+        for (int other = column; other <= last_column; ++other) {
+            SlotRange& run = runs[static_cast<std::size_t>(other - column)];
+            run = grid.run(other, row - reach, row + reach);
+            n_in_runs += run.end - run.begin;
+        }
+        SlotPair* out = room(pairs, n_pairs, (cell.end - cell.begin) * n_in_runs);
         for (std::uint32_t slot = cell.begin; slot < cell.end; ++slot) {
-            const float x = lanes.x[slot], y = lanes.y[slot], vx = lanes.vx[slot], vy = lanes.vy[slot];
-            const auto filter = [&](SlotRange range) HWY_ATTR {
-                if (range.begin >= range.end) return;
-                const std::size_t room = range.end - range.begin + filter_padding;
-                if (kept.size() < room) kept.resize(2 * room);
-                const std::size_t n = filter_run(lanes, range, x, y, vx, vy, touching_squared, kept.data());
-                for (std::size_t k = 0; k < n; ++k) pairs.push_back({slot, kept[k]});
-            };
-            filter({slot + 1, own_column.end});
-            for (int other = column + 1; other <= last_column; ++other) filter(grid.run(other, row - reach, row + reach));
+            const Broadcast flight(d, lanes, slot, touching_squared);
+            runs.front().begin = slot + 1;
+            for (const SlotRange run : runs) {
+                for (std::uint32_t other = run.begin; other < run.end; other += n_lanes) {
+                    std::uint64_t bits = lanes_that_touch(d, lanes, other, run.end - other, flight);
+                    for (; bits != 0; bits &= bits - 1) {
+                        out[n_pairs++] = {slot, other + static_cast<std::uint32_t>(std::countr_zero(bits))};
+                    }
+                }
+            }
         }
     }
+    return n_pairs;
 }
 
-void FilterAround(const CellGrid& grid, LocalIndex index, float touching_squared, std::vector<std::uint32_t>& partners) {
+std::size_t FilterAround(const CellGrid& grid, LocalIndex index, float touching_squared,
+                         std::vector<std::uint32_t>& partners) {
+    const hn::ScalableTag<float> d;
+    const auto n_lanes = static_cast<std::uint32_t>(hn::Lanes(d));
     const FlightLanes lanes = grid.lanes();
     const int reach = grid.frame().n_reach;
     const std::uint32_t slot = grid.slot_of(index);
     const int column = grid.column_of(index), row = grid.row_of(index);
     const int first_column = HWY_MAX(column - reach, 0), last_column = HWY_MIN(column + reach, grid.frame().n_columns - 1);
-    for (int other = first_column; other <= last_column; ++other) {
-        const SlotRange range = grid.run(other, row - reach, row + reach);
-        const std::size_t old_size = partners.size();
-        partners.resize(old_size + (range.end - range.begin) + filter_padding);
-        const std::size_t n = filter_run(lanes, range, lanes.x[slot], lanes.y[slot], lanes.vx[slot], lanes.vy[slot],
-                                         touching_squared, partners.data() + old_size);
-        partners.resize(old_size + n);
-        for (std::size_t k = old_size; k < partners.size(); ++k) {
-            if (partners[k] != slot) continue;
-            partners[k] = partners.back();
-            partners.pop_back();
-            break;
+    const Broadcast flight(d, lanes, slot, touching_squared);
+    std::size_t n_partners = 0;
+    for (int other_column = first_column; other_column <= last_column; ++other_column) {
+        const SlotRange run = grid.run(other_column, row - reach, row + reach);
+        std::uint32_t* out = room(partners, n_partners, run.end - run.begin);
+        for (std::uint32_t other = run.begin; other < run.end; other += n_lanes) {
+            std::uint64_t bits = lanes_that_touch(d, lanes, other, run.end - other, flight);
+            if (slot - other < n_lanes) bits &= ~(std::uint64_t{1} << (slot - other)); // not with itself
+            for (; bits != 0; bits &= bits - 1) out[n_partners++] = other + static_cast<std::uint32_t>(std::countr_zero(bits));
         }
     }
+    return n_partners;
 }
 
 const char* FilterTarget() { return hwy::TargetName(HWY_TARGET); }
@@ -106,12 +121,13 @@ HWY_EXPORT(FilterColumn);
 HWY_EXPORT(FilterAround);
 HWY_EXPORT(FilterTarget);
 
-void filter_column(const CellGrid& grid, int column, float touching_squared, std::vector<SlotPair>& pairs) {
-    HWY_DYNAMIC_DISPATCH(FilterColumn)(grid, column, touching_squared, pairs);
+std::size_t filter_column(const CellGrid& grid, int column, float touching_squared, std::vector<SlotPair>& pairs) {
+    return HWY_DYNAMIC_DISPATCH(FilterColumn)(grid, column, touching_squared, pairs);
 }
 
-void filter_around(const CellGrid& grid, LocalIndex index, float touching_squared, std::vector<std::uint32_t>& partners) {
-    HWY_DYNAMIC_DISPATCH(FilterAround)(grid, index, touching_squared, partners);
+std::size_t filter_around(const CellGrid& grid, LocalIndex index, float touching_squared,
+                          std::vector<std::uint32_t>& partners) {
+    return HWY_DYNAMIC_DISPATCH(FilterAround)(grid, index, touching_squared, partners);
 }
 
 const char* filter_target() { return HWY_DYNAMIC_DISPATCH(FilterTarget)(); }

@@ -13,12 +13,13 @@
 
 namespace carrom {
 
-/// Appends to `pairs` all pairs (first, second) that might touch, `first` in `column` and `second` after it in the half
-/// stencil: later in its own column or in a column to the right.
-void filter_column(const CellGrid& grid, int column, float touching_squared, std::vector<SlotPair>& pairs);
+/// Writes to the front of `pairs`, which grows as needed, all pairs (first, second) that might touch: `first` in `column`
+/// and `second` after it in the half stencil, later in its own column or in one to the right. Returns how many.
+std::size_t filter_column(const CellGrid& grid, int column, float touching_squared, std::vector<SlotPair>& pairs);
 
-/// Appends to `partners` the slots anywhere in reach of the disc that might touch it, itself excluded.
-void filter_around(const CellGrid& grid, LocalIndex index, float touching_squared, std::vector<std::uint32_t>& partners);
+/// Writes to the front of `partners` the slots in reach of a disc that might touch it, itself excluded; returns how many.
+std::size_t filter_around(const CellGrid& grid, LocalIndex index, float touching_squared,
+                          std::vector<std::uint32_t>& partners);
 
 /// The instruction set in use, as in "AVX3".
 const char* filter_target();

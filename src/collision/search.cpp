@@ -9,6 +9,13 @@
 
 namespace carrom {
 
+namespace {
+
+/// Discs looked at later whose flights are asked for now.
+constexpr std::int64_t around_ahead = 4;
+
+} // namespace
+
 /// What rejects in single precision: pairs by distance, walls by the position at the window's end, in cells.
 template <class Law> struct Search<Law>::Bounds {
     float touching_squared;
@@ -60,10 +67,9 @@ void Search<Law>::predict_column(const Population& population, const CellGrid& g
     constexpr std::size_t ahead = 8; // states are far apart: ask for them early
     const std::span<const LocalIndex> order = grid.order();
     std::vector<SlotPair>& pairs = lists.pairs;
-    pairs.clear();
-    filter_column(grid, column, bounds.touching_squared, pairs);
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-        if (k + ahead < pairs.size()) {
+    const std::size_t n_pairs = filter_column(grid, column, bounds.touching_squared, pairs);
+    for (std::size_t k = 0; k < n_pairs; ++k) {
+        if (k + ahead < n_pairs) {
             __builtin_prefetch(&population.discs[order[pairs[k + ahead].first]]);
             __builtin_prefetch(&population.discs[order[pairs[k + ahead].second]]);
         }
@@ -89,11 +95,14 @@ void Search<Law>::predict_again(const Population& population, const CellGrid& gr
         std::vector<std::uint32_t>& partners = lists.partners;
 #pragma omp for schedule(dynamic, 64)
         for (std::int64_t k = 0; k < n_hit; ++k) {
+            // What a disc needs is spread over a dozen cache lines: ask for the cells first, then for the flights in them.
+            if (k + 2 * around_ahead < n_hit) grid.prefetch_cells(hit[static_cast<std::size_t>(k + 2 * around_ahead)]);
+            if (k + around_ahead < n_hit) grid.prefetch_flights(hit[static_cast<std::size_t>(k + around_ahead)]);
             const LocalIndex index = hit[static_cast<std::size_t>(k)];
-            partners.clear();
-            filter_around(grid, index, bounds.touching_squared, partners);
-            for (const std::uint32_t slot : partners) {
-                const LocalIndex other = order[slot];
+            const std::size_t n_partners = filter_around(grid, index, bounds.touching_squared, partners);
+            for (std::size_t n = 0; n < n_partners; ++n) __builtin_prefetch(&population.discs[order[partners[n]]]);
+            for (std::size_t n = 0; n < n_partners; ++n) {
+                const LocalIndex other = order[partners[n]];
                 if (is_hit[other] != 0 && other < index) continue;
                 predict_pair(population, window, from, index, other, lists);
             }

@@ -15,35 +15,17 @@ constexpr std::int64_t windows_per_reorder = 8;
 /// Room for discs that a window's collisions make faster, before it has to be cut short.
 constexpr double speed_allowance = 1.02;
 
-Disc disc_from(const InputDisc& input, std::int64_t micro_steps) {
-    const auto k = static_cast<double>(micro_steps);
-    Disc disc;
-    disc.id = input.id;
-    disc.x = input.x;
-    disc.y = input.y;
-    disc.vx = input.vx / k;
-    disc.vy = input.vy / k;
-    return disc;
-}
-
-std::vector<Disc> discs_from(const std::vector<InputDisc>& inputs, std::int64_t micro_steps) {
-    std::vector<Disc> discs;
-    discs.reserve(inputs.size());
-    for (const InputDisc& input : inputs) discs.push_back(disc_from(input, micro_steps));
-    return discs;
-}
-
 double speed_of(const Disc& disc) { return std::sqrt(disc.vx * disc.vx + disc.vy * disc.vy); }
 
 } // namespace
 
-OneEngine::OneEngine(const Scene& scene, std::vector<InputDisc> discs, const Communicator& communicator,
-                     const Tuning& tuning)
+OneEngine::OneEngine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning)
     : communicator_(communicator), tuning_(tuning), law_(scene.box_size, scene.radius), micro_steps_(scene.micro_steps),
-      sync_every_(scene.sync_every), discs_(communicator, scene.box_size, discs_from(discs, scene.micro_steps)),
+      sync_every_(scene.sync_every), discs_(communicator, scene.box_size, std::move(state.discs)),
+      n_micro_done_(state.micro_steps_done), micro_(static_cast<int>(n_micro_done_ % sync_every_)),
       search_(law_, tuning.threads), local_(tuning.threads), across_strips_(communicator) {
     for (const Disc& disc : own()) largest_speed_ = std::max(largest_speed_, speed_of(disc));
-    discs_.rebalance(0, tuning_.rebalance_above);
+    discs_.rebalance(micro_, tuning_.rebalance_above);
 }
 
 void OneEngine::advance_towards(std::int64_t last_step) {
@@ -197,6 +179,7 @@ void OneEngine::apply(const Window& window, int m) {
     std::vector<Disc>& results = in_parts_ ? outcomes_ : discs_.all();
     {
         const PhaseClock::Scope scope(clock_, Phase::move);
+        if (log_) note_velocities(results);
         const auto n_kept = static_cast<std::int64_t>(verdicts_.kept.size());
         double fastest = 0;
 #pragma omp parallel for num_threads(tuning_.threads) schedule(static) reduction(max : fastest) if (n_kept > 256)
@@ -214,6 +197,7 @@ void OneEngine::apply(const Window& window, int m) {
                 fastest = std::max({fastest, speed_of(results[c.p]), speed_of(results[c.q])});
             }
         }
+        if (log_) log_collisions(results, m);
         speed_exceeded_ = fastest > window_speed_;
         largest_speed_ = std::max(largest_speed_, fastest);
     }
@@ -223,6 +207,23 @@ void OneEngine::apply(const Window& window, int m) {
     for (const LocalIndex index : hits_) grid_.update_flight(index, results[index]);
     search_.predict_again(population(), grid_, window, m + 1, hits_, is_hit_);
     for (const LocalIndex index : hits_) is_hit_[index] = 0;
+}
+
+void OneEngine::note_velocities(std::span<const Disc> results) {
+    unhit_.clear();
+    for (const Candidate& c : verdicts_.kept) unhit_.push_back(results[c.p]);
+}
+
+/// Two ranks may know of a collision: the one that owns the first disc logs it.
+void OneEngine::log_collisions(std::span<const Disc> results, int m) {
+    const auto k = static_cast<double>(micro_steps_);
+    for (std::size_t i = 0; i < unhit_.size(); ++i) {
+        const Candidate& c = verdicts_.kept[i];
+        if (c.p >= discs_.n_own()) continue;
+        const double dx = (results[c.p].vx - unhit_[i].vx) * k, dy = (results[c.p].vy - unhit_[i].vy) * k;
+        log_->push_back({n_micro_done_ - micro_ + m, c.time, 0, unhit_[i].id,
+                         c.is_wall() ? Collision::wall : results[c.q].id, std::sqrt(dx * dx + dy * dy)});
+    }
 }
 
 /// Lists the discs that have new states, those of the halo included, each once.

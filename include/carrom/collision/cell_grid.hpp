@@ -85,6 +85,25 @@ public:
         return {cell_start_[base + static_cast<std::size_t>(low)], cell_start_[base + static_cast<std::size_t>(high) + 1]};
     }
 
+    /// Ask for what a look around a disc will need: first where its cells begin, some time later the flights in them.
+    void prefetch_cells(LocalIndex index) const {
+        const std::uint32_t cell = cell_of_[index];
+        for (int column = -1; column <= 1; ++column) {
+            const std::size_t place = cell + static_cast<std::size_t>(column) * rows(); // may wrap at the left end
+            if (place < cell_start_.size()) __builtin_prefetch(&cell_start_[place]);
+        }
+        __builtin_prefetch(&slot_of_[index]);
+    }
+    void prefetch_flights(LocalIndex index) const {
+        const std::uint32_t cell = cell_of_[index];
+        for (int column = -1; column <= 1; ++column) {
+            const std::size_t place = cell + static_cast<std::size_t>(column) * rows() - 1;
+            if (place >= cell_start_.size()) continue;
+            const float* flight = lanes_.data() + cell_start_[place];
+            for (int lane = 0; lane < 4; ++lane) __builtin_prefetch(flight + static_cast<std::size_t>(lane) * lane_length_);
+        }
+    }
+
     /// Squared distance in cells, with a margin for single precision, beyond which flights cannot touch.
     float touching_squared(double diameter) const;
 
