@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "carrom/core/disc.hpp"
 #include "carrom/simulation/simulation.hpp"
@@ -22,11 +23,17 @@ public:
     /// Fills in what only the engine knows or finds: overlaps, rejected candidates, windows. **Collective.**
     virtual void add_to(Totals& totals) = 0;
 
-    virtual std::int64_t step() const = 0;
+    virtual std::int64_t micro_steps_done() const = 0; ///< since the scene's start
     virtual std::span<const Disc> own() const = 0;
     virtual double clock() const = 0;
     virtual std::uint64_t n_discs() const = 0; ///< over all ranks
     virtual PhaseSeconds phase_seconds() const = 0;
+
+    /// See Simulation::log_to. Engines append what they carry out while `log_` is not null.
+    void log_to(std::vector<Collision>* log) { log_ = log; }
+
+protected:
+    std::vector<Collision>* log_ = nullptr;
 };
 
 } // namespace carrom

@@ -29,12 +29,12 @@ class OneEngine final : public Engine {
 public:
     using Law = PlainLaw;
 
-    OneEngine(const Scene& scene, std::vector<InputDisc> discs, const Communicator& communicator, const Tuning& tuning);
+    OneEngine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning);
 
     void advance_towards(std::int64_t last_step) override;
     void add_to(Totals& totals) override;
 
-    std::int64_t step() const override { return n_micro_done_ / micro_steps_; }
+    std::int64_t micro_steps_done() const override { return n_micro_done_; }
     std::span<const Disc> own() const override { return discs_.own(); }
     double clock() const override { return micro_; }
     std::uint64_t n_discs() const override { return discs_.n_total(); }
@@ -54,6 +54,8 @@ private:
     void strike_taken(std::vector<Candidate>& live) const;
     void apply(const Window& window, int m);
     void remember_hits();
+    void note_velocities(std::span<const Disc> results);
+    void log_collisions(std::span<const Disc> results, int m);
     void sync();
     void build_grid(double time, double duration, double reach);
 
@@ -83,6 +85,7 @@ private:
     std::vector<Candidate> live_;
     Verdicts verdicts_;
     std::vector<LocalIndex> hits_, news_;
+    std::vector<Disc> unhit_; ///< while collisions are logged: the first disc of each kept one, before it
     std::vector<std::uint8_t> is_hit_; ///< by disc, clean between micro-steps
 
     std::uint64_t n_candidates_ = 0, n_kept_ = 0; ///< of those whose first disc is own

@@ -9,20 +9,46 @@
 
 namespace carrom {
 
+namespace {
+
+StoredState first_state(const Scene& scene, const std::vector<InputDisc>& inputs) {
+    const auto k = static_cast<double>(scene.micro_steps);
+    StoredState state;
+    state.discs.reserve(inputs.size());
+    for (const InputDisc& input : inputs) {
+        Disc& disc = state.discs.emplace_back();
+        disc.id = input.id;
+        disc.x = input.x;
+        disc.y = input.y;
+        disc.vx = input.vx / k;
+        disc.vy = input.vy / k;
+    }
+    return state;
+}
+
+} // namespace
+
 Simulation::Simulation(const Scene& scene, std::vector<InputDisc> discs, const Communicator& communicator,
                        const Tuning& tuning)
+    : Simulation(scene, first_state(scene, discs), communicator, tuning) {}
+
+Simulation::Simulation(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning)
     : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)),
-      engine_(std::make_unique<OneEngine>(scene, std::move(discs), communicator, tuning)) {}
+      engine_(std::make_unique<OneEngine>(scene, std::move(state), communicator, tuning)) {}
 
 Simulation::~Simulation() = default;
 
 void Simulation::advance_towards(std::int64_t last_step) { engine_->advance_towards(last_step); }
 
-std::int64_t Simulation::step() const { return engine_->step(); }
+std::int64_t Simulation::step() const { return micro_steps_done() / static_cast<std::int64_t>(velocity_unit_); }
+
+std::int64_t Simulation::micro_steps_done() const { return engine_->micro_steps_done(); }
 
 std::span<const Disc> Simulation::discs() const { return engine_->own(); }
 
 double Simulation::clock() const { return engine_->clock(); }
+
+void Simulation::log_to(std::vector<Collision>* log) { engine_->log_to(log); }
 
 Totals Simulation::totals() const {
     Totals totals;

@@ -41,6 +41,24 @@ struct Totals {
 /// Seconds this rank has spent, by phase, in the order they are reported.
 using PhaseSeconds = std::vector<std::pair<std::string, double>>;
 
+/// What a run can be continued from: discs as they are stored at the end of a step (velocities per micro-step, times
+/// since the last sync), and how many micro-steps since the scene's start have led there.
+struct StoredState {
+    std::vector<Disc> discs;
+    std::int64_t micro_steps_done = 0;
+};
+
+/// A collision that has happened. Order: micro_step, time, generation, p, wall before pair, q.
+struct Collision {
+    static constexpr DiscId wall = ~DiscId{0};
+
+    std::int64_t micro_step = 0;  ///< that `time` counts from, since the scene's start
+    double time = 0;              ///< in micro-steps
+    std::uint64_t generation = 0; ///< orders chains that take no time under the rule "all"
+    DiscId p = 0, q = wall;       ///< p is the lower id of a pair
+    double impulse = 0;           ///< what p has got, in mass times length per step
+};
+
 class Engine;
 
 class Simulation {
@@ -48,6 +66,8 @@ public:
     /// Takes over `discs` as the scene has them (velocities per step, tau 0), spread over the ranks in any way.
     /// **Collective.**
     Simulation(const Scene& scene, std::vector<InputDisc> discs, const Communicator& communicator, const Tuning& tuning);
+    /// Goes on from a stored state of the same scene, spread over the ranks in any way. **Collective.**
+    Simulation(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning);
     ~Simulation();
 
     /// Runs until `last_step`, or until an earlier step that is a good place to look up from (at least one step on).
@@ -55,6 +75,7 @@ public:
     void advance_towards(std::int64_t last_step);
 
     std::int64_t step() const;
+    std::int64_t micro_steps_done() const;
 
     /// Own discs in no particular order: velocities per micro-step, times on `clock()`.
     std::span<const Disc> discs() const;
@@ -62,6 +83,9 @@ public:
     double clock() const;
     /// What velocities are multiplied by to be per step.
     double velocity_unit() const { return velocity_unit_; }
+
+    /// From now on every collision is appended to `log` of one rank, in no particular order; null ends that.
+    void log_to(std::vector<Collision>* log);
 
     /// **Collective.**
     Totals totals() const;
