@@ -7,7 +7,7 @@
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${BUILD_DIR:-$top/build}
 
-packages=(cmake ninja-build g++ pkg-config openmpi-bin libopenmpi-dev
+packages=(cmake ninja-build g++ pkg-config openmpi-bin libopenmpi-dev libhdf5-openmpi-dev
           libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev
           librandom123-dev libhwy-dev libxxhash-dev catch2)
 

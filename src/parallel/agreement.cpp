@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "carrom/parallel/exchange.hpp"
+#include "handle.hpp"
 
 namespace carrom {
 
@@ -28,14 +29,19 @@ template <Message T> std::vector<T> concatenate(const Communicator& communicator
 
 } // namespace
 
-void agree(const Communicator& communicator, bool ok, const std::string& text, ExitCode code) {
-    const auto all_well = static_cast<std::int64_t>(communicator.size());
-    const std::int64_t failing = communicator.min(ok ? all_well : std::int64_t{communicator.rank()});
-    if (failing == all_well) return;
+void agree(const Communicator& communicator, bool ok, const std::string& text, ExitCode code, double patience_seconds) {
+    Communicator::Handle& handle = communicator.handle();
+    ++handle.traffic.collectives;
+    const int mine = ok ? handle.size : handle.rank;
+    int failing = mine, agreed_code = static_cast<int>(code);
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Iallreduce(&mine, &failing, 1, MPI_INT, MPI_MIN, handle.comm, &request);
+    if (ok) MPI_Wait(&request, MPI_STATUS_IGNORE);
+    else wait_or_abort(request, text, patience_seconds, agreed_code);
+    if (failing == handle.size) return;
     std::string agreed_text = text;
-    int agreed_code = static_cast<int>(code);
-    communicator.broadcast(agreed_text, static_cast<int>(failing));
-    communicator.broadcast(agreed_code, static_cast<int>(failing));
+    communicator.broadcast(agreed_text, failing);
+    communicator.broadcast(agreed_code, failing);
     throw CollectiveError(agreed_text, static_cast<ExitCode>(agreed_code));
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <mpi.h>
@@ -47,6 +48,10 @@ void start_receive(Communicator::Handle& handle, std::span<std::byte> bytes, int
 
 /// Waits for all of `requests` and empties the list.
 void wait_for(Requests& requests);
+
+/// Waits for `request`; without limit if `failure` is empty. Else this rank has failed, the others may be waiting for it
+/// in some other operation, and after `patience_seconds` it prints `failure` and aborts all ranks with `code`.
+void wait_or_abort(MPI_Request& request, const std::string& failure, double patience_seconds, int code);
 
 /// Calls `act` on successive pieces of at most `limit` bytes.
 template <class Byte, class Act> void for_pieces(std::span<Byte> bytes, std::size_t limit, const Act& act) {

@@ -24,11 +24,11 @@ constexpr int abort_code = 70;
 
 int world_rank = -1; // kept, so that any thread may print it without a call of MPI
 
-[[noreturn]] void abort_all(const char* kind, std::string_view text) {
+[[noreturn]] void abort_all(const char* kind, std::string_view text, int code = abort_code) {
     std::fflush(stdout);
     std::fprintf(stderr, "carrom: %s on rank %d: %.*s\n", kind, world_rank, static_cast<int>(text.size()), text.data());
     std::fflush(stderr);
-    MPI_Abort(MPI_COMM_WORLD, abort_code);
+    MPI_Abort(MPI_COMM_WORLD, code);
     std::abort();
 }
 
@@ -62,26 +62,39 @@ Outcome run(const Communicator& communicator, const std::function<int(const Comm
     }
 }
 
-/// The largest code of any rank; waits without limit after a return, for `patience` after an error.
-int agreed_code(const Communicator& communicator, const Outcome& outcome, std::chrono::duration<double> patience) {
+/// The largest code of any rank; waits without limit after a return, for `patience_seconds` after an error.
+int agreed_code(const Communicator& communicator, const Outcome& outcome, double patience_seconds) {
     int largest = outcome.code;
-    int is_done = 0;
     MPI_Request request = MPI_REQUEST_NULL;
     MPI_Iallreduce(&outcome.code, &largest, 1, MPI_INT, MPI_MAX, communicator.handle().comm, &request);
-    const auto start = std::chrono::steady_clock::now();
-    auto pause = std::chrono::microseconds(1);
-    while (MPI_Test(&request, &is_done, MPI_STATUS_IGNORE) == MPI_SUCCESS && is_done == 0) {
-        if (!outcome.text.empty() && std::chrono::steady_clock::now() - start > patience)
-            abort_all("error that other ranks did not meet", outcome.text);
-        std::this_thread::sleep_for(pause);
-        pause = std::min(2 * pause, std::chrono::microseconds(2000));
-    }
+    wait_or_abort(request, outcome.text, patience_seconds, abort_code);
     return largest;
+}
+
+/// Open MPI's own MPI-IO hangs in a collective write to a full disk; ROMIO, which it also has, returns the error. And a
+/// file system without locks is no reason for HDF5 to refuse a file. Whoever has set these knows better.
+void choose_io() {
+    setenv("OMPI_MCA_io", "^ompio", 0);
+    setenv("HDF5_USE_FILE_LOCKING", "BEST_EFFORT", 0);
 }
 
 } // namespace
 
+void wait_or_abort(MPI_Request& request, const std::string& failure, double patience_seconds, int code) {
+    int is_done = 0;
+    const auto start = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> patience(patience_seconds);
+    auto pause = std::chrono::microseconds(1);
+    while (MPI_Test(&request, &is_done, MPI_STATUS_IGNORE) == MPI_SUCCESS && is_done == 0) {
+        if (!failure.empty() && std::chrono::steady_clock::now() - start > patience)
+            abort_all("error that other ranks did not meet", failure, code);
+        std::this_thread::sleep_for(pause);
+        pause = std::min(2 * pause, std::chrono::microseconds(2000));
+    }
+}
+
 Mpi::Mpi(int& argc, char**& argv) {
+    choose_io();
     int provided = MPI_THREAD_SINGLE;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
     MPI_Comm_rank(MPI_COMM_WORLD, &world_rank);
@@ -105,7 +118,7 @@ int run_on_all(const Communicator& communicator, const std::function<int(const C
         std::fprintf(stderr, "%s\n", outcome.text.c_str());
         std::fflush(stderr);
     }
-    return agreed_code(communicator, outcome, std::chrono::duration<double>(patience_seconds));
+    return agreed_code(communicator, outcome, patience_seconds);
 }
 
 } // namespace carrom

@@ -14,9 +14,10 @@
 namespace carrom {
 
 /// Throws CollectiveError on every rank, with text and code of the lowest rank that is not `ok`, if there is one.
-/// **Collective.**
+/// A rank that is not `ok` and waits for the others in vain, because they wait for it in something that it has left,
+/// prints its text after `patience_seconds` and aborts all ranks with its code. **Collective.**
 void agree(const Communicator& communicator, bool ok, const std::string& text,
-           ExitCode code = ExitCode::collective_failure);
+           ExitCode code = ExitCode::collective_failure, double patience_seconds = 30);
 
 /// Throws InputError with the problems of all ranks, in rank order, on every rank, if any rank has one. Beyond `most`
 /// problems a last one says how many were left out. **Collective.**

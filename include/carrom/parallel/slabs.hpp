@@ -30,9 +30,8 @@ inline int slab_of(std::uint64_t id, std::uint64_t n, int size) {
 /// Brings records in any order on any ranks into slabs: returns this rank's, ascending. `id_of(record)` gives the id;
 /// each of 0 .. n-1 must occur once over all ranks (checked). Memory: twice a rank's records and its slab.
 /// **Collective.**
-template <Message T, class IdOf>
-std::vector<T> to_slabs(const Communicator& communicator, const std::vector<T>& records, std::uint64_t n,
-                        const IdOf& id_of) {
+template <class Records, class IdOf, Message T = typename Records::value_type>
+std::vector<T> to_slabs(const Communicator& communicator, const Records& records, std::uint64_t n, const IdOf& id_of) {
     std::vector<std::vector<T>> out(static_cast<std::size_t>(communicator.size()));
     for (const T& record : records) {
         ensure(id_of(record) < n, "a record's id is beyond the number of records");

@@ -22,6 +22,8 @@ int fail_as(const std::string& kind, const carrom::Communicator& communicator) {
         communicator.broadcast(text, communicator.size());
     }
     if (kind == "different_codes") return communicator.rank() == 1 ? 5 : 0;
+    if (kind == "lone_disagreement" && is_last)
+        carrom::agree(communicator, false, "the disk is full", carrom::ExitCode::output_failure, 1);
     if (kind == "lone_exception" && is_last) throw std::runtime_error("out of luck");
     if (kind == "lone_broken_invariant") carrom::ensure(!is_last, "two is not three");
     if (kind == "lone_input_error" && is_last) throw input_error;
