@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run's state at the end of a step, in one HDF5 file from which any number of ranks can go on with the same bits.
+//
+// Discs stand in the order of their ids, so the file does not show which ranks wrote it. /carrom/discs holds the stored
+// state, column by column, to the bit; /carrom/run what the run is; /particles/discs the same discs as tools for
+// trajectories expect them (H5MD; positions at the time of the step, in single precision). A seal over all bytes tells
+// a whole file from a damaged one (docs/formats.md).
+//
+// Each rank writes and reads its share of the ids through MPI-IO. Price of writing: 80 bytes a disc to disk, the file
+// once more from memory for the seal, every disc sent once, memory for two and a half copies of the discs.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "carrom/core/disc.hpp"
+#include "carrom/parallel/communicator.hpp"
+
+namespace carrom {
+
+/// What a checkpoint says of its run. Texts are the scene's own, to read it again with.
+struct CheckpointHeader {
+    std::string program_version;
+    std::string scene_name, scene_text, scene_overrides; ///< overrides: one `key=value` a line
+    std::int64_t scene_lines_before_discs = 0;
+    std::int64_t scene_discs_follow = 0;
+
+    double box_size = 0, radius = 0;
+    std::string collisions; ///< the rule, "one" or "all"
+    std::int64_t micro_steps = 1, sync_every = 1;
+
+    std::int64_t step = 0, micro_steps_done = 0;
+    std::uint64_t n_discs = 0;
+    std::uint64_t wall_collisions = 0, pair_collisions = 0; ///< sums of the discs' counters; a pair counts once
+    std::string state_hash;
+
+    /// Micro-steps since the last sync: what the discs' times are relative to.
+    double clock() const { return static_cast<double>(micro_steps_done % sync_every); }
+};
+
+/// Writes `discs`, spread over the ranks in any way, as a whole file or not at all: beside its place first, brought to
+/// disk, then renamed. The header's last four numbers and its hash are filled in here. If it fails on any rank every
+/// rank throws CollectiveError, code 4, and an older file of that name is as it was. **Collective.**
+void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs,
+                      const Communicator& communicator);
+
+struct Checkpoint {
+    CheckpointHeader header;
+    std::vector<Disc> discs; ///< this rank's share of the ids, see slabs.hpp
+};
+
+/// Reads a checkpoint. If it is damaged in any way, or none, every rank throws CollectiveError, code 2, with the reason
+/// after the path. **Collective.**
+Checkpoint read_checkpoint(const std::string& path, const Communicator& communicator);
+
+/// The same without the discs; the file's checksum is not looked at. **Collective.**
+CheckpointHeader read_checkpoint_header(const std::string& path, const Communicator& communicator);
+
+} // namespace carrom

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "checkpoint_fields.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <type_traits>
+
+#include "carrom/parallel/slabs.hpp"
+
+namespace carrom {
+
+std::uint64_t bits_of(const Column& column, const Disc& disc) {
+    return std::visit([&disc](auto field) { return std::bit_cast<std::uint64_t>(disc.*field); }, column.field);
+}
+
+void set_bits(const Column& column, Disc& disc, std::uint64_t bits) {
+    std::visit([&](auto field) { disc.*field = std::bit_cast<std::remove_reference_t<decltype(disc.*field)>>(bits); }, column.field);
+}
+
+hid_t type_of(const Column& column) {
+    return std::holds_alternative<double Disc::*>(column.field) ? H5T_NATIVE_DOUBLE : H5T_NATIVE_UINT64;
+}
+
+void write_header(hid_t group, const CheckpointHeader& header) {
+    for (const HeaderField& entry : checkpoint_header)
+        std::visit([&](auto field) { h5::write_scalar(group, entry.name, header.*field); }, entry.field);
+}
+
+CheckpointHeader read_header(hid_t group) {
+    CheckpointHeader header;
+    for (const HeaderField& entry : checkpoint_header)
+        std::visit([&](auto field) { h5::read_scalar(group, entry.name, header.*field); }, entry.field);
+    return header;
+}
+
+void broadcast(CheckpointHeader& header, const Communicator& communicator) {
+    for (const HeaderField& entry : checkpoint_header)
+        std::visit([&](auto field) { communicator.broadcast(header.*field); }, entry.field);
+}
+
+std::uint64_t n_pieces(std::uint64_t n, const Communicator& communicator) {
+    return (slab_begin(1, n, communicator.size()) + rows_per_piece - 1) / rows_per_piece; // rank 0 has the most
+}
+
+h5::Rows rows_of_piece(std::uint64_t piece, std::uint64_t n, const Communicator& communicator) {
+    const std::uint64_t first = slab_begin(communicator.rank(), n, communicator.size());
+    const std::uint64_t last = slab_begin(communicator.rank() + 1, n, communicator.size());
+    return {std::min(first + piece * rows_per_piece, last), std::min(first + (piece + 1) * rows_per_piece, last)};
+}
+
+} // namespace carrom

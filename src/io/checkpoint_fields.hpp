@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a checkpoint holds, in two tables that writer, reader and comparison loop over.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "carrom/core/disc.hpp"
+#include "carrom/io/checkpoint.hpp"
+#include "hdf5.hpp"
+
+namespace carrom {
+
+/// A dataset of /carrom/discs: one number of 8 bytes for each disc.
+struct Column {
+    const char* name;
+    std::variant<double Disc::*, std::uint64_t Disc::*> field;
+};
+
+inline constexpr std::array<Column, 7> checkpoint_columns = {{{"x", &Disc::x},
+                                                              {"y", &Disc::y},
+                                                              {"vx", &Disc::vx},
+                                                              {"vy", &Disc::vy},
+                                                              {"tau", &Disc::tau},
+                                                              {"wall_collisions", &Disc::wall_collisions},
+                                                              {"pair_collisions", &Disc::pair_collisions}}};
+
+/// A dataset of /carrom/run: one value.
+struct HeaderField {
+    const char* name;
+    std::variant<std::string CheckpointHeader::*, double CheckpointHeader::*, std::int64_t CheckpointHeader::*,
+                 std::uint64_t CheckpointHeader::*>
+        field;
+};
+
+using H = CheckpointHeader;
+inline constexpr std::array<HeaderField, 17> checkpoint_header = {
+    {{"program_version", &H::program_version},
+     {"scene_name", &H::scene_name},
+     {"scene_text", &H::scene_text},
+     {"scene_overrides", &H::scene_overrides},
+     {"scene_lines_before_discs", &H::scene_lines_before_discs},
+     {"scene_discs_follow", &H::scene_discs_follow},
+     {"box_size", &H::box_size},
+     {"radius", &H::radius},
+     {"collisions", &H::collisions},
+     {"micro_steps", &H::micro_steps},
+     {"sync_every", &H::sync_every},
+     {"step", &H::step},
+     {"micro_steps_done", &H::micro_steps_done},
+     {"n_discs", &H::n_discs},
+     {"wall_collisions", &H::wall_collisions},
+     {"pair_collisions", &H::pair_collisions},
+     {"state_hash", &H::state_hash}}};
+
+/// The column's number of a disc as its 8 bytes, and back.
+std::uint64_t bits_of(const Column& column, const Disc& disc);
+void set_bits(const Column& column, Disc& disc, std::uint64_t bits);
+hid_t type_of(const Column& column);
+
+void write_header(hid_t group, const CheckpointHeader& header);
+/// Throws FileError where something is missing or of another kind.
+CheckpointHeader read_header(hid_t group);
+/// Replaces the header on every rank by that of rank 0. **Collective.**
+void broadcast(CheckpointHeader& header, const Communicator& communicator);
+
+/// Rows that pass through memory at a time, so that a column needs no copy of its own.
+inline constexpr std::uint64_t rows_per_piece = 1 << 20;
+
+/// This rank's rows [begin, end) of piece `piece` of a table of n rows; empty where it has no more. All ranks have
+/// `n_pieces`, so that each takes part in every collective call.
+std::uint64_t n_pieces(std::uint64_t n, const Communicator& communicator);
+h5::Rows rows_of_piece(std::uint64_t piece, std::uint64_t n, const Communicator& communicator);
+
+} // namespace carrom

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carrom/io/checkpoint_folder.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "files.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr std::string_view prefix = "checkpoint-", suffix = ".h5", unfinished = ".partial";
+
+std::optional<FoundFile> as_checkpoint(const std::filesystem::path& path) {
+    const std::string name = path.filename().string();
+    std::string_view rest = name;
+    FoundFile found{path.string(), 0, !rest.ends_with(unfinished)};
+    if (!found.is_finished) rest.remove_suffix(unfinished.size());
+    if (!rest.starts_with(prefix) || !rest.ends_with(suffix) || rest.size() <= prefix.size() + suffix.size()) return std::nullopt;
+    rest = rest.substr(prefix.size(), rest.size() - prefix.size() - suffix.size());
+    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), found.step);
+    if (error != std::errc{} || end != rest.data() + rest.size()) return std::nullopt;
+    return found;
+}
+
+} // namespace
+
+std::string checkpoint_path(const std::string& folder, std::int64_t step) {
+    return (std::filesystem::path(folder) / fmt::format("{}{:012}{}", prefix, step, suffix)).string();
+}
+
+std::vector<FoundFile> find_checkpoints(const std::string& folder) {
+    std::vector<FoundFile> found;
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+        if (auto file = as_checkpoint(entry->path())) found.push_back(std::move(*file));
+    std::sort(found.begin(), found.end(), [](const FoundFile& a, const FoundFile& b) {
+        return a.step != b.step ? a.step > b.step : a.path < b.path;
+    });
+    return found;
+}
+
+std::string obstacle_to_folder(const std::string& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) return "cannot be made: " + error.message();
+    const std::string probe = (std::filesystem::path(folder) / fmt::format(".carrom-{}", ::getpid())).string();
+    try {
+        const Descriptor file(probe, O_WRONLY | O_CREAT | O_EXCL);
+    } catch (const FileError& failure) {
+        return std::string("cannot be written to: a file there ") + failure.what();
+    }
+    remove_file(probe);
+    return {};
+}
+
+void remove_file(const std::string& path) { ::unlink(path.c_str()); }
+
+} // namespace carrom

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vector>
+
+#include "carrom/core/state_hash.hpp"
+#include "carrom/io/checkpoint.hpp"
+#include "carrom/parallel/slabs.hpp"
+#include "checkpoint_fields.hpp"
+#include "files.hpp"
+#include "seal.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// What no writer of this program would write; a sealed file that has it was made by something else.
+void check_header(const CheckpointHeader& header) {
+    if (header.micro_steps < 1 || header.sync_every < 1 || header.step < 0 || header.n_discs == 0 ||
+        header.micro_steps_done != header.step * header.micro_steps)
+        throw FileError("its numbers contradict each other");
+}
+
+CheckpointHeader header_of(const std::string& path, const Communicator& communicator) {
+    CheckpointHeader header;
+    on_root(communicator, path, ExitCode::bad_input, [&] {
+        const h5::File file = h5::open_file(path, h5::Access::read);
+        const h5::Group run(h5::checked(H5Gopen2(file.id(), "/carrom/run", H5P_DEFAULT), "has no /carrom/run"));
+        header = read_header(run.id());
+        check_header(header);
+    });
+    broadcast(header, communicator);
+    return header;
+}
+
+void read_column(hid_t file, const std::string& path, const Column& column, std::uint64_t n, std::vector<Disc>& slab,
+                 const Communicator& communicator) {
+    h5::Dataset dataset;
+    on_all(communicator, path, ExitCode::bad_input, [&] {
+        dataset = h5::open_dataset(file, (std::string("/carrom/discs/") + column.name).c_str());
+        if (h5::dimensions_of(dataset.id()) != std::vector<hsize_t>{n}) throw FileError(std::string(column.name) + " is of another length");
+    });
+    const std::uint64_t first = slab_begin(communicator.rank(), n, communicator.size());
+    std::vector<std::uint64_t> numbers;
+    for (std::uint64_t piece = 0; piece < n_pieces(n, communicator); ++piece) {
+        const h5::Rows rows = rows_of_piece(piece, n, communicator);
+        numbers.resize(rows.end - rows.begin);
+        on_all(communicator, path, ExitCode::bad_input, [&] { h5::read_rows(dataset.id(), rows, type_of(column), numbers.data()); });
+        for (std::uint64_t row = rows.begin; row < rows.end; ++row) set_bits(column, slab[row - first], numbers[row - rows.begin]);
+    }
+}
+
+} // namespace
+
+CheckpointHeader read_checkpoint_header(const std::string& path, const Communicator& communicator) {
+    return header_of(path, communicator);
+}
+
+Checkpoint read_checkpoint(const std::string& path, const Communicator& communicator) {
+    check_seal(path, communicator);
+    Checkpoint checkpoint;
+    checkpoint.header = header_of(path, communicator);
+    const std::uint64_t n = checkpoint.header.n_discs;
+    const std::uint64_t first = slab_begin(communicator.rank(), n, communicator.size());
+    checkpoint.discs.resize(slab_begin(communicator.rank() + 1, n, communicator.size()) - first);
+    for (std::size_t i = 0; i < checkpoint.discs.size(); ++i) checkpoint.discs[i].id = first + i;
+    h5::File file;
+    on_all(communicator, path, ExitCode::bad_input, [&] { file = h5::open_file(path, h5::Access::read, communicator); });
+    for (const Column& column : checkpoint_columns) read_column(file.id(), path, column, n, checkpoint.discs, communicator);
+    const StateHash mine = hash_of(checkpoint.discs);
+    std::uint64_t sums[] = {mine.low, mine.high};
+    communicator.sum(sums);
+    on_root(communicator, path, ExitCode::bad_input, [&] {
+        if (to_string(StateHash{sums[0], sums[1]}) != checkpoint.header.state_hash) throw FileError("its discs do not have its state hash");
+    });
+    return checkpoint;
+}
+
+} // namespace carrom

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rank 0 makes the file with all its structure and takes its room on disk; then the ranks fill in the columns. So what
+// is written side by side is numbers alone, at places that no longer move.
+#include <array>
+#include <vector>
+
+#include <unistd.h>
+
+#include "carrom/core/state_hash.hpp"
+#include "carrom/io/checkpoint.hpp"
+#include "carrom/parallel/slabs.hpp"
+#include "checkpoint_fields.hpp"
+#include "files.hpp"
+#include "h5md.hpp"
+#include "seal.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr std::uint64_t bytes_per_disc = sizeof(std::uint64_t) * checkpoint_columns.size() + 6 * sizeof(float);
+constexpr std::uint64_t bytes_of_structure = 1 << 20;
+
+/// The file beside its place; gone again unless it was renamed, so that half a file takes no room on a full disk.
+class PartialFile {
+public:
+    PartialFile(std::string path, const Communicator& communicator) : path_(std::move(path)), is_mine_(communicator.is_root()) {
+        if (is_mine_) ::unlink(path_.c_str());
+    }
+    ~PartialFile() { if (is_mine_) ::unlink(path_.c_str()); }
+    PartialFile(const PartialFile&) = delete;
+    PartialFile& operator=(const PartialFile&) = delete;
+    const std::string& path() const { return path_; }
+
+private:
+    std::string path_;
+    bool is_mine_;
+};
+
+void create_column(hid_t parent, const char* name, std::span<const hsize_t> dimensions, hid_t type) {
+    const h5::Properties creation = h5::properties(H5P_DATASET_CREATE);
+    h5::checked(H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY), name);
+    h5::checked(H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER), name);
+    const h5::Dataset dataset(
+        h5::checked(H5Dcreate2(parent, name, type, h5::space(dimensions).id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT), name));
+}
+
+/// A group of one frame: its step and time here, its `value` is the caller's.
+h5::Group create_frame(hid_t parent, const char* name, const CheckpointHeader& header) {
+    h5::Group group = h5::create_group(parent, name);
+    const std::array<hsize_t, 1> one = {1};
+    const auto time = static_cast<double>(header.step);
+    h5::write_whole(group.id(), "step", one, H5T_NATIVE_INT64, &header.step);
+    h5::write_whole(group.id(), "time", one, H5T_NATIVE_DOUBLE, &time);
+    return group;
+}
+
+void create_structure(const std::string& path, const CheckpointHeader& header) {
+    h5::File file = h5::create_file(path, seal_size);
+    h5md::write_metadata(file.id(), header.program_version);
+    {
+        const h5::Group particles = h5::create_group(file.id(), "particles");
+        const h5::Group discs = h5::create_group(particles.id(), "discs");
+        const h5::Group box = h5md::create_box(discs.id());
+        const std::array<double, 3> edges = {header.box_size, header.box_size, 1};
+        h5::write_whole(create_frame(box.id(), "edges", header).id(), "value", std::array<hsize_t, 2>{1, 3}, H5T_NATIVE_DOUBLE, edges.data());
+        const std::array<hsize_t, 3> vectors = {1, header.n_discs, 3};
+        for (const char* name : {"position", "velocity"})
+            create_column(create_frame(discs.id(), name, header).id(), "value", vectors, H5T_NATIVE_FLOAT);
+
+        const h5::Group carrom = h5::create_group(file.id(), "carrom");
+        write_header(h5::create_group(carrom.id(), "run").id(), header);
+        const h5::Group columns = h5::create_group(carrom.id(), "discs");
+        for (const Column& column : checkpoint_columns)
+            create_column(columns.id(), column.name, std::array<hsize_t, 1>{header.n_discs}, type_of(column));
+    }
+    file.close("cannot be written");
+}
+
+class ColumnWriter {
+public:
+    ColumnWriter(const std::string& path, const CheckpointHeader& header, std::span<const Disc> slab, const Communicator& communicator)
+        : path_(path), header_(header), slab_(slab), communicator_(communicator),
+          first_(slab_begin(communicator.rank(), header.n_discs, communicator.size())) {}
+
+    void write() {
+        h5::File file;
+        on_ranks([&] { file = h5::open_file(path_, h5::Access::write, communicator_); });
+        for (const Column& column : checkpoint_columns)
+            write_column<std::uint64_t>(file.id(), std::string("/carrom/discs/") + column.name, type_of(column), 1,
+                                        [&](const Disc& disc, std::uint64_t* out) { *out = bits_of(column, disc); });
+        const double clock = header_.clock(), k = static_cast<double>(header_.micro_steps);
+        write_column<float>(file.id(), "/particles/discs/position/value", H5T_NATIVE_FLOAT, 3, [clock](const Disc& disc, float* out) {
+            out[0] = static_cast<float>(disc.x_at(clock));
+            out[1] = static_cast<float>(disc.y_at(clock));
+            out[2] = 0;
+        });
+        write_column<float>(file.id(), "/particles/discs/velocity/value", H5T_NATIVE_FLOAT, 3, [k](const Disc& disc, float* out) {
+            out[0] = static_cast<float>(disc.vx * k);
+            out[1] = static_cast<float>(disc.vy * k);
+            out[2] = 0;
+        });
+        on_ranks([&] { file.close("cannot be closed"); });
+    }
+
+private:
+    template <class Act> void on_ranks(const Act& act) const { on_all(communicator_, path_, ExitCode::output_failure, act); }
+
+    template <class Number, class Fill>
+    void write_column(hid_t file, const std::string& name, hid_t type, std::size_t width, const Fill& fill) {
+        h5::Dataset dataset;
+        on_ranks([&] { dataset = h5::open_dataset(file, name.c_str()); });
+        std::vector<Number> numbers;
+        for (std::uint64_t piece = 0; piece < n_pieces(header_.n_discs, communicator_); ++piece) {
+            const h5::Rows rows = rows_of_piece(piece, header_.n_discs, communicator_);
+            numbers.resize((rows.end - rows.begin) * width);
+            for (std::uint64_t row = rows.begin; row < rows.end; ++row)
+                fill(slab_[row - first_], numbers.data() + (row - rows.begin) * width);
+            on_ranks([&] { h5::write_rows(dataset.id(), rows, type, numbers.data()); });
+        }
+    }
+
+    const std::string& path_;
+    const CheckpointHeader& header_;
+    std::span<const Disc> slab_;
+    const Communicator& communicator_;
+    std::uint64_t first_; ///< the id of the slab's first disc
+};
+
+void fill_sums(CheckpointHeader& header, std::span<const Disc> slab, const Communicator& communicator) {
+    const StateHash hash = hash_of(slab);
+    std::array<std::uint64_t, 4> sums = {0, 0, hash.low, hash.high};
+    for (const Disc& disc : slab) {
+        sums[0] += disc.wall_collisions;
+        sums[1] += disc.pair_collisions;
+    }
+    communicator.sum(sums);
+    header.wall_collisions = sums[0];
+    header.pair_collisions = sums[1] / 2;
+    header.state_hash = to_string(StateHash{sums[2], sums[3]});
+}
+
+} // namespace
+
+void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs,
+                      const Communicator& communicator) {
+    header.n_discs = communicator.sum(std::uint64_t{discs.size()});
+    const std::vector<Disc> slab = to_slabs(communicator, discs, header.n_discs, [](const Disc& disc) { return disc.id; });
+    fill_sums(header, slab, communicator);
+    const PartialFile partial(path + ".partial", communicator);
+    on_root(communicator, path, ExitCode::output_failure, [&] {
+        check_room(folder_of(path), header.n_discs * bytes_per_disc + bytes_of_structure);
+        create_structure(partial.path(), header);
+        reserve(partial.path());
+    });
+    ColumnWriter(partial.path(), header, slab, communicator).write();
+    // Each rank, since on several nodes each has written through a cache of its own.
+    on_all(communicator, path, ExitCode::output_failure, [&] { sync_file(partial.path()); });
+    seal(partial.path(), communicator);
+    on_root(communicator, path, ExitCode::output_failure, [&] { rename_durably(partial.path(), path); });
+}
+
+} // namespace carrom

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "files.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+namespace carrom {
+
+void fail_with_errno(const std::string& what) { throw FileError(what + ": " + std::strerror(errno)); }
+
+Descriptor::Descriptor(const std::string& path, int flags) : number_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
+    if (number_ < 0) fail_with_errno("cannot be opened");
+}
+
+Descriptor::~Descriptor() { ::close(number_); }
+
+std::uint64_t Descriptor::size() const {
+    struct stat status {};
+    if (::fstat(number_, &status) != 0) fail_with_errno("its size cannot be had");
+    return static_cast<std::uint64_t>(status.st_size);
+}
+
+std::size_t Descriptor::read(std::span<std::byte> bytes, std::uint64_t offset) const {
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+        const ssize_t n = ::pread(number_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
+        if (n == 0) break;
+        if (n > 0) done += static_cast<std::size_t>(n);
+        else if (errno != EINTR) fail_with_errno("cannot be read");
+    }
+    return done;
+}
+
+void Descriptor::write(std::span<const std::byte> bytes, std::uint64_t offset) const {
+    for (std::size_t done = 0; done < bytes.size();) {
+        const ssize_t n = ::pwrite(number_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
+        if (n >= 0) done += static_cast<std::size_t>(n);
+        else if (errno != EINTR) fail_with_errno("cannot be written");
+    }
+}
+
+void Descriptor::sync() const {
+    if (::fsync(number_) != 0) fail_with_errno("cannot be brought to disk");
+}
+
+void check_room(const std::string& folder, std::uint64_t bytes) {
+    struct statvfs status {};
+    if (::statvfs(folder.c_str(), &status) != 0) fail_with_errno("its file system cannot be asked");
+    const std::uint64_t room = std::uint64_t{status.f_bavail} * status.f_frsize;
+    // Some file systems do not know and say 0 of 0.
+    if (status.f_blocks > 0 && room < bytes)
+        throw FileError(fmt::format("No space left on device: {} bytes are needed, {} are free", bytes, room));
+}
+
+void reserve(const std::string& path) {
+    const Descriptor file(path, O_WRONLY);
+    if (::fallocate(file.number(), 0, 0, static_cast<off_t>(file.size())) != 0 && errno != EOPNOTSUPP && errno != ENOSYS && errno != EINVAL)
+        fail_with_errno("its room cannot be reserved");
+}
+
+void sync_file(const std::string& path) { Descriptor(path, O_WRONLY).sync(); }
+
+void rename_durably(const std::string& from, const std::string& to) {
+    if (std::rename(from.c_str(), to.c_str()) != 0) fail_with_errno("cannot be renamed");
+    Descriptor(folder_of(to), O_RDONLY | O_DIRECTORY).sync();
+}
+
+std::string folder_of(const std::string& path) {
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    return folder.empty() ? "." : folder;
+}
+
+} // namespace carrom

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a file system is asked for beyond writing: room, durability, names. Each throws FileError where it fails.
+//
+// These are this rank's own calls; `on_all` and `on_root` turn what they throw into what all ranks know.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "carrom/core/errors.hpp"
+#include "carrom/parallel/agreement.hpp"
+#include "carrom/parallel/communicator.hpp"
+
+namespace carrom {
+
+/// Something went wrong with a file on this rank.
+class FileError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// The same with the system's words for `errno`.
+[[noreturn]] void fail_with_errno(const std::string& what);
+
+/// A file descriptor that closes itself.
+class Descriptor {
+public:
+    Descriptor(const std::string& path, int flags);
+    ~Descriptor();
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    int number() const { return number_; }
+
+    std::uint64_t size() const;
+    /// Reads up to the end of `bytes` or of the file; returns how many.
+    std::size_t read(std::span<std::byte> bytes, std::uint64_t offset) const;
+    void write(std::span<const std::byte> bytes, std::uint64_t offset) const;
+    void sync() const;
+
+private:
+    int number_;
+};
+
+/// Throws where the file system says that it has less room than that.
+void check_room(const std::string& folder, std::uint64_t bytes);
+/// Takes the blocks of a file now, so that a full disk shows now; does nothing where that is not to be had.
+void reserve(const std::string& path);
+void sync_file(const std::string& path);
+/// Renames and makes it last: the folder is synced too.
+void rename_durably(const std::string& from, const std::string& to);
+std::string folder_of(const std::string& path);
+
+/// Runs `act` on every rank. If it throws FileError on any, every rank throws CollectiveError with `code` and that rank's
+/// text after `path`. **Collective.** With at most one collective call in `act`, no rank is left behind; should it happen
+/// all the same, the failed rank ends the run after half a minute (see `agree`).
+template <class Act> void on_all(const Communicator& communicator, const std::string& path, ExitCode code, const Act& act) {
+    std::string failure;
+    try {
+        act();
+    } catch (const FileError& error) {
+        failure = path + ": " + error.what();
+    }
+    agree(communicator, failure.empty(), failure, code);
+}
+
+/// The same for what rank 0 does alone. **Collective.**
+template <class Act> void on_root(const Communicator& communicator, const std::string& path, ExitCode code, const Act& act) {
+    on_all(communicator, path, code, [&] { if (communicator.is_root()) act(); });
+}
+
+} // namespace carrom

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The parts of H5MD 1.1 (de Buyl, Colberg, Hoefling 2014) that checkpoints and trajectories share: discs in a box whose
+// third edge is 1, since its readers know three dimensions only.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "hdf5.hpp"
+
+namespace carrom::h5md {
+
+/// /h5md: who wrote the file with what.
+void write_metadata(hid_t file, const std::string& program_version);
+
+/// `parent`/box with walls on its sides; the caller adds its edges.
+h5::Group create_box(hid_t parent);
+
+} // namespace carrom::h5md

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hdf5.hpp"
+
+#include <algorithm>
+
+#include <mpi.h>
+
+#include "files.hpp"
+
+namespace carrom::h5 {
+
+namespace {
+
+/// The innermost entries of the error stack say what the system has said.
+herr_t take_text(unsigned number, const H5E_error2_t* error, void* text) {
+    auto& all = *static_cast<std::string*>(text);
+    if (number < 2 && error->desc != nullptr && *error->desc != '\0') all += std::string(all.empty() ? "" : "; ") + error->desc;
+    return 0;
+}
+
+/// HDF5 would print its stack of errors to standard error by itself, on every rank.
+void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+Type text_type(std::size_t length) {
+    Type type(checked(H5Tcopy(H5T_C_S1), "cannot make a text type"));
+    checked(H5Tset_size(type.id(), std::max<std::size_t>(1, length)), "cannot size a text type");
+    checked(H5Tset_strpad(type.id(), H5T_STR_NULLPAD), "cannot pad a text type");
+    checked(H5Tset_cset(type.id(), H5T_CSET_UTF8), "cannot make a text type UTF-8");
+    return type;
+}
+
+void write_attribute(hid_t object, const char* name, hid_t type, const Space& shape, const void* values) {
+    const Attribute attribute(checked(H5Acreate2(object, name, type, shape.id(), H5P_DEFAULT, H5P_DEFAULT), name));
+    checked(H5Awrite(attribute.id(), type, values), name);
+}
+
+void write_scalar_as(hid_t parent, const char* name, hid_t type, const void* value) {
+    const Dataset dataset(
+        checked(H5Dcreate2(parent, name, type, scalar_space().id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), name));
+    checked(H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value), name);
+}
+
+/// Checks that there is one value, so that nothing is written beyond it.
+void read_scalar_as(hid_t parent, const char* name, hid_t type, void* value) {
+    const Dataset dataset = open_dataset(parent, name);
+    const Space shape(checked(H5Dget_space(dataset.id()), name));
+    if (H5Sget_simple_extent_npoints(shape.id()) != 1) throw FileError(std::string(name) + " is not a single value");
+    checked(H5Dread(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value), name);
+}
+
+/// Collective: MPI-IO knows how ranks best share the file system at hand.
+Properties collective_transfer() {
+    Properties transfer = properties(H5P_DATASET_XFER);
+    checked(H5Pset_dxpl_mpio(transfer.id(), H5FD_MPIO_COLLECTIVE), "cannot choose collective transfer");
+    return transfer;
+}
+
+struct Selection {
+    Space memory, file;
+};
+
+Selection select_rows(hid_t dataset, const Rows& rows) {
+    std::vector<hsize_t> count = dimensions_of(dataset), start(count.size(), 0);
+    const std::size_t axis = count.size() == 1 ? 0 : 1;
+    start[axis] = rows.begin;
+    count[axis] = rows.end - rows.begin;
+    Selection selection{space(count), Space(checked(H5Dget_space(dataset), "cannot look at a dataset"))};
+    if (rows.begin == rows.end) {
+        checked(H5Sselect_none(selection.memory.id()), "cannot select nothing");
+        checked(H5Sselect_none(selection.file.id()), "cannot select nothing");
+    } else {
+        checked(H5Sselect_hyperslab(selection.file.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
+                "cannot select rows");
+    }
+    return selection;
+}
+
+} // namespace
+
+void fail(const std::string& what) {
+    std::string text;
+    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_text, &text);
+    throw FileError(what + (text.empty() ? "" : ": " + text));
+}
+
+Properties properties(hid_t kind) { return Properties(checked(H5Pcreate(kind), "cannot make a property list")); }
+
+Space space(std::span<const hsize_t> dimensions, std::span<const hsize_t> largest) {
+    return Space(checked(H5Screate_simple(static_cast<int>(dimensions.size()), dimensions.data(),
+                                          largest.empty() ? nullptr : largest.data()),
+                         "cannot make a data space"));
+}
+
+Space scalar_space() { return Space(checked(H5Screate(H5S_SCALAR), "cannot make a data space")); }
+
+File create_file(const std::string& path, std::uint64_t user_block) {
+    be_quiet();
+    const Properties creation = properties(H5P_FILE_CREATE), access = properties(H5P_FILE_ACCESS);
+    checked(H5Pset_userblock(creation.id(), user_block), "cannot set a user block");
+    checked(H5Pset_alignment(access.id(), 1 << 16, 1 << 12), "cannot align datasets to pages");
+    return File(checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), "cannot be created"));
+}
+
+File open_file(const std::string& path, Access access) {
+    be_quiet();
+    return File(checked(H5Fopen(path.c_str(), access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR, H5P_DEFAULT), "cannot be opened"));
+}
+
+File open_file(const std::string& path, Access access, const Communicator& communicator) {
+    be_quiet();
+    const Properties list = properties(H5P_FILE_ACCESS);
+    checked(H5Pset_fapl_mpio(list.id(), MPI_Comm_f2c(communicator.fortran_handle()), MPI_INFO_NULL), "cannot choose MPI-IO");
+    checked(H5Pset_all_coll_metadata_ops(list.id(), true), "cannot choose collective metadata");
+    return File(checked(H5Fopen(path.c_str(), access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR, list.id()), "cannot be opened"));
+}
+
+Group create_group(hid_t parent, const char* name) {
+    return Group(checked(H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), name));
+}
+
+Dataset open_dataset(hid_t parent, const char* name) { return Dataset(checked(H5Dopen2(parent, name, H5P_DEFAULT), name)); }
+
+void write_attribute(hid_t object, const char* name, const std::string& text) {
+    write_attribute(object, name, text_type(text.size()).id(), scalar_space(), text.c_str());
+}
+
+void write_attribute(hid_t object, const char* name, std::span<const std::int32_t> numbers) {
+    const hsize_t length = numbers.size();
+    write_attribute(object, name, H5T_NATIVE_INT32, space({&length, 1}), numbers.data());
+}
+
+void write_attribute(hid_t object, const char* name, const std::vector<std::string>& words) {
+    std::size_t longest = 1;
+    for (const std::string& word : words) longest = std::max(longest, word.size());
+    std::string letters;
+    for (std::string word : words) {
+        word.resize(longest);
+        letters += word;
+    }
+    const hsize_t length = words.size();
+    write_attribute(object, name, text_type(longest).id(), space({&length, 1}), letters.data());
+}
+
+void write_scalar(hid_t parent, const char* name, double value) { write_scalar_as(parent, name, H5T_NATIVE_DOUBLE, &value); }
+void write_scalar(hid_t parent, const char* name, std::int64_t value) { write_scalar_as(parent, name, H5T_NATIVE_INT64, &value); }
+void write_scalar(hid_t parent, const char* name, std::uint64_t value) { write_scalar_as(parent, name, H5T_NATIVE_UINT64, &value); }
+void write_scalar(hid_t parent, const char* name, const std::string& value) {
+    write_scalar_as(parent, name, text_type(value.size()).id(), value.c_str());
+}
+
+void read_scalar(hid_t parent, const char* name, double& value) { read_scalar_as(parent, name, H5T_NATIVE_DOUBLE, &value); }
+void read_scalar(hid_t parent, const char* name, std::int64_t& value) { read_scalar_as(parent, name, H5T_NATIVE_INT64, &value); }
+void read_scalar(hid_t parent, const char* name, std::uint64_t& value) { read_scalar_as(parent, name, H5T_NATIVE_UINT64, &value); }
+void read_scalar(hid_t parent, const char* name, std::string& value) {
+    const Dataset dataset = open_dataset(parent, name);
+    const Type type(checked(H5Dget_type(dataset.id()), name));
+    if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0) throw FileError(std::string(name) + " is not a text");
+    value.assign(H5Tget_size(type.id()), '\0');
+    read_scalar_as(parent, name, type.id(), value.data());
+    value.resize(value.find_last_not_of('\0') + 1); // the padding
+}
+
+void write_whole(hid_t parent, const char* name, std::span<const hsize_t> dimensions, hid_t type, const void* values) {
+    const Dataset dataset(checked(
+        H5Dcreate2(parent, name, type, space(dimensions).id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), name));
+    checked(H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
+}
+
+std::vector<hsize_t> dimensions_of(hid_t dataset) {
+    const Space shape(checked(H5Dget_space(dataset), "cannot look at a dataset"));
+    std::vector<hsize_t> dimensions(static_cast<std::size_t>(checked(H5Sget_simple_extent_ndims(shape.id()), "cannot look at a dataset")));
+    checked(H5Sget_simple_extent_dims(shape.id(), dimensions.data(), nullptr), "cannot look at a dataset");
+    return dimensions;
+}
+
+void write_rows(hid_t dataset, const Rows& rows, hid_t type, const void* numbers) {
+    const Selection selection = select_rows(dataset, rows);
+    checked(H5Dwrite(dataset, type, selection.memory.id(), selection.file.id(), collective_transfer().id(), numbers),
+            "cannot be written");
+}
+
+void read_rows(hid_t dataset, const Rows& rows, hid_t type, void* numbers) {
+    const Selection selection = select_rows(dataset, rows);
+    checked(H5Dread(dataset, type, selection.memory.id(), selection.file.id(), collective_transfer().id(), numbers), "cannot be read");
+}
+
+} // namespace carrom::h5

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// HDF5's C interface with errors that throw and handles that close themselves. Nothing outside this module sees it.
+//
+// A throw on one rank alone would leave the others waiting, so a collective call stands alone in the body of an
+// `on_all` (on_all.hpp), which brings the ranks together again.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <hdf5.h>
+
+#include "carrom/parallel/communicator.hpp"
+
+namespace carrom::h5 {
+
+/// Throws FileError with `what` and the cause that HDF5 gives.
+[[noreturn]] void fail(const std::string& what);
+
+/// Hands on what HDF5 has returned, or throws.
+template <class Result> Result checked(Result result, const char* what) {
+    if (result < 0) fail(what);
+    return result;
+}
+
+/// Owns one HDF5 identifier.
+template <herr_t (*close_function)(hid_t)> class Handle {
+public:
+    Handle() = default;
+    explicit Handle(hid_t id) : id_(id) {}
+    ~Handle() { if (id_ >= 0) close_function(id_); }
+    Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
+    Handle& operator=(Handle&& other) noexcept {
+        std::swap(id_, other.id_);
+        return *this;
+    }
+
+    hid_t id() const { return id_; }
+
+    /// Closing a file or a dataset may be where a failure shows.
+    void close(const char* what) { checked(close_function(std::exchange(id_, -1)), what); }
+
+private:
+    hid_t id_ = -1;
+};
+
+using File = Handle<H5Fclose>;
+using Group = Handle<H5Gclose>;
+using Dataset = Handle<H5Dclose>;
+using Space = Handle<H5Sclose>;
+using Type = Handle<H5Tclose>;
+using Attribute = Handle<H5Aclose>;
+using Properties = Handle<H5Pclose>;
+
+Properties properties(hid_t kind);
+Space space(std::span<const hsize_t> dimensions, std::span<const hsize_t> largest = {});
+Space scalar_space();
+
+/// A new file of this process alone, in place of any other; `user_block` bytes at its front are left to the caller.
+File create_file(const std::string& path, std::uint64_t user_block);
+enum class Access { read, write };
+File open_file(const std::string& path, Access access);
+/// The same for all ranks together. **Collective.**
+File open_file(const std::string& path, Access access, const Communicator& communicator);
+
+Group create_group(hid_t parent, const char* name);
+Dataset open_dataset(hid_t parent, const char* name);
+
+/// Attributes and scalars; texts are of fixed length, UTF-8.
+void write_attribute(hid_t object, const char* name, const std::string& text);
+void write_attribute(hid_t object, const char* name, std::span<const std::int32_t> numbers);
+void write_attribute(hid_t object, const char* name, const std::vector<std::string>& words);
+void write_scalar(hid_t parent, const char* name, double value);
+void write_scalar(hid_t parent, const char* name, std::int64_t value);
+void write_scalar(hid_t parent, const char* name, std::uint64_t value);
+void write_scalar(hid_t parent, const char* name, const std::string& value);
+void read_scalar(hid_t parent, const char* name, double& value);
+void read_scalar(hid_t parent, const char* name, std::int64_t& value);
+void read_scalar(hid_t parent, const char* name, std::uint64_t& value);
+void read_scalar(hid_t parent, const char* name, std::string& value);
+
+/// A dataset of one value or one row of values for each of the numbers, written at once by this process.
+void write_whole(hid_t parent, const char* name, std::span<const hsize_t> dimensions, hid_t type, const void* values);
+
+/// The dimensions of a dataset.
+std::vector<hsize_t> dimensions_of(hid_t dataset);
+
+struct Rows {
+    std::uint64_t begin = 0, end = 0;
+};
+
+/// This rank's rows of a dataset: of its only axis, or of the second one where the first counts frames. No rows are fine.
+/// The file must have been opened by all ranks. **Collective.**
+void write_rows(hid_t dataset, const Rows& rows, hid_t type, const void* numbers);
+void read_rows(hid_t dataset, const Rows& rows, hid_t type, void* numbers);
+
+} // namespace carrom::h5

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Checkpoints on 1 to 7 ranks: what is read is what was written, to the bit; the file does not show who wrote it; a
+// damaged one is noticed by all ranks.
+#include "carrom/io/checkpoint.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+
+#include "carrom/core/errors.hpp"
+#include "carrom/core/state_hash.hpp"
+#include "carrom/parallel/slabs.hpp"
+
+using namespace carrom;
+
+namespace {
+
+/// A folder for all ranks, gone at the end.
+class TestFolder {
+public:
+    explicit TestFolder(const Communicator& world) : world_(world), path_("/tmp/carrom_io_test_" + std::to_string(::getpid())) {
+        world_.broadcast(path_);
+        if (world_.is_root()) std::filesystem::create_directories(path_);
+        world_.barrier();
+    }
+    ~TestFolder() {
+        world_.barrier();
+        if (world_.is_root()) std::filesystem::remove_all(path_);
+    }
+    TestFolder(const TestFolder&) = delete;
+    TestFolder& operator=(const TestFolder&) = delete;
+    std::string file(const char* name) const { return path_ + "/" + name; }
+
+private:
+    const Communicator& world_;
+    std::string path_;
+};
+
+/// A disc whose numbers nobody would make up: every value that doubles have is fine in a state.
+Disc odd_disc(DiscId id) {
+    std::mt19937_64 random(id + 1);
+    Disc disc;
+    disc.id = id;
+    disc.x = std::ldexp(static_cast<double>(random() >> 11), -50);
+    disc.y = std::ldexp(static_cast<double>(random() >> 11), -50);
+    disc.vx = id % 5 == 0 ? -0.0 : std::ldexp(static_cast<double>(random() >> 11), -60);
+    disc.vy = id % 7 == 0 ? std::numeric_limits<double>::denorm_min() : -disc.x;
+    disc.tau = static_cast<double>(random() >> 11) * 0x1p-53 * 3;
+    disc.wall_collisions = random();
+    disc.pair_collisions = random();
+    return disc;
+}
+
+/// The discs 0 .. n-1 on ranks by a rule that leaves some with none, in no order.
+std::vector<Disc> share(std::uint64_t n, const Communicator& world, unsigned rule) {
+    std::vector<Disc> mine;
+    const auto size = static_cast<std::uint64_t>(world.size());
+    for (DiscId id = 0; id < n; ++id) {
+        const std::uint64_t owner = rule == 0 ? (id * 7919) % size : rule == 1 ? size - 1 : std::min(id / 2, size - 1);
+        if (owner == static_cast<std::uint64_t>(world.rank())) mine.push_back(odd_disc(id));
+    }
+    std::mt19937 random(rule);
+    std::shuffle(mine.begin(), mine.end(), random);
+    return mine;
+}
+
+CheckpointHeader some_header() {
+    CheckpointHeader header;
+    header.program_version = "0.0.1";
+    header.scene_name = "a scene.toml";
+    header.scene_text = "[box]\nsize = 1 # \xc3\xa4\n\n";
+    header.scene_overrides = "time.steps=5\ndiscs.seed=1";
+    header.scene_lines_before_discs = 3;
+    header.scene_discs_follow = 1;
+    header.box_size = 0.1;
+    header.radius = 0x1p-1000;
+    header.collisions = "one";
+    header.micro_steps = 4;
+    header.sync_every = 6;
+    header.step = 25;
+    header.micro_steps_done = 100;
+    return header;
+}
+
+bool same_bits(const Disc& a, const Disc& b) {
+    const auto bits = [](double number) { return std::bit_cast<std::uint64_t>(number); };
+    return a.id == b.id && bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.vx) == bits(b.vx) &&
+           bits(a.vy) == bits(b.vy) && bits(a.tau) == bits(b.tau) && a.wall_collisions == b.wall_collisions &&
+           a.pair_collisions == b.pair_collisions;
+}
+
+std::string bytes_of(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The text and code of the error that reading ends with, the same on every rank; empty if it is read.
+std::string problem_of(const std::string& path, const Communicator& world) {
+    try {
+        read_checkpoint(path, world);
+    } catch (const CollectiveError& error) {
+        return std::to_string(static_cast<int>(error.code())) + ' ' + error.what();
+    }
+    return {};
+}
+
+} // namespace
+
+TEST_CASE("a checkpoint is read as it was written") {
+    const Communicator world = Communicator::world();
+    const TestFolder folder(world);
+    for (const std::uint64_t n : {1u, 2u, 5u, 1000u, 20011u}) {
+        for (unsigned rule = 0; rule < 3; ++rule) {
+            const std::string path = folder.file("checkpoint.h5");
+            const std::vector<Disc> mine = share(n, world, rule);
+            write_checkpoint(path, some_header(), mine, world);
+            const Checkpoint read = read_checkpoint(path, world);
+            const DiscId first = slab_begin(world.rank(), n, world.size());
+            CHECK(first + read.discs.size() == slab_begin(world.rank() + 1, n, world.size()));
+            bool all_same = true;
+            std::uint64_t walls = 0, pairs = 0;
+            StateHash hash;
+            for (std::size_t i = 0; i < read.discs.size(); ++i) all_same = all_same && same_bits(read.discs[i], odd_disc(first + i));
+            for (DiscId id = 0; id < n; ++id) {
+                const Disc disc = odd_disc(id);
+                walls += disc.wall_collisions;
+                pairs += disc.pair_collisions;
+                hash += hash_of(disc);
+            }
+            CHECK(all_same);
+            const CheckpointHeader& header = read.header;
+            CHECK(header.n_discs == n);
+            CHECK(header.state_hash == to_string(hash));
+            CHECK(header.wall_collisions == walls);
+            CHECK(header.pair_collisions == pairs / 2);
+        }
+    }
+}
+
+TEST_CASE("the header comes back whole") {
+    const Communicator world = Communicator::world();
+    const TestFolder folder(world);
+    CheckpointHeader wanted = some_header();
+    wanted.scene_text += std::string(200000, 'x') + '\n'; // longer than HDF5's attributes may be
+    write_checkpoint(folder.file("a.h5"), wanted, share(3, world, 0), world);
+    for (const CheckpointHeader& header :
+         {read_checkpoint_header(folder.file("a.h5"), world), read_checkpoint(folder.file("a.h5"), world).header}) {
+        CHECK(header.program_version == wanted.program_version);
+        CHECK(header.scene_name == wanted.scene_name);
+        CHECK(header.scene_text == wanted.scene_text);
+        CHECK(header.scene_overrides == wanted.scene_overrides);
+        CHECK(header.scene_lines_before_discs == wanted.scene_lines_before_discs);
+        CHECK(header.scene_discs_follow == wanted.scene_discs_follow);
+        CHECK(header.box_size == wanted.box_size);
+        CHECK(header.radius == wanted.radius);
+        CHECK(header.collisions == wanted.collisions);
+        CHECK(header.micro_steps == wanted.micro_steps);
+        CHECK(header.sync_every == wanted.sync_every);
+        CHECK(header.step == wanted.step);
+        CHECK(header.micro_steps_done == wanted.micro_steps_done);
+        CHECK(header.clock() == 4.0);
+    }
+}
+
+TEST_CASE("the file does not depend on who holds which disc, and nothing else is left") {
+    const Communicator world = Communicator::world();
+    const TestFolder folder(world);
+    write_checkpoint(folder.file("a.h5"), some_header(), share(777, world, 0), world);
+    write_checkpoint(folder.file("b.h5"), some_header(), share(777, world, 1), world);
+    CHECK(bytes_of(folder.file("a.h5")) == bytes_of(folder.file("b.h5")));
+    CHECK(!std::filesystem::exists(folder.file("a.h5.partial")));
+}
+
+TEST_CASE("a damaged file is refused on every rank, with the reason") {
+    const Communicator world = Communicator::world();
+    const TestFolder folder(world);
+    const std::string whole = folder.file("whole.h5"), path = folder.file("bad.h5");
+    write_checkpoint(whole, some_header(), share(50, world, 0), world);
+    const std::string good = bytes_of(whole);
+    const auto refused = [&](const std::string& bytes, const std::string& reason) {
+        world.barrier();
+        if (world.is_root()) std::ofstream(path, std::ios::binary) << bytes;
+        world.barrier();
+        const std::string problem = problem_of(path, world);
+        CHECK(problem.substr(0, 2 + path.size()) == "2 " + path);
+        CHECK(problem.find(reason) != std::string::npos);
+    };
+    refused("", "no checkpoint");
+    refused("some text\n", "no checkpoint");
+    refused(good.substr(0, 300), "bytes instead of");
+    refused(good.substr(0, good.size() - 1), "bytes instead of");
+    refused(good + 'x', "bytes instead of");
+    refused(std::string(4096, '\0') + good.substr(512), "no checkpoint");
+    for (const std::size_t place : {std::size_t{40}, std::size_t{4095}, std::size_t{4096}, std::size_t{5000}, good.size() - 1}) {
+        std::string bytes = good;
+        bytes[place] = static_cast<char>(bytes[place] ^ 1);
+        refused(bytes, "damaged");
+    }
+    CHECK(problem_of(whole, world).empty());
+    CHECK(problem_of(folder.file("none.h5"), world).find("No such file") != std::string::npos);
+}
+
+TEST_CASE("what cannot be written is an error on every rank, and the older file stays") {
+    const Communicator world = Communicator::world();
+    const TestFolder folder(world);
+    const std::string path = folder.file("a.h5");
+    write_checkpoint(path, some_header(), share(9, world, 0), world);
+    const std::string before = bytes_of(path);
+    if (world.is_root()) std::filesystem::create_directories(path + ".partial/in the way");
+    world.barrier();
+    int code = 0;
+    try {
+        write_checkpoint(path, some_header(), share(8, world, 0), world);
+    } catch (const CollectiveError& error) {
+        code = static_cast<int>(error.code());
+    }
+    CHECK(code == 4);
+    CHECK(bytes_of(path) == before);
+    CHECK(problem_of(path, world).empty());
+}
