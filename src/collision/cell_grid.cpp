@@ -45,6 +45,7 @@ void CellGrid::build(std::span<const Disc> discs, const GridFrame& frame, double
     frame_ = frame;
     time_ = time;
     duration_ = duration;
+    n_rows_inverse_ = rows() == 1 ? 0 : ~std::uint64_t{0} / rows() + 1;
     const std::size_t n = discs.size();
     const std::size_t n_columns = static_cast<std::size_t>(frame.n_columns);
     order_.resize(n);
@@ -87,7 +88,7 @@ void CellGrid::build(std::span<const Disc> discs, const GridFrame& frame, double
         }
         for (std::size_t i = begin; i < end; ++i) {
             // slot_of_ serves as the list of discs by column until the second sort has read it.
-            slot_of_[counts[cell_of_[i] / rows()]++] = static_cast<LocalIndex>(i);
+            slot_of_[counts[column_of_cell(cell_of_[i])]++] = static_cast<LocalIndex>(i);
         }
 #pragma omp barrier
 #pragma omp for schedule(static)

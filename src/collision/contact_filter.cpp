@@ -2,6 +2,7 @@
 #include "contact_filter.hpp"
 
 #include <bit>
+#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "contact_filter.cpp"
@@ -41,8 +42,12 @@ HWY_INLINE std::uint64_t lanes_that_touch(D d, const FlightLanes& lanes, std::ui
     const auto meets = hn::And(hn::Lt(b, zero), hn::Ge(hn::Mul(b, b), hn::Mul(a, c)));
     const auto in_time = hn::Or(hn::Ge(b_end, zero), hn::Le(c_end, zero));
     const auto keep = hn::Or(hn::Le(c, zero), hn::And(meets, in_time));
-    std::uint64_t bits = 0; // at most 64 lanes: a vector of 256 bytes
-    hn::StoreMaskBits(d, keep, reinterpret_cast<std::uint8_t*>(&bits));
+    // Read back as wide as it was written: a wider load would have to wait until the store has reached the cache.
+    using Bits = std::conditional_t<hn::MaxLanes(d) <= 8, std::uint8_t,
+                                    std::conditional_t<hn::MaxLanes(d) <= 16, std::uint16_t, std::uint64_t>>;
+    Bits stored = 0;
+    hn::StoreMaskBits(d, keep, reinterpret_cast<std::uint8_t*>(&stored));
+    const std::uint64_t bits = stored;
     return n_inside < 64 ? bits & ((std::uint64_t{1} << n_inside) - 1) : bits;
 }
 

@@ -74,8 +74,10 @@ public:
     }
     std::span<const LocalIndex> order() const { return order_; }
     std::uint32_t slot_of(LocalIndex index) const { return slot_of_[index]; }
-    int column_of(LocalIndex index) const { return static_cast<int>(cell_of_[index] / rows()); }
-    int row_of(LocalIndex index) const { return static_cast<int>(cell_of_[index] % rows()); }
+    int column_of(LocalIndex index) const { return static_cast<int>(column_of_cell(cell_of_[index])); }
+    int row_of(LocalIndex index) const {
+        return static_cast<int>(cell_of_[index] - column_of_cell(cell_of_[index]) * rows());
+    }
 
     /// Slots of the cells (column, first_row .. last_row); rows are cut at the frame's ends.
     SlotRange run(int column, int first_row, int last_row) const {
@@ -111,11 +113,17 @@ public:
     std::size_t bytes() const;
 
 private:
+    /// cell / rows() by a multiplication: exact for 32-bit cells with a 64-bit inverse rounded up.
+    std::uint32_t column_of_cell(std::uint32_t cell) const {
+        __extension__ using Wide = unsigned __int128;
+        return n_rows_inverse_ == 0 ? cell : static_cast<std::uint32_t>((static_cast<Wide>(n_rows_inverse_) * cell) >> 64);
+    }
     std::uint32_t rows() const { return static_cast<std::uint32_t>(frame_.n_rows); }
     void sort_column(std::span<const Disc> discs, int column);
     void place(std::uint32_t slot, const Disc& disc);
 
     GridFrame frame_;
+    std::uint64_t n_rows_inverse_ = 0; ///< 2^64 / rows, rounded up; 0 for one row
     double time_ = 0, duration_ = 1;
     std::vector<std::uint32_t> cell_start_;  ///< by cell, and one more
     std::vector<std::uint32_t> column_start_;
