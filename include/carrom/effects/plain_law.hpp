@@ -2,10 +2,12 @@
 // The laws of a scene that names no effect: free flight, elastic pairs, four elastic walls (docs/method.md, section 3).
 //
 // Kernels take the law as a template argument and ask it what a disc does; another set of effects is another law with
-// the same members, chosen once at start. Times t are in-step times of the micro-step [m, m+1]; m is exact in a double.
+// the same members, chosen once at start. Under the rule "one" times t are in-step times of the micro-step [m, m+1];
+// m is exact in a double.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "carrom/core/disc.hpp"
@@ -51,8 +53,44 @@ public:
 
     /// Collide the pair at in-step time t; `p` has the lower id.
     void collide(Disc& p, Disc& q, double m, double t) const {
-        advance(p, m + t);
-        advance(q, m + t);
+        collide_at(p, q, m + t);
+        stop_at_wall(p, m, t);
+        stop_at_wall(q, m, t);
+    }
+
+    // The rule "all". Times count from the last sync; there is no band, no stop and no micro-step.
+
+    /// Contact of a pair that is free to move: touching or overlapping pairs that approach collide at once.
+    PairContact<double> exact_contact(const Disc& p, const Disc& q) const { return pair_contact(p, q, diameter_, never); }
+
+    /// When the disc meets the wall that it approaches along x or y; infinite or `never` if it does not.
+    double x_wall_time(const Disc& disc) const { return exact_axis_time(disc.x, disc.vx, disc.tau); }
+    double y_wall_time(const Disc& disc) const { return exact_axis_time(disc.y, disc.vy, disc.tau); }
+
+    /// Whether a wall might be met by `time`: never false where x_wall_time or y_wall_time is not later than that.
+    bool may_meet_wall(const Disc& disc, double time) const {
+        const double x = disc.x_at(time), y = disc.y_at(time);
+        // The last term: a time is rounded, and a fast disc goes some way in that.
+        const double margin = tolerance_ + 0x1p-50 * time * std::max(std::fabs(disc.vx), std::fabs(disc.vy));
+        const double inner_low = low() + margin, inner_high = high() - margin;
+        return !(x > inner_low && x < inner_high && y > inner_low && y < inner_high);
+    }
+
+    static void bounce_x_at(Disc& disc, double time) {
+        advance(disc, time);
+        disc.vx = -disc.vx;
+        disc.wall_collisions += 1;
+    }
+    static void bounce_y_at(Disc& disc, double time) {
+        advance(disc, time);
+        disc.vy = -disc.vy;
+        disc.wall_collisions += 1;
+    }
+
+    /// Collide the pair; `p` has the lower id.
+    static void collide_at(Disc& p, Disc& q, double time) {
+        advance(p, time);
+        advance(q, time);
         const double ex = q.x - p.x, ey = q.y - p.y;
         const double wx = q.vx - p.vx, wy = q.vy - p.vy;
         const double k = (wx * ex + wy * ey) / (ex * ex + ey * ey);
@@ -62,8 +100,6 @@ public:
         q.vy -= k * ey;
         p.pair_collisions += 1;
         q.pair_collisions += 1;
-        stop_at_wall(p, m, t);
-        stop_at_wall(q, m, t);
     }
 
     static void advance(Disc& disc, double time) {
@@ -79,6 +115,12 @@ private:
         if (v < 0 && at_end < radius_ + band_) return std::clamp((tau - m) + (low() - x) / v, 0.0, 1.0);
         if (v > 0 && at_end > high() - band_) return std::clamp((tau - m) + (high() - x) / v, 0.0, 1.0);
         return never;
+    }
+
+    double exact_axis_time(double x, double v, double tau) const {
+        if (v == 0) return never;
+        const double delay = ((v < 0 ? low() : high()) - x) / v;
+        return tau + (delay > 0 ? delay : 0);
     }
 
     bool touches_wall(double x, double v) const {

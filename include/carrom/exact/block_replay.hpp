@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Replays a window of time in one block of cells, alone: every collision of its own discs and of those around them, in
+// the total order of the rule "all" (docs/method.md, sections 3 and 8).
+//
+// A replay knows nothing of what happens beyond its halo, and may be wrong without noticing. So it also says what it has
+// seen happen to the discs of the ring, those within one reach of its own cells: it is right if their owners have seen
+// the same. Block-local copies in the order of cells, a line of 64 bytes and four floats a disc, stay in the L2 cache;
+// whole runs of cells are rejected in single precision, survivors judged by the double predicate.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "carrom/collision/cell_grid.hpp"
+#include "carrom/core/disc.hpp"
+#include "carrom/effects/plain_law.hpp"
+
+namespace carrom {
+
+/// Times since the last sync. An event belongs to the window if begin < time <= end; the first window after a sync also
+/// holds its begin. What happened at `begin` is done: contacts of that time are those of pairs that have just collided.
+struct ReplayWindow {
+    double begin = 0, end = 1;
+    bool holds_begin = true;
+    double speed_bound = 0; ///< no disc is faster anywhere, or the replay is void
+
+    double duration() const { return end - begin; }
+};
+
+/// How far apart two discs can be at a window's start that meet in it. Cells n_reach wide must cover it.
+double exact_reach(const ReplayWindow& window, double diameter, double box_size);
+
+/// Cells [first, end) of a grid's frame.
+struct CellBlock {
+    int first_column = 0, end_column = 0;
+    int first_row = 0, end_row = 0;
+};
+
+/// What all blocks of a rank share: its discs, own ones first, and the grid built for the window's start.
+struct ReplayGround {
+    std::span<const Disc> discs;
+    std::size_t n_own = 0;
+    const CellGrid* grid = nullptr;
+    int first_own_column = 0, end_own_column = 0; ///< own discs that rounding puts outside belong to the nearest one
+    ReplayWindow window;
+    bool is_logged = false;
+};
+
+/// What a block has seen happen to a disc of its ring: 0 for nothing, else a hash of times, partners and results.
+struct Witness {
+    LocalIndex index = 0;
+    std::uint64_t history = 0;
+};
+
+/// A collision as the log has it; times since the last sync, impulse per micro-step.
+struct LoggedEvent {
+    double time = 0;
+    std::uint32_t generation = 0;
+    bool is_wall = false;
+    DiscId p = 0, q = 0;
+    double impulse = 0;
+};
+
+struct BlockOutcome {
+    std::vector<LocalIndex> hit; ///< own discs that have collided
+    std::vector<Disc> states;    ///< what has become of them
+    std::vector<Witness> ring;
+    std::vector<LoggedEvent> log;
+    std::uint64_t n_events = 0;        ///< whose first disc is own
+    double largest_speed = 0;          ///< of an own disc at any time in the window
+    double largest_speed_at_end = 0;
+    bool is_endless = false;           ///< the replay was given up: a disc collided without end at one time
+    DiscId endless_disc = 0, endless_partner = 0; ///< equal if it is a wall that it meets
+    double endless_time = 0;
+};
+
+/// Scratch space of one thread; it keeps its memory from block to block.
+template <class Law> class BlockReplay {
+public:
+    explicit BlockReplay(const Law& law);
+    ~BlockReplay();
+    BlockReplay(BlockReplay&&) noexcept;
+
+    /// Replays the own discs in `block` and what lies `halo` cells around it. Writes the history of each own disc of the
+    /// block to its place in `histories`. **Not collective**: blocks may be replayed by many threads at once.
+    void run(const ReplayGround& ground, const CellBlock& block, int halo, std::span<std::uint64_t> histories,
+             BlockOutcome& outcome);
+
+    std::size_t bytes() const;
+
+private:
+    struct Scratch;
+    std::unique_ptr<Scratch> scratch_;
+};
+
+extern template class BlockReplay<PlainLaw>;
+
+} // namespace carrom

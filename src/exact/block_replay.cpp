@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carrom/exact/block_replay.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "event_queue.hpp"
+#include "flight_filter.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// A disc that collides this often within `one_time` (in micro-steps) does so without end.
+constexpr std::uint32_t endless_count = 20000;
+constexpr double one_time = 0x1p-40;
+
+/// What has happened to a disc in this window.
+struct Past {
+    static constexpr std::uint32_t nobody = 0xfffffffd;
+
+    std::uint64_t history = 0;
+    double crowd_begin = 0;         ///< when the present crowd of collisions at one time began
+    std::uint32_t crowd = 0;
+    std::uint32_t version = 0;      ///< counts its collisions
+    std::uint32_t generation = 0;   ///< of the last one
+    std::uint32_t partner = nobody; ///< of the last one
+};
+static_assert(sizeof(Past) == 32);
+
+std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
+    hash = (hash ^ value) * 0x9e3779b97f4a7c15u;
+    return hash ^ (hash >> 32);
+}
+
+std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
+
+double speed_squared(const Disc& disc) { return disc.vx * disc.vx + disc.vy * disc.vy; }
+
+} // namespace
+
+double exact_reach(const ReplayWindow& window, double diameter, double box_size) {
+    const double travel = window.speed_bound * window.duration();
+    return (diameter + 2 * travel) * (1 + 1e-6) + 64 * 0x1p-53 * box_size + 0x1p-50 * window.speed_bound * window.end;
+}
+
+template <class Law> struct BlockReplay<Law>::Scratch {
+    explicit Scratch(const Law& of_scene) : law(of_scene) {}
+
+    void gather(const ReplayGround& of_rank, const CellBlock& own, int halo);
+    void mark_own(const CellBlock& own);
+    void place(std::uint32_t slot, double time);
+    void predict_all();
+    void happen(const Event& event);
+    void note(std::uint32_t slot, std::uint32_t partner, const Event& event);
+    void log_event(const Event& event, const Disc& before);
+    void look_around(const Flight& flight, int first_column);
+    void predict_pairs(std::uint32_t slot, std::uint32_t except, double time);
+    void predict_pair(std::uint32_t a, std::uint32_t b);
+    void predict_walls(std::uint32_t slot);
+    void push(double time, std::uint32_t a, std::uint32_t b);
+    void report(const CellBlock& own, std::span<std::uint64_t> histories);
+
+    Flight flight_of(std::uint32_t slot, double time) const;
+    int owning_column(int column) const {
+        return std::clamp(column, ground.first_own_column, ground.end_own_column - 1);
+    }
+    SlotRange local_run(int column, int first_row, int last_row) const {
+        const SlotRange run = ground.grid->run(column, first_row, last_row);
+        const std::uint32_t shift = shifts[static_cast<std::size_t>(column - cells.first_column)];
+        return {run.begin + shift, run.end + shift};
+    }
+
+    Law law;
+    ReplayGround ground;
+    CellBlock cells;       ///< own ones and the halo
+    double x_corner = 0, y_corner = 0, cells_per_length = 1, cells_per_speed = 1, windows_per_time = 1;
+    float touching_squared = 0, farthest = 0; ///< farthest: what a partner's place at the start can be off by, in cells
+    std::vector<std::uint32_t> shifts; ///< by column: from the grid's slots to ours
+    std::vector<LocalIndex> indices;   ///< by slot, as all that follows
+    std::vector<Disc> discs;
+    std::vector<Past> pasts;
+    std::vector<std::uint8_t> is_own;
+    std::vector<float> x, y, vx, vy;
+    FlightLanes lanes;
+    EventQueue queue;
+    std::vector<SlotRange> runs;
+    std::vector<std::uint32_t> partners;
+    BlockOutcome* outcome = nullptr;
+    double largest_squared = 0;
+};
+
+template <class Law> BlockReplay<Law>::BlockReplay(const Law& law) : scratch_(std::make_unique<Scratch>(law)) {}
+template <class Law> BlockReplay<Law>::~BlockReplay() = default;
+template <class Law> BlockReplay<Law>::BlockReplay(BlockReplay&&) noexcept = default;
+
+template <class Law>
+void BlockReplay<Law>::run(const ReplayGround& ground, const CellBlock& block, int halo,
+                           std::span<std::uint64_t> histories, BlockOutcome& outcome) {
+    Scratch& s = *scratch_;
+    s.outcome = &outcome;
+    outcome.hit.clear();
+    outcome.states.clear();
+    outcome.ring.clear();
+    outcome.log.clear();
+    outcome.n_events = 0;
+    outcome.is_endless = false;
+    s.gather(ground, block, halo);
+    s.mark_own(block);
+    s.predict_all();
+    const EventOrder before(s.discs);
+    while (!s.queue.is_empty() && !outcome.is_endless) {
+        const Event event = s.queue.pop(before);
+        const bool is_current = s.pasts[event.p].version == event.p_version &&
+                                (is_wall(event.q) || s.pasts[event.q].version == event.q_version);
+        if (is_current) s.happen(event);
+    }
+    s.report(block, histories);
+}
+
+/// Copies the block's and its halo's discs, column by column, into slots of our own.
+template <class Law>
+void BlockReplay<Law>::Scratch::gather(const ReplayGround& of_rank, const CellBlock& own, int halo) {
+    ground = of_rank;
+    const CellGrid& grid = *ground.grid;
+    const GridFrame& frame = grid.frame();
+    cells.first_column = std::max(0, own.first_column - halo);
+    cells.end_column = std::min(frame.n_columns, own.end_column + halo);
+    cells.first_row = std::max(0, own.first_row - halo);
+    cells.end_row = std::min(frame.n_rows, own.end_row + halo);
+    shifts.clear();
+    indices.clear();
+    for (int column = cells.first_column; column < cells.end_column; ++column) {
+        const SlotRange run = grid.run(column, cells.first_row, cells.end_row - 1);
+        shifts.push_back(static_cast<std::uint32_t>(indices.size()) - run.begin);
+        indices.insert(indices.end(), grid.order().begin() + run.begin, grid.order().begin() + run.end);
+    }
+    const std::size_t n = indices.size();
+    discs.resize(n);
+    pasts.assign(n, Past{});
+    for (std::vector<float>* lane : {&x, &y, &vx, &vy}) {
+        if (lane->size() < n + filter_padding) lane->resize(2 * n + filter_padding);
+    }
+    lanes = {x.data(), y.data(), vx.data(), vy.data()};
+
+    const ReplayWindow& window = ground.window;
+    x_corner = frame.x_low + cells.first_column * frame.cell_width;
+    y_corner = frame.y_low + cells.first_row * frame.cell_width;
+    cells_per_length = 1 / frame.cell_width;
+    cells_per_speed = window.duration() / frame.cell_width;
+    windows_per_time = 1 / window.duration();
+    const double sigma = law.diameter() * cells_per_length;
+    const double extent = std::max(cells.end_column - cells.first_column, cells.end_row - cells.first_row) + 8.0;
+    const double reach = exact_reach(window, law.diameter(), law.box_size()) * cells_per_length;
+    // Positions carry an error of 2^-23 of the block's size; the rounding of the filter's other terms acts like a longer
+    // diameter by 2^-20 d^2 / diameter, d being the largest distance that is looked at.
+    const double looked_at = 3 * reach + 3;
+    const double touching = sigma * (1 + 0x1p-18) + 0x1p-20 * extent + 0x1p-20 * looked_at * looked_at / sigma;
+    touching_squared = static_cast<float>(touching * touching);
+    farthest = static_cast<float>((reach + sigma) / 2 + 0x1p-18 * extent + 1e-6);
+    for (std::size_t slot = 0; slot < n; ++slot) {
+        discs[slot] = ground.discs[indices[slot]];
+        place(static_cast<std::uint32_t>(slot), window.begin);
+    }
+}
+
+/// Takes over a disc's flight: where it would have been at the window's start, in cells.
+template <class Law> void BlockReplay<Law>::Scratch::place(std::uint32_t slot, double start) {
+    const Disc& disc = discs[slot];
+    x[slot] = static_cast<float>((disc.x_at(start) - x_corner) * cells_per_length);
+    y[slot] = static_cast<float>((disc.y_at(start) - y_corner) * cells_per_length);
+    vx[slot] = static_cast<float>(disc.vx * cells_per_speed);
+    vy[slot] = static_cast<float>(disc.vy * cells_per_speed);
+}
+
+template <class Law> void BlockReplay<Law>::Scratch::mark_own(const CellBlock& own) {
+    is_own.assign(indices.size(), 0);
+    largest_squared = 0;
+    for (int column = cells.first_column; column < cells.end_column; ++column) {
+        const int owner = owning_column(column);
+        if (owner < own.first_column || owner >= own.end_column) continue;
+        const SlotRange run = local_run(column, own.first_row, own.end_row - 1);
+        for (std::uint32_t slot = run.begin; slot < run.end; ++slot) {
+            if (indices[slot] >= ground.n_own) continue;
+            is_own[slot] = 1;
+            largest_squared = std::max(largest_squared, speed_squared(discs[slot]));
+        }
+    }
+}
+
+template <class Law> Flight BlockReplay<Law>::Scratch::flight_of(std::uint32_t slot, double time) const {
+    const Disc& disc = discs[slot];
+    Flight flight;
+    flight.x = static_cast<float>((disc.x_at(time) - x_corner) * cells_per_length);
+    flight.y = static_cast<float>((disc.y_at(time) - y_corner) * cells_per_length);
+    flight.vx = vx[slot];
+    flight.vy = vy[slot];
+    flight.now = static_cast<float>((time - ground.window.begin) * windows_per_time);
+    return flight;
+}
+
+/// Fills `runs` with slots, from `first_column` of the grid on, whose discs the flight may meet in what is left of the
+/// window, and makes room for all of them in `partners`.
+template <class Law> void BlockReplay<Law>::Scratch::look_around(const Flight& flight, int first_column) {
+    const float rest = 1 - flight.now;
+    const float dx = flight.vx * rest, dy = flight.vy * rest;
+    const auto cell = [](float place, int n) { return place > 0 ? std::min(static_cast<int>(place), n - 1) : 0; };
+    const int n_columns = cells.end_column - cells.first_column, n_rows = cells.end_row - cells.first_row;
+    const int left = cells.first_column + cell(flight.x + std::min(dx, 0.0f) - farthest, n_columns);
+    const int right = cells.first_column + cell(flight.x + std::max(dx, 0.0f) + farthest, n_columns);
+    const int bottom = cells.first_row + cell(flight.y + std::min(dy, 0.0f) - farthest, n_rows);
+    const int top = cells.first_row + cell(flight.y + std::max(dy, 0.0f) + farthest, n_rows);
+    runs.clear();
+    std::uint32_t n_slots = 0;
+    for (int column = std::max(left, first_column); column <= right; ++column) {
+        const SlotRange run = local_run(column, bottom, top);
+        if (run.begin == run.end) continue;
+        runs.push_back(run);
+        n_slots += run.end - run.begin;
+    }
+    if (partners.size() < n_slots + filter_padding) partners.resize(2 * n_slots + filter_padding);
+}
+
+template <class Law> void BlockReplay<Law>::Scratch::predict_all() {
+    queue.clear();
+    for (int column = cells.first_column; column < cells.end_column; ++column) {
+        const SlotRange slots = local_run(column, cells.first_row, cells.end_row - 1);
+        for (std::uint32_t slot = slots.begin; slot < slots.end; ++slot) {
+            predict_walls(slot);
+            const Flight flight = {x[slot], y[slot], vx[slot], vy[slot], 0};
+            look_around(flight, column);
+            // Each pair once, by the disc that comes first: in this column only what lies behind it.
+            if (!runs.empty() && runs.front().begin <= slot) runs.front().begin = std::min(slot + 1, runs.front().end);
+            const std::size_t n_partners = filter_flights(lanes, runs, flight, touching_squared, partners.data());
+            for (std::size_t k = 0; k < n_partners; ++k) predict_pair(slot, partners[k]);
+        }
+    }
+}
+
+template <class Law>
+void BlockReplay<Law>::Scratch::predict_pairs(std::uint32_t slot, std::uint32_t except, double time) {
+    const Flight flight = flight_of(slot, time);
+    look_around(flight, 0);
+    const std::size_t n_partners = filter_flights(lanes, runs, flight, touching_squared, partners.data());
+    for (std::size_t k = 0; k < n_partners; ++k) {
+        if (partners[k] != slot && partners[k] != except) predict_pair(slot, partners[k]);
+    }
+}
+
+template <class Law> void BlockReplay<Law>::Scratch::predict_pair(std::uint32_t a, std::uint32_t b) {
+    const PairContact<double> contact = law.exact_contact(discs[a], discs[b]);
+    if (!contact.exists()) return;
+    const double time = contact.base + contact.delay;
+    // Two discs that have just collided with each other do not collide again at the same time: what rounding has left of
+    // their approach is too little for an impulse to mend.
+    if (pasts[a].partner == b && pasts[b].partner == a && time == discs[a].tau) return;
+    push(time, a, b);
+}
+
+template <class Law> void BlockReplay<Law>::Scratch::predict_walls(std::uint32_t slot) {
+    const Disc& disc = discs[slot];
+    if (!law.may_meet_wall(disc, ground.window.end)) return;
+    push(law.x_wall_time(disc), slot, x_wall);
+    push(law.y_wall_time(disc), slot, y_wall);
+}
+
+template <class Law> void BlockReplay<Law>::Scratch::push(double time, std::uint32_t a, std::uint32_t b) {
+    const ReplayWindow& window = ground.window;
+    if (!(time <= window.end) || time < window.begin || (time == window.begin && !window.holds_begin)) return;
+    Event event;
+    event.time = time;
+    const auto raise = [&](std::uint32_t slot) {
+        const Past& past = pasts[slot];
+        if (past.version > 0 && discs[slot].tau == time) event.generation = std::max(event.generation, past.generation + 1);
+    };
+    raise(a);
+    if (!is_wall(b)) {
+        raise(b);
+        if (discs[b].id < discs[a].id) std::swap(a, b);
+    }
+    event.p = a;
+    event.q = b;
+    event.p_version = pasts[a].version;
+    event.q_version = is_wall(b) ? 0 : pasts[b].version;
+    queue.push(event, EventOrder(discs));
+}
+
+template <class Law> void BlockReplay<Law>::Scratch::happen(const Event& event) {
+    Disc& p = discs[event.p];
+    const Disc p_before = p;
+    if (event.q == x_wall) {
+        Law::bounce_x_at(p, event.time);
+    } else if (event.q == y_wall) {
+        Law::bounce_y_at(p, event.time);
+    } else {
+        Law::collide_at(p, discs[event.q], event.time);
+        note(event.q, event.p, event);
+    }
+    note(event.p, event.q, event);
+    if (is_own[event.p] != 0) {
+        outcome->n_events += 1;
+        if (ground.is_logged) log_event(event, p_before);
+    }
+    predict_walls(event.p);
+    predict_pairs(event.p, Past::nobody, event.time);
+    if (is_wall(event.q)) return;
+    predict_walls(event.q);
+    predict_pairs(event.q, event.p, event.time);
+}
+
+/// Writes down what has happened to one of an event's discs.
+template <class Law>
+void BlockReplay<Law>::Scratch::note(std::uint32_t slot, std::uint32_t partner, const Event& event) {
+    const Disc& disc = discs[slot];
+    Past& past = pasts[slot];
+    past.version += 1;
+    past.generation = event.generation;
+    past.partner = partner;
+    if (past.crowd == 0 || event.time > past.crowd_begin + one_time) {
+        past.crowd = 0;
+        past.crowd_begin = event.time;
+    }
+    if (++past.crowd > endless_count && !outcome->is_endless) {
+        outcome->is_endless = true;
+        outcome->endless_disc = disc.id;
+        outcome->endless_partner = is_wall(partner) ? disc.id : discs[partner].id;
+        outcome->endless_time = event.time;
+    }
+    std::uint64_t hash = past.history + 1;
+    for (const double value : {event.time, disc.x, disc.y, disc.vx, disc.vy}) hash = mixed(hash, bits(value));
+    past.history = mixed(hash, is_wall(partner) ? ~std::uint64_t{0} : discs[partner].id) | 1;
+    place(slot, ground.window.begin);
+    if (is_own[slot] != 0) largest_squared = std::max(largest_squared, speed_squared(disc));
+}
+
+template <class Law> void BlockReplay<Law>::Scratch::log_event(const Event& event, const Disc& before) {
+    const Disc& p = discs[event.p];
+    const double wx = p.vx - before.vx, wy = p.vy - before.vy;
+    const bool at_wall = is_wall(event.q);
+    outcome->log.push_back({event.time, event.generation, at_wall, p.id, at_wall ? event.q - x_wall : discs[event.q].id,
+                            std::sqrt(wx * wx + wy * wy)});
+}
+
+template <class Law>
+void BlockReplay<Law>::Scratch::report(const CellBlock& own, std::span<std::uint64_t> histories) {
+    outcome->largest_speed = std::sqrt(largest_squared) * (1 + 0x1p-50);
+    double end_squared = 0;
+    const int ring = ground.grid->frame().n_reach;
+    const int first_column = std::max(cells.first_column, own.first_column - ring);
+    const int end_column = std::min(cells.end_column, own.end_column + ring);
+    for (int column = first_column; column < end_column; ++column) {
+        const SlotRange run = local_run(column, std::max(cells.first_row, own.first_row - ring),
+                                        std::min(cells.end_row, own.end_row + ring) - 1);
+        for (std::uint32_t slot = run.begin; slot < run.end; ++slot) {
+            const Past& past = pasts[slot];
+            if (is_own[slot] == 0) {
+                outcome->ring.push_back({indices[slot], past.history});
+                continue;
+            }
+            histories[indices[slot]] = past.history;
+            end_squared = std::max(end_squared, speed_squared(discs[slot]));
+            if (past.version == 0) continue;
+            outcome->hit.push_back(indices[slot]);
+            outcome->states.push_back(discs[slot]);
+        }
+    }
+    outcome->largest_speed_at_end = std::sqrt(end_squared) * (1 + 0x1p-50);
+}
+
+template <class Law> std::size_t BlockReplay<Law>::bytes() const {
+    const Scratch& s = *scratch_;
+    return s.discs.capacity() * (sizeof(Disc) + sizeof(Past) + 4 * sizeof(float)) + s.queue.bytes();
+}
+
+template class BlockReplay<PlainLaw>;
+
+} // namespace carrom
