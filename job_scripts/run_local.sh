@@ -20,5 +20,5 @@ build_target carrom
 
 ranks=${RANKS:-$(nproc)}
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1}
-open_mpi_settings $((ranks * OMP_NUM_THREADS))
+launch_settings $((ranks * OMP_NUM_THREADS))
 exec mpirun -np "$ranks" "$build/carrom" run "$@"

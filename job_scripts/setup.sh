@@ -49,8 +49,8 @@ build_target() {
 }
 
 # Open MPI refuses to run as root and on more ranks than cores, binds a rank with all its threads to one core, and
-# spins while it waits. Each is undone only where it bites. n_workers: ranks x threads that will run at once.
-open_mpi_settings() {
+# spins while it waits, as OpenMP does. Each is undone only where it bites. n_workers: ranks x threads at once.
+launch_settings() {
     local n_workers=$1
     if [ "$(id -u)" -eq 0 ]; then
         export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
@@ -60,5 +60,6 @@ open_mpi_settings() {
     export OMPI_MCA_hwloc_base_binding_policy=${OMPI_MCA_hwloc_base_binding_policy:-none}
     if [ "$n_workers" -gt "$(nproc)" ]; then
         export OMPI_MCA_mpi_yield_when_idle=${OMPI_MCA_mpi_yield_when_idle:-1}
+        export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive}
     fi
 }
