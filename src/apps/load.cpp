@@ -9,11 +9,13 @@
 
 #include <fmt/format.h>
 
+#include "carrom/io/checkpoint_folder.hpp"
 #include "carrom/parallel/agreement.hpp"
 #include "carrom/scene/read_scene.hpp"
 #include "carrom/simulation/initial_state.hpp"
 #include "data_output.hpp"
 #include "report_file.hpp"
+#include "restart.hpp"
 
 namespace carrom {
 
@@ -76,7 +78,7 @@ Scene load_scene(const RunOptions& options, const Problems& problems_so_far, con
     if (ranks.is_root()) {
         problems = problems_so_far;
         check_destinations(options, problems);
-        if (options.input.empty())
+        if (options.input.empty() && options.restart.empty())
             problems.push_back({"carrom run", 0, "no input; name a SCENE.toml, a FILE.in, or - for standard input"});
         is_readable = !options.input.empty() && collect(problems, [&] {
             stream = open(options.input);
@@ -94,19 +96,46 @@ Scene load_scene(const RunOptions& options, const Problems& problems_so_far, con
     return scene;
 }
 
-} // namespace
+/// A restart without a scene has fewer things to go wrong. **Collective.**
+void check_without_scene(const RunOptions& options, const Problems& problems_so_far, const Communicator& ranks) {
+    Problems problems;
+    if (ranks.is_root()) {
+        problems = problems_so_far;
+        check_destinations(options, problems);
+    }
+    agree_on_problems(ranks, problems);
+}
 
-Loaded load(const RunOptions& options, const Problems& problems, const Communicator& ranks) {
-    std::unique_ptr<std::istream> stream;
-    Loaded loaded;
-    loaded.scene = load_scene(options, problems, ranks, stream);
-    const Scene& scene = loaded.scene;
+/// **Collective.**
+void check_folders(const Scene& scene, const Communicator& ranks) {
+    if (!scene.checkpoint) return;
+    const std::string& folder = scene.checkpoint->folder;
+    std::string obstacle;
+    if (ranks.is_root()) obstacle = obstacle_to_folder(folder);
+    agree(ranks, obstacle.empty(), fmt::format("output.checkpoint.folder {}: {}", folder, obstacle), ExitCode::output_failure);
+}
+
+/// The discs that a scene starts with. **Collective.**
+std::vector<InputDisc> load_discs(const Scene& scene, std::unique_ptr<std::istream>& stream, const Communicator& ranks) {
     if (scene.reads_disc_lines() && !scene.discs_file.empty()) {
         Problems unreadable;
         if (ranks.is_root()) collect(unreadable, [&] { stream = open(discs_path(scene)); });
         agree_on_problems(ranks, unreadable);
     }
-    loaded.discs = initial_state(scene, scene.reads_disc_lines() ? stream.get() : nullptr, ranks);
+    return initial_state(scene, scene.reads_disc_lines() ? stream.get() : nullptr, ranks);
+}
+
+} // namespace
+
+Loaded load(const RunOptions& options, const Problems& problems, const Communicator& ranks) {
+    std::unique_ptr<std::istream> stream;
+    Loaded loaded;
+    if (options.restart.empty() || !options.input.empty()) loaded.scene = load_scene(options, problems, ranks, stream);
+    else check_without_scene(options, problems, ranks);
+    if (!options.restart.empty()) load_restart(options, loaded, ranks);
+    const Scene& scene = loaded.scene;
+    check_folders(scene, ranks);
+    if (!loaded.stored) loaded.discs = load_discs(scene, stream, ranks);
     if (ranks.is_root())
         for (const std::string& warning : scene.warnings) fmt::print(stderr, "{}: warning: {}\n", scene.name, warning);
     return loaded;

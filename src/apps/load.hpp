@@ -5,22 +5,26 @@
 // the run has been written when a problem is told.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "carrom/core/errors.hpp"
 #include "carrom/parallel/communicator.hpp"
 #include "carrom/scene/scene.hpp"
+#include "carrom/simulation/simulation.hpp"
 #include "run_options.hpp"
 
 namespace carrom {
 
+/// Discs are spread over the ranks in any way.
 struct Loaded {
     Scene scene;
-    std::vector<InputDisc> discs; ///< spread over the ranks in any way
+    std::vector<InputDisc> discs;      ///< of a run from its start
+    std::optional<StoredState> stored; ///< what a restart goes on from
 };
 
 /// Throws InputError on every rank: with `problems` (found so far, the same on all ranks), those of the report's path
-/// and those of the scene; if there are none, with those of the lines of discs. Rank 0 prints the scene's warnings.
+/// and those of the scene; if there are none, with those of the lines of discs, or of the checkpoint to go on from. Rank 0 prints the scene's warnings.
 /// **Collective.**
 Loaded load(const RunOptions& options, const std::vector<Problem>& problems, const Communicator& ranks);
 

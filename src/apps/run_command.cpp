@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run_command.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "carrom/parallel/agreement.hpp"
 #include "carrom/simulation/simulation.hpp"
+#include "checkpoints.hpp"
 #include "disc_lines.hpp"
 #include "load.hpp"
 #include "machine.hpp"
@@ -47,9 +49,10 @@ void tell(const RunOptions& options, const Scene& scene, const RunResult& result
     agree(ranks, failure.empty(), failure, ExitCode::output_failure);
 }
 
-/// Steps to the end of the scene and writes the lines of its steps on the way. **Collective.**
-void step_to_end(Simulation& simulation, RunResult& result, double& output_seconds, const RunOptions& options,
-                 const Scene& scene, const Communicator& ranks) {
+/// Steps to the end of the scene, writing on the way what it asks for, or to where the run is told to stop: false then.
+/// A restart does not write the lines of its first step again. **Collective.**
+bool step_to_end(Simulation& simulation, RunResult& result, double& output_seconds, const RunOptions& options,
+                 const Scene& scene, bool is_restart, const Communicator& ranks) {
     DiscLines lines(scene, options.output, options.digits, ranks);
     Progress progress(simulation.step(), scene.steps, ranks.is_root() && !options.quiet);
     Stopwatch watch;
@@ -58,16 +61,21 @@ void step_to_end(Simulation& simulation, RunResult& result, double& output_secon
         progress.finish(); // both may go to the same terminal
         lines.write(simulation);
     };
-    write_if_due();
+    if (!is_restart || simulation.step() == scene.steps) write_if_due();
+    Checkpoints checkpoints(scene, simulation.step(), is_restart, ranks);
+    bool must_stop = checkpoints.look_up(simulation);
     output_seconds += watch.lap();
-    while (simulation.step() < scene.steps) {
-        simulation.advance_towards(lines.next_due(simulation.step()));
+    while (simulation.step() < scene.steps && !must_stop) {
+        const std::int64_t step = simulation.step();
+        simulation.advance_towards(std::min(lines.next_due(step), checkpoints.next_look(step)));
         result.wall_seconds += watch.lap();
         write_if_due();
+        must_stop = checkpoints.look_up(simulation);
         progress.show(simulation.step());
         output_seconds += watch.lap();
     }
     lines.close();
+    return !must_stop;
 }
 
 /// The run itself. **Collective.**
@@ -77,14 +85,16 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     const Scene& scene = loaded.scene;
     Tuning tuning = options.tuning;
     tuning.threads = options.threads.value_or(default_threads(ranks));
-    Simulation simulation(scene, std::move(loaded.discs), ranks, tuning);
+    const bool is_restart = loaded.stored.has_value();
+    Simulation simulation = is_restart ? Simulation(scene, std::move(*loaded.stored), ranks, tuning)
+                                       : Simulation(scene, std::move(loaded.discs), ranks, tuning);
 
     RunResult result;
     result.first_step = simulation.step();
     result.start = simulation.totals();
     const double setup_seconds = watch.lap();
     double output_seconds = 0;
-    step_to_end(simulation, result, output_seconds, options, scene, ranks);
+    const bool is_done = step_to_end(simulation, result, output_seconds, options, scene, is_restart, ranks);
     result.last_step = simulation.step();
     result.end = simulation.totals();
 
@@ -94,7 +104,10 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     fill_times(result, phases, ranks);
     fill_machine(result, tuning.threads, ranks);
     tell(options, scene, result, ranks);
-    return ExitCode::success;
+    if (!is_done && ranks.is_root())
+        fmt::print(stderr, "stopped on request at step {} of {}; run again with --restart {} to go on\n", result.last_step,
+                   scene.steps, scene.checkpoint->folder);
+    return is_done ? ExitCode::success : ExitCode::stopped;
 }
 
 /// Words of the command line that fit nowhere. After an unknown option the others may be its values: left out then.

@@ -26,6 +26,8 @@ Examples:
   carrom run inputs/gas.toml --threads 2
   mpirun -np 4 carrom run inputs/gas.toml --threads 2 --report report.json
   carrom run inputs/gas.toml --steps 100 --set output.text=every_step > gas.txt
+  carrom run inputs/gas.toml --set output.checkpoint.folder=kept
+  carrom run inputs/gas.toml --set output.checkpoint.folder=kept --restart latest
   carrom run --digits 8 - < input.in > output.txt
 
 Exit codes: 0 done; 2 wrong input, nothing was done; 3 a rank failed; 4 output
@@ -78,6 +80,9 @@ void declare_run_options(CLI::App& command, RunWords& words) {
     command.add_option("INPUT", words.input, "SCENE.toml, FILE.in, or - for standard input")->type_name("");
     command.add_option("--threads", words.threads,
                        "Threads per rank; default OMP_NUM_THREADS if set, else this rank's share of the cores")->type_name("T");
+    command.add_option("--restart", words.restart,
+                       "Go on from a checkpoint: a FILE, a FOLDER (its newest whole one), or `latest` in the scene's folder; "
+                       "INPUT may be left out with FILE and FOLDER")->type_name("FILE|FOLDER|latest");
     command.add_option("--steps", words.steps, "Steps to run, instead of the input's")->type_name("S");
     command.add_option("--set", words.overrides, "Set any scene key, as in --set time.steps=100; may be repeated")
         ->type_name("KEY=VALUE")->allow_extra_args(false);
@@ -108,6 +113,7 @@ RunOptions checked_run_options(const RunWords& words, std::vector<Problem>& prob
     constexpr auto unbounded = std::numeric_limits<std::int64_t>::max();
     RunOptions options;
     options.input = words.input;
+    options.restart = words.restart;
     options.overrides = words.overrides;
     options.output = words.output;
     options.report = words.report;

@@ -17,6 +17,7 @@ struct RunOptions {
     static constexpr int round_trip_digits = 17;
 
     std::string input;                  ///< a file's name, or "-" for standard input
+    std::string restart;                ///< a checkpoint, a folder of them, or "latest"; empty for a run from its start
     std::vector<std::string> overrides; ///< key=value, over what the input says
     int digits = round_trip_digits;
     std::string output;                 ///< a file for the lines of text; empty for standard output
@@ -28,7 +29,7 @@ struct RunOptions {
 
 /// The words of the command line as they stand.
 struct RunWords {
-    std::string input, threads, steps, digits, output, report;
+    std::string input, restart, threads, steps, digits, output, report;
     std::string window, cell_width, rebalance_every, rebalance_above;
     std::vector<std::string> overrides;
     bool quiet = false;

@@ -274,10 +274,36 @@ void fill_time(const Check& check) {
     }
 }
 
+/// True where the scene has a table of that name, or `--set` a key of it.
+bool has_table(const Check& check, std::string_view table) {
+    if (check.settings.is_mentioned(table)) return true;
+    for (const Setting& setting : check.settings.all())
+        if (setting.key.starts_with(table) && setting.key[table.size()] == '.') return true;
+    return false;
+}
+
+void fill_checkpoint(const Check& check) {
+    if (!has_table(check, "output.checkpoint")) return;
+    CheckpointOutput& output = check.scene.checkpoint.emplace();
+    check.refuse_missing("output.checkpoint.folder", "the folder for checkpoints");
+    if (const Setting* folder = check.settings.find("output.checkpoint.folder")) {
+        output.folder = std::get<std::string>(folder->value);
+        if (output.folder.empty()) check.refuse(*folder, "'output.checkpoint.folder' is empty");
+    }
+    output.every_steps = whole_number(check, "output.checkpoint.every_steps", 1, largest_steps);
+    output.every_minutes = finite_number(check, "output.checkpoint.every_minutes");
+    if (output.every_minutes && !(*output.every_minutes > 0))
+        check.refuse(*check.settings.find("output.checkpoint.every_minutes"),
+                     fmt::format("'output.checkpoint.every_minutes' must be greater than 0, not {}", *output.every_minutes));
+    if (const auto keep = whole_number(check, "output.checkpoint.keep", 1, 1000000)) output.keep = *keep;
+    if (const Setting* at_end = check.settings.find("output.checkpoint.at_end")) output.at_end = std::get<bool>(at_end->value);
+}
+
 void fill_output(const Check& check) {
     static constexpr Choices<TextOutput, 3> outputs = {
         {{"none", TextOutput::none}, {"ends", TextOutput::first_and_last}, {"every_step", TextOutput::every_step}}};
     if (const auto output = choice(check, "output.text", outputs)) check.scene.text_output = *output;
+    fill_checkpoint(check);
 }
 
 } // namespace

@@ -26,8 +26,14 @@ constexpr std::array keys = {
     Key{"discs.streams", ValueKind::streams},    Key{"time.steps", ValueKind::integer},
     Key{"time.collisions", ValueKind::text},     Key{"time.micro_steps", ValueKind::integer},
     Key{"time.sync_every", ValueKind::integer},  Key{"time.accuracy", ValueKind::number},
-    Key{"output.text", ValueKind::text},
+    Key{"output.text", ValueKind::text},         Key{"output.checkpoint.folder", ValueKind::text},
+    Key{"output.checkpoint.every_steps", ValueKind::integer},
+    Key{"output.checkpoint.every_minutes", ValueKind::number},
+    Key{"output.checkpoint.keep", ValueKind::integer},
+    Key{"output.checkpoint.at_end", ValueKind::flag},
 };
+
+constexpr std::array<std::string_view, 6> tables = {"box", "discs", "time", "output", "output.checkpoint", "effects"};
 
 std::string_view part_after(std::string_view key, std::size_t dot) { return key.substr(dot + 1, key.find('.', dot + 1) - dot - 1); }
 
@@ -53,6 +59,8 @@ std::optional<ValueKind> kind_of_key(std::string_view key) {
     return std::nullopt;
 }
 
+bool is_table(std::string_view key) { return std::find(tables.begin(), tables.end(), key) != tables.end(); }
+
 bool has_meaning_for(std::string_view generator, std::string_view key) {
     const bool lists = key == "discs.file" || key == "discs.list";
     const bool speeds = key == "discs.speed" || key == "discs.velocities";
@@ -67,6 +75,9 @@ std::string unknown_key_text(std::string_view key) {
     const std::string_view table = key.substr(0, dot);
     if (table == "effects" || table == "output") {
         const std::string what = table == "effects" ? "effect" : "output";
+        const std::size_t second_dot = dot == std::string_view::npos ? dot : key.find('.', dot + 1);
+        if (second_dot != std::string_view::npos && is_table(key.substr(0, second_dot)))
+            return "no such key " + quoted(key) + "; did you mean '" + nearest_key(key) + "'?";
         if (dot == std::string_view::npos) return quoted(key) + " is a table of " + what + "s, not a value";
         const std::string_view name = part_after(key, dot);
         const bool is_misspelt = table == "output" && edit_distance(name, "text") <= 2;

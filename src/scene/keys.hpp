@@ -8,10 +8,13 @@
 
 namespace carrom {
 
-enum class ValueKind { number, integer, text, rows, streams };
+enum class ValueKind { number, integer, text, flag, rows, streams };
 
 /// What the key "table.name" holds, or nothing where there is no such key.
 std::optional<ValueKind> kind_of_key(std::string_view key);
+
+/// Whether `key` names a table that keys may stand in: "box", "output.checkpoint".
+bool is_table(std::string_view key);
 
 /// Whether `key` has a say in what discs the generator of that name makes; a key without one is an error.
 bool has_meaning_for(std::string_view generator, std::string_view key);

@@ -108,6 +108,8 @@ Scene read_scene(const SceneText& input, const std::vector<std::string>& overrid
     scene.name = input.name;
     scene.text = input.text;
     scene.lines_before_discs = input.lines_before_discs;
+    scene.discs_follow = input.discs_follow;
+    scene.overrides = overrides;
     if (is_parsed) fill_scene(scene, settings, problems);
     if (!problems.empty()) {
         const auto line_of = [](const Problem& p) { return p.line > 0 ? p.line : std::numeric_limits<std::int64_t>::max(); };

@@ -44,6 +44,7 @@ std::string kind_name(ValueKind kind) {
     case ValueKind::number: return "a number";
     case ValueKind::integer: return "a whole number";
     case ValueKind::text: return "text";
+    case ValueKind::flag: return "true or false";
     case ValueKind::rows: return "an array of [x, y, vx, vy]";
     case ValueKind::streams: return "an array of tables, [[discs.streams]]";
     }
@@ -123,6 +124,8 @@ bool add_value(Walk& walk, const std::string& key, ValueKind kind, const toml::n
         else setting.value = *number; // 1e5 is fine, 1.5 is refused where values are checked
     } else if (kind == ValueKind::text && node.is_string()) {
         setting.value = node.as_string()->get();
+    } else if (kind == ValueKind::flag && node.is_boolean()) {
+        setting.value = node.as_boolean()->get();
     } else if (kind == ValueKind::rows && node.is_array()) {
         setting.value = rows_of(walk, *node.as_array());
     } else if (kind == ValueKind::streams && node.is_array()) {
@@ -140,13 +143,13 @@ void walk_table(Walk& walk, const toml::table& table, const std::string& prefix)
     for (const auto& [name, node] : table) {
         const std::string key = prefix + std::string(name.str());
         const auto kind = kind_of_key(key);
-        const bool is_scene_table = prefix.empty() && (key == "box" || key == "discs" || key == "time" || key == "output" ||
-                                                       key == "effects");
+        const bool is_scene_table = is_table(key);
         if (kind) {
             if (!add_value(walk, key, *kind, node))
                 add_problem(walk.problems, walk.place_of(node.source()),
                             fmt::format("'{}' must be {}, not {}", key, kind_name(*kind), shown(node)));
         } else if (is_scene_table && node.is_table()) {
+            walk.settings.mention(key);
             walk_table(walk, *node.as_table(), key + '.');
         } else if (is_scene_table) {
             add_problem(walk.problems, walk.place_of(name.source()), fmt::format("'{}' must be a table, [{}]", key, key));

@@ -34,10 +34,21 @@ struct Stream {
     double vx = 0, vy = 0;
 };
 
+/// `[output.checkpoint]`: when the state is stored, and where. At the end and on a signal as well.
+struct CheckpointOutput {
+    std::string folder;                       ///< as seen from where the program runs
+    std::optional<std::int64_t> every_steps;
+    std::optional<double> every_minutes;      ///< of wall time
+    std::int64_t keep = 2;                    ///< older ones are removed
+    bool at_end = true;
+};
+
 struct Scene {
     std::string name;       ///< the file's name, "standard input" for `-`
     std::string text;       ///< the input's own text without the lines of discs, for checkpoints
     std::int64_t lines_before_discs = 0; ///< lines of ancestor text that come before its list of discs
+    bool discs_follow = false;           ///< ancestor text goes on with lines of discs
+    std::vector<std::string> overrides;  ///< `key=value`, what was set on top of the text
 
     double box_size = 0;    ///< L
     double radius = 0;      ///< r
@@ -58,6 +69,7 @@ struct Scene {
     std::optional<double> accuracy;
 
     TextOutput text_output = TextOutput::none;
+    std::optional<CheckpointOutput> checkpoint;
 
     std::vector<std::string> warnings; ///< legal but worth a line: K not a power of two, ...
 

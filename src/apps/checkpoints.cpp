@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "checkpoints.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "carrom/io/checkpoint.hpp"
+#include "carrom/io/checkpoint_folder.hpp"
+#include "restart.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr double seconds_between_looks = 2;
+constexpr double longest_stretch = 1e15; // steps
+
+} // namespace
+
+Checkpoints::Checkpoints(const Scene& scene, std::int64_t first_step, bool is_restart, const Communicator& ranks)
+    : ranks_(ranks), scene_(scene), last_looked_(first_step) {
+    if (!scene_.checkpoint) return;
+    signals_.emplace();
+    if (!is_restart) return;
+    last_written_ = first_step;
+    kept_.push_back(checkpoint_path(scene_.checkpoint->folder, first_step));
+}
+
+std::int64_t Checkpoints::next_look(std::int64_t step) const {
+    if (!scene_.checkpoint) return std::numeric_limits<std::int64_t>::max();
+    std::int64_t next = step + stretch_;
+    if (const auto every = scene_.checkpoint->every_steps) next = std::min(next, (step / *every + 1) * *every);
+    return next;
+}
+
+bool Checkpoints::look_up(const Simulation& simulation) {
+    if (!scene_.checkpoint) return false;
+    const CheckpointOutput& wanted = *scene_.checkpoint;
+    const std::int64_t step = simulation.step();
+    const News now = news(step);
+    const bool is_end = step >= scene_.steps;
+    const bool is_due = now.must_stop || now.is_time || (wanted.every_steps && step > 0 && step % *wanted.every_steps == 0) ||
+                        (is_end && wanted.at_end);
+    if (is_due && step != last_written_) write(simulation);
+    return now.must_stop && !is_end;
+}
+
+/// What all ranks agree on: whether any has a signal, and what rank 0's clock says. **Collective.**
+Checkpoints::News Checkpoints::news(std::int64_t step) {
+    std::array<std::uint64_t, 3> sums = {signals_->has_come() ? 1u : 0u, 0, 0};
+    if (ranks_.is_root()) {
+        const double seconds = stretch_watch_.lap();
+        const double steps = static_cast<double>(step - last_looked_) * seconds_between_looks / std::max(seconds, 1e-6);
+        seconds_since_written_ += seconds;
+        sums[1] = scene_.checkpoint->every_minutes && seconds_since_written_ >= *scene_.checkpoint->every_minutes * 60 ? 1 : 0;
+        sums[2] = static_cast<std::uint64_t>(std::clamp(steps, 1.0, longest_stretch));
+    }
+    ranks_.sum(sums);
+    last_looked_ = step;
+    stretch_ = static_cast<std::int64_t>(sums[2]);
+    return {sums[0] > 0, sums[1] > 0};
+}
+
+void Checkpoints::write(const Simulation& simulation) {
+    CheckpointHeader header = header_of(scene_);
+    header.step = simulation.step();
+    header.micro_steps_done = simulation.micro_steps_done();
+    const std::string path = checkpoint_path(scene_.checkpoint->folder, header.step);
+    write_checkpoint(path, header, simulation.discs(), ranks_);
+    last_written_ = header.step;
+    std::erase(kept_, path);
+    kept_.push_back(path);
+    remove_oldest();
+    stretch_watch_.lap(); // writing is no part of a stretch
+    seconds_since_written_ = 0;
+}
+
+void Checkpoints::remove_oldest() {
+    while (static_cast<std::int64_t>(kept_.size()) > scene_.checkpoint->keep) {
+        if (ranks_.is_root()) remove_file(kept_.front());
+        kept_.erase(kept_.begin());
+    }
+}
+
+} // namespace carrom

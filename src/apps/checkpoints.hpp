@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// When a run stores its state, and which of the stored ones it keeps.
+//
+// Ranks look up together after each stretch of steps: whether a batch system wants the run to stop, and whether wall
+// time asks for a checkpoint. Stretches are kept to a few seconds where steps are slow. Price: one reduction a stretch,
+// and nothing where the scene asks for no checkpoints.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "carrom/parallel/communicator.hpp"
+#include "carrom/scene/scene.hpp"
+#include "carrom/simulation/simulation.hpp"
+#include "stop_signals.hpp"
+#include "stopwatch.hpp"
+
+namespace carrom {
+
+class Checkpoints {
+public:
+    /// `first_step` is where the run begins; `is_restart` if it has a checkpoint of that step. `ranks` must outlive this.
+    Checkpoints(const Scene& scene, std::int64_t first_step, bool is_restart, const Communicator& ranks);
+
+    /// Up to which step to go before looking up again.
+    std::int64_t next_look(std::int64_t step) const;
+
+    /// Looks up after a stretch of steps and stores the state if it is time. True if the run is to stop here; its state
+    /// is stored then. If storing fails every rank throws, and the older checkpoints are as they were. **Collective.**
+    bool look_up(const Simulation& simulation);
+
+private:
+    struct News {
+        bool must_stop = false, is_time = false;
+    };
+    News news(std::int64_t step);
+    void write(const Simulation& simulation);
+    void remove_oldest();
+
+    const Communicator& ranks_;
+    const Scene& scene_;
+    std::optional<StopSignals> signals_;
+    std::int64_t last_looked_, last_written_ = -1;
+    std::int64_t stretch_ = 1;             ///< steps until the next look, as rank 0 has measured
+    Stopwatch stretch_watch_;
+    double seconds_since_written_ = 0;     ///< on rank 0's clock
+    std::vector<std::string> kept_;        ///< paths, oldest first
+};
+
+} // namespace carrom

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "restart.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "carrom/io/checkpoint_folder.hpp"
+#include "carrom/scene/compare.hpp"
+#include "carrom/scene/read_scene.hpp"
+#include "machine.hpp"
+
+namespace carrom {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& path, const std::string& text) { throw InputError({{"--restart " + path, 0, text}}); }
+
+/// The folder to look in; empty where a file was named. **Collective.**
+std::string folder_to_search(const RunOptions& options, const Scene& scene, const Communicator& ranks) {
+    if (options.restart == "latest") {
+        if (options.input.empty()) refuse("latest", "name the scene too, or the folder instead of `latest`");
+        if (!scene.checkpoint) refuse("latest", "the scene has no output.checkpoint.folder to look in");
+        return scene.checkpoint->folder;
+    }
+    std::uint64_t is_folder = 0;
+    std::error_code ignored;
+    if (ranks.is_root()) is_folder = std::filesystem::is_directory(options.restart, ignored) ? 1 : 0;
+    ranks.broadcast(is_folder);
+    return is_folder == 1 ? options.restart : "";
+}
+
+/// Finished checkpoints of a folder, newest first, the same on every rank. **Collective.**
+std::vector<std::string> candidates_in(const std::string& folder, const Communicator& ranks) {
+    std::string list;
+    if (ranks.is_root()) {
+        for (const FoundFile& found : find_checkpoints(folder)) {
+            if (found.is_finished) list += found.path + '\0';
+            else fmt::print(stderr, "passing over {}: it was never finished\n", found.path);
+        }
+    }
+    ranks.broadcast(list);
+    std::vector<std::string> paths;
+    std::istringstream stream(list);
+    for (std::string path; std::getline(stream, path, '\0');) paths.push_back(path);
+    return paths;
+}
+
+/// Reads the checkpoint and fills in the scene if there is none yet; throws where it is not of that scene's run.
+Checkpoint read_matching(const std::string& path, const RunOptions& options, Scene& scene, const Communicator& ranks) {
+    Checkpoint checkpoint = read_checkpoint(path, ranks);
+    const Scene there = scene_of(checkpoint.header, {});
+    const Scene here = options.input.empty() ? scene_of(checkpoint.header, options.overrides) : scene;
+    std::vector<Problem> problems;
+    for (const std::string& difference : physical_differences(there, here))
+        problems.push_back({"--restart " + path, 0, difference + "; a restart cannot change it"});
+    if (!problems.empty()) throw InputError(std::move(problems));
+    scene = here;
+    return checkpoint;
+}
+
+/// The newest of the candidates that is whole and of this run. **Collective.**
+std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths, const RunOptions& options, Scene& scene,
+                                      const Communicator& ranks) {
+    const auto pass_over = [&ranks](const std::string& path, const char* reason) {
+        if (ranks.is_root()) fmt::print(stderr, "passing over {}: {}\n", path, reason);
+    };
+    for (const std::string& path : paths) {
+        try {
+            return read_matching(path, options, scene, ranks);
+        } catch (const CollectiveError& error) {
+            if (error.code() != ExitCode::bad_input) throw;
+            pass_over(path, error.what());
+        } catch (const InputError& error) {
+            pass_over(path, error.what());
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+CheckpointHeader header_of(const Scene& scene) {
+    CheckpointHeader header;
+    header.program_version = version();
+    header.scene_name = scene.name;
+    header.scene_text = scene.text;
+    for (const std::string& override : scene.overrides) header.scene_overrides += override + '\n';
+    header.scene_lines_before_discs = scene.lines_before_discs;
+    header.scene_discs_follow = scene.discs_follow ? 1 : 0;
+    header.box_size = scene.box_size;
+    header.radius = scene.radius;
+    header.collisions = scene.rule == CollisionRule::one ? "one" : "all";
+    header.micro_steps = scene.micro_steps;
+    header.sync_every = scene.sync_every;
+    return header;
+}
+
+Scene scene_of(const CheckpointHeader& header, const std::vector<std::string>& more_overrides) {
+    std::vector<std::string> overrides;
+    std::istringstream lines(header.scene_overrides);
+    for (std::string line; std::getline(lines, line);) overrides.push_back(line);
+    overrides.insert(overrides.end(), more_overrides.begin(), more_overrides.end());
+    return read_scene({header.scene_name, header.scene_text, header.scene_lines_before_discs, header.scene_discs_follow != 0}, overrides);
+}
+
+void load_restart(const RunOptions& options, Loaded& loaded, const Communicator& ranks) {
+    const std::string folder = folder_to_search(options, loaded.scene, ranks);
+    std::optional<Checkpoint> checkpoint;
+    if (folder.empty()) {
+        checkpoint = read_matching(options.restart, options, loaded.scene, ranks);
+    } else {
+        const std::vector<std::string> paths = candidates_in(folder, ranks);
+        checkpoint = read_newest(paths, options, loaded.scene, ranks);
+        if (!checkpoint && !paths.empty()) refuse(folder, "no checkpoint there can be gone on from");
+        if (!checkpoint && options.input.empty()) refuse(folder, "there is no checkpoint, and no scene to begin with");
+        if (!checkpoint && ranks.is_root()) fmt::print(stderr, "no checkpoint in {}: beginning at step 0\n", folder);
+    }
+    if (!checkpoint) return;
+    const CheckpointHeader& header = checkpoint->header;
+    if (loaded.scene.steps < header.step)
+        refuse(options.restart, fmt::format("the checkpoint is of step {}, and the run is to end at step {}", header.step, loaded.scene.steps));
+    if (ranks.is_root() && !options.quiet) fmt::print(stderr, "going on from step {}\n", header.step);
+    loaded.stored = StoredState{std::move(checkpoint->discs), header.micro_steps_done};
+}
+
+} // namespace carrom

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Going on from a checkpoint: which file, whether it is whole, and whether it is of the run that the scene describes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "carrom/io/checkpoint.hpp"
+#include "carrom/parallel/communicator.hpp"
+#include "load.hpp"
+#include "run_options.hpp"
+
+namespace carrom {
+
+/// Fills in `loaded.stored` and, where no input was named, the scene that the checkpoint carries, with the options'
+/// overrides on top. Of a folder the newest whole checkpoint is taken; rank 0 says why others are passed over. A folder
+/// without any leaves `stored` empty: the run begins at its start. Throws on every rank (exit code 2) if a named file is
+/// damaged, if no checkpoint of a folder is whole, or if the scene would be another run. **Collective.**
+void load_restart(const RunOptions& options, Loaded& loaded, const Communicator& ranks);
+
+/// The scene as a checkpoint keeps it, and back.
+CheckpointHeader header_of(const Scene& scene);
+Scene scene_of(const CheckpointHeader& header, const std::vector<std::string>& more_overrides);
+
+} // namespace carrom

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// USR1 and TERM, as batch systems send them before they end a job: noted, to be acted upon at the end of a step.
+#pragma once
+
+namespace carrom {
+
+/// From its making on these signals no longer end the process; one per program.
+class StopSignals {
+public:
+    StopSignals();
+    ~StopSignals();
+    StopSignals(const StopSignals&) = delete;
+    StopSignals& operator=(const StopSignals&) = delete;
+
+    /// Whether this rank has got one. Ranks get theirs at different times.
+    bool has_come() const;
+};
+
+} // namespace carrom

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carrom/scene/compare.hpp"
+
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace carrom {
+
+namespace {
+
+bool operator==(const Stream& a, const Stream& b) {
+    return a.x_low == b.x_low && a.y_low == b.y_low && a.x_high == b.x_high && a.y_high == b.y_high && a.vx == b.vx && a.vy == b.vy;
+}
+
+bool same_streams(const std::vector<Stream>& a, const std::vector<Stream>& b) {
+    if (a.size() != b.size()) return false;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        if (!(a[i] == b[i])) return false;
+    return true;
+}
+
+std::string_view name_of(CollisionRule rule) { return rule == CollisionRule::one ? "\"one\"" : "\"all\""; }
+
+std::string_view name_of(Generator generator) {
+    switch (generator) {
+    case Generator::random: return "\"random\"";
+    case Generator::lattice: return "\"lattice\"";
+    case Generator::ancestor: return "\"ancestor\"";
+    case Generator::file: return "\"file\"";
+    }
+    return "";
+}
+
+std::string_view name_of(VelocityKind kind) { return kind == VelocityKind::maxwell ? "\"maxwell\"" : "\"uniform\""; }
+
+std::string shown(const std::optional<double>& number) { return number ? fmt::format("{}", *number) : "not set"; }
+
+class Comparison {
+public:
+    template <class Value> void compare(std::string_view key, const Value& there, const Value& here) {
+        if (!(there == here)) differences.push_back(fmt::format("'{}' is {} there and {} here", key, there, here));
+    }
+    void compare_list(std::string_view key, bool is_same) {
+        if (!is_same) differences.push_back(fmt::format("'{}' is another list there", key));
+    }
+
+    std::vector<std::string> differences;
+};
+
+} // namespace
+
+std::vector<std::string> physical_differences(const Scene& there, const Scene& here) {
+    Comparison c;
+    c.compare("box.size", there.box_size, here.box_size);
+    c.compare("discs.count", there.n_discs, here.n_discs);
+    c.compare("discs.radius", there.radius, here.radius);
+    c.compare("discs.generator", name_of(there.generator), name_of(here.generator));
+    c.compare("discs.file", there.discs_file, here.discs_file);
+    c.compare_list("discs.list", there.listed_discs == here.listed_discs);
+    const bool speeds = here.generator == Generator::random || here.generator == Generator::lattice;
+    if (there.generator == here.generator && speeds) {
+        c.compare("discs.speed", there.speed, here.speed);
+        c.compare("discs.velocities", name_of(there.velocities), name_of(here.velocities));
+    }
+    if (there.generator == here.generator && here.generator != Generator::file) {
+        c.compare("discs.seed", there.seed, here.seed);
+        c.compare_list("discs.streams", same_streams(there.streams, here.streams));
+    }
+    c.compare("time.collisions", name_of(there.rule), name_of(here.rule));
+    c.compare("time.micro_steps", there.micro_steps, here.micro_steps);
+    c.compare("time.sync_every", there.sync_every, here.sync_every);
+    c.compare("time.accuracy", shown(there.accuracy), shown(here.accuracy));
+    return c.differences;
+}
+
+} // namespace carrom
