@@ -166,13 +166,14 @@ void CellGrid::reorder(std::span<Disc> discs, std::size_t n_own, int n_threads) 
 void CellGrid::update_flight(LocalIndex index, const Disc& disc) { place(slot_of_[index], disc); }
 
 float CellGrid::touching_squared(double diameter) const {
-    // Positions carry an error of 2^-23 of the frame's size; the tests' own rounding acts like a longer diameter by
-    // 2^-20 d^2 / diameter, d being the largest distance that is looked at.
+    // Positions and velocities carry an error of 2^-24 of the frame's size; the filter allows for its own rounding.
     const double extent = std::max(frame_.n_columns, frame_.n_rows) + 4.0 * frame_.n_reach;
-    const double farthest = 1.5 * (frame_.n_reach + 1) * 3;
-    const double cells = diameter / frame_.cell_width;
-    const double touching = cells * (1 + 0x1p-18) + 0x1p-20 * extent + 0x1p-20 * farthest * farthest / cells;
+    const double touching = diameter / frame_.cell_width * (1 + 0x1p-18) + 0x1p-21 * extent;
     return static_cast<float>(touching * touching);
+}
+
+float CellGrid::cells_of(double length) const {
+    return static_cast<float>(length / frame_.cell_width * (1 + 0x1p-18) + 0x1p-20 * (std::max(frame_.n_columns, frame_.n_rows) + 8));
 }
 
 std::size_t CellGrid::bytes() const {

@@ -85,8 +85,11 @@ void Search<Law>::predict_column(const Population& population, const CellGrid& g
 
 template <class Law>
 void Search<Law>::predict_again(const Population& population, const CellGrid& grid, const Window& window, int from,
-                                std::span<const LocalIndex> hit, std::span<const std::uint8_t> is_hit) {
+                                double reach, std::span<const LocalIndex> hit, std::span<const std::uint8_t> is_hit) {
     const Bounds bounds(law_, grid);
+    // Two discs that touch are a diameter apart, and the other one is half a reach less a radius from its cell.
+    const float half_reach = grid.cells_of(reach / 2 + law_.radius());
+    const auto begin = static_cast<float>((from - window.begin()) / window.duration());
     const std::span<const LocalIndex> order = grid.order();
     const auto n_hit = static_cast<std::int64_t>(hit.size());
 #pragma omp parallel num_threads(n_threads_) if (n_hit > 64)
@@ -99,7 +102,7 @@ void Search<Law>::predict_again(const Population& population, const CellGrid& gr
             if (k + 2 * around_ahead < n_hit) grid.prefetch_cells(hit[static_cast<std::size_t>(k + 2 * around_ahead)]);
             if (k + around_ahead < n_hit) grid.prefetch_flights(hit[static_cast<std::size_t>(k + around_ahead)]);
             const LocalIndex index = hit[static_cast<std::size_t>(k)];
-            const std::size_t n_partners = filter_around(grid, index, bounds.touching_squared, partners);
+            const std::size_t n_partners = filter_around(grid, index, begin, half_reach, bounds.touching_squared, partners);
             for (std::size_t n = 0; n < n_partners; ++n) __builtin_prefetch(&population.discs[order[partners[n]]]);
             for (std::size_t n = 0; n < n_partners; ++n) {
                 const LocalIndex other = order[partners[n]];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "measurements.hpp"
 
@@ -15,16 +16,26 @@ constexpr std::int64_t windows_per_reorder = 8;
 /// Room for discs that a window's collisions make faster, before it has to be cut short.
 constexpr double speed_allowance = 1.02;
 
+/// Threads with little to do cost more than they bring.
+Tuning with_useful_threads(Tuning tuning, const Scene& scene, const Communicator& communicator) {
+    const std::uint64_t per_rank = scene.n_discs / static_cast<std::uint64_t>(communicator.size());
+    const std::uint64_t useful = std::max<std::uint64_t>(1, per_rank / std::max<std::uint64_t>(1, tuning.discs_per_thread));
+    tuning.threads = static_cast<int>(std::min<std::uint64_t>(useful, static_cast<std::uint64_t>(tuning.threads)));
+    return tuning;
+}
+
 double speed_of(const Disc& disc) { return std::sqrt(disc.vx * disc.vx + disc.vy * disc.vy); }
 
 } // namespace
 
 OneEngine::OneEngine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning)
-    : communicator_(communicator), tuning_(tuning), law_(scene.box_size, scene.radius), micro_steps_(scene.micro_steps),
+    : communicator_(communicator), tuning_(with_useful_threads(tuning, scene, communicator)), law_(scene.box_size, scene.radius), micro_steps_(scene.micro_steps),
       sync_every_(scene.sync_every), discs_(communicator, scene.box_size, std::move(state.discs)),
       n_micro_done_(state.micro_steps_done), micro_(static_cast<int>(n_micro_done_ % sync_every_)),
-      search_(law_, tuning.threads), local_(tuning.threads), across_strips_(communicator) {
+      search_(law_, tuning_.threads), local_(tuning_.threads), across_strips_(communicator) {
     for (const Disc& disc : own()) largest_speed_ = std::max(largest_speed_, speed_of(disc));
+    const double density = static_cast<double>(discs_.n_total()) / (law_.box_size() * law_.box_size());
+    hits_per_micro_step_ = std::min(1.0, density * law_.diameter() * communicator_.max(largest_speed_)); // a first guess
     discs_.rebalance(micro_, tuning_.rebalance_above);
 }
 
@@ -77,7 +88,7 @@ Window OneEngine::settle(int n_left) {
 
 void OneEngine::settle_now() {
     migrate();
-    const double reach = reach_of({law_.box_size(), law_.radius(), static_cast<double>(discs_.n_total()), 0}, 0);
+    const double reach = reach_of({law_.box_size(), law_.radius(), static_cast<double>(discs_.n_total()), 0, 0}, 0);
     fetch_halo(micro_, reach);
     build_grid(micro_, 1, reach);
 }
@@ -117,7 +128,7 @@ Window OneEngine::choose(int n_left) {
 }
 
 WindowNeeds OneEngine::window_needs() const {
-    return {law_.box_size(), law_.radius(), static_cast<double>(discs_.n_total()), window_speed_};
+    return {law_.box_size(), law_.radius(), static_cast<double>(discs_.n_total()), window_speed_, hits_per_micro_step_};
 }
 
 void OneEngine::migrate() {
@@ -205,7 +216,8 @@ void OneEngine::apply(const Window& window, int m) {
     remember_hits();
     const PhaseClock::Scope scope(clock_, Phase::search);
     for (const LocalIndex index : hits_) grid_.update_flight(index, results[index]);
-    search_.predict_again(population(), grid_, window, m + 1, hits_, is_hit_);
+    const double reach = reach_of(window_needs(), window.duration());
+    search_.predict_again(population(), grid_, window, m + 1, reach, hits_, is_hit_);
     for (const LocalIndex index : hits_) is_hit_[index] = 0;
 }
 
@@ -261,6 +273,8 @@ void OneEngine::sync() {
     // Discs may have moved at the old largest speed since they were last settled: the next migration allows for that.
     settled_time_ -= time;
     refreshed_speed_ = communicator_.max(std::sqrt(fastest));
+    const std::uint64_t n_kept = communicator_.sum(n_kept_ - std::exchange(n_kept_at_sync_, n_kept_));
+    hits_per_micro_step_ = 2 * static_cast<double>(n_kept) / static_cast<double>(discs_.n_total() * sync_every_);
     micro_ = 0;
     ++n_syncs_;
     if (tuning_.rebalance_every > 0 && n_syncs_ % tuning_.rebalance_every == 0) {

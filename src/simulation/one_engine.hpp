@@ -73,6 +73,7 @@ private:
     double largest_speed_ = 0;   ///< of any disc since the last settling, on any rank once it is settled
     double travel_speed_ = 0;    ///< bounds the motion since the last settling; the same on all ranks
     double refreshed_speed_ = 0; ///< what becomes of it then, if a sync has looked at all discs
+    double hits_per_micro_step_ = 0; ///< per disc, over the last sync interval
     double window_speed_ = 0;    ///< what the window's reach allows for
     bool speed_exceeded_ = false;
 
@@ -88,7 +89,7 @@ private:
     std::vector<Disc> unhit_; ///< while collisions are logged: the first disc of each kept one, before it
     std::vector<std::uint8_t> is_hit_; ///< by disc, clean between micro-steps
 
-    std::uint64_t n_candidates_ = 0, n_kept_ = 0; ///< of those whose first disc is own
+    std::uint64_t n_candidates_ = 0, n_kept_ = 0, n_kept_at_sync_ = 0; ///< of those whose first disc is own
     PhaseClock clock_;
 };
 

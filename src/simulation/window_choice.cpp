@@ -8,15 +8,18 @@ namespace carrom {
 
 namespace {
 
-// Measured on one core at packing 0.2, in nanoseconds: what a disc costs per window whatever its length, and what each
-// disc within a square of one reach costs on top (docs/performance.md).
+// In nanoseconds, on one core (docs/performance.md): what a disc costs in a window of any length, what each disc within a
+// square of one reach costs it on top, and what it costs to predict a disc again that was hit inside the window.
 constexpr double cost_per_disc = 40;
-constexpr double cost_per_partner = 2.5;
+constexpr double cost_per_partner = 2;
+constexpr double cost_per_hit = 60;
 
-double cost_per_time(const WindowNeeds& needs, double duration) {
+double cost_per_micro_step(const WindowNeeds& needs, double duration) {
     const double reach = std::min(reach_of(needs, duration), needs.box_size);
     const double in_reach = needs.n_discs * (reach / needs.box_size) * (reach / needs.box_size);
-    return (cost_per_disc + cost_per_partner * in_reach) / duration;
+    const double once = (cost_per_disc + cost_per_partner * in_reach) / duration;
+    const double again = needs.hits_per_micro_step * (cost_per_hit + 2 * cost_per_partner * in_reach);
+    return duration > 1 ? once + again * (1 - 1 / duration) : once;
 }
 
 } // namespace
@@ -31,20 +34,15 @@ WindowChoice choose_window(const WindowNeeds& needs, int n_left, std::optional<d
         return {1, static_cast<int>(std::clamp(std::ceil(1 / *wanted), 1.0, 1e6))};
     }
     WindowChoice best;
-    double least = cost_per_time(needs, 1);
-    for (int n = 2; n <= n_left; ++n) {
-        const double cost = cost_per_time(needs, n);
-        if (cost > least) break; // the cost has a single minimum
+    double least = cost_per_micro_step(needs, 1);
+    const auto try_choice = [&](WindowChoice choice) {
+        const double cost = cost_per_micro_step(needs, static_cast<double>(choice.n_micro) / choice.n_parts);
+        if (cost >= least) return;
         least = cost;
-        best = {n, 1};
-    }
-    if (best.n_micro > 1) return best;
-    for (int n = 2; n <= 100000; n += std::max(1, n / 16)) {
-        const double cost = cost_per_time(needs, 1.0 / n);
-        if (cost > least) break;
-        least = cost;
-        best = {1, n};
-    }
+        best = choice;
+    };
+    for (int n = 2; n <= n_left; ++n) try_choice({n, 1});
+    for (int n = 2; n <= 100000; n += std::max(1, n / 16)) try_choice({1, n});
     return best;
 }
 

@@ -13,6 +13,7 @@ struct WindowNeeds {
     double box_size = 0, radius = 0;
     double n_discs = 0;
     double largest_speed = 0;
+    double hits_per_micro_step = 0; ///< how often a disc is taken, as far as is known
 };
 
 /// How far the membership of two discs that meet inside a window can be apart at its start (docs/method.md, section 6).

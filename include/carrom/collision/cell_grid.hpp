@@ -79,6 +79,10 @@ public:
         return static_cast<int>(cell_of_[index] - column_of_cell(cell_of_[index]) * rows());
     }
 
+    /// The column or row of a position in cells.
+    int clamped_column(float x) const { return x > 0 ? (x < static_cast<float>(frame_.n_columns) ? static_cast<int>(x) : frame_.n_columns - 1) : 0; }
+    int clamped_row(float y) const { return y > 0 ? (y < static_cast<float>(frame_.n_rows) ? static_cast<int>(y) : frame_.n_rows - 1) : 0; }
+
     /// Slots of the cells (column, first_row .. last_row); rows are cut at the frame's ends.
     SlotRange run(int column, int first_row, int last_row) const {
         const int low = first_row < 0 ? 0 : first_row;
@@ -91,7 +95,7 @@ public:
     void prefetch_cells(LocalIndex index) const {
         const std::uint32_t cell = cell_of_[index];
         for (int column = -1; column <= 1; ++column) {
-            const std::size_t place = cell + static_cast<std::size_t>(column) * rows(); // may wrap at the left end
+            const std::size_t place = cell + static_cast<std::size_t>(column) * rows(); // wraps at the left end
             if (place < cell_start_.size()) __builtin_prefetch(&cell_start_[place]);
         }
         __builtin_prefetch(&slot_of_[index]);
@@ -108,6 +112,8 @@ public:
 
     /// Squared distance in cells, with a margin for single precision, beyond which flights cannot touch.
     float touching_squared(double diameter) const;
+    /// `length` in cells, with a margin for single precision.
+    float cells_of(double length) const;
 
     bool is_valid(std::size_t n_discs) const;
     std::size_t bytes() const;

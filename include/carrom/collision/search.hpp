@@ -39,9 +39,9 @@ public:
     void predict_all(const Population& population, const CellGrid& grid, const Window& window);
 
     /// Predicts the discs `hit` (own or halo) for the window's micro-steps from `from` on. The grid must know their new
-    /// flights. `is_hit` tells for any disc whether it is among them: a pair of hit discs is predicted once.
+    /// flights, and `reach` is the window's. `is_hit` tells for any disc whether it is among them: a pair of hit discs is predicted once.
     void predict_again(const Population& population, const CellGrid& grid, const Window& window, int from,
-                       std::span<const LocalIndex> hit, std::span<const std::uint8_t> is_hit);
+                       double reach, std::span<const LocalIndex> hit, std::span<const std::uint8_t> is_hit);
 
     /// Moves the candidates of micro-step m that are still current into `live`.
     void collect(const Population& population, const Window& window, int m, std::vector<Candidate>& live);

@@ -61,6 +61,7 @@ std::vector<Tuning> tunings(std::size_t scene_number, std::size_t count) {
         const std::size_t n = scene_number * count + k;
         Tuning tuning;
         tuning.threads = omp_get_max_threads();
+        tuning.discs_per_thread = 1;
         tuning.window = windows[n % 6];
         tuning.cell_width = cells[n % 5];
         tuning.rebalance_above = limits[(n / 2) % 3];
