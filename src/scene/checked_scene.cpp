@@ -321,12 +321,10 @@ void fill_scene(Scene& scene, const Settings& settings, Problems& problems) {
         check_listed_discs(check);
         check_generator(check);
     }
-    refuse_unbuilt(scene, settings, problems);
+    refuse_unbuilt(settings, problems);
 }
 
-void refuse_unbuilt(const Scene& scene, const Settings& settings, Problems& problems) {
-    if (const Setting* rule = settings.find("time.collisions"); rule && scene.rule == CollisionRule::all)
-        add_problem(problems, rule->place, "collisions = \"all\" is not available in this version");
+void refuse_unbuilt(const Settings& settings, Problems& problems) {
     if (const Setting* accuracy = settings.find("time.accuracy"))
         add_problem(problems, accuracy->place, "'time.accuracy' is not available in this version");
 }

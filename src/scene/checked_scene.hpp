@@ -12,6 +12,6 @@ namespace carrom {
 void fill_scene(Scene& scene, const Settings& settings, Problems& problems);
 
 /// Refuses what a scene may ask for and this version cannot do.
-void refuse_unbuilt(const Scene& scene, const Settings& settings, Problems& problems);
+void refuse_unbuilt(const Settings& settings, Problems& problems);
 
 } // namespace carrom

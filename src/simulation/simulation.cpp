@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine.hpp"
+#include "exact_engine.hpp"
 #include "measurements.hpp"
 #include "one_engine.hpp"
 
@@ -26,6 +27,12 @@ StoredState first_state(const Scene& scene, const std::vector<InputDisc>& inputs
     return state;
 }
 
+std::unique_ptr<Engine> engine_for(const Scene& scene, StoredState state, const Communicator& communicator,
+                                   const Tuning& tuning) {
+    if (scene.rule == CollisionRule::all) return std::make_unique<ExactEngine>(scene, std::move(state), communicator, tuning);
+    return std::make_unique<OneEngine>(scene, std::move(state), communicator, tuning);
+}
+
 } // namespace
 
 Simulation::Simulation(const Scene& scene, std::vector<InputDisc> discs, const Communicator& communicator,
@@ -34,7 +41,7 @@ Simulation::Simulation(const Scene& scene, std::vector<InputDisc> discs, const C
 
 Simulation::Simulation(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning)
     : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)),
-      engine_(std::make_unique<OneEngine>(scene, std::move(state), communicator, tuning)) {}
+      engine_(engine_for(scene, std::move(state), communicator, tuning)) {}
 
 Simulation::~Simulation() = default;
 

@@ -97,6 +97,21 @@ void StripDiscs::tell_neighbours(std::span<const LocalIndex> changed, std::vecto
     }
 }
 
+void StripDiscs::name_to_owners(std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& named) {
+    if (communicator_.size() == 1) return;
+    std::vector<std::vector<std::uint64_t>> out(halo_plan_.partners.size());
+    for (const LocalIndex index : of_halo) {
+        const auto behind = std::upper_bound(halo_offsets_.begin(), halo_offsets_.end(), std::size_t{index});
+        const auto k = static_cast<std::size_t>(behind - halo_offsets_.begin()) - 1;
+        out[k].push_back(index - halo_offsets_[k]);
+    }
+    Received<std::uint64_t> in;
+    exchange_.exchange(std::span<const int>(halo_plan_.partners), out, in);
+    for (std::size_t k = 0; k < in.n_senders(); ++k) {
+        for (const std::uint64_t place : in.from(k)) named.push_back(halo_plan_.leaving[k][place]);
+    }
+}
+
 void StripDiscs::rebalance(double time, double above) {
     const auto n_ranks = static_cast<std::uint64_t>(communicator_.size());
     if (n_ranks == 1) return;

@@ -34,6 +34,19 @@ public:
     /// of the own halo and appends their places to `news`. **Collective.**
     void tell_neighbours(std::span<const LocalIndex> changed, std::vector<LocalIndex>& news);
 
+    /// Of values that run along the own discs, sends those of discs in other ranks' halos; puts those of the own halo's
+    /// discs behind the own ones. **Collective.**
+    template <Message T> void show(std::vector<T>& values) {
+        values.resize(n_own_);
+        if (communicator_.size() == 1) return;
+        Received<T> in;
+        transfer(exchange_, halo_plan_, std::span<const T>(values), in);
+        values.insert(values.end(), in.items.begin(), in.items.end());
+    }
+
+    /// Names discs of the halo to their owners; appends to `named` the own discs that others have named. **Collective.**
+    void name_to_owners(std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& named);
+
     /// Moves the cuts to equal shares by the discs' places at `time`, if the largest share exceeds the mean by a factor
     /// of more than `above`. The discs follow when they migrate next. **Collective.**
     void rebalance(double time, double above);

@@ -70,9 +70,11 @@ void EventDrivenReference::predict_walls(DiscId p) {
 
 void EventDrivenReference::predict_pair(DiscId p, DiscId q) {
     if (p > q) std::swap(p, q);
-    if (past_[p].partner == q && past_[q].partner == p) return;
     const Contact found = contact(discs_[p], discs_[q], 2 * setting_.radius, std::numeric_limits<double>::infinity());
-    if (found.delay >= 0) push({found.base + found.delay, 0, p, true, q, 0});
+    if (found.delay < 0) return;
+    const double time = found.base + found.delay;
+    if (past_[p].partner == q && past_[q].partner == p && time == past_[p].time) return;
+    push({time, 0, p, true, q, 0});
 }
 
 /// Later events than the next sync are dropped: the sync rewrites the states that they follow from.

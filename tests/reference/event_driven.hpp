@@ -4,9 +4,9 @@
 // One heap, brute-force prediction: after each collision its discs are predicted anew against all others. The order is
 // time, generation, id of P, wall before pair, id of Q, x before y. Price: N predicates per collision and N^2/2 a sync.
 //
-// Three readings where the page is silent. A pair that has just collided cannot collide again until one of the two has
-// met something else: in a touching cluster rounding can leave b = -1e-18, which the impulse is too small to mend, and
-// the pair would collide for ever. A sync forgets generations and partners, for they are no part of the stored state.
+// Three readings where the page is silent. A pair that has just collided cannot collide again at the same time until
+// one of the two has met something else: in a touching cluster rounding can leave b = -1e-18, which the impulse is too
+// small to mend, and the pair would collide for ever. (Later it may: that needs no memory beyond the stored states.) A sync forgets generations and partners, for they are no part of the stored state.
 // And more than `most_events` collisions throw std::runtime_error: a disc that fills its box has them without end.
 #pragma once
 

@@ -155,7 +155,7 @@ TEST_CASE("One wrong further value is one problem at its line") {
         "[discs]\nspeed = nan", "[discs]\nspeed = -1", "[discs]\nspeed = 1e100", "[discs]\nvelocities = 'maxwel'", "[discs]\nseed = -1",
         "[discs]\ngenerator = 'latice'", "[discs]\ngenerator = 'file'", "[discs]\nfile = 3", "[discs]\nfile = ''",
         "[discs]\nlist = 3", "[discs]\nlist = [[1, 2, 3, 4]]", "[discs]\nradios = 1", "[time]\ncollisions = 'two'", "[time]\ncollisions = 1",
-        "[time]\ncollisions = 'all'", "[time]\naccuracy = 1e-9", "[time]\nmicro_steps = 0",
+        "[time]\naccuracy = 1e-9", "[time]\nmicro_steps = 0",
         "[time]\nsync_every = 0", "[time]\nsync_every = 1e12", "[output]\ntext = 'all'", "[output]\ntrajectory = 'x'",
         "[effects]\ngravity = 1", "[speed]\n", "\nspeed = 1"};
     for (const std::string& addition : all) {

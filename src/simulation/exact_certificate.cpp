@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether a window's replays are the truth (docs/method.md, section 8, rule A), and what to do where they may not be.
+#include <algorithm>
+#include <atomic>
+
+#include <fmt/format.h>
+
+#include "carrom/parallel/agreement.hpp"
+#include "exact_engine.hpp"
+
+namespace carrom {
+
+/// Marks the blocks that have to be replayed, on all ranks.
+ExactEngine::Verdict ExactEngine::certify() {
+    const PhaseClock::Scope scope(clock_, Phase::resolve);
+    double fastest = 0;
+    for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.largest_speed);
+    const bool is_too_fast = fastest > window_.speed_bound;
+    std::vector<LocalIndex> foreign;
+    discs_.show(histories_);
+    compare_histories(foreign);
+    std::uint64_t n_marked = foreign.size(), n_endless = 0;
+    for (const Block& block : blocks_) {
+        n_marked += block.is_marked;
+        n_endless += block.outcome.is_endless;
+    }
+    std::uint64_t news[] = {is_too_fast ? 1u : 0u, n_marked, n_endless};
+    if (communicator_.size() > 1) communicator_.sum(news);
+    if (news[0] > 0) return Verdict::too_fast;
+    if (news[2] > 0) fail_if_endless();
+    if (!exact_.has_certificate || news[1] + news[2] == 0) return Verdict::exact;
+    std::vector<LocalIndex> named;
+    discs_.name_to_owners(foreign, named);
+    for (const LocalIndex index : named) mark_owner(index);
+    return Verdict::repeat;
+}
+
+/// Marks both blocks wherever a ring disc has another history than its owner has seen; `foreign` are those of other ranks.
+void ExactEngine::compare_histories(std::vector<LocalIndex>& foreign) {
+    const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
+#pragma omp parallel num_threads(tuning_.threads)
+    {
+        std::vector<LocalIndex> differing;
+#pragma omp for schedule(dynamic, 1)
+        for (std::int64_t k = 0; k < n_blocks; ++k) {
+            Block& block = blocks_[static_cast<std::size_t>(k)];
+            bool differs = block.outcome.is_endless;
+            for (const Witness& witness : block.outcome.ring) {
+                if (witness.history == histories_[witness.index]) continue;
+                differs = true;
+                differing.push_back(witness.index);
+            }
+            if (differs) std::atomic_ref(block.is_marked).store(1, std::memory_order_relaxed);
+        }
+        for (const LocalIndex index : differing) {
+            if (index < discs_.n_own()) mark_owner(index);
+        }
+#pragma omp critical
+        for (const LocalIndex index : differing) {
+            if (index >= discs_.n_own()) foreign.push_back(index);
+        }
+    }
+}
+
+void ExactEngine::mark_owner(LocalIndex own_index) {
+    const int column = std::clamp(grid_.column_of(own_index), first_own_column_, end_own_column_ - 1) - first_own_column_;
+    const int k = column / block_columns_ * n_block_rows_ + grid_.row_of(own_index) / block_rows_;
+    std::atomic_ref(blocks_[static_cast<std::size_t>(k)].is_marked).store(1, std::memory_order_relaxed);
+}
+
+/// Doubles the halo of all marked blocks that do not see the whole box yet. True if more halo has to be fetched for that;
+/// all blocks are to be replayed then. **Collective.**
+bool ExactEngine::widen_marked() {
+    const int n_reach = grid_.frame().n_reach;
+    int deepest = halo_depth_;
+    std::uint64_t n_widened = 0;
+    for (Block& block : blocks_) {
+        if (block.is_marked == 0) continue;
+        if (sees_all(block)) {
+            block.is_marked = 0; // nothing can change its mind
+            continue;
+        }
+        block.halo *= 2;
+        ++n_widened;
+        const int to_edge = std::min(block.cells.first_column - first_own_column_, end_own_column_ - block.cells.end_column);
+        deepest = std::max(deepest, (block.halo * n_reach - to_edge + n_reach - 1) / n_reach);
+    }
+    n_blocks_redone_ += n_widened;
+    ensure(communicator_.sum(n_widened) > 0, "blocks that have seen the whole box disagree");
+    if (communicator_.size() == 1) return false;
+    const auto wanted = static_cast<int>(communicator_.max(std::int64_t{deepest}));
+    if (wanted == halo_depth_) return false;
+    halo_depth_ = wanted;
+    return true;
+}
+
+bool ExactEngine::sees_all(const Block& block) const {
+    const GridFrame& frame = grid_.frame();
+    const int halo = block.halo * frame.n_reach;
+    const bool has_all_cells = block.cells.first_column <= halo && block.cells.end_column + halo >= frame.n_columns &&
+                               block.cells.first_row <= halo && block.cells.end_row + halo >= frame.n_rows;
+    const bool rank_has_all = communicator_.size() == 1 ||
+                              halo_depth_ * (frame.n_reach * frame.cell_width) > law_.box_size();
+    return has_all_cells && rank_has_all;
+}
+
+/// Ends the run on all ranks if a block that has seen the whole box has found no end. **Collective.**
+void ExactEngine::fail_if_endless() const {
+    std::string text;
+    for (const Block& block : blocks_) {
+        const BlockOutcome& outcome = block.outcome;
+        if (!outcome.is_endless || !sees_all(block)) continue;
+        const auto micro_step = n_micro_done_ / sync_every_ * sync_every_;
+        const std::string partner = outcome.endless_partner == outcome.endless_disc
+                                        ? "a wall"
+                                        : fmt::format("disc {}", outcome.endless_partner);
+        text = fmt::format("disc {} collides without end at step {:.9g}, at last with {}: it has no room to move",
+                           outcome.endless_disc,
+                           (static_cast<double>(micro_step) + outcome.endless_time) / static_cast<double>(micro_steps_),
+                           partner);
+        break;
+    }
+    agree(communicator_, text.empty(), text);
+}
+
+} // namespace carrom

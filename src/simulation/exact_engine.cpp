@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "exact_engine.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include "carrom/parallel/agreement.hpp"
+#include "exact_overlaps.hpp"
+#include "measurements.hpp"
+#include "window_choice.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// Windows between two times that states are brought into the order of their cells.
+constexpr std::int64_t windows_per_reorder = 8;
+/// Blocks that each thread has at least, so that none waits for long.
+constexpr double blocks_per_thread = 4;
+/// Up to here one thread does best with a single block and no halo.
+constexpr double most_discs_alone = 12000;
+
+/// Cells of about two spacings hold a vector's worth of discs in three rows.
+int cells_per_reach(double reach, double spacing) {
+    return static_cast<int>(std::clamp(std::round(reach / std::max(2 * spacing, reach / 4)), 1.0, 4.0));
+}
+
+double speed_of(const Disc& disc) { return std::sqrt(disc.vx * disc.vx + disc.vy * disc.vy); }
+
+int cells_along(double length, double width) { return static_cast<int>(std::clamp(std::ceil(length / width), 1.0, 1e9)); }
+
+} // namespace
+
+ExactEngine::ExactEngine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning,
+                         const ExactTuning& exact)
+    : communicator_(communicator), tuning_(tuning), exact_(exact), law_(scene.box_size, scene.radius),
+      micro_steps_(scene.micro_steps), sync_every_(scene.sync_every),
+      discs_(communicator, scene.box_size, std::move(state.discs)), n_micro_done_(state.micro_steps_done),
+      time_(static_cast<double>(n_micro_done_ % sync_every_)) {
+    for (int thread = 0; thread < tuning_.threads; ++thread) replays_.emplace_back(law_);
+    for (const Disc& disc : own()) largest_speed_ = std::max(largest_speed_, speed_of(disc));
+    travel_speed_ = communicator_.max(largest_speed_);
+    discs_.rebalance(time_, tuning_.rebalance_above);
+    settle_now();
+    refuse_overlaps(discs_.population(), grid_, time_, law_, communicator_, scene.name);
+}
+
+void ExactEngine::advance_towards(std::int64_t last_step) {
+    const std::int64_t last_sync = n_micro_done_ / sync_every_ * sync_every_;
+    const std::int64_t good_stop = (last_sync + sync_every_ + micro_steps_ - 1) / micro_steps_ * micro_steps_;
+    const std::int64_t stop = std::min(last_step * micro_steps_, good_stop);
+    while (n_micro_done_ < stop) {
+        const std::int64_t sync_at = (n_micro_done_ / sync_every_ + 1) * sync_every_;
+        const std::int64_t target = std::min(stop, sync_at);
+        const auto target_time = static_cast<double>(target - (sync_at - sync_every_));
+        while (time_ < target_time) run_window(target_time);
+        n_micro_done_ = target;
+        if (target == sync_at) sync();
+    }
+}
+
+/// One window, to `target` at most.
+void ExactEngine::run_window(double target) {
+    if (n_windows_ % windows_per_reorder == 0 && n_windows_ > 0) {
+        const PhaseClock::Scope scope(clock_, Phase::settle);
+        grid_.reorder(discs_.all(), discs_.n_own(), tuning_.threads);
+    }
+    migrate();
+    window_ = choose(target);
+    halo_depth_ = exact_.halo;
+    settle();
+    for (;;) {
+        replay();
+        const Verdict verdict = certify();
+        if (verdict == Verdict::exact) break;
+        ++n_redone_rounds_;
+        if (verdict == Verdict::too_fast) shorten();
+        if (verdict == Verdict::too_fast || widen_marked()) settle();
+    }
+    commit();
+    travel_speed_ = window_.speed_bound;
+    time_ = window_.end;
+    ++n_windows_;
+}
+
+void ExactEngine::migrate() {
+    const PhaseClock::Scope scope(clock_, Phase::exchange);
+    const double farthest = travel_speed_ * (time_ - settled_time_) * (1 + 1e-6) + 64 * 0x1p-53 * law_.box_size();
+    discs_.migrate(time_, farthest, nullptr);
+    settled_time_ = time_;
+}
+
+ReplayWindow ExactEngine::choose(double target) {
+    ReplayWindow window;
+    window.begin = time_;
+    window.holds_begin = time_ == 0;
+    window.speed_bound = communicator_.max(largest_speed_) * exact_.speed_allowance;
+    const auto n = static_cast<double>(discs_.n_total());
+    ExactNeeds needs{law_.box_size(), law_.radius(), n, window.speed_bound, 0, time_, exact_.halo, false};
+    needs.is_one_block = communicator_.size() == 1 && tuning_.threads == 1 && n <= most_discs_alone;
+    if (n_windows_ > 0) collision_rate_ = static_cast<double>(communicator_.sum(n_events_)) / (n * last_duration_);
+    needs.collision_rate = n_windows_ > 0 ? collision_rate_ : guessed_collision_rate(needs);
+    const double longest = target - time_;
+    choice_ = choose_exact_window(needs, longest, tuning_.window);
+    // Equal windows up to the target; the last one ends there exactly.
+    const double n_windows = std::ceil(longest / choice_.duration * (1 - 1e-9));
+    window.end = n_windows > 1 ? time_ + longest / n_windows : target;
+    if (!(window.end > time_) || window.end > target) window.end = std::nextafter(time_, 2 * target);
+    return window;
+}
+
+/// The same reach at a higher speed: a shorter window.
+void ExactEngine::shorten() {
+    double fastest = 0;
+    for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.largest_speed);
+    const double bound = communicator_.max(fastest) * exact_.speed_allowance;
+    const double duration = window_.duration() * (window_.speed_bound / bound);
+    window_.end = std::max(window_.begin + duration, std::nextafter(window_.begin, window_.end));
+    window_.speed_bound = bound;
+}
+
+/// Brings the halo to every strip, all discs into cells and the own cells into blocks, all of which are to be replayed.
+void ExactEngine::settle() {
+    const PhaseClock::Scope scope(clock_, Phase::settle);
+    const double reach = exact_reach(window_, law_.diameter(), law_.box_size());
+    {
+        const PhaseClock::Scope exchange(clock_, Phase::exchange);
+        discs_.forget_halo();
+        discs_.fetch_halo(time_, halo_depth_ * reach, nullptr);
+    }
+    const double x_from = std::max(0.0, discs_.strips().low(communicator_.rank()));
+    const double x_to = std::min(law_.box_size(), discs_.strips().high(communicator_.rank()));
+    const double spacing = std::sqrt(law_.box_size() * std::max(x_to - x_from, 0.0) / static_cast<double>(discs_.n_own() + 16));
+    GridFrame frame;
+    frame.cell_width = std::max(reach / cells_per_reach(reach, spacing), 0.7 * spacing);
+    frame.n_reach = static_cast<int>(std::ceil(reach / frame.cell_width * (1 - 1e-9)));
+    const int n_own = cells_along(x_to - x_from, frame.cell_width);
+    const int n_halo = communicator_.size() > 1 ? halo_depth_ * frame.n_reach : 0;
+    const int n_left = std::min(n_halo, cells_along(x_from, frame.cell_width));
+    const int n_right = std::min(n_halo, cells_along(law_.box_size() - x_to, frame.cell_width));
+    frame.n_columns = n_left + n_own + n_right;
+    frame.n_rows = cells_along(law_.box_size(), frame.cell_width);
+    frame.x_low = x_from - n_left * frame.cell_width;
+    frame.y_low = 0;
+    first_own_column_ = n_left;
+    end_own_column_ = n_left + n_own;
+    grid_.build(discs_.all(), frame, time_, window_.duration(), tuning_.threads);
+    histories_.resize(discs_.all().size());
+    make_blocks();
+}
+
+/// Cuts the own cells into blocks of about equal size. A block that exists already keeps its halo.
+void ExactEngine::make_blocks() {
+    const GridFrame& frame = grid_.frame();
+    const int n_columns = end_own_column_ - first_own_column_;
+    const double width = n_columns * frame.cell_width, height = frame.n_rows * frame.cell_width;
+    double side = exact_.block_side ? *exact_.block_side * frame.cell_width * frame.n_reach : choice_.block_side;
+    if (tuning_.threads > 1) side = std::min(side, std::sqrt(width * height / (blocks_per_thread * tuning_.threads)));
+    const auto parts = [&](double length, int n_cells) {
+        return std::clamp(static_cast<int>(std::ceil(length / side * (1 - 1e-9))), 1, n_cells);
+    };
+    const auto cells_each = [](int n_cells, int n_parts) { return (n_cells + n_parts - 1) / n_parts; };
+    block_columns_ = cells_each(n_columns, parts(width, n_columns));
+    block_rows_ = cells_each(frame.n_rows, parts(height, frame.n_rows));
+    const int n_block_columns = cells_each(n_columns, block_columns_);
+    n_block_rows_ = cells_each(frame.n_rows, block_rows_);
+    const auto n_blocks = static_cast<std::size_t>(n_block_columns) * static_cast<std::size_t>(n_block_rows_);
+    const bool is_new = halo_depth_ == exact_.halo || blocks_.size() != n_blocks;
+    blocks_.resize(n_blocks);
+    for (int k = 0; k < n_block_columns; ++k) {
+        for (int j = 0; j < n_block_rows_; ++j) {
+            Block& block = blocks_[static_cast<std::size_t>(k) * static_cast<std::size_t>(n_block_rows_) + static_cast<std::size_t>(j)];
+            block.cells.first_column = first_own_column_ + k * block_columns_;
+            block.cells.end_column = std::min(block.cells.first_column + block_columns_, end_own_column_);
+            block.cells.first_row = j * block_rows_;
+            block.cells.end_row = std::min(block.cells.first_row + block_rows_, frame.n_rows);
+            block.is_marked = 1;
+            if (is_new) block.halo = exact_.halo;
+        }
+    }
+}
+
+void ExactEngine::replay() {
+    const PhaseClock::Scope scope(clock_, Phase::search);
+    const ReplayGround ground{discs_.all(), discs_.n_own(), &grid_, first_own_column_, end_own_column_, window_, log_ != nullptr};
+    const int n_reach = grid_.frame().n_reach;
+    const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
+#pragma omp parallel for num_threads(tuning_.threads) schedule(dynamic, 1)
+    for (std::int64_t k = 0; k < n_blocks; ++k) {
+        Block& block = blocks_[static_cast<std::size_t>(k)];
+        if (block.is_marked == 0) continue;
+        BlockReplay<Law>& replay = replays_[static_cast<std::size_t>(omp_get_thread_num())];
+        replay.run(ground, block.cells, block.halo * n_reach, histories_, block.outcome);
+        block.is_marked = 0;
+    }
+}
+
+void ExactEngine::commit() {
+    const PhaseClock::Scope scope(clock_, Phase::move);
+    Disc* const discs = discs_.all().data();
+    const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
+#pragma omp parallel for num_threads(tuning_.threads) schedule(dynamic, 1)
+    for (std::int64_t k = 0; k < n_blocks; ++k) {
+        const BlockOutcome& outcome = blocks_[static_cast<std::size_t>(k)].outcome;
+        for (std::size_t i = 0; i < outcome.hit.size(); ++i) discs[outcome.hit[i]] = outcome.states[i];
+    }
+    n_events_ = 0;
+    largest_speed_ = 0;
+    for (const Block& block : blocks_) {
+        n_events_ += block.outcome.n_events;
+        largest_speed_ = std::max(largest_speed_, block.outcome.largest_speed_at_end);
+        if (log_) log_events(block.outcome);
+    }
+    last_duration_ = window_.duration();
+}
+
+void ExactEngine::log_events(const BlockOutcome& outcome) {
+    const std::int64_t last_sync = n_micro_done_ / sync_every_ * sync_every_;
+    for (const LoggedEvent& event : outcome.log) {
+        log_->push_back({last_sync, event.time, event.generation, event.p, event.is_wall ? Collision::wall : event.q,
+                         event.impulse * static_cast<double>(micro_steps_)});
+    }
+}
+
+void ExactEngine::sync() {
+    const PhaseClock::Scope scope(clock_, Phase::sync);
+    discs_.forget_halo();
+    std::vector<Disc>& discs = discs_.all();
+    const auto n = static_cast<std::int64_t>(discs.size());
+#pragma omp parallel for num_threads(tuning_.threads) schedule(static)
+    for (std::int64_t i = 0; i < n; ++i) {
+        Disc& disc = discs[static_cast<std::size_t>(i)];
+        Law::advance(disc, time_);
+        disc.tau = 0;
+    }
+    settled_time_ -= time_;
+    time_ = 0;
+    ++n_syncs_;
+    if (tuning_.rebalance_every > 0 && n_syncs_ % tuning_.rebalance_every == 0) {
+        discs_.rebalance(0, tuning_.rebalance_above);
+    }
+}
+
+void ExactEngine::settle_now() {
+    migrate();
+    const double reach = reach_of({law_.box_size(), law_.radius(), static_cast<double>(discs_.n_total()), 0}, 0);
+    discs_.fetch_halo(time_, reach, nullptr);
+    const double x_low = std::max(0.0, discs_.strips().low(communicator_.rank()) - reach);
+    const double x_high = std::min(law_.box_size(), discs_.strips().high(communicator_.rank()) + reach);
+    const GridFrame frame = make_frame(x_low, x_high, 0, law_.box_size(), reach, discs_.all().size(), 0);
+    grid_.build(discs_.all(), frame, time_, 1, tuning_.threads);
+}
+
+void ExactEngine::add_to(Totals& totals) {
+    settle_now();
+    totals.overlapping_pairs = count_overlaps(discs_.population(), grid_, time_, law_, communicator_, tuning_.threads);
+}
+
+} // namespace carrom

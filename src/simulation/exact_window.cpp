@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "exact_window.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "carrom/exact/block_replay.hpp"
+
+namespace carrom {
+
+namespace {
+
+// Measured on one core, in nanoseconds (docs/performance.md).
+constexpr double cost_per_disc = 40;      ///< to sort, copy and give back, once a window
+constexpr double cost_per_copy = 40;      ///< of each disc in a block or its halo
+constexpr double cost_per_event = 160;
+constexpr double cost_per_partner = 1.0;  ///< of each disc that a prediction looks at
+constexpr double discs_in_cache = 8000;   ///< of a block with its halo
+
+ReplayWindow window_of(const ExactNeeds& needs, double duration) {
+    return {needs.time, needs.time + duration, false, needs.speed_bound};
+}
+
+ExactChoice choice_of(const ExactNeeds& needs, double duration) {
+    ExactChoice choice;
+    choice.duration = duration;
+    choice.reach = exact_reach(window_of(needs, duration), 2 * needs.radius, needs.box_size);
+    const double spacing = needs.box_size / std::sqrt(needs.n_discs + 1);
+    const double margin = needs.halo * choice.reach;
+    const double side = std::sqrt(discs_in_cache) * spacing - 2 * margin;
+    choice.block_side = needs.is_one_block ? needs.box_size : std::min(std::max(side, 1.5 * margin), needs.box_size);
+    return choice;
+}
+
+double cost_per_time(const ExactNeeds& needs, const ExactChoice& choice) {
+    const double side = choice.block_side;
+    const double with_halo = std::min(side + 2 * needs.halo * choice.reach, needs.box_size);
+    const double share = (with_halo / side) * (with_halo / side); // of discs replayed, halo included, to own ones
+    const double looked_at = std::min(1.6 * choice.reach, needs.box_size) / needs.box_size;
+    const double partners = needs.n_discs * looked_at * looked_at;
+    const double events = needs.collision_rate * choice.duration;
+    const double replay = cost_per_copy + cost_per_partner * partners / 2 + events * (cost_per_event + 2 * cost_per_partner * partners);
+    return (cost_per_disc + share * replay) / choice.duration;
+}
+
+} // namespace
+
+ExactChoice choose_exact_window(const ExactNeeds& needs, double longest, std::optional<double> wanted) {
+    if (wanted) return choice_of(needs, std::min(*wanted, longest));
+    ExactChoice best = choice_of(needs, longest);
+    if (!(needs.speed_bound > 0)) return best;
+    const double spacing = needs.box_size / std::sqrt(needs.n_discs + 1);
+    double least = cost_per_time(needs, best);
+    for (double duration = std::min(longest, 0.02 * spacing / needs.speed_bound); duration < longest; duration *= 1.1) {
+        const ExactChoice choice = choice_of(needs, duration);
+        const double cost = cost_per_time(needs, choice);
+        if (cost >= least) continue;
+        least = cost;
+        best = choice;
+    }
+    return best;
+}
+
+double guessed_collision_rate(const ExactNeeds& needs) {
+    const double number_density = needs.n_discs / (needs.box_size * needs.box_size);
+    return number_density * 2 * needs.radius * needs.speed_bound / 3;
+}
+
+} // namespace carrom

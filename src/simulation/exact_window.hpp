@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How long a window of the exact rule should be, how large its blocks. Pure arithmetic on numbers that all
+// ranks know; the choice costs or saves time and has no say in the bits.
+//
+// Long windows share the cost of sorting and copying discs, short ones look less far; large blocks have less halo, small
+// ones stay in the cache.
+#pragma once
+
+#include <optional>
+
+namespace carrom {
+
+/// What the choice depends on: lengths in the scene's unit, times in micro-steps.
+struct ExactNeeds {
+    double box_size = 0, radius = 0;
+    double n_discs = 0;
+    double speed_bound = 0;
+    double collision_rate = 0; ///< per disc and time
+    double time = 0;           ///< since the last sync
+    int halo = 3;              ///< reaches that blocks look beyond their own cells
+    bool is_one_block = false; ///< all discs in one block, whatever their number
+};
+
+struct ExactChoice {
+    double duration = 0;   ///< of the window
+    double reach = 0;
+    double block_side = 0; ///< wanted
+};
+
+/// The best window of at most `longest`, or of `wanted` if that is set.
+ExactChoice choose_exact_window(const ExactNeeds& needs, double longest, std::optional<double> wanted);
+
+/// Collisions per disc and time in a gas of this density and speed, to begin with.
+double guessed_collision_rate(const ExactNeeds& needs);
+
+} // namespace carrom

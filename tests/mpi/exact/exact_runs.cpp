@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "exact_runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <random>
+#include <stdexcept>
+
+#include <omp.h>
+
+#include "event_driven.hpp"
+
+namespace carrom::test {
+
+ExactResult expected_of(const TestScene& scene, const Communicator& world, std::size_t most_events) {
+    ExactResult expected;
+    if (world.is_root()) {
+        try {
+            reference::EventDrivenReference reference(scene.setting, scene.discs, most_events);
+            reference.run_steps(scene.steps);
+            expected = {hash_of(reference.discs()), reference.wall_collisions(), reference.pair_collisions(), true};
+        } catch (const std::runtime_error&) {
+            expected.is_known = false;
+        }
+    }
+    world.broadcast(expected);
+    return expected;
+}
+
+std::vector<Disc> dealt_discs(const TestScene& scene, const Communicator& world, unsigned seed) {
+    std::mt19937 random(seed);
+    std::vector<Disc> mine;
+    for (const Disc& disc : reference::stored_states(scene.setting, scene.discs)) {
+        if (static_cast<int>(random() % static_cast<unsigned>(world.size())) == world.rank()) mine.push_back(disc);
+    }
+    std::shuffle(mine.begin(), mine.end(), random);
+    return mine;
+}
+
+double diameter_time(const TestScene& scene) {
+    double fastest = 0;
+    for (const InputDisc& disc : scene.discs) fastest = std::max(fastest, std::sqrt(disc.vx * disc.vx + disc.vy * disc.vy));
+    if (fastest == 0) return 1;
+    const auto micro_steps = static_cast<double>(scene.setting.micro_steps);
+    return std::max(2 * scene.setting.radius * micro_steps / fastest, static_cast<double>(scene.steps) * micro_steps / 60);
+}
+
+Shape shape_number(std::size_t number, double diameter_time) {
+    const std::optional<double> windows[] = {std::nullopt, 0.1, 0.7, 3.3};
+    const std::optional<double> sides[] = {std::nullopt, 1.0, 2.5, 6.0, 100.0};
+    const double rebalances[] = {1.05, 0.0, 1e9};
+    Shape shape;
+    shape.tuning.threads = omp_get_max_threads();
+    if (const auto& window = windows[number % std::size(windows)]) shape.tuning.window = *window * diameter_time;
+    shape.exact.block_side = sides[number % std::size(sides)];
+    shape.exact.halo = 2 + static_cast<int>(number / 2 % 3);
+    shape.exact.speed_allowance = number % 7 == 3 ? 1.001 : 1.2;
+    shape.tuning.rebalance_above = rebalances[number / 3 % std::size(rebalances)];
+    return shape;
+}
+
+ExactResult run_exactly(const TestScene& scene, const Shape& shape, const Communicator& world, unsigned seed) {
+    ExactEngine engine(scene_of(scene), {dealt_discs(scene, world, seed), 0}, world, shape.tuning, shape.exact);
+    const std::int64_t last = scene.steps * scene.setting.micro_steps;
+    while (engine.micro_steps_done() < last) engine.advance_towards(scene.steps);
+    StateHash hash = hash_of(engine.own());
+    std::uint64_t sums[] = {hash.low, hash.high, 0, 0};
+    for (const Disc& disc : engine.own()) {
+        sums[2] += disc.wall_collisions;
+        sums[3] += disc.pair_collisions;
+    }
+    world.sum(sums);
+    return {{sums[0], sums[1]}, sums[2], sums[3] / 2, true};
+}
+
+} // namespace carrom::test

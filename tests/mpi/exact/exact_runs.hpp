@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs of the exact rule on all ranks, and what they must give.
+#pragma once
+
+#include "carrom/parallel/communicator.hpp"
+#include "carrom/simulation/simulation.hpp"
+#include "exact_engine.hpp"
+#include "scenes.hpp"
+
+namespace carrom::test {
+
+struct ExactResult {
+    StateHash hash;
+    std::uint64_t wall_collisions = 0, pair_collisions = 0;
+    bool is_known = true; ///< false where the reference gave up
+
+    friend bool operator==(const ExactResult&, const ExactResult&) = default;
+};
+
+/// What the event-driven reference gives, worked out on rank 0. **Collective.**
+ExactResult expected_of(const TestScene& scene, const Communicator& world, std::size_t most_events = 100000);
+
+struct Shape {
+    Tuning tuning;
+    ExactTuning exact;
+};
+
+/// A way to run a scene: windows, blocks, halo, cuts. The numbers meet one another in many combinations.
+Shape shape_number(std::size_t number, double diameter_time);
+
+/// A run from arbitrary shares of the discs, in an arbitrary order. **Collective.**
+ExactResult run_exactly(const TestScene& scene, const Shape& shape, const Communicator& world, unsigned seed);
+
+/// The share of rank `world.rank()` when discs are dealt at random.
+std::vector<Disc> dealt_discs(const TestScene& scene, const Communicator& world, unsigned seed);
+
+/// The time in which the fastest disc goes one diameter, in micro-steps; a 60th of the run if that is longer.
+double diameter_time(const TestScene& scene);
+
+} // namespace carrom::test
