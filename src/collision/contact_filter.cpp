@@ -34,15 +34,16 @@ HWY_INLINE std::uint64_t lanes_that_touch(D d, const FlightLanes& lanes, std::ui
     const auto dy = hn::Sub(hn::LoadU(d, lanes.y + slot), flight.y);
     const auto wx = hn::Sub(hn::LoadU(d, lanes.vx + slot), flight.vx);
     const auto wy = hn::Sub(hn::LoadU(d, lanes.vy + slot), flight.vy);
-    const auto zero = hn::Zero(d);
     const auto b = hn::MulAdd(dx, wx, hn::Mul(dy, wy));
     const auto a = hn::MulAdd(wx, wx, hn::Mul(wy, wy));
     const auto c = hn::MulSub(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Set(d, 1 - 0x1p-19f), flight.touching);
-    const auto b_end = hn::Add(b, a);
+    const auto b_end = hn::Add(b, a); // b at the window's end, and so on
     const auto c_end = hn::Add(hn::Add(b, b_end), c);
-    const auto meets = hn::And(hn::Lt(b, zero), hn::Ge(hn::Mul(b, b), hn::Mul(a, c)));
-    const auto in_time = hn::Or(hn::Ge(b_end, zero), hn::Le(c_end, zero));
-    const auto keep = hn::Or(hn::Le(c, zero), hn::And(meets, in_time));
+    // Each condition as a number that is not positive where it holds, so that one comparison does for all of them.
+    const auto passes_by = hn::MulAdd(b, hn::Abs(b), hn::Mul(a, c)); // where c > 0: approaches, and b^2 >= a c
+    const auto too_late = hn::Min(hn::Neg(b_end), c_end);
+    const auto misses = hn::Min(c, hn::Max(passes_by, too_late));
+    const auto keep = hn::Le(misses, hn::Zero(d));
     // Read back as wide as it was written: a wider load would have to wait until the store has reached the cache.
     using Bits = std::conditional_t<hn::MaxLanes(d) <= 8, std::uint8_t,
                                     std::conditional_t<hn::MaxLanes(d) <= 16, std::uint16_t, std::uint64_t>>;
