@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program `carrom`: every rank runs this, and all of them leave with the same exit code.
+#include "carrom/io/start_io.hpp"
 #include "carrom/parallel/mpi.hpp"
 #include "command_line.hpp"
 
 int main(int argc, char** argv) {
+    carrom::start_io();
     const carrom::Mpi mpi(argc, argv);
     return carrom::run_on_all(carrom::Communicator::world(), [&](const carrom::Communicator& ranks) {
         const carrom::Action action = carrom::parse_command_line(argc, argv);

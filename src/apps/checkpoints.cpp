@@ -26,6 +26,9 @@ Checkpoints::Checkpoints(const Scene& scene, std::int64_t first_step, bool is_re
     if (!is_restart) return;
     last_written_ = first_step;
     kept_.push_back(checkpoint_path(scene_.checkpoint->folder, first_step));
+    if (!ranks_.is_root()) return;
+    for (const FoundFile& found : find_checkpoints(scene_.checkpoint->folder))
+        if (!found.is_finished) remove_file(found.path); // by the run that was killed
 }
 
 std::int64_t Checkpoints::next_look(std::int64_t step) const {

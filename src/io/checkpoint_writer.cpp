@@ -83,24 +83,36 @@ public:
         : path_(path), header_(header), slab_(slab), communicator_(communicator),
           first_(slab_begin(communicator.rank(), header.n_discs, communicator.size())) {}
 
+    /// A file that could not be written is not closed: closing writes again, and where that fails it does not come back.
+    ~ColumnWriter() { file_.abandon(); }
+    ColumnWriter(const ColumnWriter&) = delete;
+    ColumnWriter& operator=(const ColumnWriter&) = delete;
+
     void write() {
-        h5::File file;
-        on_ranks([&] { file = h5::open_file(path_, h5::Access::write, communicator_); });
+        on_ranks([&] {
+            const Deadline deadline(path_);
+            file_ = h5::open_file(path_, h5::Access::write, communicator_);
+        });
         for (const Column& column : checkpoint_columns)
-            write_column<std::uint64_t>(file.id(), std::string("/carrom/discs/") + column.name, type_of(column), 1,
+            write_column<std::uint64_t>(file_.id(), std::string("/carrom/discs/") + column.name, type_of(column), 1,
                                         [&](const Disc& disc, std::uint64_t* out) { *out = bits_of(column, disc); });
         const double clock = header_.clock(), k = static_cast<double>(header_.micro_steps);
-        write_column<float>(file.id(), "/particles/discs/position/value", H5T_NATIVE_FLOAT, 3, [clock](const Disc& disc, float* out) {
+        write_column<float>(file_.id(), "/particles/discs/position/value", H5T_NATIVE_FLOAT, 3, [clock](const Disc& disc, float* out) {
             out[0] = static_cast<float>(disc.x_at(clock));
             out[1] = static_cast<float>(disc.y_at(clock));
             out[2] = 0;
         });
-        write_column<float>(file.id(), "/particles/discs/velocity/value", H5T_NATIVE_FLOAT, 3, [k](const Disc& disc, float* out) {
+        write_column<float>(file_.id(), "/particles/discs/velocity/value", H5T_NATIVE_FLOAT, 3, [k](const Disc& disc, float* out) {
             out[0] = static_cast<float>(disc.vx * k);
             out[1] = static_cast<float>(disc.vy * k);
             out[2] = 0;
         });
-        on_ranks([&] { file.close("cannot be closed"); });
+        // Each rank, since on several nodes each has written through a cache of its own.
+        on_ranks([&] { sync_file(path_); });
+        on_ranks([&] {
+            const Deadline deadline(path_);
+            file_.close("cannot be closed");
+        });
     }
 
 private:
@@ -109,7 +121,10 @@ private:
     template <class Number, class Fill>
     void write_column(hid_t file, const std::string& name, hid_t type, std::size_t width, const Fill& fill) {
         h5::Dataset dataset;
-        on_ranks([&] { dataset = h5::open_dataset(file, name.c_str()); });
+        on_ranks([&] {
+            const Deadline deadline(path_);
+            dataset = h5::open_dataset(file, name.c_str());
+        });
         std::vector<Number> numbers;
         for (std::uint64_t piece = 0; piece < n_pieces(header_.n_discs, communicator_); ++piece) {
             const h5::Rows rows = rows_of_piece(piece, header_.n_discs, communicator_);
@@ -118,6 +133,10 @@ private:
                 fill(slab_[row - first_], numbers.data() + (row - rows.begin) * width);
             on_ranks([&] { h5::write_rows(dataset.id(), rows, type, numbers.data()); });
         }
+        on_ranks([&] {
+            const Deadline deadline(path_);
+            dataset.close("cannot be written");
+        });
     }
 
     const std::string& path_;
@@ -125,6 +144,7 @@ private:
     std::span<const Disc> slab_;
     const Communicator& communicator_;
     std::uint64_t first_; ///< the id of the slab's first disc
+    h5::File file_;
 };
 
 void fill_sums(CheckpointHeader& header, std::span<const Disc> slab, const Communicator& communicator) {
@@ -154,8 +174,6 @@ void write_checkpoint(const std::string& path, CheckpointHeader header, std::spa
         reserve(partial.path());
     });
     ColumnWriter(partial.path(), header, slab, communicator).write();
-    // Each rank, since on several nodes each has written through a cache of its own.
-    on_all(communicator, path, ExitCode::output_failure, [&] { sync_file(partial.path()); });
     seal(partial.path(), communicator);
     on_root(communicator, path, ExitCode::output_failure, [&] { rename_durably(partial.path(), path); });
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "files.hpp"
 
+#include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -50,6 +52,30 @@ void Descriptor::write(std::span<const std::byte> bytes, std::uint64_t offset) c
 
 void Descriptor::sync() const {
     if (::fsync(number_) != 0) fail_with_errno("cannot be brought to disk");
+}
+
+namespace {
+
+std::array<char, 512> deadline_text{}; // what the handler may use: no allocation, no locks
+
+void end_process(int) {
+    [[maybe_unused]] const ssize_t n = ::write(STDERR_FILENO, deadline_text.data(), std::strlen(deadline_text.data()));
+    ::_exit(static_cast<int>(ExitCode::output_failure));
+}
+
+} // namespace
+
+Deadline::Deadline(const std::string& path, unsigned seconds) {
+    std::snprintf(deadline_text.data(), deadline_text.size(), "carrom: %s: HDF5 does not come back; has a write failed on some rank?\n",
+                  path.c_str());
+    old_handler_ = std::signal(SIGALRM, end_process);
+    old_seconds_ = ::alarm(seconds);
+}
+
+Deadline::~Deadline() {
+    ::alarm(0);
+    std::signal(SIGALRM, old_handler_);
+    ::alarm(old_seconds_);
 }
 
 void check_room(const std::string& folder, std::uint64_t bytes) {

@@ -2,10 +2,22 @@
 #include "hdf5.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <mpi.h>
 
+#include "carrom/io/start_io.hpp"
 #include "files.hpp"
+
+namespace carrom {
+
+void start_io() {
+    setenv("HDF5_USE_FILE_LOCKING", "BEST_EFFORT", 0);
+    H5dont_atexit();
+    H5open(); // started before MPI it does not hook into MPI's end either
+}
+
+} // namespace carrom
 
 namespace carrom::h5 {
 
@@ -34,10 +46,11 @@ void write_attribute(hid_t object, const char* name, hid_t type, const Space& sh
     checked(H5Awrite(attribute.id(), type, values), name);
 }
 
-void write_scalar_as(hid_t parent, const char* name, hid_t type, const void* value) {
-    const Dataset dataset(
-        checked(H5Dcreate2(parent, name, type, scalar_space().id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), name));
-    checked(H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value), name);
+/// Small writes reach the file when the dataset is closed.
+void write_dataset(hid_t parent, const char* name, const Space& shape, hid_t type, const void* values) {
+    Dataset dataset(checked(H5Dcreate2(parent, name, type, shape.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), name));
+    checked(H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
+    dataset.close(name);
 }
 
 /// Checks that there is one value, so that nothing is written beyond it.
@@ -46,13 +59,6 @@ void read_scalar_as(hid_t parent, const char* name, hid_t type, void* value) {
     const Space shape(checked(H5Dget_space(dataset.id()), name));
     if (H5Sget_simple_extent_npoints(shape.id()) != 1) throw FileError(std::string(name) + " is not a single value");
     checked(H5Dread(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value), name);
-}
-
-/// Collective: MPI-IO knows how ranks best share the file system at hand.
-Properties collective_transfer() {
-    Properties transfer = properties(H5P_DATASET_XFER);
-    checked(H5Pset_dxpl_mpio(transfer.id(), H5FD_MPIO_COLLECTIVE), "cannot choose collective transfer");
-    return transfer;
 }
 
 struct Selection {
@@ -141,11 +147,17 @@ void write_attribute(hid_t object, const char* name, const std::vector<std::stri
     write_attribute(object, name, text_type(longest).id(), space({&length, 1}), letters.data());
 }
 
-void write_scalar(hid_t parent, const char* name, double value) { write_scalar_as(parent, name, H5T_NATIVE_DOUBLE, &value); }
-void write_scalar(hid_t parent, const char* name, std::int64_t value) { write_scalar_as(parent, name, H5T_NATIVE_INT64, &value); }
-void write_scalar(hid_t parent, const char* name, std::uint64_t value) { write_scalar_as(parent, name, H5T_NATIVE_UINT64, &value); }
+void write_scalar(hid_t parent, const char* name, double value) {
+    write_dataset(parent, name, scalar_space(), H5T_NATIVE_DOUBLE, &value);
+}
+void write_scalar(hid_t parent, const char* name, std::int64_t value) {
+    write_dataset(parent, name, scalar_space(), H5T_NATIVE_INT64, &value);
+}
+void write_scalar(hid_t parent, const char* name, std::uint64_t value) {
+    write_dataset(parent, name, scalar_space(), H5T_NATIVE_UINT64, &value);
+}
 void write_scalar(hid_t parent, const char* name, const std::string& value) {
-    write_scalar_as(parent, name, text_type(value.size()).id(), value.c_str());
+    write_dataset(parent, name, scalar_space(), text_type(value.size()).id(), value.c_str());
 }
 
 void read_scalar(hid_t parent, const char* name, double& value) { read_scalar_as(parent, name, H5T_NATIVE_DOUBLE, &value); }
@@ -161,9 +173,7 @@ void read_scalar(hid_t parent, const char* name, std::string& value) {
 }
 
 void write_whole(hid_t parent, const char* name, std::span<const hsize_t> dimensions, hid_t type, const void* values) {
-    const Dataset dataset(checked(
-        H5Dcreate2(parent, name, type, space(dimensions).id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), name));
-    checked(H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
+    write_dataset(parent, name, space(dimensions), type, values);
 }
 
 std::vector<hsize_t> dimensions_of(hid_t dataset) {
@@ -175,13 +185,13 @@ std::vector<hsize_t> dimensions_of(hid_t dataset) {
 
 void write_rows(hid_t dataset, const Rows& rows, hid_t type, const void* numbers) {
     const Selection selection = select_rows(dataset, rows);
-    checked(H5Dwrite(dataset, type, selection.memory.id(), selection.file.id(), collective_transfer().id(), numbers),
+    checked(H5Dwrite(dataset, type, selection.memory.id(), selection.file.id(), H5P_DEFAULT, numbers),
             "cannot be written");
 }
 
 void read_rows(hid_t dataset, const Rows& rows, hid_t type, void* numbers) {
     const Selection selection = select_rows(dataset, rows);
-    checked(H5Dread(dataset, type, selection.memory.id(), selection.file.id(), collective_transfer().id(), numbers), "cannot be read");
+    checked(H5Dread(dataset, type, selection.memory.id(), selection.file.id(), H5P_DEFAULT, numbers), "cannot be read");
 }
 
 } // namespace carrom::h5

@@ -40,8 +40,11 @@ public:
 
     hid_t id() const { return id_; }
 
-    /// Closing a file or a dataset may be where a failure shows.
+    /// What has been written must be closed with this: some failures show only here.
     void close(const char* what) { checked(close_function(std::exchange(id_, -1)), what); }
+
+    /// Leaves the object open for good.
+    void abandon() { id_ = -1; }
 
 private:
     hid_t id_ = -1;
@@ -92,8 +95,9 @@ struct Rows {
     std::uint64_t begin = 0, end = 0;
 };
 
-/// This rank's rows of a dataset: of its only axis, or of the second one where the first counts frames. No rows are fine.
-/// The file must have been opened by all ranks. **Collective.**
+/// This rank's rows of a dataset that all ranks have open: of its only axis, or of the second one where the first counts
+/// frames. Not collective: a rank's rows are one large piece of the file, so there is nothing for MPI-IO to gather, and
+/// a rank whose write fails leaves no other waiting (HDF5 1.10 does after a failed collective one).
 void write_rows(hid_t dataset, const Rows& rows, hid_t type, const void* numbers);
 void read_rows(hid_t dataset, const Rows& rows, hid_t type, void* numbers);
 

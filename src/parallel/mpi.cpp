@@ -71,12 +71,9 @@ int agreed_code(const Communicator& communicator, const Outcome& outcome, double
     return largest;
 }
 
-/// Open MPI's own MPI-IO hangs in a collective write to a full disk; ROMIO, which it also has, returns the error. And a
-/// file system without locks is no reason for HDF5 to refuse a file. Whoever has set these knows better.
-void choose_io() {
-    setenv("OMPI_MCA_io", "^ompio", 0);
-    setenv("HDF5_USE_FILE_LOCKING", "BEST_EFFORT", 0);
-}
+/// Open MPI's own MPI-IO hangs in a collective write to a full disk; ROMIO, which it also has, returns the error.
+/// Whoever has chosen one knows better.
+void choose_io() { setenv("OMPI_MCA_io", "^ompio", 0); }
 
 } // namespace
 
