@@ -99,8 +99,8 @@ bool ExactEngine::sees_all(const Block& block) const {
     const int halo = block.halo * frame.n_reach;
     const bool has_all_cells = block.cells.first_column <= halo && block.cells.end_column + halo >= frame.n_columns &&
                                block.cells.first_row <= halo && block.cells.end_row + halo >= frame.n_rows;
-    const bool rank_has_all = communicator_.size() == 1 ||
-                              halo_depth_ * (frame.n_reach * frame.cell_width) > law_.box_size();
+    const double reach = exact_reach(window_, law_.diameter(), law_.box_size());
+    const bool rank_has_all = communicator_.size() == 1 || halo_depth_ * reach > law_.box_size();
     return has_all_cells && rank_has_all;
 }
 
