@@ -25,6 +25,7 @@ Checkpoints::Checkpoints(const Scene& scene, std::int64_t first_step, bool is_re
     signals_.emplace();
     if (!is_restart) return;
     last_written_ = first_step;
+    kept_ = earlier_checkpoints(scene_, first_step, ranks_);
     kept_.push_back(checkpoint_path(scene_.checkpoint->folder, first_step));
     if (!ranks_.is_root()) return;
     for (const FoundFile& found : find_checkpoints(scene_.checkpoint->folder))

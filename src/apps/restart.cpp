@@ -39,7 +39,6 @@ std::vector<std::string> candidates_in(const std::string& folder, const Communic
     if (ranks.is_root()) {
         for (const FoundFile& found : find_checkpoints(folder)) {
             if (found.is_finished) list += found.path + '\0';
-            else fmt::print(stderr, "passing over {}: it was never finished\n", found.path);
         }
     }
     ranks.broadcast(list);
@@ -47,6 +46,11 @@ std::vector<std::string> candidates_in(const std::string& folder, const Communic
     std::istringstream stream(list);
     for (std::string path; std::getline(stream, path, '\0');) paths.push_back(path);
     return paths;
+}
+
+void tell_of_unfinished(const std::string& folder) {
+    for (const FoundFile& found : find_checkpoints(folder))
+        if (!found.is_finished) fmt::print(stderr, "passing over {}: it was never finished\n", found.path);
 }
 
 /// Reads the checkpoint and fills in the scene if there is none yet; throws where it is not of that scene's run.
@@ -83,6 +87,20 @@ std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths, con
 
 } // namespace
 
+std::vector<std::string> earlier_checkpoints(const Scene& scene, std::int64_t step, const Communicator& ranks) {
+    std::vector<std::string> paths;
+    for (const std::string& path : candidates_in(scene.checkpoint->folder, ranks)) {
+        try {
+            const CheckpointHeader header = read_checkpoint_header(path, ranks);
+            if (header.step < step && physical_differences(scene_of(header, {}), scene).empty()) paths.push_back(path);
+        } catch (const CollectiveError&) {
+        } catch (const InputError&) {
+        }
+    }
+    std::reverse(paths.begin(), paths.end());
+    return paths;
+}
+
 CheckpointHeader header_of(const Scene& scene) {
     CheckpointHeader header;
     header.program_version = version();
@@ -113,6 +131,7 @@ void load_restart(const RunOptions& options, Loaded& loaded, const Communicator&
     if (folder.empty()) {
         checkpoint = read_matching(options.restart, options, loaded.scene, ranks);
     } else {
+        if (ranks.is_root()) tell_of_unfinished(folder);
         const std::vector<std::string> paths = candidates_in(folder, ranks);
         checkpoint = read_newest(paths, options, loaded.scene, ranks);
         if (!checkpoint && !paths.empty()) refuse(folder, "no checkpoint there can be gone on from");

@@ -18,6 +18,9 @@ namespace carrom {
 /// damaged, if no checkpoint of a folder is whole, or if the scene would be another run. **Collective.**
 void load_restart(const RunOptions& options, Loaded& loaded, const Communicator& ranks);
 
+/// Whole checkpoints of the scene's run in its folder that are of earlier steps than `step`, oldest first. **Collective.**
+std::vector<std::string> earlier_checkpoints(const Scene& scene, std::int64_t step, const Communicator& ranks);
+
 /// The scene as a checkpoint keeps it, and back.
 CheckpointHeader header_of(const Scene& scene);
 Scene scene_of(const CheckpointHeader& header, const std::vector<std::string>& more_overrides);

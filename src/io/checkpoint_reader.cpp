@@ -51,6 +51,7 @@ void read_column(hid_t file, const std::string& path, const Column& column, std:
 } // namespace
 
 CheckpointHeader read_checkpoint_header(const std::string& path, const Communicator& communicator) {
+    check_seal(path, communicator); // HDF5 does not promise to survive every damaged file
     return header_of(path, communicator);
 }
 

@@ -55,7 +55,7 @@ struct Checkpoint {
 /// after the path. **Collective.**
 Checkpoint read_checkpoint(const std::string& path, const Communicator& communicator);
 
-/// The same without the discs; the file's checksum is not looked at. **Collective.**
+/// The same without the discs; the file is read to its end all the same, for its checksum. **Collective.**
 CheckpointHeader read_checkpoint_header(const std::string& path, const Communicator& communicator);
 
 } // namespace carrom

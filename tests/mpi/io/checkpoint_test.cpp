@@ -210,6 +210,47 @@ TEST_CASE("a damaged file is refused on every rank, with the reason") {
     CHECK(problem_of(folder.file("none.h5"), world).find("No such file") != std::string::npos);
 }
 
+namespace {
+
+/// Flips one bit of each of these bytes in turn; every time all ranks must notice. Returns how many went unnoticed.
+int unnoticed_flips(const std::vector<std::size_t>& places, const Communicator& world) {
+    const TestFolder folder(world);
+    const std::string path = folder.file("a.h5");
+    write_checkpoint(path, some_header(), share(20, world, 0), world);
+    const std::string good = bytes_of(path);
+    int n_unnoticed = 0;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const std::size_t place = places[k] % good.size();
+        const auto put = [&](char byte) {
+            world.barrier();
+            if (world.is_root()) std::fstream(path, std::ios::binary | std::ios::in | std::ios::out).seekp(static_cast<std::streamoff>(place)).put(byte);
+            world.barrier();
+        };
+        put(static_cast<char>(good[place] ^ (1 << (k % 8))));
+        n_unnoticed += problem_of(path, world).empty() ? 1 : 0;
+        put(good[place]);
+    }
+    CHECK(problem_of(path, world).empty());
+    return n_unnoticed;
+}
+
+} // namespace
+
+TEST_CASE("random flipped bits are noticed") {
+    const Communicator world = Communicator::world();
+    std::mt19937 random(3210);
+    std::vector<std::size_t> places(300);
+    for (std::size_t& place : places) place = random();
+    CHECK(unnoticed_flips(places, world) == 0);
+}
+
+TEST_CASE("a flipped bit in any byte is noticed", "[.long]") {
+    const Communicator world = Communicator::world();
+    std::vector<std::size_t> places(40000); // more than the file has
+    for (std::size_t k = 0; k < places.size(); ++k) places[k] = k;
+    CHECK(unnoticed_flips(places, world) == 0);
+}
+
 TEST_CASE("what cannot be written is an error on every rank, and the older file stays") {
     const Communicator world = Communicator::world();
     const TestFolder folder(world);

@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Checkpoints that cannot be written: exit code 4 and a message within a minute on 1 and 3 ranks, and the last good
+# checkpoint stays. A full disk is a small tmpfs, failing disks are strace's: tried only where mounting and tracing work.
+source "$(dirname "$0")/common.sh"
+scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=20000 --set discs.speed=2 --steps 30 --quiet
+       --set output.checkpoint.every_steps=10)
+
+failed() {
+    expect_code 4 "$1"
+    expect_told "$2" "$1"
+}
+goes_on_from() { # FOLDER STEP WHAT
+    [ "$(ls "$1")" = "$(printf 'checkpoint-%012d.h5' "$2")" ] || complain "not the last good checkpoint alone: $3: $(ls "$1")"
+    run 1 run --restart "$1" --steps "$2" --quiet
+    expect_code 0 "going on after $3"
+}
+
+for ranks in 1 3; do
+    : >file
+    run "$ranks" run "${scene[@]}" --set output.checkpoint.folder=file/below
+    failed 'a folder that cannot be made' 'output.checkpoint.folder file/below: cannot be made'
+    run "$ranks" run "${scene[@]}" --set output.checkpoint.folder=/proc/carrom
+    failed 'a folder that is no place for files' 'output.checkpoint.folder /proc/carrom'
+done
+
+mkdir tiny
+if mount -t tmpfs -o size=4m tmpfs tiny 2>/dev/null; then
+    trap 'umount "$test_folder/files/tiny"' EXIT
+    for ranks in 1 3; do
+        rm -rf tiny/*
+        run "$ranks" run "${scene[@]}" --set output.checkpoint.folder=tiny/kept
+        failed 'a full disk' 'No space left on device'
+        goes_on_from tiny/kept 10 'a full disk'
+        mount -o remount,ro tiny
+        run "$ranks" run "${scene[@]}" --set output.checkpoint.folder=tiny/kept
+        failed 'a read-only disk' 'Read-only file system'
+        mount -o remount,rw tiny
+    done
+else
+    echo 'skipped: a full and a read-only disk (mounting a tmpfs is not allowed here)'
+fi
+
+# fault RANK INJECTION: that rank's calls on the second checkpoint's file fail as strace says.
+cat >traced.sh <<'END'
+#!/bin/sh
+rank=$1 injection=$2
+shift 2
+[ "${OMPI_COMM_WORLD_RANK:-${PMI_RANK:-0}}" = "$rank" ] || exec "$@"
+exec strace -f -o trace -P "$PWD/kept/checkpoint-000000000020.h5.partial" -e inject="$injection" "$@"
+END
+chmod +x traced.sh
+fault() {
+    local program=$CARROM_PROGRAM
+    rm -rf kept
+    timeout --kill-after=5 60 "$CARROM_MPIEXEC" -n 3 ./traced.sh "$1" "$2" "$program" run "${scene[@]}" \
+        --set output.checkpoint.folder="$PWD/kept" >"$test_folder/out" 2>"$test_folder/err"
+    code=$?
+    failed "$2 on rank $1" "checkpoint-000000000020.h5"
+    goes_on_from kept 10 "$2 on rank $1"
+}
+if strace -o /dev/null true 2>/dev/null; then
+    fault 0 pwrite64:error=EIO:when=1   # the structure of the file, on its first and its last write
+    fault 0 pwrite64:error=ENOSPC:when=20+
+    fault 0 pwrite64:error=EIO:when=37+ # then the discs
+    fault 2 pwrite64:error=EIO:when=1+
+    fault 1 pwrite64:error=ENOSPC:when=3
+    fault 0 fsync:error=EIO:when=1
+    fault 2 fsync:error=EIO:when=1
+    fault 0 fallocate:error=ENOSPC:when=1
+    fault 1 pread64:error=EIO:when=1+
+    fault 0 rename:error=EIO:when=1
+else
+    echo 'skipped: failing disks (strace is not there, or may not trace here)'
+fi
+finish

@@ -1,0 +1,84 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# A run that is stopped, killed in between and gone on with on other numbers of ranks and threads has the bits of the
+# uninterrupted one. Arguments: the input and options that make it small; it must run 90 steps.
+source "$(dirname "$0")/common.sh"
+input=$CARROM_SOURCE_DIR/$1
+shift
+small=("$@" --quiet)
+store=(--set output.checkpoint.folder=kept --set output.checkpoint.every_steps=17)
+
+hash_of_report() { json_value report.json state_hash; }
+has_hash() {
+    expect_code 0 "$1"
+    [ "$(hash_of_report)" = "$hash" ] || complain "another state hash: $1"
+}
+
+run 2 run "$input" "${small[@]}" --report report.json --set output.text=ends
+expect_code 0 'uninterrupted'
+hash=$(hash_of_report)
+tail -n 20 "$test_folder/out" >"$test_folder/end"
+[ -n "$hash" ] || complain 'no state hash'
+
+# Stretches of 30 steps on ever other shapes. The last lines of text must be the same too.
+run 1 run "$input" "${small[@]}" "${store[@]}" --steps 30 --threads 2
+expect_code 0 'the first stretch'
+run 4 run "$input" "${small[@]}" "${store[@]}" --restart latest --steps 60
+expect_code 0 'the second stretch'
+run 3 run "$input" "${small[@]}" "${store[@]}" --restart latest --report report.json --threads 2 --set output.text=ends
+has_hash '1 rank, then 4, then 3'
+tail -n 20 "$test_folder/out" | cmp - "$test_folder/end" || complain 'other lines at the end'
+[ "$(json_value report.json first_step)" = 60 ] || complain 'the third stretch did not begin at step 60'
+[ "$(ls kept)" = "$(printf 'checkpoint-%012d.h5\n' 85 90)" ] || complain "not the last two checkpoints: $(ls kept)"
+
+# From a checkpoint in the middle of a sync interval, without naming the scene again, and on more ranks.
+for ranks in 1 7; do
+    run "$ranks" run --restart kept/checkpoint-000000000085.h5 --report report.json --quiet --set output.checkpoint.folder=other
+    has_hash "from step 85 on $ranks ranks"
+done
+
+# At the end there is nothing to do, and more steps can be asked for.
+run 1 run --restart kept --report report.json --quiet
+has_hash 'nothing left to do'
+[ "$(json_value report.json steps)" = 0 ] || complain 'steps were made after the last'
+run 2 run "$input" "${small[@]}" --steps 97 --report report.json
+expect_code 0 'uninterrupted and longer'
+hash=$(hash_of_report)
+run 3 run --restart kept --steps 97 --report report.json --quiet
+has_hash 'longer than first asked for'
+
+# What a restart cannot do is refused, and said.
+refused() {
+    local text=$1
+    shift
+    run 3 run "$@" --report refused.json
+    expect_code 2 "$*"
+    expect_told "$text" "$*"
+    [ ! -e refused.json ] || complain "a report of a run that was refused: $*"
+}
+refused "'box.size' is" "$input" "${small[@]}" --set box.size=3333 --restart kept
+refused "'time.sync_every' is" --restart kept/checkpoint-000000000097.h5 --set time.sync_every=3
+refused 'the run is to end at step 50' --restart kept/checkpoint-000000000097.h5 --steps 50
+refused 'No such file' --restart kept/none.h5
+refused 'name the scene too' --restart latest
+refused 'no output.checkpoint.folder' "$input" "${small[@]}" --restart latest
+refused 'no checkpoint there can be gone on from' "$input" "${small[@]}" --set time.sync_every=3 --restart kept
+mkdir empty
+refused 'there is no checkpoint' --restart empty
+
+# A folder without checkpoints is a run's start; damaged files are passed over with the reason.
+run 2 run "$input" "${small[@]}" --steps 97 --restart empty --report report.json
+has_hash 'from an empty folder'
+expect_told 'no checkpoint in empty: beginning at step 0' 'from an empty folder'
+newest=kept/checkpoint-000000000097.h5
+printf 'X' | dd of="$newest" bs=1 seek=9000 conv=notrunc status=none
+head -c 5000 kept/checkpoint-000000000090.h5 >kept/checkpoint-000000000098.h5
+echo 'no checkpoint' >kept/checkpoint-000000000099.h5
+: >kept/checkpoint-000000000100.h5.partial
+run 3 run "$input" "${small[@]}" --steps 97 --restart kept --report report.json
+has_hash 'from the newest whole one'
+[ "$(json_value report.json first_step)" = 90 ] || complain 'not from step 90'
+for reason in '000000000097.h5: is damaged' '000000000098.h5: has 5000 bytes' '000000000099.h5: is no checkpoint' 'it was never finished'; do
+    expect_told "$reason" 'damaged files'
+done
+finish

@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# USR1 and TERM: every rank stops at the same step, a checkpoint is there, the exit code is 75, and going on gives the
+# bits of the uninterrupted run.
+source "$(dirname "$0")/common.sh"
+scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=2000 --set discs.speed=2 --quiet)
+store=(--set output.checkpoint.folder=kept)
+
+# stopped RANKS SIGNAL: begins an endless run and sends the signal, to mpiexec where there are several ranks.
+stopped() {
+    local launch=("$CARROM_MPIEXEC" -n "$1") program
+    [ "$1" -gt 1 ] || launch=()
+    rm -rf kept
+    "${launch[@]}" "$CARROM_PROGRAM" run "${scene[@]}" "${store[@]}" --steps 100000000 >"$test_folder/out" 2>"$test_folder/err" &
+    program=$!
+    sleep 3
+    kill -"$2" "$program"
+    wait "$program"
+    code=$?
+    expect_code 75 "$2 on $1 ranks"
+    expect_told 'stopped on request at step' "$2 on $1 ranks"
+    [ "$(ls kept | wc -l)" -eq 1 ] || complain "$2 on $1 ranks did not leave one checkpoint: $(ls kept)"
+}
+
+goes_on() {
+    local file=kept/$(ls kept) step
+    step=$((10#$(ls kept | tr -cd 0-9 | sed 's/5$//') + 50))
+    run 2 run --restart "$file" --steps "$step" --quiet --report report.json
+    expect_code 0 'going on'
+    local hash
+    hash=$(json_value report.json state_hash)
+    run 3 run "${scene[@]}" --steps "$step" --report report.json
+    [ "$(json_value report.json state_hash)" = "$hash" ] || complain 'another state hash after a stop'
+}
+
+stopped 1 USR1
+stopped 1 TERM
+stopped 3 USR1
+goes_on
+
+# Without a folder for checkpoints the signals mean what they mean to any program.
+"$CARROM_PROGRAM" run "${scene[@]}" --steps 100000000 >/dev/null 2>&1 &
+program=$!
+sleep 1
+kill -TERM "$program"
+wait "$program"
+code=$?
+expect_code 143 'TERM without checkpoints'
+finish
