@@ -29,10 +29,7 @@ struct Past {
 };
 static_assert(sizeof(Past) == 32);
 
-std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
-    hash = (hash ^ value) * 0x9e3779b97f4a7c15u;
-    return hash ^ (hash >> 32);
-}
+std::uint64_t rotated_product(std::uint64_t value, std::uint64_t factor) { return std::rotl(value * factor, 31); }
 
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
@@ -54,30 +51,37 @@ template <class Law> struct BlockReplay<Law>::Scratch {
     void predict_all();
     void happen(const Event& event);
     void note(std::uint32_t slot, std::uint32_t partner, const Event& event);
-    void log_event(const Event& event, const Disc& before);
+    void log_event(const Event& event, double wx, double wy);
     void look_around(const Flight& flight, int first_column);
-    void predict_pairs(std::uint32_t slot, std::uint32_t except, double time);
+    void predict_pairs(std::uint32_t slot, std::uint32_t except);
     void predict_pair(std::uint32_t a, std::uint32_t b);
     void predict_walls(std::uint32_t slot);
     void push(double time, std::uint32_t a, std::uint32_t b);
     void report(const CellBlock& own, std::span<std::uint64_t> histories);
 
-    Flight flight_of(std::uint32_t slot, double time) const;
+    Flight flight_of(std::uint32_t slot) const;
     int owning_column(int column) const {
         return std::clamp(column, ground.first_own_column, ground.end_own_column - 1);
     }
-    SlotRange local_run(int column, int first_row, int last_row) const {
-        const SlotRange run = ground.grid->run(column, first_row, last_row);
-        const std::uint32_t shift = shifts[static_cast<std::size_t>(column - cells.first_column)];
-        return {run.begin + shift, run.end + shift};
+    /// Slots of cells (column, first_row .. last_row) of our own, counted from `cells`' corner.
+    SlotRange cell_run(int column, int first_row, int last_row) const {
+        const std::uint32_t* const starts = cell_starts.data() + static_cast<std::size_t>(column) * cell_rows;
+        return {starts[first_row], starts[last_row + 1]};
+    }
+    /// The same for cells of the grid.
+    SlotRange grid_run(int column, int first_row, int last_row) const {
+        return cell_run(column - cells.first_column, first_row - cells.first_row, last_row - cells.first_row);
     }
 
     Law law;
     ReplayGround ground;
     CellBlock cells;       ///< own ones and the halo
     double x_corner = 0, y_corner = 0, cells_per_length = 1, cells_per_speed = 1, windows_per_time = 1;
+    float column_limit = 0, row_limit = 0;
     float touching_squared = 0, farthest = 0; ///< farthest: what a partner's place at the start can be off by, in cells
-    std::vector<std::uint32_t> shifts; ///< by column: from the grid's slots to ours
+    float x_inner_low = 0, x_inner_high = 0, y_inner_low = 0, y_inner_high = 0; ///< no wall near in between, in cells
+    std::size_t cell_rows = 0;         ///< entries of `cell_starts` to a column
+    std::vector<std::uint32_t> cell_starts; ///< by column and row, and one more to each column
     std::vector<LocalIndex> indices;   ///< by slot, as all that follows
     std::vector<Disc> discs;
     std::vector<Past> pasts;
@@ -85,7 +89,8 @@ template <class Law> struct BlockReplay<Law>::Scratch {
     std::vector<float> x, y, vx, vy;
     FlightLanes lanes;
     EventQueue queue;
-    std::vector<SlotRange> runs;
+    std::vector<SlotRange> runs; ///< the first n_runs; room for all columns
+    std::size_t n_runs = 0;
     std::vector<std::uint32_t> partners;
     BlockOutcome* outcome = nullptr;
     double largest_squared = 0;
@@ -110,12 +115,11 @@ void BlockReplay<Law>::run(const ReplayGround& ground, const CellBlock& block, i
     s.mark_own(block);
     s.predict_all();
     const EventOrder before(s.discs);
-    while (!s.queue.is_empty() && !outcome.is_endless) {
-        const Event event = s.queue.pop(before);
-        const bool is_current = s.pasts[event.p].version == event.p_version &&
-                                (is_wall(event.q) || s.pasts[event.q].version == event.q_version);
-        if (is_current) s.happen(event);
-    }
+    const auto is_current = [&s](const Event& event) {
+        return s.pasts[event.p].version == event.p_version &&
+               (is_wall(event.q) || s.pasts[event.q].version == event.q_version);
+    };
+    for (Event event; s.queue.pop(event, before, is_current) && !outcome.is_endless;) s.happen(event);
     s.report(block, histories);
 }
 
@@ -129,14 +133,22 @@ void BlockReplay<Law>::Scratch::gather(const ReplayGround& of_rank, const CellBl
     cells.end_column = std::min(frame.n_columns, own.end_column + halo);
     cells.first_row = std::max(0, own.first_row - halo);
     cells.end_row = std::min(frame.n_rows, own.end_row + halo);
-    shifts.clear();
+    cell_rows = static_cast<std::size_t>(cells.end_row - cells.first_row) + 1;
+    cell_starts.clear();
     indices.clear();
     for (int column = cells.first_column; column < cells.end_column; ++column) {
         const SlotRange run = grid.run(column, cells.first_row, cells.end_row - 1);
-        shifts.push_back(static_cast<std::uint32_t>(indices.size()) - run.begin);
+        const std::uint32_t shift = static_cast<std::uint32_t>(indices.size()) - run.begin;
+        cell_starts.push_back(run.begin + shift);
+        for (int row = cells.first_row; row < cells.end_row; ++row) {
+            cell_starts.push_back(grid.run(column, row, row).end + shift);
+        }
         indices.insert(indices.end(), grid.order().begin() + run.begin, grid.order().begin() + run.end);
     }
     const std::size_t n = indices.size();
+    runs.resize(static_cast<std::size_t>(cells.end_column - cells.first_column) + 1);
+    column_limit = static_cast<float>(cells.end_column - cells.first_column - 1);
+    row_limit = static_cast<float>(cells.end_row - cells.first_row - 1);
     discs.resize(n);
     pasts.assign(n, Past{});
     for (std::vector<float>* lane : {&x, &y, &vx, &vy}) {
@@ -159,6 +171,11 @@ void BlockReplay<Law>::Scratch::gather(const ReplayGround& of_rank, const CellBl
     const double touching = sigma * (1 + 0x1p-18) + 0x1p-20 * extent + 0x1p-20 * looked_at * looked_at / sigma;
     touching_squared = static_cast<float>(touching * touching);
     farthest = static_cast<float>((reach + sigma) / 2 + 0x1p-18 * extent + 1e-6);
+    const double inner = law.radius() + 1e-3 * frame.cell_width + 0x1p-18 * extent * frame.cell_width;
+    x_inner_low = static_cast<float>((inner - x_corner) * cells_per_length);
+    y_inner_low = static_cast<float>((inner - y_corner) * cells_per_length);
+    x_inner_high = static_cast<float>((law.box_size() - inner - x_corner) * cells_per_length);
+    y_inner_high = static_cast<float>((law.box_size() - inner - y_corner) * cells_per_length);
     for (std::size_t slot = 0; slot < n; ++slot) {
         discs[slot] = ground.discs[indices[slot]];
         place(static_cast<std::uint32_t>(slot), window.begin);
@@ -180,7 +197,7 @@ template <class Law> void BlockReplay<Law>::Scratch::mark_own(const CellBlock& o
     for (int column = cells.first_column; column < cells.end_column; ++column) {
         const int owner = owning_column(column);
         if (owner < own.first_column || owner >= own.end_column) continue;
-        const SlotRange run = local_run(column, own.first_row, own.end_row - 1);
+        const SlotRange run = grid_run(column, own.first_row, own.end_row - 1);
         for (std::uint32_t slot = run.begin; slot < run.end; ++slot) {
             if (indices[slot] >= ground.n_own) continue;
             is_own[slot] = 1;
@@ -189,60 +206,63 @@ template <class Law> void BlockReplay<Law>::Scratch::mark_own(const CellBlock& o
     }
 }
 
-template <class Law> Flight BlockReplay<Law>::Scratch::flight_of(std::uint32_t slot, double time) const {
+/// The flight of a disc that has just collided.
+template <class Law> Flight BlockReplay<Law>::Scratch::flight_of(std::uint32_t slot) const {
     const Disc& disc = discs[slot];
     Flight flight;
-    flight.x = static_cast<float>((disc.x_at(time) - x_corner) * cells_per_length);
-    flight.y = static_cast<float>((disc.y_at(time) - y_corner) * cells_per_length);
+    flight.x = static_cast<float>((disc.x - x_corner) * cells_per_length);
+    flight.y = static_cast<float>((disc.y - y_corner) * cells_per_length);
     flight.vx = vx[slot];
     flight.vy = vy[slot];
-    flight.now = static_cast<float>((time - ground.window.begin) * windows_per_time);
+    flight.now = static_cast<float>((disc.tau - ground.window.begin) * windows_per_time);
     return flight;
 }
 
-/// Fills `runs` with slots, from `first_column` of the grid on, whose discs the flight may meet in what is left of the
+/// Fills `runs` with slots, from our `first_column` on, whose discs the flight may meet in what is left of the
 /// window, and makes room for all of them in `partners`.
 template <class Law> void BlockReplay<Law>::Scratch::look_around(const Flight& flight, int first_column) {
     const float rest = 1 - flight.now;
     const float dx = flight.vx * rest, dy = flight.vy * rest;
-    const auto cell = [](float place, int n) { return place > 0 ? std::min(static_cast<int>(place), n - 1) : 0; };
-    const int n_columns = cells.end_column - cells.first_column, n_rows = cells.end_row - cells.first_row;
-    const int left = cells.first_column + cell(flight.x + std::min(dx, 0.0f) - farthest, n_columns);
-    const int right = cells.first_column + cell(flight.x + std::max(dx, 0.0f) + farthest, n_columns);
-    const int bottom = cells.first_row + cell(flight.y + std::min(dy, 0.0f) - farthest, n_rows);
-    const int top = cells.first_row + cell(flight.y + std::max(dy, 0.0f) + farthest, n_rows);
-    runs.clear();
+    const auto cell = [](float place, float last) { return static_cast<int>(std::min(std::max(place, 0.0f), last)); };
+    const int left = cell(flight.x + std::min(dx, 0.0f) - farthest, column_limit);
+    const int right = cell(flight.x + std::max(dx, 0.0f) + farthest, column_limit);
+    const int bottom = cell(flight.y + std::min(dy, 0.0f) - farthest, row_limit);
+    const int top = cell(flight.y + std::max(dy, 0.0f) + farthest, row_limit);
+    SlotRange* run = runs.data();
     std::uint32_t n_slots = 0;
-    for (int column = std::max(left, first_column); column <= right; ++column) {
-        const SlotRange run = local_run(column, bottom, top);
-        if (run.begin == run.end) continue;
-        runs.push_back(run);
-        n_slots += run.end - run.begin;
+    const int begin = std::max(left, first_column);
+    const std::uint32_t* starts = cell_starts.data() + static_cast<std::size_t>(begin) * cell_rows;
+    for (int column = begin; column <= right; ++column, starts += cell_rows) {
+        *run = {starts[bottom], starts[top + 1]};
+        n_slots += run->end - run->begin;
+        run += run->begin < run->end;
     }
+    n_runs = static_cast<std::size_t>(run - runs.data());
     if (partners.size() < n_slots + filter_padding) partners.resize(2 * n_slots + filter_padding);
 }
 
 template <class Law> void BlockReplay<Law>::Scratch::predict_all() {
-    queue.clear();
-    for (int column = cells.first_column; column < cells.end_column; ++column) {
-        const SlotRange slots = local_run(column, cells.first_row, cells.end_row - 1);
+    queue.restart(ground.window.begin, ground.window.end, discs.size() / 2);
+    const int n_columns = cells.end_column - cells.first_column, n_rows = cells.end_row - cells.first_row;
+    for (int column = 0; column < n_columns; ++column) {
+        const SlotRange slots = cell_run(column, 0, n_rows - 1);
         for (std::uint32_t slot = slots.begin; slot < slots.end; ++slot) {
             predict_walls(slot);
             const Flight flight = {x[slot], y[slot], vx[slot], vy[slot], 0};
             look_around(flight, column);
             // Each pair once, by the disc that comes first: in this column only what lies behind it.
-            if (!runs.empty() && runs.front().begin <= slot) runs.front().begin = std::min(slot + 1, runs.front().end);
-            const std::size_t n_partners = filter_flights(lanes, runs, flight, touching_squared, partners.data());
+            if (n_runs > 0 && runs.front().begin <= slot) runs.front().begin = std::min(slot + 1, runs.front().end);
+            const std::size_t n_partners = filter_flights(lanes, std::span(runs).first(n_runs), flight, touching_squared, partners.data());
             for (std::size_t k = 0; k < n_partners; ++k) predict_pair(slot, partners[k]);
         }
     }
 }
 
 template <class Law>
-void BlockReplay<Law>::Scratch::predict_pairs(std::uint32_t slot, std::uint32_t except, double time) {
-    const Flight flight = flight_of(slot, time);
+void BlockReplay<Law>::Scratch::predict_pairs(std::uint32_t slot, std::uint32_t except) {
+    const Flight flight = flight_of(slot);
     look_around(flight, 0);
-    const std::size_t n_partners = filter_flights(lanes, runs, flight, touching_squared, partners.data());
+    const std::size_t n_partners = filter_flights(lanes, std::span(runs).first(n_runs), flight, touching_squared, partners.data());
     for (std::size_t k = 0; k < n_partners; ++k) {
         if (partners[k] != slot && partners[k] != except) predict_pair(slot, partners[k]);
     }
@@ -259,6 +279,8 @@ template <class Law> void BlockReplay<Law>::Scratch::predict_pair(std::uint32_t 
 }
 
 template <class Law> void BlockReplay<Law>::Scratch::predict_walls(std::uint32_t slot) {
+    const float x_end = x[slot] + vx[slot], y_end = y[slot] + vy[slot];
+    if (x_end > x_inner_low && x_end < x_inner_high && y_end > y_inner_low && y_end < y_inner_high) return;
     const Disc& disc = discs[slot];
     if (!law.may_meet_wall(disc, ground.window.end)) return;
     push(law.x_wall_time(disc), slot, x_wall);
@@ -288,7 +310,7 @@ template <class Law> void BlockReplay<Law>::Scratch::push(double time, std::uint
 
 template <class Law> void BlockReplay<Law>::Scratch::happen(const Event& event) {
     Disc& p = discs[event.p];
-    const Disc p_before = p;
+    const double vx_before = p.vx, vy_before = p.vy;
     if (event.q == x_wall) {
         Law::bounce_x_at(p, event.time);
     } else if (event.q == y_wall) {
@@ -300,13 +322,13 @@ template <class Law> void BlockReplay<Law>::Scratch::happen(const Event& event) 
     note(event.p, event.q, event);
     if (is_own[event.p] != 0) {
         outcome->n_events += 1;
-        if (ground.is_logged) log_event(event, p_before);
+        if (ground.is_logged) log_event(event, p.vx - vx_before, p.vy - vy_before);
     }
     predict_walls(event.p);
-    predict_pairs(event.p, Past::nobody, event.time);
+    predict_pairs(event.p, Past::nobody);
     if (is_wall(event.q)) return;
     predict_walls(event.q);
-    predict_pairs(event.q, event.p, event.time);
+    predict_pairs(event.q, event.p);
 }
 
 /// Writes down what has happened to one of an event's discs.
@@ -327,18 +349,20 @@ void BlockReplay<Law>::Scratch::note(std::uint32_t slot, std::uint32_t partner, 
         outcome->endless_partner = is_wall(partner) ? disc.id : discs[partner].id;
         outcome->endless_time = event.time;
     }
-    std::uint64_t hash = past.history + 1;
-    for (const double value : {event.time, disc.x, disc.y, disc.vx, disc.vy}) hash = mixed(hash, bits(value));
-    past.history = mixed(hash, is_wall(partner) ? ~std::uint64_t{0} : discs[partner].id) | 1;
+    // Time, partner and velocities; the place follows from them and the state before.
+    const std::uint64_t partner_id = is_wall(partner) ? ~std::uint64_t{0} : discs[partner].id;
+    const std::uint64_t sum = rotated_product(bits(event.time), 0x9e3779b97f4a7c15u) +
+                              rotated_product(bits(disc.vx), 0xbf58476d1ce4e5b9u) +
+                              rotated_product(bits(disc.vy), 0x94d049bb133111ebu) + partner_id;
+    const std::uint64_t hash = (std::rotl(past.history, 17) ^ sum) * 0xff51afd7ed558ccdu;
+    past.history = (hash ^ (hash >> 32)) | 1;
     place(slot, ground.window.begin);
     if (is_own[slot] != 0) largest_squared = std::max(largest_squared, speed_squared(disc));
 }
 
-template <class Law> void BlockReplay<Law>::Scratch::log_event(const Event& event, const Disc& before) {
-    const Disc& p = discs[event.p];
-    const double wx = p.vx - before.vx, wy = p.vy - before.vy;
+template <class Law> void BlockReplay<Law>::Scratch::log_event(const Event& event, double wx, double wy) {
     const bool at_wall = is_wall(event.q);
-    outcome->log.push_back({event.time, event.generation, at_wall, p.id, at_wall ? event.q - x_wall : discs[event.q].id,
+    outcome->log.push_back({event.time, event.generation, at_wall, discs[event.p].id, at_wall ? event.q - x_wall : discs[event.q].id,
                             std::sqrt(wx * wx + wy * wy)});
 }
 
@@ -350,7 +374,7 @@ void BlockReplay<Law>::Scratch::report(const CellBlock& own, std::span<std::uint
     const int first_column = std::max(cells.first_column, own.first_column - ring);
     const int end_column = std::min(cells.end_column, own.end_column + ring);
     for (int column = first_column; column < end_column; ++column) {
-        const SlotRange run = local_run(column, std::max(cells.first_row, own.first_row - ring),
+        const SlotRange run = grid_run(column, std::max(cells.first_row, own.first_row - ring),
                                         std::min(cells.end_row, own.end_row + ring) - 1);
         for (std::uint32_t slot = run.begin; slot < run.end; ++slot) {
             const Past& past = pasts[slot];

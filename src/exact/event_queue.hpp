@@ -22,7 +22,9 @@ struct Event {
     std::uint32_t generation = 0;
     std::uint32_t p = 0, q = x_wall;              ///< slots; p has the lower id
     std::uint32_t p_version = 0, q_version = 0;   ///< the states it was predicted from
+    std::uint32_t next = 0;                       ///< for the queue
 };
+static_assert(sizeof(Event) == 32);
 
 class EventOrder {
 public:
@@ -44,27 +46,86 @@ private:
     std::span<const Disc> discs_;
 };
 
+/// Buckets of equal length in time, some one event to a bucket: nearly all of a queue's work is to append to a list. The
+/// bucket that is being emptied is a heap, so that thousands of events at one time cost no more than the logarithm.
 class EventQueue {
 public:
-    void clear() { heap_.clear(); }
-    bool is_empty() const { return heap_.empty(); }
+    /// Forgets all events; those to come lie in [begin, end], about `n_expected` of them at a time.
+    void restart(double begin, double end, std::size_t n_expected) {
+        pool_.clear();
+        first_free_ = none;
+        heads_.assign(std::max<std::size_t>(n_expected, 1), none);
+        begin_ = begin;
+        buckets_per_time_ = static_cast<double>(heads_.size()) / (end - begin);
+        current_ = 0;
+        now_.clear();
+    }
 
     void push(const Event& event, const EventOrder& before) {
-        heap_.push_back(event);
-        std::push_heap(heap_.begin(), heap_.end(), [&](const Event& a, const Event& b) { return before(b, a); });
+        const double place = (event.time - begin_) * buckets_per_time_;
+        const std::size_t bucket = std::min(static_cast<std::size_t>(place), heads_.size() - 1);
+        if (bucket <= current_) return push_now(event, before);
+        std::uint32_t entry = first_free_;
+        if (entry == none) {
+            entry = static_cast<std::uint32_t>(pool_.size());
+            pool_.emplace_back();
+        } else {
+            first_free_ = pool_[entry].next;
+        }
+        pool_[entry] = event;
+        pool_[entry].next = heads_[bucket];
+        heads_[bucket] = entry;
     }
 
-    Event pop(const EventOrder& before) {
-        std::pop_heap(heap_.begin(), heap_.end(), [&](const Event& a, const Event& b) { return before(b, a); });
-        const Event first = heap_.back();
-        heap_.pop_back();
-        return first;
+    /// Takes out the first event for which `is_current(event)` holds and forgets those before it; false if there is none.
+    template <class IsCurrent> bool pop(Event& first, const EventOrder& before, const IsCurrent& is_current) {
+        for (;;) {
+            while (!now_.empty()) {
+                if (now_.size() > 1) std::pop_heap(now_.begin(), now_.end(), after(before));
+                first = now_.back();
+                now_.pop_back();
+                if (is_current(first)) return true;
+            }
+            if (++current_ >= heads_.size()) {
+                current_ = heads_.size() - 1;
+                return false;
+            }
+            empty_bucket(before, is_current);
+        }
     }
 
-    std::size_t bytes() const { return heap_.capacity() * sizeof(Event); }
+    std::size_t bytes() const {
+        return pool_.capacity() * sizeof(Event) + heads_.capacity() * sizeof(std::uint32_t) + now_.capacity() * sizeof(Event);
+    }
 
 private:
-    std::vector<Event> heap_;
+    static constexpr std::uint32_t none = 0xffffffff;
+
+    static auto after(const EventOrder& before) {
+        return [&before](const Event& a, const Event& b) { return before(b, a); };
+    }
+    void push_now(const Event& event, const EventOrder& before) {
+        now_.push_back(event);
+        if (now_.size() > 1) std::push_heap(now_.begin(), now_.end(), after(before));
+    }
+    template <class IsCurrent> void empty_bucket(const EventOrder& before, const IsCurrent& is_current) {
+        std::uint32_t entry = heads_[current_];
+        while (entry != none) {
+            const Event& taken = pool_[entry];
+            if (is_current(taken)) push_now(taken, before);
+            const std::uint32_t next = taken.next;
+            pool_[entry].next = first_free_;
+            first_free_ = entry;
+            entry = next;
+        }
+    }
+
+    double begin_ = 0, buckets_per_time_ = 1;
+    std::size_t current_ = 0; ///< the bucket in `now_`
+    std::vector<Event> now_;
+    std::vector<std::uint32_t> heads_;
+    std::vector<Event> pool_;
+    std::uint32_t first_free_ = none;
 };
 
 } // namespace carrom

@@ -21,6 +21,7 @@ std::size_t FilterFlights(const FlightLanes& lanes, std::span<const SlotRange> r
     const auto now = hn::Set(d, flight.now), rest = hn::Set(d, 1 - flight.now);
     const auto touching = hn::Set(d, touching_squared);
     const auto zero = hn::Zero(d);
+    const auto steps = hn::Iota(du, 0);
     std::uint32_t* next = out;
     for (const SlotRange& run : runs) {
         for (std::uint32_t slot = run.begin; slot < run.end; slot += n_lanes) {
@@ -38,7 +39,7 @@ std::size_t FilterFlights(const FlightLanes& lanes, std::span<const SlotRange> r
             const auto in_time = hn::Or(hn::Ge(b_end, zero), hn::Le(c_end, zero));
             const auto inside = hn::FirstN(d, run.end - slot);
             const auto keep = hn::And(hn::Or(near, hn::And(meets, in_time)), inside);
-            next += hn::CompressStore(hn::Iota(du, slot), hn::RebindMask(du, keep), du, next);
+            next += hn::CompressStore(hn::Add(steps, hn::Set(du, slot)), hn::RebindMask(du, keep), du, next);
         }
     }
     return static_cast<std::size_t>(next - out);

@@ -99,10 +99,12 @@ ReplayWindow ExactEngine::choose(double target) {
     ReplayWindow window;
     window.begin = time_;
     window.holds_begin = time_ == 0;
-    window.speed_bound = communicator_.max(largest_speed_) * exact_.speed_allowance;
+    // Largest speeds come and go: what was needed lately may be needed again.
+    window.speed_bound = std::max(communicator_.max(largest_speed_) * exact_.speed_allowance, 0.99 * travel_speed_);
     const auto n = static_cast<double>(discs_.n_total());
     ExactNeeds needs{law_.box_size(), law_.radius(), n, window.speed_bound, 0, time_, exact_.halo, false};
-    needs.is_one_block = communicator_.size() == 1 && tuning_.threads == 1 && n <= most_discs_alone;
+    is_one_block_ = communicator_.size() == 1 && tuning_.threads == 1 && n <= most_discs_alone;
+    needs.is_one_block = is_one_block_;
     if (n_windows_ > 0) collision_rate_ = static_cast<double>(communicator_.sum(n_events_)) / (n * last_duration_);
     needs.collision_rate = n_windows_ > 0 ? collision_rate_ : guessed_collision_rate(needs);
     const double longest = target - time_;
@@ -160,6 +162,7 @@ void ExactEngine::make_blocks() {
     const int n_columns = end_own_column_ - first_own_column_;
     const double width = n_columns * frame.cell_width, height = frame.n_rows * frame.cell_width;
     double side = exact_.block_side ? *exact_.block_side * frame.cell_width * frame.n_reach : choice_.block_side;
+    if (is_one_block_ && !exact_.block_side) side = 2 * std::max(width, height);
     if (tuning_.threads > 1) side = std::min(side, std::sqrt(width * height / (blocks_per_thread * tuning_.threads)));
     const auto parts = [&](double length, int n_cells) {
         return std::clamp(static_cast<int>(std::ceil(length / side * (1 - 1e-9))), 1, n_cells);

@@ -26,7 +26,7 @@ namespace carrom {
 struct ExactTuning {
     int halo = 3;                       ///< reaches that blocks look beyond their own cells at first
     std::optional<double> block_side;   ///< in reaches
-    double speed_allowance = 1.1;       ///< bound over the largest speed at a window's start
+    double speed_allowance = 1.15;      ///< bound over the largest speed at a window's start
     bool has_certificate = true;        ///< false gives wrong results
 };
 
@@ -93,6 +93,7 @@ private:
 
     ExactChoice choice_;
     ReplayWindow window_;
+    bool is_one_block_ = false;   ///< all discs in one block, for lack of threads and ranks
     int halo_depth_ = 0;          ///< reaches that the halo covers
     CellGrid grid_;
     int first_own_column_ = 0, end_own_column_ = 1;

@@ -35,7 +35,8 @@ ExactChoice choice_of(const ExactNeeds& needs, double duration) {
 
 double cost_per_time(const ExactNeeds& needs, const ExactChoice& choice) {
     const double side = choice.block_side;
-    const double with_halo = std::min(side + 2 * needs.halo * choice.reach, needs.box_size);
+    double with_halo = std::min(side + 2 * needs.halo * choice.reach, needs.box_size);
+    if (needs.is_one_block) with_halo = side;
     const double share = (with_halo / side) * (with_halo / side); // of discs replayed, halo included, to own ones
     const double looked_at = std::min(1.6 * choice.reach, needs.box_size) / needs.box_size;
     const double partners = needs.n_discs * looked_at * looked_at;
