@@ -39,7 +39,7 @@ std::int64_t Checkpoints::next_look(std::int64_t step) const {
     return next;
 }
 
-bool Checkpoints::look_up(const Simulation& simulation) {
+bool Checkpoints::look_up(const Simulation& simulation, Recordings& recordings) {
     if (!scene_.checkpoint) return false;
     const CheckpointOutput& wanted = *scene_.checkpoint;
     const std::int64_t step = simulation.step();
@@ -47,7 +47,7 @@ bool Checkpoints::look_up(const Simulation& simulation) {
     const bool is_end = step >= scene_.steps;
     const bool is_due = now.must_stop || now.is_time || (wanted.every_steps && step > 0 && step % *wanted.every_steps == 0) ||
                         (is_end && wanted.at_end);
-    if (is_due && step != last_written_) write(simulation);
+    if (is_due && step != last_written_) write(simulation, recordings);
     return now.must_stop && !is_end;
 }
 
@@ -67,7 +67,8 @@ Checkpoints::News Checkpoints::news(std::int64_t step) {
     return {sums[0] > 0, sums[1] > 0};
 }
 
-void Checkpoints::write(const Simulation& simulation) {
+void Checkpoints::write(const Simulation& simulation, Recordings& recordings) {
+    recordings.commit(); // a restart cuts them back to its step, but cannot make up for what is missing
     CheckpointHeader header = header_of(scene_);
     header.step = simulation.step();
     header.micro_steps_done = simulation.micro_steps_done();

@@ -14,6 +14,7 @@
 #include "carrom/parallel/communicator.hpp"
 #include "carrom/scene/scene.hpp"
 #include "carrom/simulation/simulation.hpp"
+#include "recordings.hpp"
 #include "stop_signals.hpp"
 #include "stopwatch.hpp"
 
@@ -27,16 +28,16 @@ public:
     /// Up to which step to go before looking up again.
     std::int64_t next_look(std::int64_t step) const;
 
-    /// Looks up after a stretch of steps and stores the state if it is time. True if the run is to stop here; its state
+    /// Looks up after a stretch of steps and stores the state if it is time, after what is recorded up to there. True if the run is to stop here; its state
     /// is stored then. If storing fails every rank throws, and the older checkpoints are as they were. **Collective.**
-    bool look_up(const Simulation& simulation);
+    bool look_up(const Simulation& simulation, Recordings& recordings);
 
 private:
     struct News {
         bool must_stop = false, is_time = false;
     };
     News news(std::int64_t step);
-    void write(const Simulation& simulation);
+    void write(const Simulation& simulation, Recordings& recordings);
     void remove_oldest();
 
     const Communicator& ranks_;

@@ -15,6 +15,7 @@
 #include "load.hpp"
 #include "machine.hpp"
 #include "progress.hpp"
+#include "recordings.hpp"
 #include "report_file.hpp"
 #include "run_options.hpp"
 #include "stopwatch.hpp"
@@ -63,18 +64,21 @@ bool step_to_end(Simulation& simulation, RunResult& result, double& output_secon
     };
     if (!is_restart || simulation.step() == scene.steps) write_if_due();
     Checkpoints checkpoints(scene, simulation.step(), is_restart, ranks);
-    bool must_stop = checkpoints.look_up(simulation);
+    Recordings recordings(scene, simulation, is_restart, ranks);
+    bool must_stop = checkpoints.look_up(simulation, recordings);
     output_seconds += watch.lap();
     while (simulation.step() < scene.steps && !must_stop) {
         const std::int64_t step = simulation.step();
-        simulation.advance_towards(std::min(lines.next_due(step), checkpoints.next_look(step)));
+        simulation.advance_towards(std::min({lines.next_due(step), checkpoints.next_look(step), recordings.next_due(step)}));
         result.wall_seconds += watch.lap();
         write_if_due();
-        must_stop = checkpoints.look_up(simulation);
+        recordings.record(simulation);
+        must_stop = checkpoints.look_up(simulation, recordings);
         progress.show(simulation.step());
         output_seconds += watch.lap();
     }
     lines.close();
+    recordings.finish();
     return !must_stop;
 }
 

@@ -103,13 +103,18 @@ File create_file(const std::string& path, std::uint64_t user_block) {
     be_quiet();
     const Properties creation = properties(H5P_FILE_CREATE), access = properties(H5P_FILE_ACCESS);
     checked(H5Pset_userblock(creation.id(), user_block), "cannot set a user block");
-    checked(H5Pset_alignment(access.id(), 1 << 16, 1 << 12), "cannot align datasets to pages");
+    if (user_block > 0) checked(H5Pset_alignment(access.id(), 1 << 16, 1 << 12), "cannot align datasets to pages");
     return File(checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), "cannot be created"));
 }
 
 File open_file(const std::string& path, Access access) {
     be_quiet();
     return File(checked(H5Fopen(path.c_str(), access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR, H5P_DEFAULT), "cannot be opened"));
+}
+
+File open_file(const std::string& path, const Properties& access) {
+    be_quiet();
+    return File(checked(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), "cannot be opened"));
 }
 
 File open_file(const std::string& path, Access access, const Communicator& communicator) {

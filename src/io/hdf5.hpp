@@ -62,10 +62,13 @@ Properties properties(hid_t kind);
 Space space(std::span<const hsize_t> dimensions, std::span<const hsize_t> largest = {});
 Space scalar_space();
 
-/// A new file of this process alone, in place of any other; `user_block` bytes at its front are left to the caller.
+/// A new file of this process alone, in place of any other; `user_block` bytes at its front are left to the caller:
+/// none, or a power of 2 from 4096.
 File create_file(const std::string& path, std::uint64_t user_block);
 enum class Access { read, write };
 File open_file(const std::string& path, Access access);
+/// An existing file to write to, by the driver that `access` names.
+File open_file(const std::string& path, const Properties& access);
 /// The same for all ranks together. **Collective.**
 File open_file(const std::string& path, Access access, const Communicator& communicator);
 

@@ -282,14 +282,39 @@ bool has_table(const Check& check, std::string_view table) {
     return false;
 }
 
+/// The name of a file or folder that an output cannot do without; empty after a problem.
+std::string destination(const Check& check, const std::string& key, std::string_view what) {
+    check.refuse_missing(key, what);
+    const Setting* setting = check.settings.find(key);
+    if (!setting) return {};
+    const std::string& path = std::get<std::string>(setting->value);
+    if (path.empty()) check.refuse(*setting, fmt::format("'{}' is empty", key));
+    return path;
+}
+
+void fill_trajectory(const Check& check) {
+    static constexpr Choices<bool, 2> precisions = {{{"single", true}, {"double", false}}};
+    if (!has_table(check, "output.trajectory")) return;
+    TrajectoryOutput& output = check.scene.trajectory.emplace();
+    output.file = destination(check, "output.trajectory.file", "the file for the trajectory");
+    if (const auto every = whole_number(check, "output.trajectory.every_steps", 1, largest_steps)) output.every_steps = *every;
+    if (const auto is_single = choice(check, "output.trajectory.precision", precisions)) output.is_single = *is_single;
+    if (const auto level = whole_number(check, "output.trajectory.compression", 0, 9)) output.compression = static_cast<int>(*level);
+    const Setting* fields = check.settings.find("output.trajectory.fields");
+    if (!fields) return;
+    output.has_position = output.has_velocity = output.has_collisions = false;
+    for (const std::string& field : std::get<std::vector<std::string>>(fields->value)) {
+        if (field == "position") output.has_position = true;
+        else if (field == "velocity") output.has_velocity = true;
+        else if (field == "collisions") output.has_collisions = true;
+        else check.refuse(*fields, fmt::format("a field of a trajectory is \"position\", \"velocity\" or \"collisions\", not {}", quoted(field)));
+    }
+}
+
 void fill_checkpoint(const Check& check) {
     if (!has_table(check, "output.checkpoint")) return;
     CheckpointOutput& output = check.scene.checkpoint.emplace();
-    check.refuse_missing("output.checkpoint.folder", "the folder for checkpoints");
-    if (const Setting* folder = check.settings.find("output.checkpoint.folder")) {
-        output.folder = std::get<std::string>(folder->value);
-        if (output.folder.empty()) check.refuse(*folder, "'output.checkpoint.folder' is empty");
-    }
+    output.folder = destination(check, "output.checkpoint.folder", "the folder for checkpoints");
     output.every_steps = whole_number(check, "output.checkpoint.every_steps", 1, largest_steps);
     output.every_minutes = finite_number(check, "output.checkpoint.every_minutes");
     if (output.every_minutes && !(*output.every_minutes > 0))
@@ -304,6 +329,9 @@ void fill_output(const Check& check) {
         {{"none", TextOutput::none}, {"ends", TextOutput::first_and_last}, {"every_step", TextOutput::every_step}}};
     if (const auto output = choice(check, "output.text", outputs)) check.scene.text_output = *output;
     fill_checkpoint(check);
+    fill_trajectory(check);
+    if (has_table(check, "output.collisions"))
+        check.scene.collisions = CollisionOutput{destination(check, "output.collisions.file", "the file for the collisions")};
 }
 
 } // namespace

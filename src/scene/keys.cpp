@@ -31,9 +31,16 @@ constexpr std::array keys = {
     Key{"output.checkpoint.every_minutes", ValueKind::number},
     Key{"output.checkpoint.keep", ValueKind::integer},
     Key{"output.checkpoint.at_end", ValueKind::flag},
+    Key{"output.trajectory.file", ValueKind::text},
+    Key{"output.trajectory.every_steps", ValueKind::integer},
+    Key{"output.trajectory.fields", ValueKind::words},
+    Key{"output.trajectory.precision", ValueKind::text},
+    Key{"output.trajectory.compression", ValueKind::integer},
+    Key{"output.collisions.file", ValueKind::text},
 };
 
-constexpr std::array<std::string_view, 6> tables = {"box", "discs", "time", "output", "output.checkpoint", "effects"};
+constexpr std::array<std::string_view, 8> tables = {
+    "box", "discs", "time", "output", "output.checkpoint", "output.trajectory", "output.collisions", "effects"};
 
 std::string_view part_after(std::string_view key, std::size_t dot) { return key.substr(dot + 1, key.find('.', dot + 1) - dot - 1); }
 

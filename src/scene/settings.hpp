@@ -36,7 +36,7 @@ struct StreamRows {
 struct Setting {
     std::string key;
     Place place;
-    std::variant<bool, std::int64_t, double, std::string, std::vector<Row>, std::vector<StreamRows>> value;
+    std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, std::vector<Row>, std::vector<StreamRows>> value;
 };
 
 class Settings {

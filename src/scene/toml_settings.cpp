@@ -44,6 +44,7 @@ std::string kind_name(ValueKind kind) {
     case ValueKind::number: return "a number";
     case ValueKind::integer: return "a whole number";
     case ValueKind::text: return "text";
+    case ValueKind::words: return "an array of texts";
     case ValueKind::flag: return "true or false";
     case ValueKind::rows: return "an array of [x, y, vx, vy]";
     case ValueKind::streams: return "an array of tables, [[discs.streams]]";
@@ -124,6 +125,13 @@ bool add_value(Walk& walk, const std::string& key, ValueKind kind, const toml::n
         else setting.value = *number; // 1e5 is fine, 1.5 is refused where values are checked
     } else if (kind == ValueKind::text && node.is_string()) {
         setting.value = node.as_string()->get();
+    } else if (kind == ValueKind::words && node.is_array()) {
+        std::vector<std::string> words;
+        for (const toml::node& element : *node.as_array()) {
+            if (!element.is_string()) return false;
+            words.push_back(element.as_string()->get());
+        }
+        setting.value = std::move(words);
     } else if (kind == ValueKind::flag && node.is_boolean()) {
         setting.value = node.as_boolean()->get();
     } else if (kind == ValueKind::rows && node.is_array()) {

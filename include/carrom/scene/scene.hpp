@@ -43,6 +43,20 @@ struct CheckpointOutput {
     bool at_end = true;
 };
 
+/// `[output.trajectory]`: every so-many-th step in one file.
+struct TrajectoryOutput {
+    std::string file; ///< as seen from where the program runs
+    std::int64_t every_steps = 1;
+    bool has_position = true, has_velocity = true, has_collisions = false;
+    bool is_single = true;  ///< numbers of 4 bytes, else of 8
+    int compression = 0;    ///< 0 to 9
+};
+
+/// `[output.collisions]`: every collision in one file.
+struct CollisionOutput {
+    std::string file;
+};
+
 struct Scene {
     std::string name;       ///< the file's name, "standard input" for `-`
     std::string text;       ///< the input's own text without the lines of discs, for checkpoints
@@ -70,6 +84,8 @@ struct Scene {
 
     TextOutput text_output = TextOutput::none;
     std::optional<CheckpointOutput> checkpoint;
+    std::optional<TrajectoryOutput> trajectory;
+    std::optional<CollisionOutput> collisions;
 
     std::vector<std::string> warnings; ///< legal but worth a line: K not a power of two, ...
 

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every collision of a run in one HDF5 file, in the total order over all ranks.
+//
+// Columns of /carrom/collisions: step (the one it happens in, from 1), time (in steps, from the start), p, q (-1: a
+// wall), impulse. Rank 0 writes what the ranks send in their order; see Trajectory for why, and for errors.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "carrom/parallel/communicator.hpp"
+
+namespace carrom {
+
+struct LoggedCollision {
+    std::int64_t step = 0;
+    double time = 0;
+    std::int64_t p = 0, q = 0;
+    double impulse = 0;
+};
+
+class CollisionLog {
+public:
+    /// `communicator` must outlive this.
+    CollisionLog(const std::string& path, const std::string& program_version, const Communicator& communicator);
+    ~CollisionLog();
+
+    /// As for Trajectory. **Collective.**
+    void begin();
+    void go_on(std::int64_t step);
+    void commit();
+
+    /// Adds the collisions of all ranks, those of rank 0 first. Later than all before. **Collective.**
+    void append(std::span<const LoggedCollision> mine);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_; ///< rank 0's
+    std::string path_, program_version_;
+    const Communicator& communicator_;
+};
+
+} // namespace carrom

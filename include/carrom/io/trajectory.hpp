@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every so-many-th step of a run in one H5MD file, discs in the order of their ids.
+//
+// Frames stream through rank 0 in slabs of ids, which is what makes them safe from kills and readable while the run goes
+// on (see AppendedFile); its price is one rank's speed to the disk, so frames are for looking at, checkpoints for going
+// on. Beside the file lies an XDMF description, by which ParaView and VisIt open it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "carrom/core/disc.hpp"
+#include "carrom/parallel/communicator.hpp"
+
+namespace carrom {
+
+struct TrajectoryLayout {
+    std::string program_version;
+    std::uint64_t n_discs = 0;
+    double box_size = 0;
+    double velocity_unit = 1; ///< what stored velocities are multiplied by to be per step
+    bool has_position = true, has_velocity = true, has_collisions = false;
+    bool is_single = true;    ///< float32, else float64
+    int compression = 0;      ///< deflate level; 0 for none
+};
+
+class Trajectory {
+public:
+    /// `communicator` must outlive this.
+    Trajectory(const std::string& path, const TrajectoryLayout& layout, const Communicator& communicator);
+    ~Trajectory();
+
+    /// A new file in the place of any other. If this or any other call fails every rank throws CollectiveError, code 4,
+    /// and the file is as it was at the last commit. **Collective.**
+    void begin();
+
+    /// Goes on with the file, cut back to frames up to `step`. Begins a new one where there is none. Throws code 2 where
+    /// the file has another layout. **Collective.**
+    void go_on(std::int64_t step);
+
+    /// Adds a frame: the discs, spread over the ranks in any way, at `clock`. **Collective.**
+    void append(std::int64_t step, std::span<const Disc> discs, double clock);
+
+    /// What has been added so far is to stay: brings it to disk. Renews the description when it has grown old.
+    /// **Collective.**
+    void commit();
+
+    /// Describes all frames there are, in XDMF, for tools on VTK. **Collective.**
+    void describe();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_; ///< rank 0's
+    std::string path_;
+    TrajectoryLayout layout_;
+    const Communicator& communicator_;
+};
+
+} // namespace carrom

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "carrom/parallel/sample_sort.hpp"
+#include "machine.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr double seconds_between_commits = 5;
+
+TrajectoryLayout layout_of(const Scene& scene) {
+    const TrajectoryOutput& wanted = *scene.trajectory;
+    TrajectoryLayout layout;
+    layout.program_version = version();
+    layout.n_discs = scene.n_discs;
+    layout.box_size = scene.box_size;
+    layout.velocity_unit = static_cast<double>(scene.micro_steps);
+    layout.has_position = wanted.has_position;
+    layout.has_velocity = wanted.has_velocity;
+    layout.has_collisions = wanted.has_collisions;
+    layout.is_single = wanted.is_single;
+    layout.compression = wanted.compression;
+    return layout;
+}
+
+/// The total order; q + 1 puts the wall, the largest number there is, before every disc.
+bool comes_before(const Collision& a, const Collision& b) {
+    const auto key = [](const Collision& c) { return std::tuple(c.micro_step, c.time, c.generation, c.p, c.q + 1); };
+    return key(a) < key(b);
+}
+
+} // namespace
+
+LoggedCollision logged(const Collision& collision, std::int64_t micro_steps) {
+    // A collision at the end of a step belongs to it; one at the very start of the run to step 1.
+    const auto n_micro = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(collision.time)));
+    LoggedCollision entry;
+    entry.step = (collision.micro_step + n_micro - 1) / micro_steps + 1;
+    entry.time = (static_cast<double>(collision.micro_step) + collision.time) / static_cast<double>(micro_steps);
+    entry.p = static_cast<std::int64_t>(collision.p);
+    entry.q = collision.q == Collision::wall ? -1 : static_cast<std::int64_t>(collision.q);
+    entry.impulse = collision.impulse;
+    return entry;
+}
+
+Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_restart, const Communicator& ranks)
+    : scene_(scene), ranks_(ranks) {
+    const std::int64_t step = simulation.step();
+    if (scene_.trajectory) {
+        trajectory_.emplace(scene_.trajectory->file, layout_of(scene_), ranks_);
+        if (is_restart) trajectory_->go_on(step);
+        else trajectory_->begin();
+    }
+    if (scene_.collisions) {
+        log_.emplace(scene_.collisions->file, version(), ranks_);
+        if (is_restart) log_->go_on(step);
+        else log_->begin();
+        simulation.log_to(&collisions_);
+    }
+    if (!is_restart) record(simulation);
+}
+
+std::int64_t Recordings::next_due(std::int64_t step) const {
+    if (!scene_.trajectory) return std::numeric_limits<std::int64_t>::max();
+    return (step / scene_.trajectory->every_steps + 1) * scene_.trajectory->every_steps;
+}
+
+void Recordings::record(const Simulation& simulation) {
+    const std::int64_t step = simulation.step();
+    if (log_) record_collisions();
+    if (trajectory_ && step % scene_.trajectory->every_steps == 0)
+        trajectory_->append(step, simulation.discs(), simulation.clock());
+    if (!scene_.checkpoint) commit_now_and_then();
+}
+
+void Recordings::commit_now_and_then() {
+    if (!trajectory_ && !log_) return;
+    seconds_uncommitted_ += since_look_.lap();
+    if (!ranks_.any(ranks_.is_root() && seconds_uncommitted_ > seconds_between_commits)) return;
+    seconds_uncommitted_ = 0;
+    commit();
+}
+
+void Recordings::record_collisions() {
+    const std::vector<Collision> sorted = sample_sort(ranks_, std::exchange(collisions_, {}), comes_before, ranks_.size());
+    std::vector<LoggedCollision> entries;
+    entries.reserve(sorted.size());
+    for (const Collision& collision : sorted) entries.push_back(logged(collision, scene_.micro_steps));
+    log_->append(entries);
+}
+
+void Recordings::commit() {
+    if (trajectory_) trajectory_->commit();
+    if (log_) log_->commit();
+}
+
+void Recordings::finish() {
+    commit();
+    if (trajectory_) trajectory_->describe();
+}
+
+} // namespace carrom

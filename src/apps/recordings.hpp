@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run records as it goes on, if its scene asks for it: a trajectory, and the collisions in their total order.
+//
+// Where checkpoints are stored, recordings are committed before each; without checkpoints, after each addition.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "carrom/io/collision_log.hpp"
+#include "carrom/io/trajectory.hpp"
+#include "carrom/parallel/communicator.hpp"
+#include "carrom/scene/scene.hpp"
+#include "carrom/simulation/simulation.hpp"
+#include "stopwatch.hpp"
+
+namespace carrom {
+
+/// A collision as the log shows it: the step it is made in, and its time since the scene's start, in steps.
+LoggedCollision logged(const Collision& collision, std::int64_t micro_steps);
+
+class Recordings {
+public:
+    /// Opens the files; cut back to the present step in a restart, else new ones with the present step as a first frame.
+    /// From then on the simulation logs its collisions here: this must outlive its stepping. **Collective.**
+    Recordings(const Scene& scene, Simulation& simulation, bool is_restart, const Communicator& ranks);
+
+    /// The next step after `step` that is to be recorded.
+    std::int64_t next_due(std::int64_t step) const;
+
+    /// To be called after each stretch of steps. If recording fails every rank throws. **Collective.**
+    void record(const Simulation& simulation);
+
+    /// What is recorded so far is to stay. **Collective.**
+    void commit();
+
+    /// The same, at the end of the run. **Collective.**
+    void finish();
+
+private:
+    void record_collisions();
+    void commit_now_and_then();
+
+    const Scene& scene_;
+    const Communicator& ranks_;
+    std::optional<Trajectory> trajectory_;
+    std::optional<CollisionLog> log_;
+    Stopwatch since_look_;
+    double seconds_uncommitted_ = 0;    ///< on rank 0's clock
+    std::vector<Collision> collisions_; ///< of this rank since they were last recorded
+};
+
+} // namespace carrom

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carrom/io/trajectory.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <numeric>
+#include <vector>
+
+#include "appended_file.hpp"
+#include "carrom/parallel/exchange.hpp"
+#include "files.hpp"
+#include "h5md.hpp"
+#include "xdmf.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr std::uint64_t rows_per_chunk = std::uint64_t{1} << 16;
+constexpr std::uint64_t rows_per_slab = 4 * rows_per_chunk;
+
+/// A disc as it travels to rank 0: what it shows at the time of the frame.
+struct ShownDisc {
+    DiscId id = 0;
+    double position[2] = {}, velocity[2] = {};
+    std::uint64_t collisions[2] = {}; ///< with walls, with discs
+};
+
+/// A dataset of /particles/discs that grows by a row of n x width numbers a frame.
+struct Field {
+    std::string path;
+    hsize_t width;
+    hid_t type;          ///< of the file
+    hid_t memory_type;
+    std::uint64_t (*bits)(const ShownDisc&, std::size_t); ///< component k as the 8 bytes of the memory type
+};
+
+std::uint64_t bits_of(double number) { return std::bit_cast<std::uint64_t>(number); }
+
+std::vector<Field> fields_of(const TrajectoryLayout& layout) {
+    const hid_t real = layout.is_single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
+    std::vector<Field> fields;
+    if (layout.has_position)
+        fields.push_back({"position", 3, real, H5T_NATIVE_DOUBLE,
+                          [](const ShownDisc& disc, std::size_t k) { return bits_of(k < 2 ? disc.position[k] : 0); }});
+    if (layout.has_velocity)
+        fields.push_back({"velocity", 3, real, H5T_NATIVE_DOUBLE,
+                          [](const ShownDisc& disc, std::size_t k) { return bits_of(k < 2 ? disc.velocity[k] : 0); }});
+    if (layout.has_collisions)
+        fields.push_back({"collisions", 2, H5T_STD_U64LE, H5T_NATIVE_UINT64,
+                          [](const ShownDisc& disc, std::size_t k) { return disc.collisions[k]; }});
+    return fields;
+}
+
+void link(hid_t from, const char* name, hid_t to) {
+    h5::checked(H5Lcreate_hard(from, name, to, name, H5P_DEFAULT, H5P_DEFAULT), name);
+}
+
+/// Steps and times stand once; every element links to them, as H5MD allows.
+void create_structure(hid_t file, const TrajectoryLayout& layout) {
+    const std::vector<Field> fields = fields_of(layout);
+    h5md::write_metadata(file, layout.program_version);
+    const h5::Group particles = h5::create_group(file, "particles");
+    const h5::Group discs = h5::create_group(particles.id(), "discs");
+    const h5::Group box = h5md::create_box(discs.id()), edges = h5::create_group(box.id(), "edges");
+    create_growing(edges.id(), "step", H5T_STD_I64LE, {}, std::array<hsize_t, 1>{256}, 0);
+    create_growing(edges.id(), "time", H5T_IEEE_F64LE, {}, std::array<hsize_t, 1>{256}, 0);
+    create_growing(edges.id(), "value", H5T_IEEE_F64LE, std::array<hsize_t, 1>{3}, std::array<hsize_t, 2>{256, 3}, 0);
+    for (const Field& field : fields) {
+        const h5::Group element = h5::create_group(discs.id(), field.path.c_str());
+        link(edges.id(), "step", element.id());
+        link(edges.id(), "time", element.id());
+        create_growing(element.id(), "value", field.type, std::array<hsize_t, 2>{layout.n_discs, field.width},
+                       std::array<hsize_t, 3>{1, std::min(layout.n_discs, rows_per_chunk), field.width}, layout.compression);
+    }
+}
+
+std::string value_path(const Field& field) { return "/particles/discs/" + field.path + "/value"; }
+constexpr const char* step_path = "/particles/discs/box/edges/step";
+constexpr const char* time_path = "/particles/discs/box/edges/time";
+constexpr const char* edges_path = "/particles/discs/box/edges/value";
+
+void set_frames(hid_t file, const TrajectoryLayout& layout, hsize_t n) {
+    for (const Field& field : fields_of(layout)) set_length(file, value_path(field).c_str(), n);
+    for (const char* path : {step_path, time_path, edges_path}) set_length(file, path, n);
+}
+
+void check_layout(hid_t file, const TrajectoryLayout& layout) {
+    for (const Field& field : fields_of(layout)) {
+        const h5::Dataset dataset = h5::open_dataset(file, value_path(field).c_str());
+        const std::vector<hsize_t> dimensions = h5::dimensions_of(dataset.id());
+        const h5::Type type(h5::checked(H5Dget_type(dataset.id()), "cannot look at a dataset"));
+        if (dimensions.size() != 3 || dimensions[1] != layout.n_discs || dimensions[2] != field.width || H5Tequal(type.id(), field.type) <= 0)
+            throw FileError("is of another run: its " + field.path + " has another shape");
+    }
+}
+
+/// The discs of all ranks on rank 0, slab after slab of ids.
+class SlabStream {
+public:
+    SlabStream(std::span<const Disc> discs, double clock, double velocity_unit, const Communicator& communicator)
+        : discs_(discs), clock_(clock), velocity_unit_(velocity_unit), communicator_(communicator), order_(discs.size()) {
+        std::iota(order_.begin(), order_.end(), LocalIndex{0});
+        std::sort(order_.begin(), order_.end(), [discs](LocalIndex a, LocalIndex b) { return discs[a].id < discs[b].id; });
+    }
+
+    /// Ids [begin, end), which follow those of the last call; nothing on other ranks. **Collective.**
+    std::span<const ShownDisc> next(std::uint64_t begin, std::uint64_t end) {
+        std::vector<ShownDisc> mine;
+        for (; next_ < order_.size() && discs_[order_[next_]].id < end; ++next_) mine.push_back(shown(discs_[order_[next_]]));
+        slab_.resize(communicator_.is_root() ? end - begin : 0);
+        const auto place = [&](std::span<const ShownDisc> some) {
+            for (const ShownDisc& disc : some) slab_[disc.id - begin] = disc;
+        };
+        stream_to_root(communicator_, mine, place, rows_per_slab);
+        return slab_;
+    }
+
+private:
+    ShownDisc shown(const Disc& disc) const {
+        return {disc.id,
+                {disc.x_at(clock_), disc.y_at(clock_)},
+                {disc.vx * velocity_unit_, disc.vy * velocity_unit_},
+                {disc.wall_collisions, disc.pair_collisions}};
+    }
+
+    std::span<const Disc> discs_;
+    double clock_, velocity_unit_;
+    const Communicator& communicator_;
+    std::vector<LocalIndex> order_;
+    std::size_t next_ = 0;
+    std::vector<ShownDisc> slab_;
+};
+
+void write_slab(hid_t file, const TrajectoryLayout& layout, hsize_t frame, std::uint64_t begin, std::span<const ShownDisc> slab) {
+    std::vector<std::uint64_t> numbers;
+    for (const Field& field : fields_of(layout)) {
+        numbers.clear();
+        for (const ShownDisc& disc : slab)
+            for (std::size_t k = 0; k < field.width; ++k) numbers.push_back(field.bits(disc, k));
+        const std::array<hsize_t, 3> start = {frame, begin, 0}, count = {1, slab.size(), field.width};
+        write_block(file, value_path(field).c_str(), start, count, field.memory_type, numbers.data());
+    }
+}
+
+/// Step, time and edges come last: a frame counts once it has them.
+void write_labels(hid_t file, hsize_t frame, std::int64_t step, double box_size) {
+    const std::array<hsize_t, 1> place = {frame}, one = {1};
+    const auto time = static_cast<double>(step);
+    const std::array<double, 3> edges = {box_size, box_size, 1};
+    write_block(file, edges_path, std::array<hsize_t, 2>{frame, 0}, std::array<hsize_t, 2>{1, 3}, H5T_NATIVE_DOUBLE, edges.data());
+    write_block(file, time_path, place, one, H5T_NATIVE_DOUBLE, &time);
+    write_block(file, step_path, place, one, H5T_NATIVE_INT64, &step);
+}
+
+} // namespace
+
+struct Trajectory::State {
+    explicit State(const std::string& path) : file(path) {}
+    AppendedFile file;
+    std::vector<std::int64_t> steps; ///< of the frames there are
+    std::size_t n_described = 0;     ///< of them in the XDMF file
+};
+
+Trajectory::Trajectory(const std::string& path, const TrajectoryLayout& layout, const Communicator& communicator)
+    : path_(path), layout_(layout), communicator_(communicator) {
+    if (communicator_.is_root()) state_ = std::make_unique<State>(path);
+}
+
+Trajectory::~Trajectory() = default;
+
+void Trajectory::begin() {
+    on_root(communicator_, path_, ExitCode::output_failure, [&] {
+        check_room(folder_of(path_), 1 << 20);
+        state_->file.create([&](hid_t file) { create_structure(file, layout_); });
+        state_->steps.clear();
+    });
+}
+
+void Trajectory::go_on(std::int64_t step) {
+    std::uint64_t is_there = 0;
+    on_root(communicator_, path_, ExitCode::output_failure, [&] { is_there = state_->file.reopen() ? 1 : 0; });
+    communicator_.broadcast(is_there);
+    if (is_there == 0) return begin();
+    on_root(communicator_, path_, ExitCode::bad_input, [&] {
+        state_->file.change([&](hid_t file) {
+            check_layout(file, layout_);
+            const hsize_t n = count_up_to(file, step_path, step);
+            set_frames(file, layout_, n);
+            state_->steps = read_numbers(file, step_path);
+        });
+    });
+}
+
+void Trajectory::append(std::int64_t step, std::span<const Disc> discs, double clock) {
+    hsize_t frame = 0;
+    on_root(communicator_, path_, ExitCode::output_failure, [&] {
+        frame = state_->steps.size();
+        state_->file.open();
+        state_->file.attempt([&](hid_t file) { set_frames(file, layout_, frame + 1); });
+    });
+    SlabStream stream(discs, clock, layout_.velocity_unit, communicator_);
+    for (std::uint64_t begin = 0; begin < layout_.n_discs; begin += rows_per_slab) {
+        const std::span<const ShownDisc> slab = stream.next(begin, std::min(begin + rows_per_slab, layout_.n_discs));
+        if (communicator_.is_root())
+            state_->file.attempt([&](hid_t file) { write_slab(file, layout_, frame, begin, slab); });
+    }
+    on_root(communicator_, path_, ExitCode::output_failure, [&] {
+        state_->file.attempt([&](hid_t file) { write_labels(file, frame, step, layout_.box_size); });
+        state_->file.close();
+        state_->steps.push_back(step);
+    });
+}
+
+void Trajectory::commit() {
+    on_root(communicator_, path_, ExitCode::output_failure, [&] {
+        state_->file.commit();
+        // Its length is that of all frames: often enough, and never for long.
+        if (state_->steps.size() < state_->n_described + state_->n_described / 4 + 1) return;
+        write_xdmf(path_, layout_, state_->steps);
+        state_->n_described = state_->steps.size();
+    });
+}
+
+void Trajectory::describe() {
+    on_root(communicator_, path_, ExitCode::output_failure, [&] { write_xdmf(path_, layout_, state_->steps); });
+}
+
+} // namespace carrom
