@@ -30,6 +30,12 @@ std::string phases_text(const RunResult& result) {
     return text;
 }
 
+std::string windows_text(const ReplayCounts& replays) {
+    return fmt::format("{}, {:.3g} % of them redone in part; {} replays of blocks, {:.3g} % repeated", replays.windows,
+                       100 * ratio(static_cast<double>(replays.windows_redone), static_cast<double>(replays.windows)),
+                       replays.blocks, 100 * ratio(static_cast<double>(replays.blocks_redone), static_cast<double>(replays.blocks)));
+}
+
 std::string plural(int count, const char* what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); }
 
 } // namespace
@@ -63,7 +69,8 @@ std::string summary_text(const Scene& scene, const RunResult& result) {
     text += line("collisions", fmt::format("{} with walls, {} of pairs; {:.4g} per disc and micro-step (nu dt)",
                                            result.end.wall_collisions, result.end.pair_collisions,
                                            collisions_per_disc(scene, result)));
-    text += line("rejected", fmt::format("{} candidates lost a disc to an earlier collision", result.end.rejected_candidates));
+    if (scene.rule == CollisionRule::all) text += line("windows", windows_text(result.replays));
+    else text += line("rejected", fmt::format("{} candidates lost a disc to an earlier collision", result.end.rejected_candidates));
     text += line("overlapping", fmt::format("{} pairs at the end, {} at the start", result.end.overlapping_pairs,
                                             result.start.overlapping_pairs));
     text += line("energy", fmt::format("{:.17g}, changed by {:.2g} of itself", result.end.kinetic_energy, energy_drift(result)));
@@ -98,6 +105,10 @@ std::string report_text(const Scene& scene, const RunResult& result) {
         {"ns_per_disc_step", ns_per_disc_step(result)},
         {"ranks", result.ranks},
         {"threads", result.threads},
+        {"windows", result.replays.windows},
+        {"windows_redone", result.replays.windows_redone},
+        {"block_replays", result.replays.blocks},
+        {"block_replays_redone", result.replays.blocks_redone},
         {"phase_seconds", phases},
         {"peak_bytes_per_disc", result.peak_bytes_per_disc},
     };

@@ -23,6 +23,9 @@ public:
     /// Fills in what only the engine knows or finds: overlaps, rejected candidates, windows. **Collective.**
     virtual void add_to(Totals& totals) = 0;
 
+    /// **Collective.**
+    virtual ReplayCounts replay_counts() const { return {}; }
+
     virtual std::int64_t micro_steps_done() const = 0; ///< since the scene's start
     virtual std::span<const Disc> own() const = 0;
     virtual double clock() const = 0;

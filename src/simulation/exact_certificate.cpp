@@ -85,7 +85,6 @@ bool ExactEngine::widen_marked() {
         const int to_edge = std::min(block.cells.first_column - first_own_column_, end_own_column_ - block.cells.end_column);
         deepest = std::max(deepest, (block.halo * n_reach - to_edge + n_reach - 1) / n_reach);
     }
-    n_blocks_redone_ += n_widened;
     ensure(communicator_.sum(n_widened) > 0, "blocks that have seen the whole box disagree");
     if (communicator_.size() == 1) return false;
     const auto wanted = static_cast<int>(communicator_.max(std::int64_t{deepest}));

@@ -74,11 +74,11 @@ void ExactEngine::run_window(double target) {
     window_ = choose(target);
     halo_depth_ = exact_.halo;
     settle();
-    for (;;) {
+    for (bool is_first = true;; is_first = false) {
         replay();
         const Verdict verdict = certify();
         if (verdict == Verdict::exact) break;
-        ++n_redone_rounds_;
+        counts_.windows_redone += is_first;
         if (verdict == Verdict::too_fast) shorten();
         if (verdict == Verdict::too_fast || widen_marked()) settle();
     }
@@ -86,6 +86,7 @@ void ExactEngine::run_window(double target) {
     travel_speed_ = window_.speed_bound;
     time_ = window_.end;
     ++n_windows_;
+    ++counts_.windows;
 }
 
 void ExactEngine::migrate() {
@@ -193,6 +194,11 @@ void ExactEngine::replay() {
     const ReplayGround ground{discs_.all(), discs_.n_own(), &grid_, first_own_column_, end_own_column_, window_, log_ != nullptr};
     const int n_reach = grid_.frame().n_reach;
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
+    for (Block& block : blocks_) {
+        if (block.is_marked == 0) continue;
+        ++(block.is_replayed ? counts_.blocks_redone : counts_.blocks);
+        block.is_replayed = true;
+    }
 #pragma omp parallel for num_threads(tuning_.threads) schedule(dynamic, 1)
     for (std::int64_t k = 0; k < n_blocks; ++k) {
         Block& block = blocks_[static_cast<std::size_t>(k)];
@@ -219,6 +225,7 @@ void ExactEngine::commit() {
         largest_speed_ = std::max(largest_speed_, block.outcome.largest_speed_at_end);
         if (log_) log_events(block.outcome);
     }
+    for (Block& block : blocks_) block.is_replayed = false;
     last_duration_ = window_.duration();
 }
 
@@ -257,6 +264,13 @@ void ExactEngine::settle_now() {
     const double x_high = std::min(law_.box_size(), discs_.strips().high(communicator_.rank()) + reach);
     const GridFrame frame = make_frame(x_low, x_high, 0, law_.box_size(), reach, discs_.all().size(), 0);
     grid_.build(discs_.all(), frame, time_, 1, tuning_.threads);
+}
+
+ReplayCounts ExactEngine::replay_counts() const {
+    ReplayCounts counts = counts_;
+    counts.blocks = communicator_.sum(counts_.blocks);
+    counts.blocks_redone = communicator_.sum(counts_.blocks_redone);
+    return counts;
 }
 
 void ExactEngine::add_to(Totals& totals) {

@@ -40,6 +40,7 @@ public:
 
     void advance_towards(std::int64_t last_step) override;
     void add_to(Totals& totals) override;
+    ReplayCounts replay_counts() const override;
 
     std::int64_t micro_steps_done() const override { return n_micro_done_; }
     std::span<const Disc> own() const override { return discs_.own(); }
@@ -52,6 +53,7 @@ private:
         CellBlock cells;
         int halo = 0; ///< in reaches
         std::uint8_t is_marked = 0; ///< has to be replayed
+        bool is_replayed = false;   ///< in this window, before
         BlockOutcome outcome;
     };
     enum class Verdict { exact, repeat, too_fast };
@@ -89,7 +91,7 @@ private:
     double collision_rate_ = 0;   ///< per disc and time, of the last window, on all ranks
     double last_duration_ = 1;    ///< of the last window
     std::uint64_t n_events_ = 0;  ///< of this rank in the last window
-    std::uint64_t n_redone_rounds_ = 0, n_blocks_redone_ = 0;
+    ReplayCounts counts_;         ///< blocks: of this rank
 
     ExactChoice choice_;
     ReplayWindow window_;

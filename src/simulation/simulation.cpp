@@ -66,6 +66,8 @@ Totals Simulation::totals() const {
     return totals;
 }
 
+ReplayCounts Simulation::replay_counts() const { return engine_->replay_counts(); }
+
 PhaseSeconds Simulation::phase_seconds() const { return engine_->phase_seconds(); }
 
 } // namespace carrom

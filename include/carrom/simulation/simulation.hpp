@@ -39,6 +39,12 @@ struct Totals {
     StateHash hash;
 };
 
+/// How the run got on under the rule "all"; depends on the machine shape. Zero under "one".
+struct ReplayCounts {
+    std::uint64_t windows = 0, windows_redone = 0; ///< redone: in some block at least, on any rank
+    std::uint64_t blocks = 0, blocks_redone = 0;   ///< replays of blocks on all ranks, first ones and repeated ones
+};
+
 /// Seconds this rank has spent, by phase, in the order they are reported.
 using PhaseSeconds = std::vector<std::pair<std::string, double>>;
 
@@ -90,6 +96,7 @@ public:
 
     /// **Collective.**
     Totals totals() const;
+    ReplayCounts replay_counts() const;
     PhaseSeconds phase_seconds() const;
 
 private:
