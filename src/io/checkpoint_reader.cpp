@@ -55,6 +55,13 @@ CheckpointHeader read_checkpoint_header(const std::string& path, const Communica
     return header_of(path, communicator);
 }
 
+void check_damage(const std::string& path, const Communicator& communicator) {
+    std::uint64_t is_checkpoint = 0;
+    on_root(communicator, path, ExitCode::bad_input, [&] { is_checkpoint = is_sealed(path) ? 1 : 0; });
+    communicator.broadcast(is_checkpoint);
+    if (is_checkpoint == 1) check_seal(path, communicator);
+}
+
 Checkpoint read_checkpoint(const std::string& path, const Communicator& communicator) {
     check_seal(path, communicator);
     Checkpoint checkpoint;

@@ -88,6 +88,12 @@ void seal(const std::string& path, const Communicator& communicator) {
     });
 }
 
+bool is_sealed(const std::string& path) {
+    Block block{};
+    Descriptor(path, O_RDONLY).read(std::as_writable_bytes(std::span(block)), 0);
+    return std::string_view(block.data(), block.size()).starts_with(family);
+}
+
 void check_seal(const std::string& path, const Communicator& communicator) {
     Block block{};
     std::uint64_t size = 0;

@@ -58,4 +58,7 @@ Checkpoint read_checkpoint(const std::string& path, const Communicator& communic
 /// The same without the discs; the file is read to its end all the same, for its checksum. **Collective.**
 CheckpointHeader read_checkpoint_header(const std::string& path, const Communicator& communicator);
 
+/// Throws like `read_checkpoint` where a file is a checkpoint and damaged; does nothing for other files. **Collective.**
+void check_damage(const std::string& path, const Communicator& communicator);
+
 } // namespace carrom

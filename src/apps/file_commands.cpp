@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "file_commands.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "carrom/io/checkpoint.hpp"
+#include "carrom/io/frame_file.hpp"
+#include "carrom/parallel/agreement.hpp"
+#include "data_output.hpp"
+#include "disc_lines.hpp"
+#include "restart.hpp"
+#include "run_options.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr std::uint64_t rows_at_a_time = std::uint64_t{1} << 16;
+
+const char* name_of(FileKind kind) {
+    switch (kind) {
+    case FileKind::checkpoint: return "checkpoint";
+    case FileKind::trajectory: return "trajectory";
+    case FileKind::collisions: return "collisions";
+    }
+    return "";
+}
+
+/// Lets rank 0 work alone; its InputError becomes one of all ranks. **Collective.**
+void let_root(const Communicator& ranks, const std::function<void()>& work) {
+    std::vector<Problem> problems;
+    if (ranks.is_root()) {
+        try {
+            work();
+        } catch (const InputError& error) {
+            problems = error.problems();
+        }
+    }
+    agree_on_problems(ranks, problems);
+}
+
+std::string line(const char* label, const std::string& text) { return fmt::format("{:<12}{}\n", label, text); }
+
+std::string summary_text(const FileSummary& summary) {
+    std::string text = line("kind", name_of(summary.kind)) + line("written by", "carrom " + summary.program_version);
+    if (summary.kind == FileKind::collisions) return text + line("collisions", fmt::format("{}", summary.n_logged));
+    text += line("discs", fmt::format("{} in a box of {:g}", summary.n_discs, summary.box_size));
+    if (summary.kind == FileKind::trajectory) {
+        text += line("fields", fmt::format("{}{}{}", summary.has_position ? "position " : "", summary.has_velocity ? "velocity " : "",
+                                           summary.has_collisions ? "collisions" : ""));
+        text += line("frames", summary.steps.empty() ? "none" : fmt::format("{}, of steps {} to {}", summary.steps.size(),
+                                                                            summary.steps.front(), summary.steps.back()));
+    }
+    return text;
+}
+
+std::string header_text(const CheckpointHeader& header) {
+    std::string text = line("step", fmt::format("{}", header.step));
+    text += line("radius", fmt::format("{:g}", header.radius));
+    text += line("rule", fmt::format("collisions = \"{}\", micro_steps = {}, sync_every = {}", header.collisions, header.micro_steps,
+                                     header.sync_every));
+    text += line("collisions", fmt::format("{} with walls, {} of pairs", header.wall_collisions, header.pair_collisions));
+    text += line("state hash", header.state_hash);
+    text += line("scene", header.scene_name);
+    std::string overrides = header.scene_overrides;
+    std::replace(overrides.begin(), overrides.end(), '\n', ' ');
+    return overrides.empty() ? text : text + line("set", overrides);
+}
+
+ExitCode info(const std::string& path, const Communicator& ranks) {
+    check_damage(path, ranks);
+    FileSummary summary;
+    int is_checkpoint = 0;
+    let_root(ranks, [&] {
+        summary = FrameFile(path).summary();
+        is_checkpoint = summary.kind == FileKind::checkpoint ? 1 : 0;
+    });
+    ranks.broadcast(is_checkpoint);
+    CheckpointHeader header;
+    if (is_checkpoint == 1) header = read_checkpoint_header(path, ranks);
+    if (ranks.is_root()) fmt::print("{}{}", summary_text(summary), is_checkpoint == 1 ? header_text(header) : "");
+    return ExitCode::success;
+}
+
+/// What no state of a run can be; empty if all is well.
+std::string flaw_of(const Disc& disc, const CheckpointHeader& header) {
+    const double clock = header.clock(), x = disc.x_at(clock), y = disc.y_at(clock);
+    // A disc may stand a little beyond its wall for the rest of a micro-step, or by the rounding of L - r.
+    const double slack = 1e-6 * header.radius + 0x1p-50 * header.box_size;
+    const double low = header.radius - slack, high = header.box_size - header.radius + slack;
+    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(disc.vx) || !std::isfinite(disc.vy))
+        return fmt::format("disc {} has a number that is not finite", disc.id);
+    if (x < low || x > high || y < low || y > high) return fmt::format("disc {} is outside the box, at ({}, {})", disc.id, x, y);
+    if (!(disc.tau >= 0 && disc.tau <= clock)) return fmt::format("disc {} has the time {}, and it is {} now", disc.id, disc.tau, clock);
+    return {};
+}
+
+/// Bytes and hash are checked by reading; then the discs themselves. **Collective.**
+void verify_checkpoint(const std::string& path, const Communicator& ranks) {
+    const Checkpoint checkpoint = read_checkpoint(path, ranks);
+    std::string flaw;
+    std::uint64_t sums[] = {0, 0};
+    for (const Disc& disc : checkpoint.discs) {
+        if (flaw.empty()) flaw = flaw_of(disc, checkpoint.header);
+        sums[0] += disc.wall_collisions;
+        sums[1] += disc.pair_collisions;
+    }
+    ranks.sum(sums);
+    if (flaw.empty() && (sums[0] != checkpoint.header.wall_collisions || sums[1] != 2 * checkpoint.header.pair_collisions))
+        flaw = "the discs' collisions do not add up";
+    agree(ranks, flaw.empty(), path + ": " + flaw, ExitCode::bad_input);
+    static_cast<void>(scene_of(checkpoint.header, {})); // a scene that cannot be read is no use either
+}
+
+void refuse(const std::string& path, const std::string& text) { throw InputError({{path, 0, text}}); }
+
+void verify_frames(const FrameFile& file, const std::string& path) {
+    const FileSummary& summary = file.summary();
+    std::vector<FrameRow> rows;
+    for (std::size_t frame = 0; frame < summary.steps.size(); ++frame) {
+        if (frame > 0 && summary.steps[frame] <= summary.steps[frame - 1]) refuse(path, fmt::format("frame {} goes back in time", frame));
+        for (std::uint64_t begin = 0; begin < summary.n_discs; begin += rows_at_a_time) {
+            file.read(frame, begin, std::min(begin + rows_at_a_time, summary.n_discs), rows);
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+                const FrameRow& row = rows[i];
+                const bool is_inside = row.x >= 0 && row.x <= summary.box_size && row.y >= 0 && row.y <= summary.box_size;
+                if ((summary.has_position && !is_inside) || !std::isfinite(row.vx) || !std::isfinite(row.vy))
+                    refuse(path, fmt::format("disc {} is outside the box or not finite at step {}", begin + i, summary.steps[frame]));
+            }
+        }
+    }
+}
+
+void verify_log(const FrameFile& file, const std::string& path) {
+    std::vector<LoggedCollision> rows;
+    LoggedCollision last;
+    for (std::uint64_t begin = 0; begin < file.summary().n_logged; begin += rows_at_a_time) {
+        file.read(begin, std::min(begin + rows_at_a_time, file.summary().n_logged), rows);
+        for (const LoggedCollision& row : rows) {
+            if (row.step < last.step || row.time < last.time) refuse(path, fmt::format("goes back in time at step {}", row.step));
+            if (row.p < 0 || row.q < -1 || row.p == row.q) refuse(path, fmt::format("has a collision of {} and {}", row.p, row.q));
+            last = row;
+        }
+    }
+}
+
+ExitCode verify(const std::string& path, const Communicator& ranks) {
+    check_damage(path, ranks);
+    int is_checkpoint = 0;
+    let_root(ranks, [&] {
+        const FrameFile file(path);
+        is_checkpoint = file.summary().kind == FileKind::checkpoint ? 1 : 0;
+        if (file.summary().kind == FileKind::trajectory) verify_frames(file, path);
+        if (file.summary().kind == FileKind::collisions) verify_log(file, path);
+    });
+    ranks.broadcast(is_checkpoint);
+    if (is_checkpoint == 1) verify_checkpoint(path, ranks);
+    if (ranks.is_root()) fmt::print("{}: whole\n", path);
+    return ExitCode::success;
+}
+
+ExitCode diff(const std::string& a, const std::string& b, const Communicator& ranks) {
+    for (const std::string& path : {a, b}) check_damage(path, ranks);
+    int is_same = 1;
+    let_root(ranks, [&] {
+        const FileDifference difference = compare_files(a, b);
+        is_same = difference.is_same ? 1 : 0;
+        if (difference.is_same) return;
+        fmt::print("first: {}\nlargest: {} ({})\n", difference.first, difference.largest, difference.largest_in);
+    });
+    ranks.broadcast(is_same);
+    return is_same == 1 ? ExitCode::success : ExitCode::difference;
+}
+
+enum class Format { xyz, text, csv };
+
+void append_header(fmt::memory_buffer& out, Format format, const FileSummary& summary, std::int64_t step) {
+    if (format != Format::xyz) return;
+    fmt::format_to(std::back_inserter(out),
+                   "{}\nLattice=\"{} 0 0 0 {} 0 0 0 1\" Properties=species:S:1:pos:R:3:velo:R:3:id:I:1 Time={} pbc=\"F F F\"\n",
+                   summary.n_discs, summary.box_size, summary.box_size, step);
+}
+
+void append_row(fmt::memory_buffer& out, Format format, std::int64_t step, std::uint64_t id, const FrameRow& row, bool with_counters) {
+    const auto end = std::back_inserter(out);
+    if (format == Format::xyz) fmt::format_to(end, "D {} {} 0 {} {} 0 {}\n", row.x, row.y, row.vx, row.vy, id);
+    if (format == Format::csv)
+        fmt::format_to(end, "{},{},{},{},{},{},{},{}\n", step, id, row.x, row.y, row.vx, row.vy, row.pair_collisions, row.wall_collisions);
+    if (format == Format::text)
+        append_line(out, step, {id, row.x, row.y, row.vx, row.vy, row.pair_collisions, row.wall_collisions}, RunOptions::round_trip_digits,
+                    with_counters);
+}
+
+void write_frames(const FrameFile& file, Format format, DataOutput& output) {
+    const FileSummary& summary = file.summary();
+    if (format == Format::csv) output.buffer().append(std::string_view("step,id,x,y,vx,vy,pair_collisions,wall_collisions\n"));
+    std::vector<FrameRow> rows;
+    for (std::size_t frame = 0; frame < summary.steps.size() && output.failure().empty(); ++frame) {
+        append_header(output.buffer(), format, summary, summary.steps[frame]);
+        for (std::uint64_t begin = 0; begin < summary.n_discs; begin += rows_at_a_time) {
+            file.read(frame, begin, std::min(begin + rows_at_a_time, summary.n_discs), rows);
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+                append_row(output.buffer(), format, summary.steps[frame], begin + i, rows[i], summary.has_collisions);
+                output.flush_if_full();
+            }
+        }
+    }
+}
+
+void write_log(const FrameFile& file, DataOutput& output) {
+    output.buffer().append(std::string_view("step,time,p,q,impulse\n"));
+    std::vector<LoggedCollision> rows;
+    for (std::uint64_t begin = 0; begin < file.summary().n_logged && output.failure().empty(); begin += rows_at_a_time) {
+        file.read(begin, std::min(begin + rows_at_a_time, file.summary().n_logged), rows);
+        for (const LoggedCollision& row : rows) {
+            fmt::format_to(std::back_inserter(output.buffer()), "{},{},{},{},{}\n", row.step, row.time, row.p, row.q, row.impulse);
+            output.flush_if_full();
+        }
+    }
+}
+
+ExitCode convert(const std::string& path, Format format, const std::string& target, const Communicator& ranks) {
+    check_damage(path, ranks);
+    std::string failure;
+    let_root(ranks, [&] {
+        const FrameFile file(path);
+        const bool is_log = file.summary().kind == FileKind::collisions;
+        if (is_log && format != Format::csv) refuse(path, "is a log of collisions; it can be converted to csv only");
+        if (!is_log && format != Format::csv && (!file.summary().has_position || !file.summary().has_velocity))
+            refuse(path, "has no positions or no velocities; convert it to csv");
+        DataOutput output(target);
+        if (is_log) write_log(file, output);
+        else write_frames(file, format, output);
+        output.flush();
+        output.close();
+        failure = output.failure();
+    });
+    agree(ranks, failure.empty(), failure, ExitCode::output_failure);
+    return ExitCode::success;
+}
+
+/// The words of the commands; they live as long as the actions that use them.
+struct FileWords {
+    std::string a, b, to, output;
+};
+
+CLI::App* declare(CLI::App& app, const char* name, const char* what, const char* file, std::string& path) {
+    CLI::App* command = app.add_subcommand(name, what);
+    command->set_help_flag("-h,--help", "Print this help and exit");
+    command->add_option(file, path, "A checkpoint, a trajectory or a log of collisions")->type_name("")->required();
+    return command;
+}
+
+} // namespace
+
+void add_file_commands(CLI::App& app, Action& action) {
+    const auto words = std::make_shared<FileWords>();
+    declare(app, "info", "Say what is in a file", "FILE", words->a)->callback([words, &action] {
+        action = [words](const Communicator& ranks) { return info(words->a, ranks); };
+    });
+    declare(app, "verify", "Check a file: every byte, the state hash, the discs; exit code 2 if it is damaged", "FILE", words->a)
+        ->callback([words, &action] { action = [words](const Communicator& ranks) { return verify(words->a, ranks); }; });
+    CLI::App* compare = declare(app, "diff", "Compare two files; exit code 1 if they differ", "A", words->a);
+    compare->add_option("B", words->b, "Another of the same kind")->type_name("")->required();
+    compare->callback([words, &action] { action = [words](const Communicator& ranks) { return diff(words->a, words->b, ranks); }; });
+    CLI::App* translate = declare(app, "convert", "Write a file as text: extended XYZ (OVITO opens it), lines as of `run`, or CSV",
+                                  "FILE", words->a);
+    translate->add_option("--to", words->to, "xyz, text or csv")->required()->check(CLI::IsMember({"xyz", "text", "csv"}));
+    translate->add_option("--output", words->output, "A file, instead of standard output")->type_name("FILE");
+    translate->callback([words, &action] {
+        const Format format = words->to == "xyz" ? Format::xyz : words->to == "text" ? Format::text : Format::csv;
+        action = [words, format](const Communicator& ranks) { return convert(words->a, format, words->output, ranks); };
+    });
+}
+
+} // namespace carrom

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carrom/io/frame_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "appended_file.hpp"
+#include "checkpoint_fields.hpp"
+#include "files.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// HDF5 wants every group on the way to be asked for.
+bool has(hid_t file, const std::string& path) {
+    for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+        if (H5Lexists(file, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+        if (end == std::string::npos) return true;
+    }
+}
+
+/// Rows [begin, end) of a column, or of frame `frame` of a dataset with several axes.
+void read_block(hid_t file, const std::string& path, std::size_t frame, std::uint64_t begin, std::uint64_t end, hid_t type, void* values) {
+    const h5::Dataset dataset = h5::open_dataset(file, path.c_str());
+    std::vector<hsize_t> count = h5::dimensions_of(dataset.id()), start(count.size(), 0);
+    const std::size_t axis = count.size() == 1 ? 0 : 1;
+    if (axis == 1) start[0] = frame;
+    if (axis == 1) count[0] = 1;
+    start[axis] = begin;
+    if (end > count[axis]) throw FileError(path + " is shorter than the others");
+    count[axis] = end - begin;
+    const h5::Space source(h5::checked(H5Dget_space(dataset.id()), path.c_str())), memory = h5::space(count);
+    h5::checked(H5Sselect_hyperslab(source.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), path.c_str());
+    h5::checked(H5Dread(dataset.id(), type, memory.id(), source.id(), H5P_DEFAULT, values), path.c_str());
+}
+
+std::string version_in(hid_t file) {
+    const h5::Group creator(h5::checked(H5Gopen2(file, "/h5md/creator", H5P_DEFAULT), "has no /h5md/creator"));
+    const h5::Attribute attribute(h5::checked(H5Aopen(creator.id(), "version", H5P_DEFAULT), "has no version"));
+    const h5::Type type(h5::checked(H5Aget_type(attribute.id()), "has no version"));
+    if (H5Tis_variable_str(type.id()) != 0) throw FileError("was written by another program");
+    std::string text(H5Tget_size(type.id()), '\0');
+    h5::checked(H5Aread(attribute.id(), type.id(), text.data()), "has no version");
+    return text;
+}
+
+template <class Act> void guarded(const std::string& path, const Act& act) {
+    try {
+        act();
+    } catch (const FileError& error) {
+        throw InputError({{path, 0, error.what()}});
+    }
+}
+
+constexpr const char* discs_path = "/particles/discs/";
+
+} // namespace
+
+struct FrameFile::State {
+    h5::File file;
+    CheckpointHeader header; ///< of a checkpoint
+};
+
+FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_unique<State>()) {
+    guarded(path_, [&] {
+        static_cast<void>(Descriptor(path_, 0)); // for the system's words
+        state_->file = h5::open_file(path_, h5::Access::read);
+        const hid_t file = state_->file.id();
+        const std::string discs = discs_path;
+        if (has(file, "/carrom/run")) {
+            const h5::Group run(h5::checked(H5Gopen2(file, "/carrom/run", H5P_DEFAULT), "has no /carrom/run"));
+            state_->header = read_header(run.id());
+            const CheckpointHeader& header = state_->header;
+            summary_ = {FileKind::checkpoint, header.program_version, header.n_discs, header.box_size, true, true, true, {header.step}, 0, header.state_hash};
+        } else if (has(file, "/carrom/collisions")) {
+            summary_.kind = FileKind::collisions;
+            summary_.n_logged = length_of(file, "/carrom/collisions/step");
+        } else if (has(file, "/particles/discs")) {
+            summary_.kind = FileKind::trajectory;
+            summary_.has_position = has(file, "/particles/discs/position");
+            summary_.has_velocity = has(file, "/particles/discs/velocity");
+            summary_.has_collisions = has(file, "/particles/discs/collisions");
+            summary_.steps = read_numbers(file, "/particles/discs/box/edges/step");
+            for (const char* element : {"position", "velocity", "collisions"})
+                if (has(file, discs + element))
+                    summary_.n_discs = h5::dimensions_of(h5::open_dataset(file, (discs + element + "/value").c_str()).id()).at(1);
+            std::array<double, 3> edges = {};
+            if (!summary_.steps.empty()) read_block(file, discs + "box/edges/value", 0, 0, 3, H5T_NATIVE_DOUBLE, edges.data());
+            summary_.box_size = edges[0];
+        } else {
+            throw FileError("holds nothing that carrom writes");
+        }
+        if (summary_.kind != FileKind::checkpoint) summary_.program_version = version_in(file);
+    });
+}
+
+FrameFile::~FrameFile() = default;
+FrameFile::FrameFile(FrameFile&&) noexcept = default;
+
+void FrameFile::read(std::size_t frame, std::uint64_t begin, std::uint64_t end, std::vector<FrameRow>& rows) const {
+    const hid_t file = state_->file.id();
+    const std::uint64_t n = end - begin;
+    rows.assign(n, {});
+    guarded(path_, [&] {
+        if (summary_.kind == FileKind::checkpoint) {
+            std::vector<Disc> discs(n);
+            std::vector<std::uint64_t> numbers(n);
+            for (const Column& column : checkpoint_columns) {
+                read_block(file, std::string("/carrom/discs/") + column.name, 0, begin, end, type_of(column), numbers.data());
+                for (std::uint64_t i = 0; i < n; ++i) set_bits(column, discs[i], numbers[i]);
+            }
+            const double clock = state_->header.clock(), k = static_cast<double>(state_->header.micro_steps);
+            for (std::uint64_t i = 0; i < n; ++i)
+                rows[i] = {discs[i].x_at(clock) + 0.0, discs[i].y_at(clock) + 0.0, discs[i].vx * k + 0.0,
+                           discs[i].vy * k + 0.0, discs[i].wall_collisions, discs[i].pair_collisions};
+            return;
+        }
+        const std::string discs = discs_path;
+        std::vector<double> vectors(3 * n);
+        std::vector<std::uint64_t> counts(2 * n);
+        if (summary_.has_position) read_block(file, discs + "position/value", frame, begin, end, H5T_NATIVE_DOUBLE, vectors.data());
+        for (std::uint64_t i = 0; i < n && summary_.has_position; ++i) rows[i].x = vectors[3 * i], rows[i].y = vectors[3 * i + 1];
+        if (summary_.has_velocity) read_block(file, discs + "velocity/value", frame, begin, end, H5T_NATIVE_DOUBLE, vectors.data());
+        for (std::uint64_t i = 0; i < n && summary_.has_velocity; ++i) rows[i].vx = vectors[3 * i], rows[i].vy = vectors[3 * i + 1];
+        if (summary_.has_collisions) read_block(file, discs + "collisions/value", frame, begin, end, H5T_NATIVE_UINT64, counts.data());
+        for (std::uint64_t i = 0; i < n && summary_.has_collisions; ++i)
+            rows[i].wall_collisions = counts[2 * i], rows[i].pair_collisions = counts[2 * i + 1];
+    });
+}
+
+void FrameFile::read(std::uint64_t begin, std::uint64_t end, std::vector<LoggedCollision>& rows) const {
+    const hid_t file = state_->file.id();
+    rows.assign(end - begin, {});
+    const auto column = [&](const char* name, hid_t type, auto field) {
+        using Number = std::remove_reference_t<decltype(rows[0].*field)>;
+        std::vector<Number> numbers(end - begin);
+        read_block(file, std::string("/carrom/collisions/") + name, 0, begin, end, type, numbers.data());
+        for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*field = numbers[i];
+    };
+    guarded(path_, [&] {
+        column("step", H5T_NATIVE_INT64, &LoggedCollision::step);
+        column("time", H5T_NATIVE_DOUBLE, &LoggedCollision::time);
+        column("p", H5T_NATIVE_INT64, &LoggedCollision::p);
+        column("q", H5T_NATIVE_INT64, &LoggedCollision::q);
+        column("impulse", H5T_NATIVE_DOUBLE, &LoggedCollision::impulse);
+    });
+}
+
+} // namespace carrom
