@@ -184,8 +184,8 @@ void Trajectory::go_on(std::int64_t step) {
     communicator_.broadcast(is_there);
     if (is_there == 0) return begin();
     on_root(communicator_, path_, ExitCode::bad_input, [&] {
+        check_layout(h5::open_file(path_, h5::Access::read).id(), layout_);
         state_->file.change([&](hid_t file) {
-            check_layout(file, layout_);
             const hsize_t n = count_up_to(file, step_path, step);
             set_frames(file, layout_, n);
             state_->steps = read_numbers(file, step_path);

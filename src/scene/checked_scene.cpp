@@ -303,6 +303,7 @@ void fill_trajectory(const Check& check) {
     const Setting* fields = check.settings.find("output.trajectory.fields");
     if (!fields) return;
     output.has_position = output.has_velocity = output.has_collisions = false;
+    if (std::get<std::vector<std::string>>(fields->value).empty()) check.refuse(*fields, "a trajectory needs at least one field");
     for (const std::string& field : std::get<std::vector<std::string>>(fields->value)) {
         if (field == "position") output.has_position = true;
         else if (field == "velocity") output.has_velocity = true;

@@ -202,7 +202,7 @@ TEST_CASE("All problems of a scene come at once, in the order of lines, those of
     const std::string text = "[box]\nsise = 10\nsize = nan\n[discs]\ncount = 0\npacking = 1.5\nradius = -1\nlist = [[1, 2, 3],\n"
                              "  [1, 2, 3, 'a']]\n[[discs.streams]]\nregion = [1, 2, 3]\nvelocity = [1, 2]\n[[discs.streams]]\n"
                              "regio = [1, 2, 3, 4]\nvelocity = [1, 2]\n[time]\nsteps = 'ten'\n[effects.gravity]\ng = 1\n"
-                             "[output.trajectory]\nevery = 1\n[foo]\n";
+                             "[output.movie]\nevery = 1\n[foo]\n";
     const auto problems = problems_in(text, {"box.sise=1", "time.steps=1.5", "nonsense", "effects.drag.gamma=1", "box.size=abc"});
     for (const Problem& problem : problems) UNSCOPED_INFO(to_string(problem));
     CHECK(places_of(problems) ==
@@ -213,7 +213,48 @@ TEST_CASE("All problems of a scene come at once, in the order of lines, those of
     CHECK(mentions(problems, "did you mean 'region'?"));
     CHECK(mentions(problems, "no effect 'gravity'"));
     CHECK(mentions(problems, "no effect 'drag'"));
-    CHECK(mentions(problems, "no output 'trajectory'"));
+    CHECK(mentions(problems, "no output 'movie'"));
+}
+
+TEST_CASE("Outputs to files are read and checked") {
+    const Scene scene = read_scene(std::string(good) + "[output.checkpoint]\nfolder = 'a b'\nevery_steps = 1e3\nevery_minutes = 0.5\n"
+                                   "keep = 3\nat_end = false\n[output.trajectory]\nfile = 't.h5'\nevery_steps = 7\n"
+                                   "fields = ['velocity', 'collisions']\nprecision = 'double'\ncompression = 4\n"
+                                   "[output.collisions]\nfile = 'c.h5'\n", "s.toml");
+    REQUIRE(scene.checkpoint);
+    CHECK(scene.checkpoint->folder == "a b");
+    CHECK(scene.checkpoint->every_steps == 1000);
+    CHECK(scene.checkpoint->every_minutes == 0.5);
+    CHECK(scene.checkpoint->keep == 3);
+    CHECK(!scene.checkpoint->at_end);
+    REQUIRE(scene.trajectory);
+    CHECK(scene.trajectory->file == "t.h5");
+    CHECK(scene.trajectory->every_steps == 7);
+    CHECK((!scene.trajectory->has_position && scene.trajectory->has_velocity && scene.trajectory->has_collisions));
+    CHECK(!scene.trajectory->is_single);
+    CHECK(scene.trajectory->compression == 4);
+    REQUIRE(scene.collisions);
+    CHECK(scene.collisions->file == "c.h5");
+
+    const Scene plain = read_scene(good, "s.toml", {"output.checkpoint.folder=x", "output.trajectory.file=y"});
+    REQUIRE(plain.checkpoint);
+    CHECK(plain.checkpoint->keep == 2);
+    CHECK(plain.checkpoint->at_end);
+    CHECK(!plain.checkpoint->every_steps);
+    REQUIRE(plain.trajectory);
+    CHECK((plain.trajectory->has_position && plain.trajectory->has_velocity && plain.trajectory->is_single));
+    CHECK(!plain.collisions);
+
+    for (const char* wrong : {"[output.checkpoint]", "[output.checkpoint]\nkeep = 1", "[output.checkpoint]\nfolder = ''",
+                              "[output.checkpoint]\nfolder = 'a'\nkeep = 0", "[output.checkpoint]\nfolder = 'a'\nevery_steps = 0",
+                              "[output.checkpoint]\nfolder = 'a'\nevery_minutes = 0", "[output.checkpoint]\nfolder = 'a'\nat_end = 1",
+                              "[output.checkpoint]\nfolder = 'a'\nevery = 1", "[output.trajectory]\nevery_steps = 1",
+                              "[output.trajectory]\nfile = 'a'\nfields = ['mass']", "[output.trajectory]\nfile = 'a'\nfields = [1]",
+                              "[output.trajectory]\nfile = 'a'\nfields = []", "[output.trajectory]\nfile = 'a'\ncompression = 10",
+                              "[output.trajectory]\nfile = 'a'\nprecision = 'half'", "[output.collisions]", "[output]\ncollisions = 'a'"}) {
+        CAPTURE(wrong);
+        CHECK(problems_in(std::string(good) + wrong + "\n").size() == 1);
+    }
 }
 
 TEST_CASE("Misspelt keys name the nearest known one") {

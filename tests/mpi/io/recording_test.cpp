@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Trajectories and logs of collisions on 1 to 7 ranks: what is read is what was given, in order; going on cuts back.
+#include "carrom/io/trajectory.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+
+#include "carrom/core/errors.hpp"
+#include "carrom/io/collision_log.hpp"
+#include "carrom/io/frame_file.hpp"
+
+using namespace carrom;
+
+namespace {
+
+class TestFolder {
+public:
+    explicit TestFolder(const Communicator& world) : world_(world), path_("/tmp/carrom_recording_test_" + std::to_string(::getpid())) {
+        world_.broadcast(path_);
+        if (world_.is_root()) std::filesystem::create_directories(path_);
+        world_.barrier();
+    }
+    ~TestFolder() {
+        world_.barrier();
+        if (world_.is_root()) std::filesystem::remove_all(path_);
+    }
+    TestFolder(const TestFolder&) = delete;
+    TestFolder& operator=(const TestFolder&) = delete;
+    std::string file(const char* name) const { return path_ + "/" + name; }
+
+private:
+    const Communicator& world_;
+    std::string path_;
+};
+
+/// Numbers that are exact in single precision, different for every disc and step.
+Disc disc_at(DiscId id, std::int64_t step) {
+    Disc disc;
+    disc.id = id;
+    disc.tau = 0.5;
+    disc.vx = 0.25 * static_cast<double>(id % 64);
+    disc.vy = -0.125 * static_cast<double>(step);
+    disc.x = static_cast<double>(id) + 0.5;
+    disc.y = static_cast<double>(step);
+    disc.wall_collisions = id + static_cast<std::uint64_t>(step);
+    disc.pair_collisions = 2 * id;
+    return disc;
+}
+
+std::vector<Disc> share(std::uint64_t n, std::int64_t step, const Communicator& world) {
+    std::vector<Disc> mine;
+    for (DiscId id = n; id-- > 0;)
+        if ((id * 31 + static_cast<std::uint64_t>(step)) % static_cast<std::uint64_t>(world.size()) == static_cast<std::uint64_t>(world.rank()))
+            mine.push_back(disc_at(id, step));
+    return mine;
+}
+
+TrajectoryLayout layout_of(std::uint64_t n) {
+    TrajectoryLayout layout;
+    layout.program_version = "0.0.1";
+    layout.n_discs = n;
+    layout.box_size = 64;
+    layout.velocity_unit = 4;
+    layout.has_collisions = true;
+    return layout;
+}
+
+/// Whether rank 0 reads just these frames; true elsewhere.
+bool holds(const std::string& path, std::uint64_t n, const std::vector<std::int64_t>& steps, const Communicator& world) {
+    world.barrier();
+    bool is_right = true;
+    if (world.is_root()) {
+        const FrameFile file(path);
+        is_right = file.summary().kind == FileKind::trajectory && file.summary().n_discs == n && file.summary().steps == steps &&
+                   (steps.empty() || file.summary().box_size == 64) && file.summary().program_version == "0.0.1";
+        std::vector<FrameRow> rows;
+        for (std::size_t frame = 0; is_right && frame < steps.size(); ++frame) {
+            file.read(frame, 0, n, rows);
+            for (DiscId id = 0; id < n; ++id) {
+                const Disc disc = disc_at(id, steps[frame]);
+                const FrameRow& row = rows[id];
+                is_right = is_right && row.x == disc.x + disc.vx && row.y == disc.y + disc.vy && row.vx == 4 * disc.vx &&
+                           row.vy == 4 * disc.vy && row.wall_collisions == disc.wall_collisions && row.pair_collisions == disc.pair_collisions;
+            }
+        }
+    }
+    world.barrier();
+    return is_right;
+}
+
+} // namespace
+
+TEST_CASE("frames are read as they were given, in the order of ids") {
+    const Communicator world = Communicator::world();
+    const TestFolder folder(world);
+    for (const std::uint64_t n : {1u, 5u, 3000u, 70000u}) {
+        for (const int compression : {0, 5}) {
+            const std::string path = folder.file("t.h5");
+            TrajectoryLayout layout = layout_of(n);
+            layout.compression = compression;
+            layout.is_single = compression == 0;
+            Trajectory trajectory(path, layout, world);
+            trajectory.begin();
+            CHECK(holds(path, n, {}, world));
+            trajectory.append(0, share(n, 0, world), 1.5);
+            trajectory.append(7, share(n, 7, world), 1.5);
+            CHECK(holds(path, n, {0, 7}, world));
+            trajectory.commit();
+            trajectory.describe();
+            CHECK(holds(path, n, {0, 7}, world));
+            CHECK((!world.is_root() || std::filesystem::exists(folder.file("t.xdmf"))));
+        }
+    }
+}
+
+TEST_CASE("going on takes a trajectory back to its last commit, and further back if asked") {
+    const Communicator world = Communicator::world();
+    const TestFolder folder(world);
+    const std::string path = folder.file("t.h5");
+    {
+        Trajectory killed(path, layout_of(300), world);
+        killed.begin();
+        for (std::int64_t step = 0; step < 10; ++step) {
+            killed.append(step, share(300, step, world), 1.5);
+            if (step == 5) killed.commit();
+        }
+    } // never committed: as if killed
+    Trajectory trajectory(path, layout_of(300), world);
+    trajectory.go_on(20);
+    CHECK(holds(path, 300, {0, 1, 2, 3, 4, 5}, world));
+    trajectory.go_on(2);
+    CHECK(holds(path, 300, {0, 1, 2}, world));
+    trajectory.append(4, share(300, 4, world), 1.5);
+    trajectory.commit();
+    CHECK(holds(path, 300, {0, 1, 2, 4}, world));
+
+    Trajectory other(path, layout_of(301), world);
+    bool is_refused = false;
+    try {
+        other.go_on(4);
+    } catch (const CollectiveError& error) {
+        is_refused = error.code() == ExitCode::bad_input;
+    }
+    CHECK(is_refused);
+    CHECK(holds(path, 300, {0, 1, 2, 4}, world));
+}
+
+TEST_CASE("a log of collisions keeps the order of the ranks and is cut back") {
+    const Communicator world = Communicator::world();
+    const TestFolder folder(world);
+    const std::string path = folder.file("c.h5");
+    const auto collision = [](std::int64_t k) {
+        return LoggedCollision{k / 10 + 1, 0.5 * static_cast<double>(k), k, k % 3 == 0 ? -1 : k + 1, 0.1 * static_cast<double>(k)};
+    };
+    const auto append = [&](CollisionLog& log, std::int64_t begin, std::int64_t end) {
+        std::vector<LoggedCollision> mine; // a slice of them
+        const std::int64_t n = end - begin, p = world.size(), r = world.rank();
+        for (std::int64_t k = begin + n * r / p; k < begin + n * (r + 1) / p; ++k) mine.push_back(collision(k));
+        log.append(mine);
+    };
+    const auto holds_log = [&](std::int64_t n) {
+        world.barrier();
+        bool is_right = true;
+        if (world.is_root()) {
+            const FrameFile file(path);
+            std::vector<LoggedCollision> rows;
+            is_right = file.summary().kind == FileKind::collisions && file.summary().n_logged == static_cast<std::uint64_t>(n);
+            if (is_right) file.read(0, file.summary().n_logged, rows);
+            for (std::int64_t k = 0; is_right && k < n; ++k) {
+                const LoggedCollision &row = rows[static_cast<std::size_t>(k)], wanted = collision(k);
+                is_right = row.step == wanted.step && row.time == wanted.time && row.p == wanted.p && row.q == wanted.q && row.impulse == wanted.impulse;
+            }
+        }
+        world.barrier();
+        return is_right;
+    };
+    {
+        CollisionLog killed(path, "0.0.1", world);
+        killed.begin();
+        append(killed, 0, 0);
+        append(killed, 0, 3);
+        append(killed, 3, 40000);
+        killed.commit();
+        CHECK(holds_log(40000));
+        append(killed, 40000, 50000);
+        CHECK(holds_log(50000));
+    }
+    CollisionLog log(path, "0.0.1", world);
+    log.go_on(100000);
+    CHECK(holds_log(40000));
+    log.go_on(1234);
+    CHECK(holds_log(12340));
+    append(log, 12340, 12350);
+    CHECK(holds_log(12350));
+}
