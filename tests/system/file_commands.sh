@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# carrom info, verify, convert and diff on the files of a small run, against the lines that the run itself has written.
+source "$(dirname "$0")/common.sh"
+scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=300 --set discs.speed=2 --quiet --steps 20)
+
+run 2 run "${scene[@]}" --set output.text=every_step --output lines --report report.json --set output.checkpoint.folder=kept \
+    --set output.checkpoint.every_steps=10 --set output.trajectory.file=t.h5 --set output.trajectory.precision=double \
+    --set output.collisions.file=c.h5
+expect_code 0 'a run'
+last=kept/checkpoint-000000000020.h5 first=kept/checkpoint-000000000010.h5
+shown() { # FILE OPTION...: what convert writes, in `out`
+    run 2 convert "$@"
+    expect_code 0 "convert $*"
+}
+
+run 3 info "$last"
+expect_code 0 'info'
+for text in 'kind        checkpoint' '300 discs' 'step        20' "$(json_value report.json state_hash)"; do
+    grep -qF "${text/300 discs/300 in a box}" "$test_folder/out" || complain "info does not say: $text"
+done
+
+shown "$last" --to text
+tail -n 300 lines | cmp - "$test_folder/out" || complain 'the last lines are not those of the checkpoint'
+shown t.h5 --to text
+cut -d' ' -f1-6 lines | cmp - "$test_folder/out" || complain 'the lines are not those of the trajectory'
+shown t.h5 --to xyz --output t.xyz
+[ "$(grep -c '^300$' t.xyz)" -eq 21 ] || complain 'not 21 frames of 300 discs'
+[ "$(wc -l <t.xyz)" -eq $((21 * 302)) ] || complain 'extended XYZ of another length'
+sed -n 2p t.xyz | grep -q '^Lattice="1023 0 0 0 1023 0 0 0 1" Properties=species:S:1:pos:R:3:velo:R:3:id:I:1 Time=0' || complain 'another second line'
+shown "$last" --to csv
+[ "$(sed -n '2s/,.*//p' "$test_folder/out")" = 20 ] || complain 'CSV without the step'
+shown c.h5 --to csv
+[ "$(wc -l <"$test_folder/out")" -eq $((1 + $(json_value report.json wall_collisions) + $(json_value report.json pair_collisions))) ] ||
+    complain 'CSV of another length than there were collisions'
+sort -t, -k2,2g -c <(tail -n +2 "$test_folder/out") || complain 'the collisions are not in the order of time'
+
+for file in "$last" t.h5 c.h5; do
+    for ranks in 1 3; do
+        run "$ranks" verify "$file"
+        expect_code 0 "verify $file"
+        run "$ranks" diff "$file" "$file"
+        expect_code 0 "diff $file with itself"
+        expect_silence "diff $file with itself"
+    done
+done
+run 1 diff "$first" "$last"
+expect_code 1 'diff of two steps'
+grep -q '^first: .*step: 10 and 20$' "$test_folder/out" || complain 'diff does not name the step'
+
+# A second run that differs in one disc only after a while.
+run 1 run "${scene[@]}" --set discs.seed=1 --set output.trajectory.file=other.h5
+run 1 diff t.h5 other.h5
+expect_code 1 'diff of two runs'
+grep -q '^first: step 0, disc 0, x: ' "$test_folder/out" || complain 'diff does not name the first disc and field'
+grep -q '^largest: ' "$test_folder/out" || complain 'diff does not tell the largest difference'
+
+printf 'X' | dd of="$last" bs=1 seek=9000 conv=notrunc status=none
+for command in verify info; do
+    run 3 "$command" "$last"
+    expect_code 2 "$command of a damaged file"
+    expect_told 'is damaged' "$command of a damaged file"
+done
+run 1 diff "$first" t.h5
+expect_code 2 'diff of two kinds'
+run 1 convert c.h5 --to xyz
+expect_code 2 'a log to xyz'
+echo text >text
+for command in verify info; do
+    run 3 "$command" text
+    expect_code 2 "$command of some text"
+    run 3 "$command" none.h5
+    expect_code 2 "$command of nothing"
+    expect_told 'No such file' "$command of nothing"
+done
+finish
