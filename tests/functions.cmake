@@ -8,6 +8,7 @@ set(CARROM_TEST_ENVIRONMENT
     OMPI_MCA_rmaps_base_oversubscribe=1
     OMPI_MCA_hwloc_base_binding_policy=none
     OMPI_MCA_mpi_yield_when_idle=1
+    OMP_WAIT_POLICY=passive
     PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe
     CARROM_PROGRAM=${CMAKE_BINARY_DIR}/carrom
     CARROM_MPIEXEC=${MPIEXEC_EXECUTABLE}
