@@ -12,22 +12,20 @@ namespace carrom {
 
 namespace {
 
-/// A disc that collides this often within `one_time` (in micro-steps) does so without end.
-constexpr std::uint32_t endless_count = 20000;
+/// So many collisions of a block's discs within `one_time` (in micro-steps) are without end, and some for each disc more.
+constexpr std::uint64_t endless_count = 100000;
+constexpr std::uint64_t endless_count_per_disc = 1000;
 constexpr double one_time = 0x1p-40;
 
 /// What has happened to a disc in this window.
 struct Past {
     static constexpr std::uint32_t nobody = 0xfffffffd;
 
-    std::uint64_t history = 0;
-    double crowd_begin = 0;         ///< when the present crowd of collisions at one time began
-    std::uint32_t crowd = 0;
-    std::uint32_t version = 0;      ///< counts its collisions
-    std::uint32_t generation = 0;   ///< of the last one
-    std::uint32_t partner = nobody; ///< of the last one
+    std::uint64_t history = 0;      ///< 0: nothing
+    std::uint32_t generation = 0;   ///< of the last collision
+    std::uint32_t partner = nobody; ///< of the last collision
 };
-static_assert(sizeof(Past) == 32);
+static_assert(sizeof(Past) == 16);
 
 std::uint64_t rotated_product(std::uint64_t value, std::uint64_t factor) { return std::rotl(value * factor, 31); }
 
@@ -51,8 +49,9 @@ template <class Law> struct BlockReplay<Law>::Scratch {
     void predict_all();
     void happen(const Event& event);
     void note(std::uint32_t slot, std::uint32_t partner, const Event& event);
+    void give_up(const Event& event);
     void log_event(const Event& event, double wx, double wy);
-    void look_around(const Flight& flight, int first_column);
+    void look_around(const Flight& flight);
     void predict_pairs(std::uint32_t slot, std::uint32_t except);
     void predict_pair(std::uint32_t a, std::uint32_t b);
     void predict_walls(std::uint32_t slot);
@@ -92,6 +91,9 @@ template <class Law> struct BlockReplay<Law>::Scratch {
     std::vector<SlotRange> runs; ///< the first n_runs; room for all columns
     std::size_t n_runs = 0;
     std::vector<std::uint32_t> partners;
+    std::vector<std::uint32_t> later, later_ends; ///< of a column: partners behind its discs, and where each one's end
+    double crowd_begin = 0; ///< when the present crowd of collisions at one time began
+    std::uint64_t crowd = 0;
     BlockOutcome* outcome = nullptr;
     double largest_squared = 0;
 };
@@ -116,8 +118,8 @@ void BlockReplay<Law>::run(const ReplayGround& ground, const CellBlock& block, i
     s.predict_all();
     const EventOrder before(s.discs);
     const auto is_current = [&s](const Event& event) {
-        return s.pasts[event.p].version == event.p_version &&
-               (is_wall(event.q) || s.pasts[event.q].version == event.q_version);
+        return s.discs[event.p].version() == event.p_version &&
+               (is_wall(event.q) || s.discs[event.q].version() == event.q_version);
     };
     for (Event event; s.queue.pop(event, before, is_current) && !outcome.is_endless;) s.happen(event);
     s.report(block, histories);
@@ -194,6 +196,8 @@ template <class Law> void BlockReplay<Law>::Scratch::place(std::uint32_t slot, d
 template <class Law> void BlockReplay<Law>::Scratch::mark_own(const CellBlock& own) {
     is_own.assign(indices.size(), 0);
     largest_squared = 0;
+    crowd_begin = -1;
+    crowd = 0;
     for (int column = cells.first_column; column < cells.end_column; ++column) {
         const int owner = owning_column(column);
         if (owner < own.first_column || owner >= own.end_column) continue;
@@ -218,9 +222,9 @@ template <class Law> Flight BlockReplay<Law>::Scratch::flight_of(std::uint32_t s
     return flight;
 }
 
-/// Fills `runs` with slots, from our `first_column` on, whose discs the flight may meet in what is left of the
+/// Fills `runs` with slots whose discs the flight may meet in what is left of the
 /// window, and makes room for all of them in `partners`.
-template <class Law> void BlockReplay<Law>::Scratch::look_around(const Flight& flight, int first_column) {
+template <class Law> void BlockReplay<Law>::Scratch::look_around(const Flight& flight) {
     const float rest = 1 - flight.now;
     const float dx = flight.vx * rest, dy = flight.vy * rest;
     const auto cell = [](float place, float last) { return static_cast<int>(std::min(std::max(place, 0.0f), last)); };
@@ -230,9 +234,8 @@ template <class Law> void BlockReplay<Law>::Scratch::look_around(const Flight& f
     const int top = cell(flight.y + std::max(dy, 0.0f) + farthest, row_limit);
     SlotRange* run = runs.data();
     std::uint32_t n_slots = 0;
-    const int begin = std::max(left, first_column);
-    const std::uint32_t* starts = cell_starts.data() + static_cast<std::size_t>(begin) * cell_rows;
-    for (int column = begin; column <= right; ++column, starts += cell_rows) {
+    const std::uint32_t* starts = cell_starts.data() + static_cast<std::size_t>(left) * cell_rows;
+    for (int column = left; column <= right; ++column, starts += cell_rows) {
         *run = {starts[bottom], starts[top + 1]};
         n_slots += run->end - run->begin;
         run += run->begin < run->end;
@@ -243,17 +246,16 @@ template <class Law> void BlockReplay<Law>::Scratch::look_around(const Flight& f
 
 template <class Law> void BlockReplay<Law>::Scratch::predict_all() {
     queue.restart(ground.window.begin, ground.window.end, discs.size() / 2);
-    const int n_columns = cells.end_column - cells.first_column, n_rows = cells.end_row - cells.first_row;
-    for (int column = 0; column < n_columns; ++column) {
-        const SlotRange slots = cell_run(column, 0, n_rows - 1);
-        for (std::uint32_t slot = slots.begin; slot < slots.end; ++slot) {
-            predict_walls(slot);
-            const Flight flight = {x[slot], y[slot], vx[slot], vy[slot], 0};
-            look_around(flight, column);
-            // Each pair once, by the disc that comes first: in this column only what lies behind it.
-            if (n_runs > 0 && runs.front().begin <= slot) runs.front().begin = std::min(slot + 1, runs.front().end);
-            const std::size_t n_partners = filter_flights(lanes, std::span(runs).first(n_runs), flight, touching_squared, partners.data());
-            for (std::size_t k = 0; k < n_partners; ++k) predict_pair(slot, partners[k]);
+    for (std::uint32_t slot = 0; slot < discs.size(); ++slot) predict_walls(slot);
+    const CellTable table{cell_starts.data(), cell_rows, cells.end_column - cells.first_column, cells.end_row - cells.first_row};
+    std::uint32_t slot = 0;
+    for (int column = 0; column < table.n_columns; ++column) {
+        later_ends.clear();
+        filter_column(lanes, table, column, ground.grid->frame().n_reach, touching_squared, later, later_ends);
+        std::uint32_t k = 0;
+        for (const std::uint32_t end : later_ends) {
+            for (; k < end; ++k) predict_pair(slot, later[k]);
+            ++slot;
         }
     }
 }
@@ -261,7 +263,7 @@ template <class Law> void BlockReplay<Law>::Scratch::predict_all() {
 template <class Law>
 void BlockReplay<Law>::Scratch::predict_pairs(std::uint32_t slot, std::uint32_t except) {
     const Flight flight = flight_of(slot);
-    look_around(flight, 0);
+    look_around(flight);
     const std::size_t n_partners = filter_flights(lanes, std::span(runs).first(n_runs), flight, touching_squared, partners.data());
     for (std::size_t k = 0; k < n_partners; ++k) {
         if (partners[k] != slot && partners[k] != except) predict_pair(slot, partners[k]);
@@ -294,7 +296,7 @@ template <class Law> void BlockReplay<Law>::Scratch::push(double time, std::uint
     event.time = time;
     const auto raise = [&](std::uint32_t slot) {
         const Past& past = pasts[slot];
-        if (past.version > 0 && discs[slot].tau == time) event.generation = std::max(event.generation, past.generation + 1);
+        if (past.history != 0 && discs[slot].tau == time) event.generation = std::max(event.generation, past.generation + 1);
     };
     raise(a);
     if (!is_wall(b)) {
@@ -303,12 +305,17 @@ template <class Law> void BlockReplay<Law>::Scratch::push(double time, std::uint
     }
     event.p = a;
     event.q = b;
-    event.p_version = pasts[a].version;
-    event.q_version = is_wall(b) ? 0 : pasts[b].version;
+    event.p_version = discs[a].version();
+    event.q_version = is_wall(b) ? 0 : discs[b].version();
     queue.push(event, EventOrder(discs));
 }
 
 template <class Law> void BlockReplay<Law>::Scratch::happen(const Event& event) {
+    if (event.time > crowd_begin + one_time) {
+        crowd_begin = event.time;
+        crowd = 0;
+    }
+    if (++crowd > endless_count + endless_count_per_disc * discs.size()) give_up(event);
     Disc& p = discs[event.p];
     const double vx_before = p.vx, vy_before = p.vy;
     if (event.q == x_wall) {
@@ -336,19 +343,8 @@ template <class Law>
 void BlockReplay<Law>::Scratch::note(std::uint32_t slot, std::uint32_t partner, const Event& event) {
     const Disc& disc = discs[slot];
     Past& past = pasts[slot];
-    past.version += 1;
     past.generation = event.generation;
     past.partner = partner;
-    if (past.crowd == 0 || event.time > past.crowd_begin + one_time) {
-        past.crowd = 0;
-        past.crowd_begin = event.time;
-    }
-    if (++past.crowd > endless_count && !outcome->is_endless) {
-        outcome->is_endless = true;
-        outcome->endless_disc = disc.id;
-        outcome->endless_partner = is_wall(partner) ? disc.id : discs[partner].id;
-        outcome->endless_time = event.time;
-    }
     // Time, partner and velocities; the place follows from them and the state before.
     const std::uint64_t partner_id = is_wall(partner) ? ~std::uint64_t{0} : discs[partner].id;
     const std::uint64_t sum = rotated_product(bits(event.time), 0x9e3779b97f4a7c15u) +
@@ -358,6 +354,13 @@ void BlockReplay<Law>::Scratch::note(std::uint32_t slot, std::uint32_t partner, 
     past.history = (hash ^ (hash >> 32)) | 1;
     place(slot, ground.window.begin);
     if (is_own[slot] != 0) largest_squared = std::max(largest_squared, speed_squared(disc));
+}
+
+template <class Law> void BlockReplay<Law>::Scratch::give_up(const Event& event) {
+    outcome->is_endless = true;
+    outcome->endless_disc = discs[event.p].id;
+    outcome->endless_partner = is_wall(event.q) ? discs[event.p].id : discs[event.q].id;
+    outcome->endless_time = event.time;
 }
 
 template <class Law> void BlockReplay<Law>::Scratch::log_event(const Event& event, double wx, double wy) {
@@ -384,7 +387,7 @@ void BlockReplay<Law>::Scratch::report(const CellBlock& own, std::span<std::uint
             }
             histories[indices[slot]] = past.history;
             end_squared = std::max(end_squared, speed_squared(discs[slot]));
-            if (past.version == 0) continue;
+            if (past.history == 0) continue;
             outcome->hit.push_back(indices[slot]);
             outcome->states.push_back(discs[slot]);
         }

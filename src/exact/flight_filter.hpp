@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "carrom/collision/cell_grid.hpp"
 
@@ -22,5 +23,19 @@ struct Flight {
 /// `filter_padding` more; lanes can be read as far beyond the last slot.
 std::size_t filter_flights(const FlightLanes& lanes, std::span<const SlotRange> runs, const Flight& flight,
                            float touching_squared, std::uint32_t* out);
+
+/// Cells of a block, column by column: slots of cell (c, r) begin at starts[c * column_length + r] and end where the next
+/// cell's begin; column_length is one more than the rows.
+struct CellTable {
+    const std::uint32_t* starts = nullptr;
+    std::size_t column_length = 0;
+    int n_columns = 0, n_rows = 0;
+};
+
+/// Every pair that might touch in the window, of a disc in `column` and one that comes after it: later in its own column
+/// or in a column to the right, `n_reach` cells away at most. Puts the second ones into `partners` (which only
+/// grows, so its size says nothing) and, for each disc of the column, appends where its partners end there to `ends`.
+void filter_column(const FlightLanes& lanes, const CellTable& cells, int column, int n_reach, float touching_squared,
+                   std::vector<std::uint32_t>& partners, std::vector<std::uint32_t>& ends);
 
 } // namespace carrom
