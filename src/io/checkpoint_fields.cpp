@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "checkpoint_fields.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <type_traits>
-
-#include "carrom/parallel/slabs.hpp"
 
 namespace carrom {
 
@@ -36,16 +33,6 @@ CheckpointHeader read_header(hid_t group) {
 void broadcast(CheckpointHeader& header, const Communicator& communicator) {
     for (const HeaderField& entry : checkpoint_header)
         std::visit([&](auto field) { communicator.broadcast(header.*field); }, entry.field);
-}
-
-std::uint64_t n_pieces(std::uint64_t n, const Communicator& communicator) {
-    return (slab_begin(1, n, communicator.size()) + rows_per_piece - 1) / rows_per_piece; // rank 0 has the most
-}
-
-h5::Rows rows_of_piece(std::uint64_t piece, std::uint64_t n, const Communicator& communicator) {
-    const std::uint64_t first = slab_begin(communicator.rank(), n, communicator.size());
-    const std::uint64_t last = slab_begin(communicator.rank() + 1, n, communicator.size());
-    return {std::min(first + piece * rows_per_piece, last), std::min(first + (piece + 1) * rows_per_piece, last)};
 }
 
 } // namespace carrom

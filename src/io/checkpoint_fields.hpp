@@ -66,12 +66,8 @@ CheckpointHeader read_header(hid_t group);
 /// Replaces the header on every rank by that of rank 0. **Collective.**
 void broadcast(CheckpointHeader& header, const Communicator& communicator);
 
-/// Rows that pass through memory at a time, so that a column needs no copy of its own.
-inline constexpr std::uint64_t rows_per_piece = 1 << 20;
-
-/// This rank's rows [begin, end) of piece `piece` of a table of n rows; empty where it has no more. All ranks have
-/// `n_pieces`, so that each takes part in every collective call.
-std::uint64_t n_pieces(std::uint64_t n, const Communicator& communicator);
-h5::Rows rows_of_piece(std::uint64_t piece, std::uint64_t n, const Communicator& communicator);
+/// Rows that are taken apart into columns, or put together from them, at a time: 1 MiB of discs, so that they stay in
+/// the L2 cache.
+inline constexpr std::uint64_t rows_per_piece = 1 << 14;
 
 } // namespace carrom

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <vector>
 
 #include "carrom/core/state_hash.hpp"
@@ -31,21 +32,27 @@ CheckpointHeader header_of(const std::string& path, const Communicator& communic
     return header;
 }
 
-void read_column(hid_t file, const std::string& path, const Column& column, std::uint64_t n, std::vector<Disc>& slab,
-                 const Communicator& communicator) {
-    h5::Dataset dataset;
+/// This rank's share of all columns. A rank that cannot read leaves no other waiting.
+void read_columns(hid_t file, const std::string& path, std::uint64_t n, std::vector<Disc>& slab, const Communicator& communicator) {
+    std::vector<h5::Dataset> datasets;
     on_all(communicator, path, ExitCode::bad_input, [&] {
-        dataset = h5::open_dataset(file, (std::string("/carrom/discs/") + column.name).c_str());
-        if (h5::dimensions_of(dataset.id()) != std::vector<hsize_t>{n}) throw FileError(std::string(column.name) + " is of another length");
+        for (const Column& column : checkpoint_columns) {
+            datasets.push_back(h5::open_dataset(file, (std::string("/carrom/discs/") + column.name).c_str()));
+            if (h5::dimensions_of(datasets.back().id()) != std::vector<hsize_t>{n})
+                throw FileError(std::string(column.name) + " is of another length");
+        }
     });
     const std::uint64_t first = slab_begin(communicator.rank(), n, communicator.size());
-    std::vector<std::uint64_t> numbers;
-    for (std::uint64_t piece = 0; piece < n_pieces(n, communicator); ++piece) {
-        const h5::Rows rows = rows_of_piece(piece, n, communicator);
-        numbers.resize(rows.end - rows.begin);
-        on_all(communicator, path, ExitCode::bad_input, [&] { h5::read_rows(dataset.id(), rows, type_of(column), numbers.data()); });
-        for (std::uint64_t row = rows.begin; row < rows.end; ++row) set_bits(column, slab[row - first], numbers[row - rows.begin]);
-    }
+    on_all(communicator, path, ExitCode::bad_input, [&] {
+        std::vector<std::uint64_t> numbers(rows_per_piece);
+        for (std::uint64_t begin = 0; begin < slab.size(); begin += rows_per_piece) {
+            const std::uint64_t end = std::min<std::uint64_t>(begin + rows_per_piece, slab.size());
+            for (std::size_t k = 0; k < datasets.size(); ++k) {
+                h5::read_rows(datasets[k].id(), {first + begin, first + end}, type_of(checkpoint_columns[k]), numbers.data());
+                for (std::uint64_t row = begin; row < end; ++row) set_bits(checkpoint_columns[k], slab[row], numbers[row - begin]);
+            }
+        }
+    });
 }
 
 } // namespace
@@ -72,7 +79,7 @@ Checkpoint read_checkpoint(const std::string& path, const Communicator& communic
     for (std::size_t i = 0; i < checkpoint.discs.size(); ++i) checkpoint.discs[i].id = first + i;
     h5::File file;
     on_all(communicator, path, ExitCode::bad_input, [&] { file = h5::open_file(path, h5::Access::read, communicator); });
-    for (const Column& column : checkpoint_columns) read_column(file.id(), path, column, n, checkpoint.discs, communicator);
+    read_columns(file.id(), path, n, checkpoint.discs, communicator);
     const StateHash mine = hash_of(checkpoint.discs);
     std::uint64_t sums[] = {mine.low, mine.high};
     communicator.sum(sums);

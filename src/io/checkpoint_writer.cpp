@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rank 0 makes the file with all its structure and takes its room on disk; then the ranks fill in the columns. So what
 // is written side by side is numbers alone, at places that no longer move.
+#include <algorithm>
 #include <array>
+#include <cstring>
+#include <functional>
 #include <vector>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include "carrom/core/state_hash.hpp"
@@ -77,14 +81,45 @@ void create_structure(const std::string& path, const CheckpointHeader& header) {
     file.close("cannot be written");
 }
 
+/// A dataset to be filled, and how a disc becomes its bytes.
+struct Target {
+    std::string path;
+    hid_t type;
+    std::size_t bytes_per_disc;
+    std::function<void(const Disc&, std::byte*)> put;
+    h5::Dataset dataset;
+};
+
+template <class Number, std::size_t n> void put_numbers(std::byte* out, const std::array<Number, n>& numbers) {
+    std::memcpy(out, numbers.data(), sizeof numbers);
+}
+
+std::vector<Target> targets_of(const CheckpointHeader& header) {
+    std::vector<Target> targets;
+    for (const Column& column : checkpoint_columns)
+        targets.push_back({std::string("/carrom/discs/") + column.name, type_of(column), sizeof(std::uint64_t),
+                           [&column](const Disc& disc, std::byte* out) { put_numbers(out, std::array{bits_of(column, disc)}); }, {}});
+    const double clock = header.clock(), k = static_cast<double>(header.micro_steps);
+    const auto vector_of = [](double x, double y) { return std::array<float, 3>{static_cast<float>(x), static_cast<float>(y), 0}; };
+    targets.push_back({"/particles/discs/position/value", H5T_NATIVE_FLOAT, 3 * sizeof(float),
+                       [=](const Disc& disc, std::byte* out) { put_numbers(out, vector_of(disc.x_at(clock), disc.y_at(clock))); }, {}});
+    targets.push_back({"/particles/discs/velocity/value", H5T_NATIVE_FLOAT, 3 * sizeof(float),
+                       [=](const Disc& disc, std::byte* out) { put_numbers(out, vector_of(disc.vx * k, disc.vy * k)); }, {}});
+    return targets;
+}
+
+/// The ranks' shares of all datasets, each written by its rank in pieces that stay in cache while they are taken apart.
 class ColumnWriter {
 public:
     ColumnWriter(const std::string& path, const CheckpointHeader& header, std::span<const Disc> slab, const Communicator& communicator)
-        : path_(path), header_(header), slab_(slab), communicator_(communicator),
-          first_(slab_begin(communicator.rank(), header.n_discs, communicator.size())) {}
+        : path_(path), slab_(slab), communicator_(communicator),
+          first_(slab_begin(communicator.rank(), header.n_discs, communicator.size())), targets_(targets_of(header)) {}
 
     /// A file that could not be written is not closed: closing writes again, and where that fails it does not come back.
-    ~ColumnWriter() { file_.abandon(); }
+    ~ColumnWriter() {
+        for (Target& target : targets_) target.dataset.abandon();
+        file_.abandon();
+    }
     ColumnWriter(const ColumnWriter&) = delete;
     ColumnWriter& operator=(const ColumnWriter&) = delete;
 
@@ -93,22 +128,23 @@ public:
             const Deadline deadline(path_);
             file_ = h5::open_file(path_, h5::Access::write, communicator_);
         });
-        for (const Column& column : checkpoint_columns)
-            write_column<std::uint64_t>(file_.id(), std::string("/carrom/discs/") + column.name, type_of(column), 1,
-                                        [&](const Disc& disc, std::uint64_t* out) { *out = bits_of(column, disc); });
-        const double clock = header_.clock(), k = static_cast<double>(header_.micro_steps);
-        write_column<float>(file_.id(), "/particles/discs/position/value", H5T_NATIVE_FLOAT, 3, [clock](const Disc& disc, float* out) {
-            out[0] = static_cast<float>(disc.x_at(clock));
-            out[1] = static_cast<float>(disc.y_at(clock));
-            out[2] = 0;
+        on_ranks([&] {
+            const Deadline deadline(path_);
+            for (Target& target : targets_) target.dataset = h5::open_dataset(file_.id(), target.path.c_str());
         });
-        write_column<float>(file_.id(), "/particles/discs/velocity/value", H5T_NATIVE_FLOAT, 3, [k](const Disc& disc, float* out) {
-            out[0] = static_cast<float>(disc.vx * k);
-            out[1] = static_cast<float>(disc.vy * k);
-            out[2] = 0;
+        // Each rank brings to disk what it has written: on several nodes it is in caches of their own.
+        on_ranks([&] {
+            const Descriptor disk(path_, O_WRONLY);
+            for (std::uint64_t row = 0; row < slab_.size(); row += rows_per_piece) {
+                write_piece(row, std::min<std::uint64_t>(row + rows_per_piece, slab_.size()));
+                if (row % (64 * rows_per_piece) == 0) disk.start_sync();
+            }
+            disk.sync();
         });
-        // Each rank, since on several nodes each has written through a cache of its own.
-        on_ranks([&] { sync_file(path_); });
+        on_ranks([&] {
+            const Deadline deadline(path_);
+            for (Target& target : targets_) target.dataset.close("cannot be closed");
+        });
         on_ranks([&] {
             const Deadline deadline(path_);
             file_.close("cannot be closed");
@@ -118,33 +154,21 @@ public:
 private:
     template <class Act> void on_ranks(const Act& act) const { on_all(communicator_, path_, ExitCode::output_failure, act); }
 
-    template <class Number, class Fill>
-    void write_column(hid_t file, const std::string& name, hid_t type, std::size_t width, const Fill& fill) {
-        h5::Dataset dataset;
-        on_ranks([&] {
-            const Deadline deadline(path_);
-            dataset = h5::open_dataset(file, name.c_str());
-        });
-        std::vector<Number> numbers;
-        for (std::uint64_t piece = 0; piece < n_pieces(header_.n_discs, communicator_); ++piece) {
-            const h5::Rows rows = rows_of_piece(piece, header_.n_discs, communicator_);
-            numbers.resize((rows.end - rows.begin) * width);
-            for (std::uint64_t row = rows.begin; row < rows.end; ++row)
-                fill(slab_[row - first_], numbers.data() + (row - rows.begin) * width);
-            on_ranks([&] { h5::write_rows(dataset.id(), rows, type, numbers.data()); });
+    void write_piece(std::uint64_t begin, std::uint64_t end) {
+        for (const Target& target : targets_) {
+            bytes_.resize((end - begin) * target.bytes_per_disc);
+            for (std::uint64_t row = begin; row < end; ++row) target.put(slab_[row], bytes_.data() + (row - begin) * target.bytes_per_disc);
+            h5::write_rows(target.dataset.id(), {first_ + begin, first_ + end}, target.type, bytes_.data());
         }
-        on_ranks([&] {
-            const Deadline deadline(path_);
-            dataset.close("cannot be written");
-        });
     }
 
     const std::string& path_;
-    const CheckpointHeader& header_;
     std::span<const Disc> slab_;
     const Communicator& communicator_;
     std::uint64_t first_; ///< the id of the slab's first disc
+    std::vector<Target> targets_;
     h5::File file_;
+    std::vector<std::byte> bytes_;
 };
 
 void fill_sums(CheckpointHeader& header, std::span<const Disc> slab, const Communicator& communicator) {

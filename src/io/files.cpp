@@ -54,6 +54,10 @@ void Descriptor::sync() const {
     if (::fsync(number_) != 0) fail_with_errno("cannot be brought to disk");
 }
 
+void Descriptor::start_sync() const {
+    ::sync_file_range(number_, 0, 0, SYNC_FILE_RANGE_WRITE); // a hint: failures show in `sync`
+}
+
 namespace {
 
 std::array<char, 512> deadline_text{}; // what the handler may use: no allocation, no locks
@@ -92,8 +96,6 @@ void reserve(const std::string& path) {
     if (::fallocate(file.number(), 0, 0, static_cast<off_t>(file.size())) != 0 && errno != EOPNOTSUPP && errno != ENOSYS && errno != EINVAL)
         fail_with_errno("its room cannot be reserved");
 }
-
-void sync_file(const std::string& path) { Descriptor(path, O_WRONLY).sync(); }
 
 void rename_durably(const std::string& from, const std::string& to) {
     if (std::rename(from.c_str(), to.c_str()) != 0) fail_with_errno("cannot be renamed");

@@ -39,6 +39,8 @@ public:
     std::size_t read(std::span<std::byte> bytes, std::uint64_t offset) const;
     void write(std::span<const std::byte> bytes, std::uint64_t offset) const;
     void sync() const;
+    /// Lets the system begin to bring to disk what is written; does not wait.
+    void start_sync() const;
 
 private:
     int number_;
@@ -63,7 +65,6 @@ private:
 void check_room(const std::string& folder, std::uint64_t bytes);
 /// Takes the blocks of a file now, so that a full disk shows now; does nothing where that is not to be had.
 void reserve(const std::string& path);
-void sync_file(const std::string& path);
 /// Renames and makes it last: the folder is synced too.
 void rename_durably(const std::string& from, const std::string& to);
 std::string folder_of(const std::string& path);

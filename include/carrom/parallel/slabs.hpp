@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "carrom/core/errors.hpp"
@@ -27,29 +28,61 @@ inline int slab_of(std::uint64_t id, std::uint64_t n, int size) {
     return static_cast<int>(id < in_larger ? id / (share + 1) : n_larger + (id - in_larger) / share);
 }
 
+namespace detail {
+
+/// Fills this rank's slab; every place must be filled once.
+template <class T, class IdOf> class SlabFiller {
+public:
+    SlabFiller(std::uint64_t first, std::uint64_t last, const IdOf& id_of)
+        : first_(first), id_of_(id_of), slab_(last - first), is_filled_(slab_.size(), false) {}
+
+    template <class Records> void fill(const Records& records) {
+        for (const T& record : records) {
+            const std::uint64_t place = id_of_(record) - first_;
+            ensure(place < slab_.size(), "a record's id is beyond the number of records");
+            ensure(!is_filled_[place], "two records have the same id");
+            is_filled_[place] = true;
+            slab_[place] = record;
+        }
+        n_filled_ += records.size();
+    }
+
+    std::vector<T> take() {
+        ensure(n_filled_ == slab_.size(), "a slab has missing records");
+        return std::move(slab_);
+    }
+
+private:
+    std::uint64_t first_, n_filled_ = 0;
+    const IdOf& id_of_;
+    std::vector<T> slab_;
+    std::vector<bool> is_filled_;
+};
+
+} // namespace detail
+
 /// Brings records in any order on any ranks into slabs: returns this rank's, ascending. `id_of(record)` gives the id;
-/// each of 0 .. n-1 must occur once over all ranks (checked). Memory: twice a rank's records and its slab.
-/// **Collective.**
+/// each of 0 .. n-1 must occur once over all ranks (checked). Memory: twice a rank's records and its slab, on one rank
+/// the slab alone. **Collective.**
 template <class Records, class IdOf, Message T = typename Records::value_type>
 std::vector<T> to_slabs(const Communicator& communicator, const Records& records, std::uint64_t n, const IdOf& id_of) {
-    std::vector<std::vector<T>> out(static_cast<std::size_t>(communicator.size()));
+    const int size = communicator.size();
+    const int rank = communicator.rank();
+    detail::SlabFiller<T, IdOf> filler(slab_begin(rank, n, size), slab_begin(rank + 1, n, size), id_of);
+    if (size == 1) {
+        filler.fill(records);
+        return filler.take();
+    }
+    std::vector<std::size_t> counts(static_cast<std::size_t>(size), 0);
     for (const T& record : records) {
         ensure(id_of(record) < n, "a record's id is beyond the number of records");
-        out[static_cast<std::size_t>(slab_of(id_of(record), n, communicator.size()))].push_back(record);
+        ++counts[static_cast<std::size_t>(slab_of(id_of(record), n, size))];
     }
-    const Received<T> in = send_to_owners(communicator, out);
-    const std::uint64_t first = slab_begin(communicator.rank(), n, communicator.size());
-    const std::uint64_t last = slab_begin(communicator.rank() + 1, n, communicator.size());
-    ensure(in.items.size() == last - first, "a slab has missing or surplus records");
-    std::vector<T> slab(in.items.size());
-    std::vector<unsigned char> is_filled(slab.size(), 0);
-    for (const T& record : in.items) {
-        const std::size_t place = id_of(record) - first;
-        ensure(is_filled[place] == 0, "two records have the same id");
-        is_filled[place] = 1;
-        slab[place] = record;
-    }
-    return slab;
+    std::vector<std::vector<T>> out(counts.size());
+    for (std::size_t k = 0; k < counts.size(); ++k) out[k].reserve(counts[k]);
+    for (const T& record : records) out[static_cast<std::size_t>(slab_of(id_of(record), n, size))].push_back(record);
+    filler.fill(send_to_owners(communicator, out).items);
+    return filler.take();
 }
 
 } // namespace carrom
