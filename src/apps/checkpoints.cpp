@@ -19,11 +19,10 @@ constexpr double longest_stretch = 1e15; // steps
 
 } // namespace
 
-Checkpoints::Checkpoints(const Scene& scene, std::int64_t first_step, bool is_restart, const Communicator& ranks)
-    : ranks_(ranks), scene_(scene), last_looked_(first_step) {
-    if (!scene_.checkpoint) return;
-    signals_.emplace();
-    if (!is_restart) return;
+Checkpoints::Checkpoints(const Scene& scene, std::int64_t first_step, bool is_restart, const StopSignals& signals,
+                         const Communicator& ranks)
+    : ranks_(ranks), scene_(scene), signals_(signals), last_looked_(first_step) {
+    if (!scene_.checkpoint || !is_restart) return;
     last_written_ = first_step;
     kept_ = earlier_checkpoints(scene_, first_step, ranks_);
     kept_.push_back(checkpoint_path(scene_.checkpoint->folder, first_step));
@@ -53,7 +52,7 @@ bool Checkpoints::look_up(const Simulation& simulation, Recordings& recordings) 
 
 /// What all ranks agree on: whether any has a signal, and what rank 0's clock says. **Collective.**
 Checkpoints::News Checkpoints::news(std::int64_t step) {
-    std::array<std::uint64_t, 3> sums = {signals_->has_come() ? 1u : 0u, 0, 0};
+    std::array<std::uint64_t, 3> sums = {signals_.has_come() ? 1u : 0u, 0, 0};
     if (ranks_.is_root()) {
         const double seconds = stretch_watch_.lap();
         const double steps = static_cast<double>(step - last_looked_) * seconds_between_looks / std::max(seconds, 1e-6);

@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,14 +21,16 @@ namespace carrom {
 
 class Checkpoints {
 public:
-    /// `first_step` is where the run begins; `is_restart` if it has a checkpoint of that step. `ranks` must outlive this.
-    Checkpoints(const Scene& scene, std::int64_t first_step, bool is_restart, const Communicator& ranks);
+    /// `first_step` is where the run begins; `is_restart` if it has a checkpoint of that step. References must outlive
+    /// this.
+    Checkpoints(const Scene& scene, std::int64_t first_step, bool is_restart, const StopSignals& signals, const Communicator& ranks);
 
     /// Up to which step to go before looking up again.
     std::int64_t next_look(std::int64_t step) const;
 
-    /// Looks up after a stretch of steps and stores the state if it is time, after what is recorded up to there. True if the run is to stop here; its state
-    /// is stored then. If storing fails every rank throws, and the older checkpoints are as they were. **Collective.**
+    /// Looks up after a stretch of steps and stores the state if it is time, after what is recorded up to there. True if
+    /// the run is to stop here; its state is stored then. If storing fails every rank throws, and the older checkpoints
+    /// are as they were. **Collective.**
     bool look_up(const Simulation& simulation, Recordings& recordings);
 
 private:
@@ -42,7 +43,7 @@ private:
 
     const Communicator& ranks_;
     const Scene& scene_;
-    std::optional<StopSignals> signals_;
+    const StopSignals& signals_;
     std::int64_t last_looked_, last_written_ = -1;
     std::int64_t stretch_ = 1;             ///< steps until the next look, as rank 0 has measured
     Stopwatch stretch_watch_;

@@ -68,6 +68,7 @@ std::string header_text(const CheckpointHeader& header) {
     text += line("state hash", header.state_hash);
     text += line("scene", header.scene_name);
     std::string overrides = header.scene_overrides;
+    if (!overrides.empty()) overrides.pop_back(); // each ends its line
     std::replace(overrides.begin(), overrides.end(), '\n', ' ');
     return overrides.empty() ? text : text + line("set", overrides);
 }

@@ -127,13 +127,14 @@ std::vector<InputDisc> load_discs(const Scene& scene, std::unique_ptr<std::istre
 
 } // namespace
 
-Loaded load(const RunOptions& options, const Problems& problems, const Communicator& ranks) {
+Loaded load(const RunOptions& options, const Problems& problems, StopSignals& signals, const Communicator& ranks) {
     std::unique_ptr<std::istream> stream;
     Loaded loaded;
     if (options.restart.empty() || !options.input.empty()) loaded.scene = load_scene(options, problems, ranks, stream);
     else check_without_scene(options, problems, ranks);
     if (!options.restart.empty()) load_restart(options, loaded, ranks);
     const Scene& scene = loaded.scene;
+    if (!scene.checkpoint) signals.let_go();
     check_folders(scene, ranks);
     if (!loaded.stored) loaded.discs = load_discs(scene, stream, ranks);
     if (ranks.is_root())

@@ -13,6 +13,7 @@
 #include "carrom/scene/scene.hpp"
 #include "carrom/simulation/simulation.hpp"
 #include "run_options.hpp"
+#include "stop_signals.hpp"
 
 namespace carrom {
 
@@ -24,8 +25,8 @@ struct Loaded {
 };
 
 /// Throws InputError on every rank: with `problems` (found so far, the same on all ranks), those of the report's path
-/// and those of the scene; if there are none, with those of the lines of discs, or of the checkpoint to go on from. Rank 0 prints the scene's warnings.
-/// **Collective.**
-Loaded load(const RunOptions& options, const std::vector<Problem>& problems, const Communicator& ranks);
+/// and those of the scene; if there are none, with those of the lines of discs, or of the checkpoint to go on from. A
+/// scene that stores no checkpoints lets go of `signals`. Rank 0 prints the scene's warnings. **Collective.**
+Loaded load(const RunOptions& options, const std::vector<Problem>& problems, StopSignals& signals, const Communicator& ranks);
 
 } // namespace carrom

@@ -66,11 +66,19 @@ Checkpoint read_matching(const std::string& path, const RunOptions& options, Sce
     return checkpoint;
 }
 
+/// Its problems on one line, without the places: there is one.
+std::string reasons(const InputError& error) {
+    std::string text;
+    for (const Problem& problem : error.problems()) text += (text.empty() ? "" : "; ") + problem.text;
+    return text;
+}
+
 /// The newest of the candidates that is whole and of this run. **Collective.**
 std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths, const RunOptions& options, Scene& scene,
                                       const Communicator& ranks) {
-    const auto pass_over = [&ranks](const std::string& path, const char* reason) {
-        if (ranks.is_root()) fmt::print(stderr, "passing over {}: {}\n", path, reason);
+    const auto pass_over = [&ranks](const std::string& path, const std::string& reason) {
+        const std::size_t named = reason.starts_with(path + ": ") ? path.size() + 2 : 0;
+        if (ranks.is_root()) fmt::print(stderr, "passing over {}: {}\n", path, reason.substr(named));
     };
     for (const std::string& path : paths) {
         try {
@@ -79,7 +87,7 @@ std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths, con
             if (error.code() != ExitCode::bad_input) throw;
             pass_over(path, error.what());
         } catch (const InputError& error) {
-            pass_over(path, error.what());
+            pass_over(path, reasons(error));
         }
     }
     return std::nullopt;

@@ -18,6 +18,7 @@
 #include "recordings.hpp"
 #include "report_file.hpp"
 #include "run_options.hpp"
+#include "stop_signals.hpp"
 #include "stopwatch.hpp"
 #include "summary.hpp"
 
@@ -53,7 +54,7 @@ void tell(const RunOptions& options, const Scene& scene, const RunResult& result
 /// Steps to the end of the scene, writing on the way what it asks for, or to where the run is told to stop: false then.
 /// A restart does not write the lines of its first step again. **Collective.**
 bool step_to_end(Simulation& simulation, RunResult& result, double& output_seconds, const RunOptions& options,
-                 const Scene& scene, bool is_restart, const Communicator& ranks) {
+                 const Scene& scene, bool is_restart, const StopSignals& signals, const Communicator& ranks) {
     DiscLines lines(scene, options.output, options.digits, ranks);
     Progress progress(simulation.step(), scene.steps, ranks.is_root() && !options.quiet);
     Stopwatch watch;
@@ -63,7 +64,7 @@ bool step_to_end(Simulation& simulation, RunResult& result, double& output_secon
         lines.write(simulation);
     };
     if (!is_restart || simulation.step() == scene.steps) write_if_due();
-    Checkpoints checkpoints(scene, simulation.step(), is_restart, ranks);
+    Checkpoints checkpoints(scene, simulation.step(), is_restart, signals, ranks);
     Recordings recordings(scene, simulation, is_restart, ranks);
     bool must_stop = checkpoints.look_up(simulation, recordings);
     output_seconds += watch.lap();
@@ -85,7 +86,8 @@ bool step_to_end(Simulation& simulation, RunResult& result, double& output_secon
 /// The run itself. **Collective.**
 ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, const Communicator& ranks) {
     Stopwatch watch;
-    Loaded loaded = load(options, problems, ranks);
+    StopSignals signals;
+    Loaded loaded = load(options, problems, signals, ranks);
     const Scene& scene = loaded.scene;
     Tuning tuning = options.tuning;
     tuning.threads = options.threads.value_or(default_threads(ranks));
@@ -98,7 +100,7 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     result.start = simulation.totals();
     const double setup_seconds = watch.lap();
     double output_seconds = 0;
-    const bool is_done = step_to_end(simulation, result, output_seconds, options, scene, is_restart, ranks);
+    const bool is_done = step_to_end(simulation, result, output_seconds, options, scene, is_restart, signals, ranks);
     result.last_step = simulation.step();
     result.end = simulation.totals();
     result.replays = simulation.replay_counts();

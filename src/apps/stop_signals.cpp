@@ -7,9 +7,9 @@ namespace carrom {
 
 namespace {
 
-volatile std::sig_atomic_t signal_has_come = 0;
+volatile std::sig_atomic_t signal_that_has_come = 0;
 
-void note_signal(int) { signal_has_come = 1; }
+void note_signal(int number) { signal_that_has_come = number; }
 
 void handle(void (*handler)(int)) {
     struct sigaction action {};
@@ -26,6 +26,11 @@ StopSignals::StopSignals() { handle(note_signal); }
 
 StopSignals::~StopSignals() { handle(SIG_DFL); }
 
-bool StopSignals::has_come() const { return signal_has_come != 0; }
+void StopSignals::let_go() {
+    handle(SIG_DFL);
+    if (has_come()) std::raise(signal_that_has_come);
+}
+
+bool StopSignals::has_come() const { return signal_that_has_come != 0; }
 
 } // namespace carrom

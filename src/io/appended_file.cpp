@@ -71,6 +71,7 @@ void create_growing(hid_t parent, const char* name, hid_t type, std::span<const 
         h5::checked(H5Pset_shuffle(creation.id()), name);
         h5::checked(H5Pset_deflate(creation.id(), static_cast<unsigned>(level)), name);
     }
+    h5::checked(H5Pset_fletcher32(creation.id()), name);
     h5::Dataset dataset(h5::checked(
         H5Dcreate2(parent, name, type, h5::space(dimensions, largest).id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT), name));
     dataset.close(name);

@@ -55,6 +55,17 @@ expect_code 1 'diff of two runs'
 grep -q '^first: step 0, disc 0, x: ' "$test_folder/out" || complain 'diff does not name the first disc and field'
 grep -q '^largest: ' "$test_folder/out" || complain 'diff does not tell the largest difference'
 
+# A flipped bit among the numbers of a recording is noticed by its own checksums.
+for file in t.h5 c.h5; do
+    cp "$file" damaged.h5
+    place=$(($(stat -c %s "$file") / 2))
+    byte=$(od -An -tu1 -j "$place" -N 1 "$file")
+    printf "\\x$(printf %x $((byte ^ 1)))" | dd of=damaged.h5 bs=1 seek="$place" conv=notrunc status=none
+    run 2 verify damaged.h5
+    expect_code 2 "a flipped bit in $file"
+    expect_told damaged.h5 "a flipped bit in $file"
+done
+
 printf 'X' | dd of="$last" bs=1 seek=9000 conv=notrunc status=none
 for command in verify info; do
     run 3 "$command" "$last"

@@ -38,6 +38,21 @@ stopped 1 TERM
 stopped 3 USR1
 goes_on
 
+# A signal that comes while the discs are still being made is heeded too: once this rank catches USR1 (bit 9).
+rm -rf kept
+"$CARROM_PROGRAM" run "${scene[@]}" "${store[@]}" --set discs.count=1000000 --steps 100000000 >"$test_folder/out" 2>"$test_folder/err" &
+program=$!
+for ((i = 0; i < 300; ++i)); do
+    caught=$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$program/status")
+    [ $((16#${caught: -4} & 16#200)) -eq 0 ] || break
+    sleep 0.1
+done
+kill -USR1 "$program"
+wait "$program"
+code=$?
+expect_code 75 'USR1 while discs are made'
+[ "$(ls kept)" = checkpoint-000000000000.h5 ] || complain "USR1 while discs are made did not leave the start: $(ls kept)"
+
 # Without a folder for checkpoints the signals mean what they mean to any program.
 "$CARROM_PROGRAM" run "${scene[@]}" --steps 100000000 >/dev/null 2>&1 &
 program=$!
