@@ -41,7 +41,7 @@ GridFrame make_frame(double x_low, double x_high, double y_low, double y_high, d
     return frame;
 }
 
-void CellGrid::build(std::span<const Disc> discs, const GridFrame& frame, double time, double duration, int n_threads) {
+void CellGrid::build(std::span<const Disc> discs, const GridFrame& frame, double anchor, double time, double duration, int n_threads) {
     frame_ = frame;
     time_ = time;
     duration_ = duration;
@@ -65,8 +65,8 @@ void CellGrid::build(std::span<const Disc> discs, const GridFrame& frame, double
         std::uint32_t* counts = thread_column_start_.data() + n_columns * static_cast<std::size_t>(thread);
         const std::size_t begin = share(n, thread, n_threads), end = share(n, thread + 1, n_threads);
         for (std::size_t i = begin; i < end; ++i) {
-            const auto column = static_cast<std::uint32_t>(frame_.column_of(discs[i].x_at(time)));
-            const auto row = static_cast<std::uint32_t>(frame_.row_of(discs[i].y_at(time)));
+            const auto column = static_cast<std::uint32_t>(frame_.column_of(discs[i].x_at(anchor)));
+            const auto row = static_cast<std::uint32_t>(frame_.row_of(discs[i].y_at(anchor)));
             cell_of_[i] = column * rows() + row;
             ++counts[column];
         }

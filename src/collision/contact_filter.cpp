@@ -65,36 +65,38 @@ std::size_t FilterColumn(const CellGrid& grid, int column, float touching_square
     const FlightLanes lanes = grid.lanes();
     const int reach = grid.frame().n_reach, n_rows = grid.frame().n_rows;
     const int last_column = HWY_MIN(column + reach, grid.frame().n_columns - 1);
-    std::vector<SlotRange> runs(static_cast<std::size_t>(last_column - column + 1));
+    std::vector<SlotRange> runs(static_cast<std::size_t>(last_column - column));
     std::size_t n_pairs = 0;
     for (int row = 0; row < n_rows; ++row) {
         const SlotRange cell = grid.run(column, row, row);
         if (cell.begin == cell.end) continue;
-        std::size_t n_in_runs = 0;
-        for (int other = column; other <= last_column; ++other) {
-            SlotRange& run = runs[static_cast<std::size_t>(other - column)];
+        const std::uint32_t own_end = grid.run(column, row, row + reach).end;
+        std::size_t n_in_runs = own_end - cell.begin;
+        for (int other = column + 1; other <= last_column; ++other) {
+            SlotRange& run = runs[static_cast<std::size_t>(other - column - 1)];
             run = grid.run(other, row - reach, row + reach);
             n_in_runs += run.end - run.begin;
         }
         SlotPair* out = room(pairs, n_pairs, (cell.end - cell.begin) * n_in_runs);
-        for (std::uint32_t slot = cell.begin; slot < cell.end; ++slot) {
-            const Broadcast flight(d, lanes, slot, touching_squared);
-            runs.front().begin = slot + 1;
-            for (const SlotRange run : runs) {
-                for (std::uint32_t other = run.begin; other < run.end; other += n_lanes) {
-                    std::uint64_t bits = lanes_that_touch(d, lanes, other, run.end - other, flight);
-                    for (; bits != 0; bits &= bits - 1) {
-                        out[n_pairs++] = {slot, other + static_cast<std::uint32_t>(std::countr_zero(bits))};
-                    }
+        const auto filter_run = [&](std::uint32_t slot, const Broadcast<hn::ScalableTag<float>>& flight, SlotRange run) {
+            for (std::uint32_t other = run.begin; other < run.end; other += n_lanes) {
+                std::uint64_t bits = lanes_that_touch(d, lanes, other, run.end - other, flight);
+                for (; bits != 0; bits &= bits - 1) {
+                    out[n_pairs++] = {slot, other + static_cast<std::uint32_t>(std::countr_zero(bits))};
                 }
             }
+        };
+        for (std::uint32_t slot = cell.begin; slot < cell.end; ++slot) {
+            const Broadcast flight(d, lanes, slot, touching_squared);
+            filter_run(slot, flight, {slot + 1, own_end});
+            for (const SlotRange run : runs) filter_run(slot, flight, run);
         }
     }
     return n_pairs;
 }
 
 std::size_t FilterAround(const CellGrid& grid, LocalIndex index, float from, float half_reach, float touching_squared,
-                         std::vector<std::uint32_t>& partners) {
+                         std::vector<SlotPair>& pairs, std::size_t n_pairs) {
     const hn::ScalableTag<float> d;
     const auto n_lanes = static_cast<std::uint32_t>(hn::Lanes(d));
     const FlightLanes lanes = grid.lanes();
@@ -106,17 +108,16 @@ std::size_t FilterAround(const CellGrid& grid, LocalIndex index, float from, flo
     const int first_row = grid.clamped_row(HWY_MIN(y_begin, y_end) - half_reach);
     const int last_row = grid.clamped_row(HWY_MAX(y_begin, y_end) + half_reach);
     const Broadcast flight(d, lanes, slot, touching_squared);
-    std::size_t n_partners = 0;
     for (int column = first_column; column <= last_column; ++column) {
         const SlotRange run = grid.run(column, first_row, last_row);
-        std::uint32_t* out = room(partners, n_partners, run.end - run.begin);
+        SlotPair* out = room(pairs, n_pairs, run.end - run.begin);
         for (std::uint32_t other = run.begin; other < run.end; other += n_lanes) {
             std::uint64_t bits = lanes_that_touch(d, lanes, other, run.end - other, flight);
             if (slot - other < n_lanes) bits &= ~(std::uint64_t{1} << (slot - other)); // not with itself
-            for (; bits != 0; bits &= bits - 1) out[n_partners++] = other + static_cast<std::uint32_t>(std::countr_zero(bits));
+            for (; bits != 0; bits &= bits - 1) out[n_pairs++] = {slot, other + static_cast<std::uint32_t>(std::countr_zero(bits))};
         }
     }
-    return n_partners;
+    return n_pairs;
 }
 
 const char* FilterTarget() { return hwy::TargetName(HWY_TARGET); }
@@ -136,8 +137,8 @@ std::size_t filter_column(const CellGrid& grid, int column, float touching_squar
 }
 
 std::size_t filter_around(const CellGrid& grid, LocalIndex index, float from, float half_reach, float touching_squared,
-                          std::vector<std::uint32_t>& partners) {
-    return HWY_DYNAMIC_DISPATCH(FilterAround)(grid, index, from, half_reach, touching_squared, partners);
+                          std::vector<SlotPair>& pairs, std::size_t n_pairs) {
+    return HWY_DYNAMIC_DISPATCH(FilterAround)(grid, index, from, half_reach, touching_squared, pairs, n_pairs);
 }
 
 const char* filter_target() { return HWY_DYNAMIC_DISPATCH(FilterTarget)(); }

@@ -17,11 +17,11 @@ namespace carrom {
 /// and `second` after it in the half stencil, later in its own column or in one to the right. Returns how many.
 std::size_t filter_column(const CellGrid& grid, int column, float touching_squared, std::vector<SlotPair>& pairs);
 
-/// Writes to the front of `partners` the slots that a disc might touch between the fraction `from` of the window and its
-/// end, itself excluded; returns how many. Only cells within `half_reach` of that part of its path are looked at: how far
-/// from where two discs touch the other one's cell can be.
+/// Writes to `pairs` behind the first `n_pairs` the disc's slot with each that it might touch between the fraction `from`
+/// of the window and its end, itself excluded; returns how many pairs there are now. Only cells within `half_reach` of that
+/// part of its path are looked at: how far from where two discs touch the other one's cell can be.
 std::size_t filter_around(const CellGrid& grid, LocalIndex index, float from, float half_reach, float touching_squared,
-                          std::vector<std::uint32_t>& partners);
+                          std::vector<SlotPair>& pairs, std::size_t n_pairs);
 
 /// The instruction set in use, as in "AVX3".
 const char* filter_target();

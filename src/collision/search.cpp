@@ -12,7 +12,23 @@ namespace carrom {
 namespace {
 
 /// Discs looked at later whose flights are asked for now.
-constexpr std::int64_t around_ahead = 4;
+constexpr std::size_t around_ahead = 4;
+/// Discs whose partners are listed before any of them is judged.
+constexpr std::size_t hits_per_batch = 128;
+/// Pairs judged later whose states are asked for now: they are far apart in memory.
+constexpr std::size_t pairs_ahead = 8;
+
+void prefetch(std::span<const Disc> discs, LocalIndex index) { __builtin_prefetch(&discs[index]); }
+
+/// Calls ask(pair) some time before judge(pair), for the first n pairs.
+template <class Ask, class Judge>
+void for_each_ahead(const std::vector<SlotPair>& pairs, std::size_t n, const Ask& ask, const Judge& judge) {
+    for (std::size_t k = 0; k < std::min(pairs_ahead, n); ++k) ask(pairs[k]);
+    for (std::size_t k = 0; k < n; ++k) {
+        if (k + pairs_ahead < n) ask(pairs[k + pairs_ahead]);
+        judge(pairs[k]);
+    }
+}
 
 } // namespace
 
@@ -64,61 +80,71 @@ void Search<Law>::predict_all(const Population& population, const CellGrid& grid
 template <class Law>
 void Search<Law>::predict_column(const Population& population, const CellGrid& grid, const Window& window,
                                  const Bounds& bounds, int column, SearchLists& lists) const {
-    constexpr std::size_t ahead = 8; // states are far apart: ask for them early
     const std::span<const LocalIndex> order = grid.order();
-    std::vector<SlotPair>& pairs = lists.pairs;
-    const std::size_t n_pairs = filter_column(grid, column, bounds.touching_squared, pairs);
-    for (std::size_t k = 0; k < n_pairs; ++k) {
-        if (k + ahead < n_pairs) {
-            __builtin_prefetch(&population.discs[order[pairs[k + ahead].first]]);
-            __builtin_prefetch(&population.discs[order[pairs[k + ahead].second]]);
-        }
-        predict_pair(population, window, window.first_micro, order[pairs[k].first], order[pairs[k].second], lists);
-    }
+    lists.n_pairs = filter_column(grid, column, bounds.touching_squared, lists.pairs);
+    for_each_ahead(lists.pairs, lists.n_pairs, [&](const SlotPair& pair) {
+        prefetch(population.discs, order[pair.first]);
+        prefetch(population.discs, order[pair.second]);
+    }, [&](const SlotPair& pair) {
+        predict_pair(population, window, window.first_micro, {}, order[pair.first], order[pair.second], lists);
+    });
     const SlotRange slots = grid.run(column, 0, grid.frame().n_rows - 1);
     for (std::uint32_t slot = slots.begin; slot < slots.end; ++slot) {
         if (bounds.reaches_wall(grid.lanes(), slot)) {
-            predict_wall(population, window, window.first_micro, order[slot], lists);
+            predict_wall(population, window, window.first_micro, {}, order[slot], lists);
         }
     }
 }
 
 template <class Law>
 void Search<Law>::predict_again(const Population& population, const CellGrid& grid, const Window& window, int from,
-                                double reach, std::span<const LocalIndex> hit, std::span<const std::uint8_t> is_hit) {
+                                double reach, std::span<const LocalIndex> hit, std::span<const WindowState> states) {
     const Bounds bounds(law_, grid);
     // Two discs that touch are a diameter apart, and the other one is half a reach less a radius from its cell.
     const float half_reach = grid.cells_of(reach / 2 + law_.radius());
     const auto begin = static_cast<float>((from - window.begin()) / window.duration());
     const std::span<const LocalIndex> order = grid.order();
-    const auto n_hit = static_cast<std::int64_t>(hit.size());
-#pragma omp parallel num_threads(n_threads_) if (n_hit > 64)
+    const auto n_batches = static_cast<std::int64_t>((hit.size() + hits_per_batch - 1) / hits_per_batch);
+    const WindowState now = window.state_after(from - 1);
+#pragma omp parallel num_threads(n_threads_) if (n_batches > 1)
     {
         SearchLists& lists = lists_[static_cast<std::size_t>(omp_get_thread_num())];
-        std::vector<std::uint32_t>& partners = lists.partners;
-#pragma omp for schedule(dynamic, 64)
-        for (std::int64_t k = 0; k < n_hit; ++k) {
-            // What a disc needs is spread over a dozen cache lines: ask for the cells first, then for the flights in them.
-            if (k + 2 * around_ahead < n_hit) grid.prefetch_cells(hit[static_cast<std::size_t>(k + 2 * around_ahead)]);
-            if (k + around_ahead < n_hit) grid.prefetch_flights(hit[static_cast<std::size_t>(k + around_ahead)]);
-            const LocalIndex index = hit[static_cast<std::size_t>(k)];
-            const std::size_t n_partners = filter_around(grid, index, begin, half_reach, bounds.touching_squared, partners);
-            for (std::size_t n = 0; n < n_partners; ++n) __builtin_prefetch(&population.discs[order[partners[n]]]);
-            for (std::size_t n = 0; n < n_partners; ++n) {
-                const LocalIndex other = order[partners[n]];
-                if (is_hit[other] != 0 && other < index) continue;
-                predict_pair(population, window, from, index, other, lists);
-            }
-            if (bounds.reaches_wall(grid.lanes(), grid.slot_of(index))) {
-                predict_wall(population, window, from, index, lists);
+#pragma omp for schedule(dynamic, 1)
+        for (std::int64_t k = 0; k < n_batches; ++k) {
+            const std::size_t first = static_cast<std::size_t>(k) * hits_per_batch;
+            const std::span<const LocalIndex> batch = hit.subspan(first, std::min(hits_per_batch, hit.size() - first));
+            look_around(grid, bounds, begin, half_reach, batch, lists);
+            for_each_ahead(lists.pairs, lists.n_pairs, [&](const SlotPair& pair) {
+                prefetch(population.discs, order[pair.second]);
+            }, [&](const SlotPair& pair) {
+                const LocalIndex index = order[pair.first], other = order[pair.second];
+                // A pair of hit discs is predicted once.
+                if (states[other] != now || index < other) predict_pair(population, window, from, states, index, other, lists);
+            });
+            for (const LocalIndex index : batch) {
+                if (index != wall && bounds.reaches_wall(grid.lanes(), grid.slot_of(index)))
+                    predict_wall(population, window, from, states, index, lists);
             }
         }
     }
 }
 
+/// Fills `lists.pairs` with the slots that the discs of `hit` might touch.
 template <class Law>
-void Search<Law>::predict_pair(const Population& population, const Window& window, int from, LocalIndex a, LocalIndex b,
-                               SearchLists& lists) const {
+void Search<Law>::look_around(const CellGrid& grid, const Bounds& bounds, float from, float half_reach,
+                              std::span<const LocalIndex> hit, SearchLists& lists) const {
+    lists.n_pairs = 0;
+    for (std::size_t k = 0; k < hit.size(); ++k) {
+        // What a disc needs is spread over a dozen cache lines: ask for the cells first, then for the flights in them.
+        if (k + 2 * around_ahead < hit.size() && hit[k + 2 * around_ahead] != wall) grid.prefetch_cells(hit[k + 2 * around_ahead]);
+        if (k + around_ahead < hit.size() && hit[k + around_ahead] != wall) grid.prefetch_flights(hit[k + around_ahead]);
+        if (hit[k] != wall) lists.n_pairs = filter_around(grid, hit[k], from, half_reach, bounds.touching_squared, lists.pairs, lists.n_pairs);
+    }
+}
+
+template <class Law>
+void Search<Law>::predict_pair(const Population& population, const Window& window, int from, States states, LocalIndex a,
+                               LocalIndex b, SearchLists& lists) const {
     if (a >= population.n_own && b >= population.n_own) return;
     const Disc& first = population.discs[a];
     const Disc& second = population.discs[b];
@@ -128,38 +154,40 @@ void Search<Law>::predict_pair(const Population& population, const Window& windo
     if (m == window.end_micro()) return;
     const double t = in_step_time(contact, m);
     if (!window.holds(t)) return;
-    Candidate candidate{t, a, b, first.version(), second.version()};
-    if (second.id < first.id) {
-        std::swap(candidate.p, candidate.q);
-        std::swap(candidate.p_version, candidate.q_version);
+    Candidate candidate{t, a, b};
+    if (second.id < first.id) std::swap(candidate.p, candidate.q);
+    if (!states.empty()) {
+        candidate.p_state = states[candidate.p];
+        candidate.q_state = states[candidate.q];
     }
     lists.by_micro[static_cast<std::size_t>(m - window.first_micro)].push_back(candidate);
 }
 
 template <class Law>
-void Search<Law>::predict_wall(const Population& population, const Window& window, int from, LocalIndex index,
-                               SearchLists& lists) const {
+void Search<Law>::predict_wall(const Population& population, const Window& window, int from, States states,
+                               LocalIndex index, SearchLists& lists) const {
     if (index >= population.n_own) return;
     const Disc& disc = population.discs[index];
     for (int m = from; m < window.end_micro(); ++m) {
         const double t = law_.wall_time(disc, m);
         if (t == Law::never) continue;
         if (window.holds(t)) {
-            lists.by_micro[static_cast<std::size_t>(m - window.first_micro)].push_back({t, index, wall, disc.version(), 0});
+            lists.by_micro[static_cast<std::size_t>(m - window.first_micro)].push_back(
+                {t, index, wall, states.empty() ? WindowState{0} : states[index], 0});
         }
         return;
     }
 }
 
 template <class Law>
-void Search<Law>::collect(const Population& population, const Window& window, int m, std::vector<Candidate>& live) {
+void Search<Law>::collect(const Window& window, int m, std::span<const WindowState> states, std::vector<Candidate>& live) {
     const auto bucket = static_cast<std::size_t>(m - window.first_micro);
     std::vector<std::size_t> ends(static_cast<std::size_t>(n_threads_) + 1, 0);
 #pragma omp parallel num_threads(n_threads_)
     {
         const auto thread = static_cast<std::size_t>(omp_get_thread_num());
         std::vector<Candidate>& list = lists_[thread].by_micro[bucket];
-        std::erase_if(list, [&](const Candidate& candidate) { return !is_current(candidate, population.discs); });
+        std::erase_if(list, [&](const Candidate& candidate) { return !is_current(candidate, states); });
         ends[thread + 1] = list.size();
 #pragma omp barrier
 #pragma omp single

@@ -152,7 +152,7 @@ void ExactEngine::settle() {
     frame.y_low = 0;
     first_own_column_ = n_left;
     end_own_column_ = n_left + n_own;
-    grid_.build(discs_.all(), frame, time_, window_.duration(), tuning_.threads);
+    grid_.build(discs_.all(), frame, time_, time_, window_.duration(), tuning_.threads);
     histories_.resize(discs_.all().size());
     make_blocks();
 }
@@ -263,7 +263,7 @@ void ExactEngine::settle_now() {
     const double x_low = std::max(0.0, discs_.strips().low(communicator_.rank()) - reach);
     const double x_high = std::min(law_.box_size(), discs_.strips().high(communicator_.rank()) + reach);
     const GridFrame frame = make_frame(x_low, x_high, 0, law_.box_size(), reach, discs_.all().size(), 0);
-    grid_.build(discs_.all(), frame, time_, 1, tuning_.threads);
+    grid_.build(discs_.all(), frame, time_, time_, 1, tuning_.threads);
 }
 
 ReplayCounts ExactEngine::replay_counts() const {

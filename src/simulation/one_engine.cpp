@@ -37,6 +37,8 @@ OneEngine::OneEngine(const Scene& scene, StoredState state, const Communicator& 
     const double density = static_cast<double>(discs_.n_total()) / (law_.box_size() * law_.box_size());
     hits_per_micro_step_ = std::min(1.0, density * law_.diameter() * communicator_.max(largest_speed_)); // a first guess
     discs_.rebalance(micro_, tuning_.rebalance_above);
+    settle_now();
+    reorder();
 }
 
 void OneEngine::advance_towards(std::int64_t last_step) {
@@ -65,8 +67,6 @@ void OneEngine::run_window(int n_left) {
         outcomes_.clear();
         in_parts_ = false;
         part_ = 0;
-        // A taken disc was settled where it would have come without its collision: as far again from where it is.
-        settled_time_ = m - 2.0;
     }
     n_micro_done_ += m - window.first_micro;
     micro_ = m;
@@ -75,22 +75,27 @@ void OneEngine::run_window(int n_left) {
 /// Brings every disc to its strip, the halo to every strip and all into cells, for the window that it chooses.
 Window OneEngine::settle(int n_left) {
     const PhaseClock::Scope scope(clock_, Phase::settle);
-    if (part_ == 0 && n_windows_ % windows_per_reorder == 0 && n_windows_ > 0) {
-        grid_.reorder(discs_.all(), discs_.n_own(), tuning_.threads);
-    }
-    migrate();
+    if (part_ == 0 && n_windows_ % windows_per_reorder == 0 && n_windows_ > 0) reorder();
+    if (part_ == 0) agree_on_speed();
     const Window window = choose(n_left);
+    migrate(window.anchor());
     const double reach = reach_of(window_needs(), window.duration());
-    fetch_halo(window.begin(), reach);
-    build_grid(window.begin(), window.duration(), reach);
+    fetch_halo(window.anchor(), reach);
+    build_grid(window, reach);
     return window;
 }
 
+void OneEngine::reorder() { grid_.reorder(discs_.all(), discs_.n_own(), tuning_.threads); }
+
 void OneEngine::settle_now() {
-    migrate();
+    agree_on_speed();
+    migrate(micro_);
     const double reach = reach_of({law_.box_size(), law_.radius(), static_cast<double>(discs_.n_total()), 0, 0}, 0);
     fetch_halo(micro_, reach);
-    build_grid(micro_, 1, reach);
+    Window now;
+    now.first_micro = micro_;
+    now.part_end = 0;
+    build_grid(now, reach);
 }
 
 void OneEngine::add_to(Totals& totals) {
@@ -99,13 +104,13 @@ void OneEngine::add_to(Totals& totals) {
     totals.overlapping_pairs = count_overlaps(population(), grid_, micro_, law_, communicator_, tuning_.threads);
 }
 
-void OneEngine::build_grid(double time, double duration, double reach) {
+void OneEngine::build_grid(const Window& window, double reach) {
     const double x_low = std::max(0.0, discs_.strips().low(communicator_.rank()) - reach);
     const double x_high = std::min(law_.box_size(), discs_.strips().high(communicator_.rank()) + reach);
     const std::span<const Disc> all = population().discs;
     const GridFrame frame = make_frame(x_low, x_high, 0, law_.box_size(), reach, all.size(), tuning_.cell_width.value_or(0));
-    grid_.build(all, frame, time, duration, tuning_.threads);
-    is_hit_.resize(all.size(), 0);
+    grid_.build(all, frame, window.anchor(), window.begin(), std::max(window.duration(), 1e-6), tuning_.threads);
+    states_.assign(all.size(), 0);
 }
 
 Window OneEngine::choose(int n_left) {
@@ -114,7 +119,7 @@ Window OneEngine::choose(int n_left) {
     if (part_ == 0) {
         window_speed_ = largest_speed_ * speed_allowance;
         speed_exceeded_ = false;
-        const WindowChoice choice = choose_window(window_needs(), n_left, tuning_.window);
+        const WindowChoice choice = choose_window(window_needs(), std::min(n_left, longest_window), tuning_.window);
         window.n_micro = choice.n_micro;
         n_parts_ = choice.n_parts;
         in_parts_ = n_parts_ > 1;
@@ -131,17 +136,22 @@ WindowNeeds OneEngine::window_needs() const {
     return {law_.box_size(), law_.radius(), static_cast<double>(discs_.n_total()), window_speed_, hits_per_micro_step_};
 }
 
-void OneEngine::migrate() {
-    const double time = micro_ + static_cast<double>(part_) / n_parts_;
-    if (part_ == 0) {
-        const PhaseClock::Scope scope(clock_, Phase::wait);
-        travel_speed_ = largest_speed_ = communicator_.max(largest_speed_);
-    }
-    const double farthest = travel_speed_ * (time - settled_time_) * (1 + 1e-6) + 64 * 0x1p-53 * law_.box_size();
+void OneEngine::agree_on_speed() {
+    const PhaseClock::Scope scope(clock_, Phase::wait);
+    travel_speed_ = communicator_.max(largest_speed_);
+    largest_speed_ = refreshed_speed_ > 0 ? std::exchange(refreshed_speed_, 0) : travel_speed_;
+}
+
+void OneEngine::migrate(double time) {
+    // A disc was settled where its old flight would take it; it is where the new one does, which began no earlier than
+    // the states last changed. Between the parts of a micro-step no state changes.
+    const double from = part_ > 0 ? settled_time_ : unchanged_until_;
+    const double flown = (time - from) + std::fabs(settled_time_ - from);
+    const double farthest = travel_speed_ * flown * (1 + 1e-6) + 64 * 0x1p-53 * law_.box_size();
     const PhaseClock::Scope scope(clock_, Phase::exchange);
     discs_.migrate(time, farthest, in_parts_ ? &outcomes_ : nullptr);
     settled_time_ = time;
-    if (refreshed_speed_ > 0) largest_speed_ = std::exchange(refreshed_speed_, 0);
+    if (part_ == 0) unchanged_until_ = micro_;
 }
 
 void OneEngine::fetch_halo(double time, double reach) {
@@ -153,7 +163,7 @@ void OneEngine::fetch_halo(double time, double reach) {
 bool OneEngine::run_micro_step(const Window& window, int m) {
     {
         const PhaseClock::Scope scope(clock_, Phase::resolve);
-        search_.collect(population(), window, m, live_);
+        search_.collect(window, m, states_, live_);
     }
     std::uint64_t n_candidates = 0;
     for (const Candidate& candidate : live_) n_candidates += candidate.p < discs_.n_own();
@@ -188,11 +198,13 @@ void OneEngine::strike_taken(std::vector<Candidate>& live) const {
 
 void OneEngine::apply(const Window& window, int m) {
     std::vector<Disc>& results = in_parts_ ? outcomes_ : discs_.all();
+    const bool is_last = m + 1 >= window.end_micro(); // nobody asks for these states any more
     {
         const PhaseClock::Scope scope(clock_, Phase::move);
         if (log_) note_velocities(results);
         const auto n_kept = static_cast<std::int64_t>(verdicts_.kept.size());
         double fastest = 0;
+        hits_.resize(is_last ? 0 : 2 * verdicts_.kept.size());
 #pragma omp parallel for num_threads(tuning_.threads) schedule(static) reduction(max : fastest) if (n_kept > 256)
         for (std::int64_t k = 0; k < n_kept; ++k) {
             if (k + 8 < n_kept) {
@@ -207,18 +219,25 @@ void OneEngine::apply(const Window& window, int m) {
                 law_.collide(results[c.p], results[c.q], m, c.time);
                 fastest = std::max({fastest, speed_of(results[c.p]), speed_of(results[c.q])});
             }
+            if (is_last) continue;
+            const auto place = static_cast<std::size_t>(2 * k);
+            hits_[place] = c.p;
+            hits_[place + 1] = c.q;
+            for (const LocalIndex index : {c.p, c.q}) {
+                if (index == wall) continue;
+                states_[index] = window.state_after(m);
+                grid_.update_flight(index, results[index]);
+            }
         }
         if (log_) log_collisions(results, m);
         speed_exceeded_ = fastest > window_speed_;
         largest_speed_ = std::max(largest_speed_, fastest);
     }
-    if (m + 1 >= window.end_micro()) return;
-    remember_hits();
+    if (is_last) return;
+    hear_of_hits(window, m);
     const PhaseClock::Scope scope(clock_, Phase::search);
-    for (const LocalIndex index : hits_) grid_.update_flight(index, results[index]);
     const double reach = reach_of(window_needs(), window.duration());
-    search_.predict_again(population(), grid_, window, m + 1, reach, hits_, is_hit_);
-    for (const LocalIndex index : hits_) is_hit_[index] = 0;
+    search_.predict_again(population(), grid_, window, m + 1, reach, hits_, states_);
 }
 
 void OneEngine::note_velocities(std::span<const Disc> results) {
@@ -238,21 +257,18 @@ void OneEngine::log_collisions(std::span<const Disc> results, int m) {
     }
 }
 
-/// Lists the discs that have new states, those of the halo included, each once.
-void OneEngine::remember_hits() {
-    hits_.clear();
-    for (const Candidate& c : verdicts_.kept) {
-        hits_.push_back(c.p);
-        if (!c.is_wall()) hits_.push_back(c.q);
-    }
-    for (const LocalIndex index : hits_) is_hit_[index] = 1;
+/// Exchanges new states with the neighbours; `hits_` grows by those discs of the halo that this rank has not struck itself.
+void OneEngine::hear_of_hits(const Window& window, int m) {
     if (communicator_.size() == 1) return;
     const PhaseClock::Scope scope(clock_, Phase::exchange);
+    std::erase(hits_, wall);
     news_.clear();
     discs_.tell_neighbours(hits_, news_);
     for (const LocalIndex index : news_) {
-        if (is_hit_[index] == 0) hits_.push_back(index);
-        is_hit_[index] = 1;
+        if (states_[index] == window.state_after(m)) continue;
+        states_[index] = window.state_after(m);
+        grid_.update_flight(index, discs_.all()[index]);
+        hits_.push_back(index);
     }
 }
 
@@ -272,6 +288,7 @@ void OneEngine::sync() {
     }
     // Discs may have moved at the old largest speed since they were last settled: the next migration allows for that.
     settled_time_ -= time;
+    unchanged_until_ -= time;
     refreshed_speed_ = communicator_.max(std::sqrt(fastest));
     const std::uint64_t n_kept = communicator_.sum(n_kept_ - std::exchange(n_kept_at_sync_, n_kept_));
     hits_per_micro_step_ = 2 * static_cast<double>(n_kept) / static_cast<double>(discs_.n_total() * sync_every_);

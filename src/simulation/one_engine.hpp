@@ -44,20 +44,23 @@ private:
     Population population() const { return discs_.population(); }
     /// Settles discs, halo and grid as they are now, for partners within a diameter. No state changes. **Collective.**
     void settle_now();
+    /// Brings the own discs into the order of the present grid's cells, which is then of no more use.
+    void reorder();
     void run_window(int n_left);
     Window settle(int n_left);
     Window choose(int n_left);
     WindowNeeds window_needs() const;
-    void migrate();
+    void agree_on_speed();
+    void migrate(double time);
     void fetch_halo(double time, double reach);
     bool run_micro_step(const Window& window, int m);
     void strike_taken(std::vector<Candidate>& live) const;
     void apply(const Window& window, int m);
-    void remember_hits();
+    void hear_of_hits(const Window& window, int m);
     void note_velocities(std::span<const Disc> results);
     void log_collisions(std::span<const Disc> results, int m);
     void sync();
-    void build_grid(double time, double duration, double reach);
+    void build_grid(const Window& window, double reach);
 
     Communicator communicator_;
     Tuning tuning_;
@@ -77,7 +80,8 @@ private:
     double window_speed_ = 0;    ///< what the window's reach allows for
     bool speed_exceeded_ = false;
 
-    double settled_time_ = 0;
+    double settled_time_ = 0;    ///< whose places the discs were last settled by
+    double unchanged_until_ = 0; ///< no state has changed before this time since then
 
     CellGrid grid_;
     Search<Law> search_;
@@ -87,7 +91,7 @@ private:
     Verdicts verdicts_;
     std::vector<LocalIndex> hits_, news_;
     std::vector<Disc> unhit_; ///< while collisions are logged: the first disc of each kept one, before it
-    std::vector<std::uint8_t> is_hit_; ///< by disc, clean between micro-steps
+    std::vector<WindowState> states_; ///< by disc
 
     std::uint64_t n_candidates_ = 0, n_kept_ = 0, n_kept_at_sync_ = 0; ///< of those whose first disc is own
     PhaseClock clock_;

@@ -25,7 +25,8 @@ double cost_per_micro_step(const WindowNeeds& needs, double duration) {
 } // namespace
 
 double reach_of(const WindowNeeds& needs, double duration) {
-    return (2 * needs.radius + 2 * needs.largest_speed * duration) * (1 + 1e-6) + 64 * 0x1p-53 * needs.box_size;
+    const double from_anchor = duration > 1 ? duration : duration / 2; // see Window::anchor
+    return (2 * needs.radius + 2 * needs.largest_speed * from_anchor) * (1 + 1e-6) + 64 * 0x1p-53 * needs.box_size;
 }
 
 WindowChoice choose_window(const WindowNeeds& needs, int n_left, std::optional<double> wanted) {

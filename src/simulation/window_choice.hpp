@@ -16,7 +16,7 @@ struct WindowNeeds {
     double hits_per_micro_step = 0; ///< how often a disc is taken, as far as is known
 };
 
-/// How far the membership of two discs that meet inside a window can be apart at its start (docs/method.md, section 6).
+/// How far two discs that meet inside a window of this duration can be apart at its anchor.
 double reach_of(const WindowNeeds& needs, double duration);
 
 /// Micro-steps in the next window, 1 .. n_left, or fewer than none: how many parts to cut the next micro-step into.

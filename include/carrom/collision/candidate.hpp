@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 
+#include "carrom/collision/window.hpp"
 #include "carrom/core/disc.hpp"
 
 namespace carrom {
@@ -18,7 +19,7 @@ inline constexpr LocalIndex wall = std::numeric_limits<LocalIndex>::max();
 struct Candidate {
     double time = 0;             ///< in-step time of its micro-step, in [0, 1]
     LocalIndex p = 0, q = wall;  ///< p has the lower id
-    std::uint32_t p_version = 0, q_version = 0; ///< the states it was predicted from
+    WindowState p_state = 0, q_state = 0; ///< those it was predicted from
 
     bool is_wall() const { return q == wall; }
 };
@@ -40,10 +41,9 @@ private:
     std::span<const Disc> discs_;
 };
 
-/// Whether both discs still are what the prediction saw.
-inline bool is_current(const Candidate& candidate, std::span<const Disc> discs) {
-    return discs[candidate.p].version() == candidate.p_version &&
-           (candidate.is_wall() || discs[candidate.q].version() == candidate.q_version);
+/// Whether both discs still are what the prediction saw; `states` by disc.
+inline bool is_current(const Candidate& candidate, std::span<const WindowState> states) {
+    return states[candidate.p] == candidate.p_state && (candidate.is_wall() || states[candidate.q] == candidate.q_state);
 }
 
 } // namespace carrom

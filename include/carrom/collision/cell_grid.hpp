@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs sorted into square cells by where they are at a window's start, x-major: the cells of a column that lie within
+// Discs sorted into square cells by where they are at a window's anchor, x-major: the cells of a column that lie within
 // reach of a disc are one contiguous run of slots, to be read 16 lanes at a time.
 //
 // Beside the order of slots the grid holds each disc's free flight in single precision, in units of cells and windows,
@@ -57,14 +57,14 @@ inline constexpr std::size_t filter_padding = 64;
 
 class CellGrid {
 public:
-    /// Sorts `discs` by their cells at `time`; flights last for `duration`.
-    void build(std::span<const Disc> discs, const GridFrame& frame, double time, double duration, int n_threads);
+    /// Sorts `discs` by their cells at `anchor`; flights begin at `time` and last for `duration`.
+    void build(std::span<const Disc> discs, const GridFrame& frame, double anchor, double time, double duration, int n_threads);
 
     /// Brings the first `n_own` of `discs`, those that the grid was built for, into the order of their slots, in place,
     /// and makes the grid unusable until it is built again. Neighbours in space become neighbours in memory.
     void reorder(std::span<Disc> discs, std::size_t n_own, int n_threads);
 
-    /// Takes over a disc's new free flight. Its cell stays what it was at the window's start.
+    /// Takes over a disc's new free flight. Its cell stays what it was.
     void update_flight(LocalIndex index, const Disc& disc);
 
     const GridFrame& frame() const { return frame_; }

@@ -27,8 +27,8 @@ struct Population {
 /// One thread's lists and scratch space; they keep their memory from window to window.
 struct SearchLists {
     std::vector<std::vector<Candidate>> by_micro; ///< from the window's first micro-step on
-    std::vector<SlotPair> pairs;
-    std::vector<std::uint32_t> partners;
+    std::vector<SlotPair> pairs; ///< the first n_pairs
+    std::size_t n_pairs = 0;
 };
 
 template <class Law> class Search {
@@ -38,22 +38,25 @@ public:
     /// Predicts everything in `window`. The grid must have been built for it.
     void predict_all(const Population& population, const CellGrid& grid, const Window& window);
 
-    /// Predicts the discs `hit` (own or halo) for the window's micro-steps from `from` on. The grid must know their new
-    /// flights, and `reach` is the window's. `is_hit` tells for any disc whether it is among them: a pair of hit discs is predicted once.
+    /// Predicts the discs `hit` (own or halo; `wall` stands for none) by micro-step `from` - 1, for the window's micro-steps
+    /// from `from` on. The grid and `states`, by disc, must know of it; `reach` is the window's.
     void predict_again(const Population& population, const CellGrid& grid, const Window& window, int from,
-                       double reach, std::span<const LocalIndex> hit, std::span<const std::uint8_t> is_hit);
+                       double reach, std::span<const LocalIndex> hit, std::span<const WindowState> states);
 
-    /// Moves the candidates of micro-step m that are still current into `live`.
-    void collect(const Population& population, const Window& window, int m, std::vector<Candidate>& live);
+    /// Moves the candidates of micro-step m that are still current into `live`; `states` by disc.
+    void collect(const Window& window, int m, std::span<const WindowState> states, std::vector<Candidate>& live);
 
     std::size_t bytes() const;
 
 private:
     struct Bounds;
+    using States = std::span<const WindowState>; ///< by disc; empty while all discs are as they came
 
     void predict_column(const Population&, const CellGrid&, const Window&, const Bounds&, int column, SearchLists&) const;
-    void predict_pair(const Population&, const Window&, int from, LocalIndex a, LocalIndex b, SearchLists&) const;
-    void predict_wall(const Population&, const Window&, int from, LocalIndex index, SearchLists&) const;
+    void look_around(const CellGrid&, const Bounds&, float from, float half_reach, std::span<const LocalIndex> hit,
+                     SearchLists&) const;
+    void predict_pair(const Population&, const Window&, int from, States, LocalIndex a, LocalIndex b, SearchLists&) const;
+    void predict_wall(const Population&, const Window&, int from, States, LocalIndex index, SearchLists&) const;
 
     Law law_;
     int n_threads_;
