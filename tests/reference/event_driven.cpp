@@ -87,6 +87,14 @@ void EventDrivenReference::push(Event event) {
     if (event.is_pair) raise(event.q);
     heap_.push_back({event, past_[event.p].version, event.is_pair ? past_[event.q].version : 0});
     std::push_heap(heap_.begin(), heap_.end(), comes_later);
+    if (heap_.size() > most_predictions_) forget_invalid();
+}
+
+/// Fast discs among many have many predictions: without this they would fill the memory.
+void EventDrivenReference::forget_invalid() {
+    std::erase_if(heap_, [this](const Prediction& prediction) { return !is_valid(prediction); });
+    std::make_heap(heap_.begin(), heap_.end(), comes_later);
+    most_predictions_ = std::max(most_predictions_, 2 * heap_.size());
 }
 
 bool EventDrivenReference::is_valid(const Prediction& prediction) const {

@@ -67,6 +67,7 @@ private:
     void predict_pair(DiscId p, DiscId q);
     void push(Event event);
     bool is_valid(const Prediction& prediction) const;
+    void forget_invalid();
     void happen(const Event& event);
     void note(DiscId id, DiscId partner, const Event& event);
 
@@ -74,6 +75,7 @@ private:
     std::vector<Disc> discs_;
     std::vector<Past> past_;
     std::vector<Prediction> heap_;
+    std::size_t most_predictions_ = 1000000; ///< in the heap, before it is gone through
     std::int64_t micro_step_ = 0;
     std::uint64_t wall_collisions_ = 0, pair_collisions_ = 0;
     std::size_t most_events_;

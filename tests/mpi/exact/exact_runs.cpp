@@ -14,9 +14,26 @@
 
 namespace carrom::test {
 
-bool is_wanted(const TestScene& scene) {
-    const char* const part = std::getenv("CARROM_TEST_SCENE");
-    return part == nullptr || scene.name.find(part) != std::string::npos;
+namespace {
+
+/// Two scenes that follow each other differ in one respect, so neighbours go to different parts, and so do every n-th.
+bool belongs_to_part(std::size_t number) {
+    const char* const text = std::getenv("CARROM_TEST_PART");
+    if (text == nullptr) return true;
+    char* slash = nullptr;
+    const std::size_t part = std::strtoul(text, &slash, 10), n_parts = std::strtoul(slash + 1, nullptr, 10);
+    const std::size_t home = (number + number / n_parts) % n_parts;
+    return home == part || (home + n_parts / 2 - 1) % n_parts == part;
+}
+
+} // namespace
+
+bool is_in_parts() { return std::getenv("CARROM_TEST_PART") != nullptr; }
+
+bool is_wanted(const TestScene& scene, std::size_t number) {
+    const char* const name = std::getenv("CARROM_TEST_SCENE");
+    if (name != nullptr) return scene.name.find(name) != std::string::npos;
+    return belongs_to_part(number);
 }
 
 ExactResult expected_of(TestScene& scene, const Communicator& world, std::size_t most_predictions) {

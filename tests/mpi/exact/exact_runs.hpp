@@ -16,12 +16,16 @@ struct ExactResult {
     friend bool operator==(const ExactResult&, const ExactResult&) = default;
 };
 
-/// Whether $CARROM_TEST_SCENE, if set, is a part of the scene's name: for looking at one scene.
-bool is_wanted(const TestScene& scene);
+/// Whether this run of the tests is one of part of the scenes only: of the k-th of n shapes, if $CARROM_TEST_PART is k/n.
+/// Every scene is then run on two of the shapes, one of them with several ranks at least.
+bool is_in_parts();
+/// Whether the scene, `number` in its list, is to be run: it belongs to the part, and $CARROM_TEST_SCENE, if set, is a
+/// part of its name (for looking at one scene).
+bool is_wanted(const TestScene& scene, std::size_t number);
 
 /// What the event-driven reference gives, worked out on rank 0. Cuts the scene's steps short where the reference would
 /// take long: its price is the number of discs per event. **Collective.**
-ExactResult expected_of(TestScene& scene, const Communicator& world, std::size_t most_predictions = 1000000);
+ExactResult expected_of(TestScene& scene, const Communicator& world, std::size_t most_predictions);
 
 struct Shape {
     Tuning tuning;

@@ -32,7 +32,7 @@ TEST_CASE("Another seed, purpose, disc, attempt or block gives other words") {
     CHECK(all.size() == 2 * 3 * 3 * 2 * 2);
 }
 
-TEST_CASE("Unit numbers lie in [0, 1) and are uniform") {
+TEST_CASE("Unit numbers are uniform from 0 to below 1") {
     CHECK(unit_number(0) == 0);
     CHECK(unit_number(~std::uint64_t{0}) == 1 - 0x1p-53);
     std::vector<double> sample;
