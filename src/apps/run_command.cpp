@@ -103,6 +103,7 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     const bool is_done = step_to_end(simulation, result, output_seconds, options, scene, is_restart, signals, ranks);
     result.last_step = simulation.step();
     result.end = simulation.totals();
+    result.averages = simulation.averages();
     result.replays = simulation.replay_counts();
 
     PhaseSeconds phases = simulation.phase_seconds();

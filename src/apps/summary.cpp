@@ -2,6 +2,7 @@
 #include "summary.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -34,6 +35,48 @@ std::string windows_text(const ReplayCounts& replays) {
     return fmt::format("{}, {:.3g} % of them redone in part; {} replays of blocks, {:.3g} % repeated", replays.windows,
                        100 * ratio(static_cast<double>(replays.windows_redone), static_cast<double>(replays.windows)),
                        replays.blocks, 100 * ratio(static_cast<double>(replays.blocks_redone), static_cast<double>(replays.blocks)));
+}
+
+std::string estimate_text(const Estimate& estimate) {
+    if (!(estimate.error >= 0)) return fmt::format("{:.5g}", estimate.value);
+    return fmt::format("{:.7g} +- {:.1g}", estimate.value, estimate.error);
+}
+
+std::string collision_rate_text(const Averages& averages) {
+    return fmt::format("{} with other discs per disc and step; mean free time {} steps",
+                       estimate_text(averages.collision_frequency), estimate_text(averages.mean_free_time));
+}
+
+std::string pressure_text(const Averages& averages) {
+    return fmt::format("{} from collisions with walls, {} with those of pairs", estimate_text(averages.wall_pressure),
+                       estimate_text(averages.virial_pressure));
+}
+
+std::string speeds_text(const Scene& scene, const Averages& averages) {
+    const auto n = static_cast<double>(scene.n_discs);
+    return fmt::format("mean {}; kurtosis {}, {:.5g} in equilibrium", estimate_text(averages.mean_speed),
+                       estimate_text(averages.speed_kurtosis), 2 * n / (n + 1));
+}
+
+/// JSON has no infinity and no NaN: null then.
+nlohmann::ordered_json number_or_null(double value) {
+    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json estimate_json(const Estimate& estimate) {
+    return {{"value", number_or_null(estimate.value)}, {"error", number_or_null(estimate.error)}};
+}
+
+nlohmann::ordered_json averages_json(const Averages& averages) {
+    return {{"from_step", averages.first_step},
+            {"over_steps", averages.steps},
+            {"blocks", averages.n_blocks},
+            {"collision_frequency", estimate_json(averages.collision_frequency)},
+            {"mean_free_time", estimate_json(averages.mean_free_time)},
+            {"wall_pressure", estimate_json(averages.wall_pressure)},
+            {"virial_pressure", estimate_json(averages.virial_pressure)},
+            {"mean_speed", estimate_json(averages.mean_speed)},
+            {"speed_kurtosis", estimate_json(averages.speed_kurtosis)}};
 }
 
 std::string plural(int count, const char* what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); }
@@ -69,6 +112,11 @@ std::string summary_text(const Scene& scene, const RunResult& result) {
     text += line("collisions", fmt::format("{} with walls, {} of pairs; {:.4g} per disc and micro-step (nu dt)",
                                            result.end.wall_collisions, result.end.pair_collisions,
                                            collisions_per_disc(scene, result)));
+    if (result.averages.steps > 0) {
+        text += line("frequency", collision_rate_text(result.averages));
+        text += line("pressure", pressure_text(result.averages));
+        text += line("speeds", speeds_text(scene, result.averages));
+    }
     if (scene.rule == CollisionRule::all) text += line("windows", windows_text(result.replays));
     else text += line("rejected", fmt::format("{} candidates lost a disc to an earlier collision", result.end.rejected_candidates));
     text += line("overlapping", fmt::format("{} pairs at the end, {} at the start", result.end.overlapping_pairs,
@@ -98,6 +146,7 @@ std::string report_text(const Scene& scene, const RunResult& result) {
         {"rejected_candidates", result.end.rejected_candidates},
         {"overlapping_pairs", result.end.overlapping_pairs},
         {"collisions_per_disc_per_micro_step", collisions_per_disc(scene, result)},
+        {"averages", averages_json(result.averages)},
         {"kinetic_energy", result.end.kinetic_energy},
         {"energy_drift", energy_drift(result)},
         {"momentum", {result.end.momentum_x, result.end.momentum_y}},

@@ -17,6 +17,7 @@ struct RunResult {
     int ranks = 1;
     int threads = 1;                   ///< per rank; the largest where ranks differ
     double wall_seconds = 0;           ///< spent stepping, on the slowest rank; reading and writing are phases
+    Averages averages;                 ///< since this process began
     ReplayCounts replays;              ///< under the rule "all"
     PhaseSeconds phase_seconds;        ///< each on the rank where it took longest
     double peak_bytes_per_disc = 0;    ///< peak memory of all ranks together, per disc

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "block_averages.hpp"
 #include "engine.hpp"
 #include "exact_engine.hpp"
 #include "measurements.hpp"
@@ -41,11 +42,24 @@ Simulation::Simulation(const Scene& scene, std::vector<InputDisc> discs, const C
 
 Simulation::Simulation(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning)
     : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)),
-      engine_(engine_for(scene, std::move(state), communicator, tuning)) {}
+      n_threads_(tuning.threads), engine_(engine_for(scene, std::move(state), communicator, tuning)),
+      averages_(std::make_unique<BlockAverages>(AveragedSystem{static_cast<double>(engine_->n_discs()), scene.box_size, scene.radius,
+                                                               velocity_unit_, scene.micro_steps, scene.sync_every})) {}
 
 Simulation::~Simulation() = default;
 
-void Simulation::advance_towards(std::int64_t last_step) { engine_->advance_towards(last_step); }
+void Simulation::advance_towards(std::int64_t last_step) {
+    if (!averages_->has_begun()) average_anew();
+    engine_->advance_towards(last_step); // never beyond the first step after a sync, where blocks may end
+    if (averages_->ends_block(step())) averages_->end_block(step(), look_at(discs(), engine_->n_discs(), n_threads_, communicator_));
+}
+
+void Simulation::average_anew() { averages_->begin(step(), look_at(discs(), engine_->n_discs(), n_threads_, communicator_)); }
+
+Averages Simulation::averages() const {
+    if (!averages_->has_begun()) return {};
+    return averages_->averages(step(), look_at(discs(), engine_->n_discs(), n_threads_, communicator_));
+}
 
 std::int64_t Simulation::step() const { return micro_steps_done() / static_cast<std::int64_t>(velocity_unit_); }
 

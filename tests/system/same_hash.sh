@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # One scene, many machine shapes, one set of bits: the state hash and the lines of the last step must not change with
-# ranks, threads, windows, cell widths and rebalancing. Arguments: the input and options that make it small.
+# ranks, threads, windows, cell widths and rebalancing; nor must the averages of the report. Arguments: the input and options that make it small.
 source "$(dirname "$0")/common.sh"
 input=$CARROM_SOURCE_DIR/$1
 shift
 small=("$@")
 [ -r "$input" ] || { complain "no input $input"; finish; }
+
+averages() { sed -n '/^  "averages"/,/^  }/p' report.json; }
 
 # shape RANKS THREADS OPTION...: runs it and compares with the first run.
 shape() {
@@ -18,8 +20,11 @@ shape() {
         hash=$(json_value report.json state_hash)
         [ -n "$hash" ] || complain 'no state hash'
         cp "$test_folder/out" "$test_folder/first"
+        first_averages=$(averages)
+        [ "$(wc -l <<<"$first_averages")" -gt 25 ] || complain "no averages in the report"
     fi
     [ "$(json_value report.json state_hash)" = "$hash" ] || complain "another state hash: $ranks ranks x $threads threads $*"
+    [ "$(averages)" = "$first_averages" ] || complain "other averages: $ranks ranks x $threads threads $*"
     expect_same "$test_folder/out" "$test_folder/first" "other lines: $ranks ranks x $threads threads $*"
 }
 

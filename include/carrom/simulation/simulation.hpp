@@ -14,6 +14,7 @@
 #include "carrom/core/state_hash.hpp"
 #include "carrom/parallel/communicator.hpp"
 #include "carrom/scene/scene.hpp"
+#include "carrom/simulation/averages.hpp"
 
 namespace carrom {
 
@@ -66,6 +67,7 @@ struct Collision {
     double impulse = 0;           ///< what p has got, in mass times length per step
 };
 
+class BlockAverages;
 class Engine;
 
 class Simulation {
@@ -94,6 +96,11 @@ public:
     /// From now on every collision is appended to `log` of one rank, in no particular order; null ends that.
     void log_to(std::vector<Collision>* log);
 
+    /// Averages since this process began, or since `average_anew`. **Collective.**
+    Averages averages() const;
+    /// Forgets what has been averaged so far, as before a gas had come to equilibrium. **Collective.**
+    void average_anew();
+
     /// **Collective.**
     Totals totals() const;
     ReplayCounts replay_counts() const;
@@ -102,7 +109,9 @@ public:
 private:
     Communicator communicator_;
     double velocity_unit_;
+    int n_threads_;
     std::unique_ptr<Engine> engine_;
+    std::unique_ptr<BlockAverages> averages_;
 };
 
 } // namespace carrom

@@ -28,6 +28,7 @@ RunResult small_result() {
     result.end.wall_collisions = 25;
     result.end.pair_collisions = 30;
     result.last_step = 50;
+    result.averages.wall_pressure = {0.125, 0.0625};
     result.wall_seconds = 2e-6;
     result.phase_seconds = {{"search", 1.5}, {"output", 0.5}};
     return result;
@@ -56,6 +57,9 @@ TEST_CASE("The report is JSON with the numbers of the result") {
     CHECK(report.at("steps") == 50);
     CHECK(report.at("kinetic_energy") == 10.0);
     CHECK(report.at("momentum").size() == 2);
+    CHECK(report.at("averages").at("wall_pressure").at("value") == 0.125);
+    CHECK(report.at("averages").at("wall_pressure").at("error") == 0.0625);
+    CHECK(report.at("averages").at("mean_free_time").at("error").is_null());
     CHECK(report.at("phase_seconds").at("search") == 1.5);
     CHECK(report.at("state_hash") == "00000000000000000000000000000000");
 }

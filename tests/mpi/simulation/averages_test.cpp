@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Averages over a run against plain sums over all discs, taken apart from it.
+#include <cmath>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+#include <omp.h>
+
+#include "block_averages.hpp"
+#include "carrom/parallel/exchange.hpp"
+#include "carrom/simulation/simulation.hpp"
+#include "scene_tools.hpp"
+
+using namespace carrom;
+
+namespace {
+
+std::vector<Disc> gathered(const Simulation& simulation, const Communicator& world) {
+    std::vector<Disc> all;
+    stream_to_root(world, simulation.discs(), [&](std::span<const Disc> some) { all.insert(all.end(), some.begin(), some.end()); }, 1000);
+    world.broadcast(all);
+    return all;
+}
+
+struct PlainSums {
+    double walls = 0, pairs = 0, speed = 0, square = 0, fourth = 0;
+};
+
+PlainSums sums_of(const std::vector<Disc>& discs, double velocity_unit) {
+    PlainSums sums;
+    for (const Disc& disc : discs) {
+        const double speed = velocity_unit * std::hypot(disc.vx, disc.vy);
+        sums.walls += static_cast<double>(disc.wall_collisions);
+        sums.pairs += static_cast<double>(disc.pair_collisions) / 2;
+        sums.speed += speed;
+        sums.square += speed * speed;
+        sums.fourth += std::pow(speed, 4);
+    }
+    return sums;
+}
+
+struct MeanAndError {
+    double mean, error;
+};
+
+MeanAndError over_blocks(const std::vector<double>& values) {
+    const auto n = static_cast<double>(values.size());
+    double mean = 0, squares = 0;
+    for (const double value : values) mean += value / n;
+    for (const double value : values) squares += (value - mean) * (value - mean);
+    return {mean, std::sqrt(squares / (n * (n - 1)))};
+}
+
+} // namespace
+
+TEST_CASE("averages: the ratio of gamma functions") {
+    for (const double n : {1.0, 2.0, 7.0, 63.0, 64.0, 65.0, 100.0}) {
+        CHECK(gamma_ratio(n) == Approx(std::tgamma(n + 0.5) / std::tgamma(n)).epsilon(1e-13));
+    }
+    CHECK(gamma_ratio(1e8) == Approx(std::sqrt(1e8) * (1 - 1 / 8e8)).epsilon(1e-15));
+}
+
+TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sums") {
+    const Communicator world = Communicator::world();
+    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+        test::TestScene test = test::gas(100, 0.3, 0.3, 71);
+        test.setting.micro_steps = 4;
+        test.setting.sync_every = 10; // a sync in every second or third step
+        Scene scene = test::scene_of(test);
+        scene.rule = rule;
+        Tuning tuning;
+        tuning.threads = omp_get_max_threads();
+        std::vector<InputDisc> mine;
+        for (const InputDisc& disc : test.discs) {
+            if (static_cast<int>(disc.id) % world.size() == world.rank()) mine.push_back(disc);
+        }
+        Simulation simulation(scene, mine, world, tuning);
+        const auto advance_to = [&](std::int64_t step) {
+            while (simulation.step() < step) simulation.advance_towards(step);
+        };
+        advance_to(7);
+        simulation.average_anew();
+        const PlainSums first = sums_of(gathered(simulation, world), 4);
+        PlainSums before = first, now;
+        std::int64_t block_begin = 7;
+        std::vector<double> frequencies, speeds, kurtoses;
+        for (std::int64_t step = 8; step <= 48; ++step) {
+            advance_to(step);
+            if (step * 4 / 10 == (step - 1) * 4 / 10) continue; // no sync has ended
+            now = sums_of(gathered(simulation, world), 4);
+            frequencies.push_back(2 * (now.pairs - before.pairs) / (100.0 * static_cast<double>(step - block_begin)));
+            speeds.push_back(now.speed / 100);
+            kurtoses.push_back(100 * now.fourth / (now.square * now.square));
+            before = now;
+            block_begin = step;
+        }
+        now = sums_of(gathered(simulation, world), 4);
+        const Averages averages = simulation.averages();
+        CHECK(averages.first_step == 7);
+        CHECK(averages.steps == 41);
+        REQUIRE(frequencies.size() < 32); // no block has become longer
+        CHECK(averages.n_blocks == static_cast<std::int64_t>(frequencies.size()));
+        CHECK(averages.collision_frequency.value == Approx(2 * (now.pairs - first.pairs) / 4100).epsilon(1e-13));
+        CHECK(averages.collision_frequency.error >= over_blocks(frequencies).error * (1 - 1e-12));
+        CHECK(averages.collision_frequency.error < 3 * over_blocks(frequencies).error);
+        CHECK(averages.mean_free_time.value == Approx(4100 / (2 * (now.pairs - first.pairs))).epsilon(1e-13));
+        CHECK(averages.mean_speed.value == Approx(over_blocks(speeds).mean).epsilon(1e-11));
+        CHECK(averages.mean_speed.error >= over_blocks(speeds).error * (1 - 1e-6));
+        CHECK(averages.speed_kurtosis.value == Approx(over_blocks(kurtoses).mean).epsilon(1e-11));
+
+        // Equations (13c) and (19a) of Li et al. 2022 for a box of side L, with kT = R^2 / (2 N).
+        const double size = test.setting.box_size, radius = test.setting.radius, r = std::sqrt(now.square);
+        const double g = std::exp(std::lgamma(100.5) - std::lgamma(100.0)), per_time = std::sqrt(std::numbers::pi) / r * g / 41;
+        const double walls = now.walls - first.walls, pairs = now.pairs - first.pairs, temperature = now.square / 200;
+        CHECK(averages.wall_pressure.value == Approx(temperature * per_time * walls / (2 * size)).epsilon(1e-10));
+        CHECK(averages.virial_pressure.value ==
+              Approx(temperature * (100 + radius * per_time * (walls + std::sqrt(2.0) * pairs)) / (size * size)).epsilon(1e-10));
+    }
+}
+
+TEST_CASE("averages: any number of blocks ends as 32 to 63, and stops on the way change nothing") {
+    const Communicator world = Communicator::world();
+    test::TestScene test = test::gas(4, 0.2, 0.3, 72);
+    test.setting.sync_every = 2;
+    const auto averages_of = [&](std::int64_t stride) {
+        Simulation simulation(test::scene_of(test), world.is_root() ? test.discs : std::vector<InputDisc>{}, world, {});
+        for (std::int64_t step = 0; step < 700;) {
+            step = std::min<std::int64_t>(step + stride, 700);
+            while (simulation.step() < step) simulation.advance_towards(step);
+        }
+        return simulation.averages();
+    };
+    const Averages once = averages_of(700), often = averages_of(7);
+    CHECK(once.n_blocks == 350 / 8);
+    CHECK(often.n_blocks == once.n_blocks);
+    CHECK(often.wall_pressure.value == once.wall_pressure.value);
+    CHECK(often.wall_pressure.error == once.wall_pressure.error);
+    CHECK(often.speed_kurtosis.value == once.speed_kurtosis.value);
+    CHECK(often.collision_frequency.error == once.collision_frequency.error);
+}
+
+TEST_CASE("averages: discs at rest, or none that collide, give numbers and no error") {
+    const Communicator world = Communicator::world();
+    test::TestScene test = test::empty_scene("one disc at rest", 10, 1, 1);
+    test::add_disc(test, 5, 5);
+    Simulation simulation(test::scene_of(test), world.is_root() ? test.discs : std::vector<InputDisc>{}, world, {});
+    CHECK(simulation.averages().steps == 0);
+    simulation.advance_towards(1);
+    const Averages averages = simulation.averages();
+    CHECK(averages.wall_pressure.value == 0);
+    CHECK(averages.collision_frequency.value == 0);
+    CHECK(averages.mean_speed.value == 0);
+    CHECK(std::isnan(averages.wall_pressure.error));
+}
