@@ -14,31 +14,46 @@ packages=(cmake ninja-build g++ pkg-config openmpi-bin libopenmpi-dev libhdf5-op
 say() { printf '%s\n' "$*" >&2; }
 die() { say "$(basename "$0"): $*"; exit 1; }
 
+# What some tests need; they are skipped, with the reason, where these cannot be had: a Slurm of their own, failing disks,
+# Python programs that open our files.
+test_packages=(slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge strace python3-venv)
+
+# missing_packages PACKAGE...: those that are not installed
 missing_packages() {
     local package
-    for package in "${packages[@]}"; do
+    for package in "$@"; do
         dpkg-query -W -f '${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed || printf '%s\n' "$package"
     done
 }
 
 # On a system without apt the build itself says what it does not find.
 install_packages() {
+    local missing
     command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || return 0
-    local missing as_root=()
-    mapfile -t missing < <(missing_packages)
-    [ ${#missing[@]} -gt 0 ] || return 0
+    mapfile -t missing < <(missing_packages "${packages[@]}")
+    [ ${#missing[@]} -eq 0 ] || install_missing "${missing[@]}" || die "packages are missing. Ask for: apt-get install ${missing[*]}"
+}
+
+install_test_packages() {
+    local missing
+    command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || return 0
+    mapfile -t missing < <(missing_packages "${test_packages[@]}")
+    [ ${#missing[@]} -eq 0 ] || install_missing "${missing[@]}" || say "some tests will be skipped, for want of ${missing[*]}"
+}
+
+# install_missing PACKAGE...: false, with the reason told, if that does not work.
+install_missing() {
+    local as_root=()
     if [ "$(id -u)" -ne 0 ]; then
-        command -v sudo >/dev/null ||
-            die "packages are missing, and you are neither root nor have sudo. Ask for: apt-get install ${missing[*]}"
+        command -v sudo >/dev/null || { say "you are neither root nor have sudo"; return 1; }
         as_root=(sudo)
     fi
-    say "installing ${missing[*]}"
+    say "installing $*"
     local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300)
     # The package lists may be old or not there at all: they are fetched only if the first try fails.
-    "${apt[@]}" install --no-install-recommends "${missing[@]}" >&2 </dev/null ||
-        { "${apt[@]}" update >&2 </dev/null &&
-          "${apt[@]}" install --no-install-recommends "${missing[@]}" >&2 </dev/null; } ||
-        die "apt-get could not install: ${missing[*]}"
+    "${apt[@]}" install --no-install-recommends "$@" >&2 </dev/null ||
+        { "${apt[@]}" update >&2 </dev/null && "${apt[@]}" install --no-install-recommends "$@" >&2 </dev/null; } ||
+        { say "apt-get could not install: $*"; return 1; }
 }
 
 # build_target TARGET...: configure where needed, then build (all, if no target is named).

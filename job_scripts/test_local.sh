@@ -8,6 +8,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
 install_packages
+install_test_packages
 build_target
 # Tests run more threads than most machines have cores: those that wait must not spin. Open MPI's settings are made by
 # the tests themselves (tests/functions.cmake).

@@ -1,5 +1,5 @@
 # The one place that knows how tests are built and launched: mpiexec and its environment, thread counts, labels,
-# time limits and the cores a test takes. `ctest -L unit`, `-L mpi` and `-L system` select by kind.
+# time limits and the cores a test takes. `ctest -L unit`, `-L mpi`, `-L system` and `-L slurm` select by kind.
 
 # More ranks than cores, as root in a container, threads free to use any core, waiting ranks give way.
 set(CARROM_TEST_ENVIRONMENT

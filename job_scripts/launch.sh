@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# What the Slurm scripts share: the program, modules, how ranks are started and bound. To be sourced by them, with
+# MODULES, PROGRAM, LAUNCHER and LAUNCHER_OPTIONS set.
+#
+# Slurm runs a copy of a script that lies elsewhere, so paths are taken from where it was submitted: the checkout's top.
+
+say() { printf '%s\n' "$*" >&2; }
+die() { say "${SLURM_JOB_NAME:-job script}: $*"; exit 2; }
+
+[ -n "${SLURM_JOB_ID:-}" ] || die "submit this with sbatch; ./job_scripts/run_local.sh runs without Slurm"
+if [ -n "$MODULES" ]; then
+    set +u # module systems use variables that are not set
+    module load $MODULES
+    set -u
+fi
+[ -x "$PROGRAM" ] || die "no program $PROGRAM; build it, submit from the top of the checkout, or set PROGRAM"
+
+# launch_with RANKS THREADS: sets `launch`, the words that come before the program. Each rank is bound to THREADS cores
+# of its own, on which its threads may move; ranks fill one node after the other.
+launch_with() {
+    local ranks=$1 threads=$2
+    export OMP_NUM_THREADS=$threads
+    case $LAUNCHER in
+    srun) launch=(srun --mpi=pmix --ntasks="$ranks" --cpus-per-task="$threads" --cpu-bind=cores) ;;
+    mpirun) launch=(mpirun -np "$ranks" --map-by "slot:PE=$threads") ;;
+    *) die "LAUNCHER is srun or mpirun, not $LAUNCHER" ;;
+    esac
+    launch+=($LAUNCHER_OPTIONS)
+    say "$(date '+%F %T') job $SLURM_JOB_ID on $SLURM_JOB_NODELIST: ${launch[*]}"
+}
+
+# report_value FILE KEY: a number or text of a report.
+report_value() { sed -n "s/^ *\"$2\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}\$/\1/p" "$1"; }
+
+# add_row TABLE REPORT: what a scaling study is about, as a line of CSV.
+add_row() {
+    local row key
+    [ -s "$1" ] || echo 'ranks,threads,n_discs,steps,wall_seconds,ns_per_disc_step,state_hash' >>"$1"
+    for key in ranks threads n_discs steps wall_seconds ns_per_disc_step state_hash; do
+        row=${row:+$row,}$(report_value "$2" "$key")
+    done
+    printf '%s\n' "$row" >>"$1" # one short write: tasks of an array may do it at the same time
+}
