@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Gases in a walled box under the rule "all", brought to equilibrium, and what is measured of them.
+#pragma once
+
+#include <cstdint>
+
+#include "carrom/simulation/simulation.hpp"
+#include "scene_tools.hpp"
+
+namespace carrom::test {
+
+/// n discs of radius 1 on the first places of a square lattice, with speeds of one diameter per step, on rank 0.
+TestScene crystal(std::size_t n, double packing, std::uint64_t seed);
+
+/// Ready to run under the rule "all".
+Simulation exact_simulation(const TestScene& scene, const Communicator& world);
+
+/// Steps until so many collisions, of pairs and with walls, have happened in all since the start. **Collective.**
+void run_until(Simulation& simulation, double n_collisions);
+
+/// In units of disc diameter and thermal speed sqrt(kT).
+struct GasProperties {
+    Estimate wall_factor;   ///< compressibility factor P L^2 / (N kT), from walls alone
+    Estimate virial_factor; ///< the same from walls and pairs
+    Estimate frequency;     ///< nu sigma / sqrt(kT / m)
+    Estimate kurtosis;
+};
+
+/// Of a gas that has had `n_early` collisions to come to equilibrium, over about `n_collisions` more. **Collective.**
+GasProperties measure_gas(std::size_t n, double packing, double n_early, double n_collisions, const Communicator& world);
+
+/// How many standard errors two estimates are apart; `known` has none.
+double deviation(const Estimate& a, const Estimate& b);
+double deviation(const Estimate& measured, double known);
+
+
+
+} // namespace carrom::test
