@@ -18,6 +18,12 @@ std::size_t share(std::size_t n, int part, int n_parts) {
     return n * static_cast<std::size_t>(part) / static_cast<std::size_t>(n_parts);
 }
 
+/// Windows of many lengths have cells of many sizes: memory of the smallest ones is not kept for all.
+void resize_close(std::vector<std::uint32_t>& numbers, std::size_t size) {
+    if (numbers.capacity() > size + size / 2) std::vector<std::uint32_t>().swap(numbers);
+    numbers.resize(size);
+}
+
 int cells_along(double length, double width) {
     return static_cast<int>(std::clamp(std::ceil(length / width), 1.0, 1e9));
 }
@@ -34,7 +40,7 @@ GridFrame make_frame(double x_low, double x_high, double y_low, double y_high, d
     GridFrame frame;
     frame.x_low = x_low;
     frame.y_low = y_low;
-    frame.cell_width = std::max(wanted, 0.7 * sparse_width);
+    frame.cell_width = std::max(wanted, 0.8 * sparse_width);
     frame.n_reach = std::max(1, static_cast<int>(std::ceil(reach / frame.cell_width * (1 - 1e-9))));
     frame.n_columns = cells_along(width, frame.cell_width);
     frame.n_rows = cells_along(height, frame.cell_width);
@@ -53,7 +59,7 @@ void CellGrid::build(std::span<const Disc> discs, const GridFrame& frame, double
     slot_of_.resize(n);
     lane_length_ = n + filter_padding;
     lanes_.resize(4 * lane_length_);
-    cell_start_.resize(n_columns * rows() + 1);
+    resize_close(cell_start_, n_columns * rows() + 1);
     column_start_.resize(n_columns + 1);
     thread_column_start_.assign(n_columns * static_cast<std::size_t>(n_threads), 0);
 

@@ -18,6 +18,13 @@ constexpr std::size_t hits_per_batch = 128;
 /// Pairs judged later whose states are asked for now: they are far apart in memory.
 constexpr std::size_t pairs_ahead = 8;
 
+/// Candidates are most of what a rank keeps beside its discs: lists grow by a quarter, not to twice their size.
+void add(SearchLists& lists, const Window& window, int m, const Candidate& candidate) {
+    std::vector<Candidate>& list = lists.by_micro[static_cast<std::size_t>(m - window.first_micro)];
+    if (list.size() == list.capacity()) list.reserve(list.size() + list.size() / 4 + 64);
+    list.push_back(candidate);
+}
+
 void prefetch(std::span<const Disc> discs, LocalIndex index) { __builtin_prefetch(&discs[index]); }
 
 /// Calls ask(pair) some time before judge(pair), for the first n pairs.
@@ -66,9 +73,7 @@ void Search<Law>::predict_all(const Population& population, const CellGrid& grid
 #pragma omp parallel num_threads(n_threads_)
     {
         SearchLists& lists = lists_[static_cast<std::size_t>(omp_get_thread_num())];
-        if (lists.by_micro.size() < static_cast<std::size_t>(window.n_micro)) {
-            lists.by_micro.resize(static_cast<std::size_t>(window.n_micro));
-        }
+        lists.by_micro.resize(static_cast<std::size_t>(window.n_micro));
         for (std::vector<Candidate>& list : lists.by_micro) list.clear();
 #pragma omp for schedule(dynamic, chunk)
         for (int column = 0; column < n_columns; ++column) {
@@ -160,7 +165,7 @@ void Search<Law>::predict_pair(const Population& population, const Window& windo
         candidate.p_state = states[candidate.p];
         candidate.q_state = states[candidate.q];
     }
-    lists.by_micro[static_cast<std::size_t>(m - window.first_micro)].push_back(candidate);
+    add(lists, window, m, candidate);
 }
 
 template <class Law>
@@ -172,8 +177,7 @@ void Search<Law>::predict_wall(const Population& population, const Window& windo
         const double t = law_.wall_time(disc, m);
         if (t == Law::never) continue;
         if (window.holds(t)) {
-            lists.by_micro[static_cast<std::size_t>(m - window.first_micro)].push_back(
-                {t, index, wall, states.empty() ? WindowState{0} : states[index], 0});
+            add(lists, window, m, {t, index, wall, states.empty() ? WindowState{0} : states[index], 0});
         }
         return;
     }

@@ -258,7 +258,7 @@ void ExactEngine::sync() {
 
 void ExactEngine::settle_now() {
     migrate();
-    const double reach = reach_of({law_.box_size(), law_.radius(), static_cast<double>(discs_.n_total()), 0}, 0);
+    const double reach = reach_of({law_.box_size(), law_.radius(), static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
     discs_.fetch_halo(time_, reach, nullptr);
     const double x_low = std::max(0.0, discs_.strips().low(communicator_.rank()) - reach);
     const double x_high = std::min(law_.box_size(), discs_.strips().high(communicator_.rank()) + reach);

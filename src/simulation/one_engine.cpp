@@ -30,18 +30,20 @@ double speed_of(const Disc& disc) { return std::sqrt(disc.vx * disc.vx + disc.vy
 
 OneEngine::OneEngine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning)
     : communicator_(communicator), tuning_(with_useful_threads(tuning, scene, communicator)), law_(scene.box_size, scene.radius), micro_steps_(scene.micro_steps),
-      sync_every_(scene.sync_every), discs_(communicator, scene.box_size, std::move(state.discs)),
+      sync_every_(scene.sync_every), last_micro_step_(scene.steps * scene.micro_steps), discs_(communicator, scene.box_size, std::move(state.discs)),
       n_micro_done_(state.micro_steps_done), micro_(static_cast<int>(n_micro_done_ % sync_every_)),
       search_(law_, tuning_.threads), local_(tuning_.threads), across_strips_(communicator) {
     for (const Disc& disc : own()) largest_speed_ = std::max(largest_speed_, speed_of(disc));
     const double density = static_cast<double>(discs_.n_total()) / (law_.box_size() * law_.box_size());
-    hits_per_micro_step_ = std::min(1.0, density * law_.diameter() * communicator_.max(largest_speed_)); // a first guess
+    hits_per_micro_step_ = std::min(1.0, 2 * density * law_.diameter() * communicator_.max(largest_speed_)); // a first guess
     discs_.rebalance(micro_, tuning_.rebalance_above);
-    settle_now();
-    reorder();
 }
 
 void OneEngine::advance_towards(std::int64_t last_step) {
+    if (n_windows_ == 0) { // discs come in any order
+        settle_now();
+        reorder();
+    }
     const std::int64_t next_sync = n_micro_done_ - micro_ + sync_every_;
     const std::int64_t good_stop = (next_sync + micro_steps_ - 1) / micro_steps_ * micro_steps_;
     const std::int64_t stop = std::min(last_step * micro_steps_, good_stop);
@@ -49,6 +51,7 @@ void OneEngine::advance_towards(std::int64_t last_step) {
         run_window(static_cast<int>(std::min(stop - n_micro_done_, sync_every_ - micro_)));
         if (micro_ == sync_every_) sync();
     }
+    if (n_micro_done_ == last_micro_step_) grid_ = {}; // memory for what follows a run
 }
 
 /// Runs one window of at most `n_left` micro-steps: to its end, or to where discs have become too fast for it.
@@ -90,7 +93,7 @@ void OneEngine::reorder() { grid_.reorder(discs_.all(), discs_.n_own(), tuning_.
 void OneEngine::settle_now() {
     agree_on_speed();
     migrate(micro_);
-    const double reach = reach_of({law_.box_size(), law_.radius(), static_cast<double>(discs_.n_total()), 0, 0}, 0);
+    const double reach = reach_of({law_.box_size(), law_.radius(), static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
     fetch_halo(micro_, reach);
     Window now;
     now.first_micro = micro_;
@@ -133,7 +136,8 @@ Window OneEngine::choose(int n_left) {
 }
 
 WindowNeeds OneEngine::window_needs() const {
-    return {law_.box_size(), law_.radius(), static_cast<double>(discs_.n_total()), window_speed_, hits_per_micro_step_};
+    return {law_.box_size(), law_.radius(), static_cast<double>(discs_.n_total()), window_speed_, hits_per_micro_step_,
+            static_cast<double>(discs_.n_total()) / communicator_.size()};
 }
 
 void OneEngine::agree_on_speed() {

@@ -65,7 +65,7 @@ private:
     Communicator communicator_;
     Tuning tuning_;
     Law law_;
-    std::int64_t micro_steps_, sync_every_;
+    std::int64_t micro_steps_, sync_every_, last_micro_step_;
 
     StripDiscs discs_;
     std::vector<Disc> outcomes_; ///< runs along discs_.all() while a micro-step is cut into parts

@@ -93,7 +93,7 @@ private:
             for (std::size_t k = owner(place.x - margin()); k <= owner(place.x + margin()); ++k)
                 out[k].push_back({place.x, place.y, id, 0});
         }
-        proposals_ = send_to_owners(communicator_, out).items;
+        proposals_ = out.size() == 1 ? std::move(out[0]) : send_to_owners(communicator_, out).items;
         unplaced_.clear();
     }
 

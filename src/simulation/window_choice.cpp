@@ -8,17 +8,22 @@ namespace carrom {
 
 namespace {
 
-// In nanoseconds, on one core (docs/performance.md): what a disc costs in a window of any length, what each disc within a
-// square of one reach costs it on top, and what it costs to predict a disc again that was hit inside the window.
-constexpr double cost_per_disc = 40;
-constexpr double cost_per_partner = 2;
-constexpr double cost_per_hit = 60;
+/// In nanoseconds, on one core (docs/performance.md).
+struct Costs {
+    double disc;        ///< of a disc in a window of any length
+    double partner;     ///< and of each disc within a square of one reach
+    double hit;         ///< of predicting a disc again that was hit inside the window
+    double hit_partner; ///< and of each disc within a square of one reach
+};
+constexpr Costs in_cache{30, 1.3, 85, 5.4}, in_memory{60, 1.3, 370, 13};
+constexpr double discs_in_cache = 200'000; // a rank's, in its share of the last cache
 
 double cost_per_micro_step(const WindowNeeds& needs, double duration) {
+    const Costs& cost = needs.discs_per_rank > discs_in_cache ? in_memory : in_cache;
     const double reach = std::min(reach_of(needs, duration), needs.box_size);
     const double in_reach = needs.n_discs * (reach / needs.box_size) * (reach / needs.box_size);
-    const double once = (cost_per_disc + cost_per_partner * in_reach) / duration;
-    const double again = needs.hits_per_micro_step * (cost_per_hit + 2 * cost_per_partner * in_reach);
+    const double once = (cost.disc + cost.partner * in_reach) / duration;
+    const double again = needs.hits_per_micro_step * (cost.hit + cost.hit_partner * in_reach);
     return duration > 1 ? once + again * (1 - 1 / duration) : once;
 }
 

@@ -14,6 +14,7 @@ struct WindowNeeds {
     double n_discs = 0;
     double largest_speed = 0;
     double hits_per_micro_step = 0; ///< how often a disc is taken, as far as is known
+    double discs_per_rank = 0;
 };
 
 /// How far two discs that meet inside a window of this duration can be apart at its anchor.
