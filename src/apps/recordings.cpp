@@ -22,6 +22,7 @@ TrajectoryLayout layout_of(const Scene& scene) {
     layout.program_version = version();
     layout.n_discs = scene.n_discs;
     layout.box_size = scene.box_size;
+    layout.radius = scene.radius;
     layout.velocity_unit = static_cast<double>(scene.micro_steps);
     layout.has_position = wanted.has_position;
     layout.has_velocity = wanted.has_velocity;

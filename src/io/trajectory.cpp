@@ -17,8 +17,16 @@ namespace carrom {
 
 namespace {
 
-constexpr std::uint64_t rows_per_chunk = std::uint64_t{1} << 16;
-constexpr std::uint64_t rows_per_slab = 4 * rows_per_chunk;
+constexpr std::uint64_t most_rows_per_chunk = std::uint64_t{1} << 16;
+
+/// Chunks of one size that hold a frame with hardly any room to spare.
+std::uint64_t rows_per_chunk(std::uint64_t n) {
+    const std::uint64_t n_chunks = (n + most_rows_per_chunk - 1) / most_rows_per_chunk;
+    return (n + n_chunks - 1) / n_chunks;
+}
+
+/// Whole chunks, so that none is read again to be filled up.
+std::uint64_t rows_per_slab(std::uint64_t n) { return 4 * rows_per_chunk(n); }
 
 /// A disc as it travels to rank 0: what it shows at the time of the frame.
 struct ShownDisc {
@@ -61,6 +69,7 @@ void link(hid_t from, const char* name, hid_t to) {
 void create_structure(hid_t file, const TrajectoryLayout& layout) {
     const std::vector<Field> fields = fields_of(layout);
     h5md::write_metadata(file, layout.program_version);
+    h5::write_scalar(h5::create_group(file, "parameters").id(), "radius", layout.radius);
     const h5::Group particles = h5::create_group(file, "particles");
     const h5::Group discs = h5::create_group(particles.id(), "discs");
     const h5::Group box = h5md::create_box(discs.id()), edges = h5::create_group(box.id(), "edges");
@@ -72,7 +81,7 @@ void create_structure(hid_t file, const TrajectoryLayout& layout) {
         link(edges.id(), "step", element.id());
         link(edges.id(), "time", element.id());
         create_growing(element.id(), "value", field.type, std::array<hsize_t, 2>{layout.n_discs, field.width},
-                       std::array<hsize_t, 3>{1, std::min(layout.n_discs, rows_per_chunk), field.width}, layout.compression);
+                       std::array<hsize_t, 3>{1, rows_per_chunk(layout.n_discs), field.width}, layout.compression);
     }
 }
 
@@ -113,7 +122,7 @@ public:
         const auto place = [&](std::span<const ShownDisc> some) {
             for (const ShownDisc& disc : some) slab_[disc.id - begin] = disc;
         };
-        stream_to_root(communicator_, mine, place, rows_per_slab);
+        stream_to_root(communicator_, mine, place, end - begin);
         return slab_;
     }
 
@@ -201,8 +210,9 @@ void Trajectory::append(std::int64_t step, std::span<const Disc> discs, double c
         state_->file.attempt([&](hid_t file) { set_frames(file, layout_, frame + 1); });
     });
     SlabStream stream(discs, clock, layout_.velocity_unit, communicator_);
-    for (std::uint64_t begin = 0; begin < layout_.n_discs; begin += rows_per_slab) {
-        const std::span<const ShownDisc> slab = stream.next(begin, std::min(begin + rows_per_slab, layout_.n_discs));
+    const std::uint64_t rows = rows_per_slab(layout_.n_discs);
+    for (std::uint64_t begin = 0; begin < layout_.n_discs; begin += rows) {
+        const std::span<const ShownDisc> slab = stream.next(begin, std::min(begin + rows, layout_.n_discs));
         if (communicator_.is_root())
             state_->file.attempt([&](hid_t file) { write_slab(file, layout_, frame, begin, slab); });
     }

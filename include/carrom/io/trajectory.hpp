@@ -19,7 +19,7 @@ namespace carrom {
 struct TrajectoryLayout {
     std::string program_version;
     std::uint64_t n_discs = 0;
-    double box_size = 0;
+    double box_size = 0, radius = 0;
     double velocity_unit = 1; ///< what stored velocities are multiplied by to be per step
     bool has_position = true, has_velocity = true, has_collisions = false;
     bool is_single = true;    ///< float32, else float64

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Discs to scale on matplotlib's axes, coloured by speed or by strip; shared by plot_frame.py and plot_movie.py."""
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import EllipseCollection
+from matplotlib.colors import ListedColormap
+
+from frames import strips_of
+
+
+def add_drawing_options(parser):
+    parser.add_argument("--colour", choices=("speed", "strip"), default="speed")
+    parser.add_argument("--ranks", type=int, default=4, help="how many strips to show; default 4")
+    parser.add_argument("--view", type=float, nargs=4, metavar=("X0", "Y0", "X1", "Y1"), help="part of the box to show")
+    parser.add_argument("--fastest", type=float, help="speed of the brightest colour; default: 99 in 100 discs are slower")
+    parser.add_argument("--dpi", type=int, default=110)
+
+
+class Picture:
+    """A figure that shows one frame after the other."""
+
+    def __init__(self, frames, options):
+        self.frames, self.options = frames, options
+        self.view = options.view or (0, 0, frames.size, frames.size)
+        self.figure, self.axes = plt.subplots(figsize=(7.2, 6.2), layout="constrained")
+        x0, y0, x1, y1 = self.view
+        self.axes.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal", xlabel="x", ylabel="y")
+        self.fastest = options.fastest
+        self.discs = None
+
+    def show(self, frame):
+        place = self.frames.positions(frame)
+        x0, y0, x1, y1 = self.view
+        r = self.frames.radius
+        seen = (place[:, 0] > x0 - r) & (place[:, 0] < x1 + r) & (place[:, 1] > y0 - r) & (place[:, 1] < y1 + r)
+        values = self._values(place, frame)
+        if self.discs is not None:
+            self.discs.remove()
+        width = np.full(np.count_nonzero(seen), 2 * r)
+        self.discs = EllipseCollection(width, width, np.zeros(len(width)), units="xy", offsets=place[seen],
+                                       offset_transform=self.axes.transData, linewidths=0, **self._colours())
+        self.discs.set_array(values[seen])
+        if self.options.colour == "speed":
+            self.discs.set_clim(0, self.fastest)
+        else:
+            self.discs.set_clim(-0.5, self.options.ranks - 0.5)
+        is_first = len(self.figure.axes) == 1
+        self.axes.add_collection(self.discs)
+        self.axes.set_title(f"step {self.frames.steps[frame]}")
+        if is_first:
+            self._add_bar()
+
+    def _values(self, place, frame):
+        if self.options.colour == "strip":
+            return strips_of(place[:, 0], self.options.ranks)
+        speed = np.hypot(*self.frames.velocities(frame).T)
+        if self.fastest is None:
+            self.fastest = float(np.quantile(speed, 0.99)) or 1.0  # of the first frame shown; the same in all
+        return speed
+
+    def _colours(self):
+        if self.options.colour == "speed":
+            return {"cmap": "viridis"}
+        colours = [matplotlib.colormaps["tab10"](k % 10) for k in range(self.options.ranks)]
+        return {"cmap": ListedColormap(colours)}
+
+    def _add_bar(self):
+        if self.options.colour == "speed":
+            self.figure.colorbar(self.discs, label="speed (lengths per step)", shrink=0.9)
+        else:
+            self.figure.colorbar(self.discs, label="strip", shrink=0.9, ticks=range(self.options.ranks))

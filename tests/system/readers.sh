@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Other programs open our files and see what the run itself has written as text: h5py, MDAnalysis, VTK (through XDMF),
+# and our own tools for pictures. They come from PyPI, into a folder that is kept; each is skipped where it cannot be had.
+# Argument: that folder.
+source "$(dirname "$0")/common.sh"
+python=$1/bin/python tests=$(dirname "$0") tools=$CARROM_SOURCE_DIR/docs/tools
+n_skipped=0
+skip() {
+    printf 'skipped: %s\n' "$*"
+    n_skipped=$((n_skipped + 1))
+}
+
+[ -x "$python" ] && "$python" -m pip --version >/dev/null 2>&1 || python3 -m venv --clear "$1" >"$test_folder/err" 2>&1 || {
+    printf 'skipped: no Python environment can be made: %s\n' "$(tail -n 1 "$test_folder/err")"
+    exit 77
+}
+
+# has MODULE PACKAGE...: whether Python has the module, if need be from PyPI
+has() {
+    local module=$1
+    shift
+    "$python" -c "import $module" 2>/dev/null && return
+    timeout 200 "$python" -m pip install --quiet --disable-pip-version-check --only-binary :all: --retries 1 --timeout 10 "$@" \
+        >"$test_folder/err" 2>&1 && "$python" -c "import $module" 2>/dev/null
+}
+
+scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=300 --set discs.speed=2 --quiet --steps 20)
+run 2 run "${scene[@]}" --set output.text=every_step --output lines --set output.checkpoint.folder=kept \
+    --set output.trajectory.file=t.h5 --set output.trajectory.every_steps=5 --set output.collisions.file=c.h5 --report report.json
+expect_code 0 'a run'
+
+for reader in 'h5py h5py' 'MDAnalysis h5py MDAnalysis' 'vtk vtk'; do
+    read -r module packages <<<"$reader"
+    if has "$module" $packages; then
+        "$python" "$tests/readers.py" "$module" lines t.h5 kept/checkpoint-000000000020.h5 || complain "$module"
+    else
+        skip "$module is not to be had: $(tail -n 1 "$test_folder/err")"
+    fi
+done
+
+if has matplotlib matplotlib && has h5py h5py; then
+    "$python" "$tools/plot_frame.py" kept/checkpoint-000000000020.h5 -o speed.png || complain 'plot_frame.py of a checkpoint'
+    "$python" "$tools/plot_frame.py" t.h5 --step 10 --colour strip --ranks 3 -o strip.png || complain 'plot_frame.py of a trajectory'
+    "$python" "$tools/plot_frame.py" t.h5 --step 11 -o no.png 2>"$test_folder/err" && complain 'plot_frame.py of no frame'
+    expect_told 'no frame of step 11; there are 5, of steps 0 to 20' 'plot_frame.py'
+    "$python" "$tools/plot_movie.py" t.h5 --dpi 40 -o movie.gif || complain 'plot_movie.py'
+    "$python" "$tools/plot_history.py" --trajectory t.h5 --collisions c.h5 -o history.png || complain 'plot_history.py'
+    "$python" "$tests/readers.py" pictures lines speed.png strip.png movie.gif history.png || complain 'pictures'
+else
+    skip "matplotlib or h5py is not to be had: $(tail -n 1 "$test_folder/err")"
+fi
+[ "$n_skipped" -lt 4 ] || [ "$n_failures" -gt 0 ] || exit 77
+finish
