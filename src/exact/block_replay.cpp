@@ -48,6 +48,7 @@ template <class Law> struct BlockReplay<Law>::Scratch {
     void place(std::uint32_t slot, double time);
     void predict_all();
     void happen(const Event& event);
+    void carry_out(const Event& event);
     void note(std::uint32_t slot, std::uint32_t partner, const Event& event);
     void give_up(const Event& event);
     void log_event(const Event& event, double wx, double wy);
@@ -316,6 +317,23 @@ template <class Law> void BlockReplay<Law>::Scratch::happen(const Event& event) 
         crowd = 0;
     }
     if (++crowd > endless_count + endless_count_per_disc * discs.size()) give_up(event);
+    const bool is_corner = event.q == x_wall && law.y_wall_time(discs[event.p]) == event.time;
+    carry_out(event);
+    if (is_corner) { // nothing may come between its two sides: x and y are alike
+        Event other_side = event;
+        other_side.q = y_wall;
+        other_side.generation += 1;
+        carry_out(other_side);
+    }
+    predict_walls(event.p);
+    predict_pairs(event.p, Past::nobody);
+    if (is_wall(event.q)) return;
+    predict_walls(event.q);
+    predict_pairs(event.q, event.p);
+}
+
+/// Rewrites the states of an event's discs and writes down what has happened to them.
+template <class Law> void BlockReplay<Law>::Scratch::carry_out(const Event& event) {
     Disc& p = discs[event.p];
     const double vx_before = p.vx, vy_before = p.vy;
     if (event.q == x_wall) {
@@ -331,11 +349,6 @@ template <class Law> void BlockReplay<Law>::Scratch::happen(const Event& event) 
         outcome->n_events += 1;
         if (ground.is_logged) log_event(event, p.vx - vx_before, p.vy - vy_before);
     }
-    predict_walls(event.p);
-    predict_pairs(event.p, Past::nobody);
-    if (is_wall(event.q)) return;
-    predict_walls(event.q);
-    predict_pairs(event.q, event.p);
 }
 
 /// Writes down what has happened to one of an event's discs.

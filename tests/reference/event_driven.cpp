@@ -58,14 +58,15 @@ void EventDrivenReference::predict_all() {
 
 void EventDrivenReference::predict_walls(DiscId p) {
     const Disc& disc = discs_[p];
-    const auto predict = [&](double x, double v, DiscId axis) {
-        if (v == 0) return;
-        const double wall = v < 0 ? setting_.radius : setting_.box_size - setting_.radius;
-        const double delay = (wall - x) / v;
-        push({disc.tau + (delay > 0 ? delay : 0), 0, p, false, axis, 0});
-    };
-    predict(disc.x, disc.vx, Event::wall_x);
-    predict(disc.y, disc.vy, Event::wall_y);
+    if (disc.vx != 0) push({wall_time(disc.x, disc.vx, disc.tau), 0, p, false, Event::wall_x, 0});
+    if (disc.vy != 0) push({wall_time(disc.y, disc.vy, disc.tau), 0, p, false, Event::wall_y, 0});
+}
+
+double EventDrivenReference::wall_time(double x, double v, double tau) const {
+    if (v == 0) return std::numeric_limits<double>::infinity();
+    const double wall = v < 0 ? setting_.radius : setting_.box_size - setting_.radius;
+    const double delay = (wall - x) / v;
+    return tau + (delay > 0 ? delay : 0);
 }
 
 void EventDrivenReference::predict_pair(DiscId p, DiscId q) {
@@ -105,6 +106,24 @@ bool EventDrivenReference::is_valid(const Prediction& prediction) const {
 
 void EventDrivenReference::happen(const Event& event) {
     if (log_.size() == most_events_) throw std::runtime_error("more collisions than a test should have");
+    const Disc& first = discs_[event.p];
+    const bool is_corner = !event.is_pair && event.q == Event::wall_x && wall_time(first.y, first.vy, first.tau) == event.time;
+    carry_out(event);
+    if (is_corner) {
+        Event other_side = event;
+        other_side.q = Event::wall_y;
+        other_side.generation += 1;
+        carry_out(other_side);
+    }
+    predict_walls(event.p);
+    if (event.is_pair) predict_walls(event.q);
+    for (DiscId other = 0; other < discs_.size(); ++other) {
+        if (other != event.p) predict_pair(event.p, other);
+        if (event.is_pair && other != event.q && other != event.p) predict_pair(event.q, other);
+    }
+}
+
+void EventDrivenReference::carry_out(const Event& event) {
     Disc& p = discs_[event.p];
     advance(p, event.time);
     if (event.is_pair) {
@@ -124,13 +143,6 @@ void EventDrivenReference::happen(const Event& event) {
     note(event.p, event.is_pair ? event.q : Past::no_partner, event);
     log_.push_back(event);
     log_.back().sync = micro_step_ / setting_.sync_every;
-
-    predict_walls(event.p);
-    if (event.is_pair) predict_walls(event.q);
-    for (DiscId other = 0; other < discs_.size(); ++other) {
-        if (other != event.p) predict_pair(event.p, other);
-        if (event.is_pair && other != event.q && other != event.p) predict_pair(event.q, other);
-    }
 }
 
 void EventDrivenReference::note(DiscId id, DiscId partner, const Event& event) {

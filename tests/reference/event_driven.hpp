@@ -4,7 +4,8 @@
 // One heap, brute-force prediction: after each collision its discs are predicted anew against all others. The order is
 // time, generation, id of P, wall before pair, id of Q, x before y. Price: N predicates per collision and N^2/2 a sync.
 //
-// Three readings where the page is silent. A pair that has just collided cannot collide again at the same time until
+// Four readings where the page is silent. The two sides of a corner that are met at one time follow each other with
+// nothing between them, so that x and y are alike. A pair that has just collided cannot collide again at the same time until
 // one of the two has met something else: in a touching cluster rounding can leave b = -1e-18, which the impulse is too
 // small to mend, and the pair would collide for ever. (Later it may: that needs no memory beyond the stored states.) A sync forgets generations and partners, for they are no part of the stored state.
 // And more than `most_events` collisions throw std::runtime_error: a disc that fills its box has them without end.
@@ -64,11 +65,13 @@ private:
     void run_until(double time);
     void predict_all();
     void predict_walls(DiscId p);
+    double wall_time(double x, double v, double tau) const;
     void predict_pair(DiscId p, DiscId q);
     void push(Event event);
     bool is_valid(const Prediction& prediction) const;
     void forget_invalid();
     void happen(const Event& event);
+    void carry_out(const Event& event);
     void note(DiscId id, DiscId partner, const Event& event);
 
     Setting setting_;
