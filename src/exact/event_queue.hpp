@@ -46,6 +46,11 @@ private:
     std::span<const Disc> discs_;
 };
 
+/// The same order backwards, for heaps with the first event on top.
+inline auto after(const EventOrder& before) {
+    return [&before](const Event& a, const Event& b) { return before(b, a); };
+}
+
 /// Buckets of equal length in time, some one event to a bucket: nearly all of a queue's work is to append to a list. The
 /// bucket that is being emptied is a heap, so that thousands of events at one time cost no more than the logarithm.
 class EventQueue {
@@ -101,9 +106,6 @@ public:
 private:
     static constexpr std::uint32_t none = 0xffffffff;
 
-    static auto after(const EventOrder& before) {
-        return [&before](const Event& a, const Event& b) { return before(b, a); };
-    }
     void push_now(const Event& event, const EventOrder& before) {
         now_.push_back(event);
         if (now_.size() > 1) std::push_heap(now_.begin(), now_.end(), after(before));
