@@ -12,6 +12,7 @@
 #include "carrom/simulation/simulation.hpp"
 #include "checkpoints.hpp"
 #include "disc_lines.hpp"
+#include "hard_cases.hpp"
 #include "load.hpp"
 #include "machine.hpp"
 #include "progress.hpp"
@@ -95,6 +96,7 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     Simulation simulation = is_restart ? Simulation(scene, std::move(*loaded.stored), ranks, tuning)
                                        : Simulation(scene, std::move(loaded.discs), ranks, tuning);
 
+    warn_of_hard_cases(scene, simulation, ranks);
     RunResult result;
     result.first_step = simulation.step();
     result.start = simulation.totals();

@@ -39,14 +39,14 @@ std::optional<double> finite_number(const Check& check, std::string_view key) {
     return std::nullopt;
 }
 
-/// A length, greater than 0 and within 2^+-250.
+/// A length, from 2^-230 to 2^250.
 std::optional<double> size_number(const Check& check, std::string_view key) {
     const auto number = finite_number(check, key);
     if (!number) return std::nullopt;
-    if (*number >= smallest_size && *number <= largest_size) return number;
+    if (*number >= smallest_length && *number <= largest_size) return number;
     check.refuse(*check.settings.find(key),
                  !(*number > 0) ? fmt::format("'{}' must be greater than 0, not {}", key, *number)
-                 : *number < smallest_size ? fmt::format("'{}' = {} is too small (at least 2^-250)", key, *number)
+                 : *number < smallest_length ? fmt::format("'{}' = {} is too small (at least 2^-230)", key, *number)
                                            : fmt::format("'{}' = {} is too large (at most 2^250)", key, *number));
     return std::nullopt;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What numbers a scene may hold. Sizes and speeds stay within 2^+-250, so that no product the method takes of them can
-// overflow or vanish (docs/method.md, section 4).
+// overflow or vanish (docs/method.md); lengths above 2^-230, below which discriminants of near grazes are denormal.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,8 @@
 
 namespace carrom {
 
-inline constexpr double smallest_size = 0x1p-250;
+inline constexpr double smallest_length = 0x1p-230;
+inline constexpr double smallest_size = 0x1p-250; ///< of a speed
 inline constexpr double largest_size = 0x1p+250;
 inline constexpr std::uint64_t largest_count = 0xFFFFFFFEu; ///< 32-bit places in arrays, one of them meaning "none"
 inline constexpr std::int64_t largest_steps = std::int64_t{1} << 53; ///< step numbers are exact in a double

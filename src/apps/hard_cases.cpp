@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hard_cases.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+namespace carrom {
+
+void warn_of_hard_cases(const Scene& scene, const Simulation& simulation, const Communicator& ranks) {
+    double square = 0;
+    for (const Disc& disc : simulation.discs()) square = std::max(square, disc.vx * disc.vx + disc.vy * disc.vy);
+    const double speed = std::sqrt(ranks.max(square));
+    const double rounding = static_cast<double>(scene.sync_every) * 0x1p-53; // times count from the last sync
+    // As far as the band before walls is wide: from there on bounces and overlaps show it.
+    if (!ranks.is_root() || speed * rounding <= 1e-8 * scene.radius) return;
+    fmt::print(stderr,
+               "{}: warning: the fastest disc goes {:.3g} radii per micro-step, and {:.3g} radii in the rounding of a time; "
+               "more time.micro_steps or a smaller time.sync_every (now {}) keep overlaps smaller\n",
+               scene.name, speed / scene.radius, speed * rounding / scene.radius, scene.sync_every);
+}
+
+} // namespace carrom

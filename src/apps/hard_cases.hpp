@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Warnings for scenes that are legal but lose digits (docs/stability.md).
+#pragma once
+
+#include "carrom/parallel/communicator.hpp"
+#include "carrom/scene/scene.hpp"
+#include "carrom/simulation/simulation.hpp"
+
+namespace carrom {
+
+/// Rank 0 warns if discs go noticeably far in the rounding of a time. **Collective.**
+void warn_of_hard_cases(const Scene& scene, const Simulation& simulation, const Communicator& ranks);
+
+} // namespace carrom
