@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Family 2, contact: pairs that touch to within ulps, and contacts on the boundaries of steps and windows.
+//
+// Why hard: after a collision rounding leaves a pair some ulp inside or outside contact; a program that then sees the
+// same contact again, or none when the pair is pushed together, loses or repeats collisions. Source: Bannerman, Strobl,
+// Formella, Poeschel, Comput. Part. Mech. 1, 191 (2014): touching or overlapping and approaching collide now, separating
+// never. Bounds: exactly one collision for those that approach, none for the others; no contact lost between two steps.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "approach.hpp"
+#include "carrom/effects/plain_law.hpp"
+#include "hold.hpp"
+#include "runs.hpp"
+#include "scene_tools.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+constexpr CollisionRule both[] = {CollisionRule::one, CollisionRule::all};
+constexpr int most_ulps = 64;
+
+/// Every ulp on one rank; on several, which take their time to start and talk, every eighth.
+int ulp_step() { return Communicator::world().size() == 1 ? 1 : 8; }
+
+double by_ulps(double value, int ulps) {
+    for (int i = 0; i < std::abs(ulps); ++i) value = std::nextafter(value, ulps < 0 ? -1e300 : 1e300);
+    return value;
+}
+
+/// A lone pair in the middle of a box of eight diameters, at sigma (1 + k ulp) along x, y or a diagonal. Relative
+/// velocity along the line of centres times `closing`, across it times `sliding`.
+TestScene pair_at_contact(int ulps, int direction, double closing, double sliding) {
+    TestScene scene = empty_scene("pair at contact, " + std::to_string(ulps) + " ulp", 8, 0.5, 3);
+    const double ex[] = {1, 0, 0.6, -0.8}, ey[] = {0, 1, 0.8, 0.6};
+    const double x = 3, y = 3, cx = ex[direction], cy = ey[direction];
+    const double qx = x + cx, qy = y + cy;
+    add_disc(scene, x, y, 0.25, 0.125);
+    // Moving the coordinate that the line of centres has most of by an ulp of its own.
+    add_disc(scene, direction % 2 == 0 && direction < 2 ? by_ulps(qx, ulps) : qx, direction == 0 ? qy : by_ulps(qy, ulps),
+             0.25 - closing * cx - sliding * cy, 0.125 - closing * cy + sliding * cx);
+    return scene;
+}
+
+} // namespace
+
+TEST_CASE("contact: pairs within 64 ulp of contact collide once if they approach and never if they separate", "[contact]") {
+    for (const CollisionRule rule : both) {
+        double most = 0, fewest = 1, receding = 0;
+        for (int ulps = -most_ulps; ulps <= most_ulps; ulps += ulp_step()) {
+            for (int direction = 0; direction < 4; ++direction) {
+                for (const double speed : {0.25, 1e-3, 1e-9}) {
+                    // A gap of 64 ulp takes longer than the run at 1e-9: the pair may but need not meet.
+                    const auto approaching = static_cast<double>(run(pair_at_contact(ulps, direction, speed, 0.1), rule).totals.pair_collisions);
+                    most = std::max(most, approaching);
+                    if (speed > 1e-6 || ulps <= 0) fewest = std::min(fewest, approaching);
+                    receding += static_cast<double>(run(pair_at_contact(ulps, direction, -speed, 0.1), rule).totals.pair_collisions);
+                }
+            }
+        }
+        hold("contact", "sigma (1 +- 64 ulp), approaching: most collisions of a pair", name_of(rule), most, 1);
+        hold("contact", "sigma (1 +- 64 ulp), approaching: pairs that did not collide", name_of(rule), 1 - fewest, 0);
+        hold("contact", "sigma (1 +- 64 ulp), receding: collisions", name_of(rule), receding, 0);
+    }
+}
+
+// Along the tangent not even the sign of b is known; a collision then is harmless if it gives next to no impulse.
+TEST_CASE("contact: pairs that slide along each other get no impulse to speak of", "[contact]") {
+    for (const CollisionRule rule : both) {
+        double largest = 0;
+        for (int ulps = -most_ulps; ulps <= most_ulps; ulps += ulp_step()) {
+            for (int direction = 0; direction < 4; ++direction) {
+                const TestScene scene = pair_at_contact(ulps, direction, 0, 0.25);
+                for (const Collision& collision : collisions_of(scene, rule)) largest = std::max(largest, collision.impulse);
+            }
+        }
+        hold("contact", "sigma (1 +- 64 ulp), sliding: largest impulse over relative speed", name_of(rule), largest / 0.25, 1e-7);
+    }
+}
+
+// The impulse is taken from the stored places, so that afterwards b > 0 up to its own rounding.
+TEST_CASE("contact: a million random collisions leave no pair that approaches faster than its rounding", "[contact]") {
+    Approaches some(201);
+    const PlainLaw law(64, 0.5);
+    double worst = 0, n_again = 0;
+    for (int i = 0; i < 1000000; ++i) {
+        const Approach c = some.make(some.log_uniform(1, 30), some.log_uniform(1e-10, 1), some.log_uniform(1e-3, 10), 1);
+        Disc p, q;
+        p.x = 32 - c.dx / 2;
+        p.y = 32 - c.dy / 2;
+        q.x = 32 + c.dx / 2;
+        q.y = 32 + c.dy / 2;
+        q.id = 1;
+        p.vx = some.uniform(-1, 1);
+        p.vy = some.uniform(-1, 1);
+        q.vx = p.vx + c.wx;
+        q.vy = p.vy + c.wy;
+        const PairContact<double> contact = law.exact_contact(p, q);
+        if (!contact.exists()) continue;
+        PlainLaw::collide_at(p, q, contact.base + contact.delay);
+        const PairContact<double> next = law.exact_contact(p, q);
+        if (!next.exists() || next.delay > 1e-12) continue;
+        n_again += 1;
+        const double ex = q.x - p.x, ey = q.y - p.y, wx = q.vx - p.vx, wy = q.vy - p.vy;
+        const double speed = std::fabs(p.vx) + std::fabs(p.vy) + std::fabs(q.vx) + std::fabs(q.vy);
+        worst = std::max(worst, -(ex * wx + ey * wy) / speed);
+    }
+    CAPTURE(n_again);
+    hold("contact", "after 1e6 collisions: fastest approach of a pair that has just collided, over its speeds", "both", worst, 8 * 0x1p-53);
+}
+
+// Grazing pairs and all: in a run, each pair meets once.
+TEST_CASE("contact: lone pairs collide once in a run", "[contact]") {
+    for (const CollisionRule rule : both) {
+        double most = 0, total = 0;
+        Approaches some(202);
+        for (int i = 0; i < 40; ++i) {
+            TestScene scene = empty_scene("lone pairs", 160, 0.5, 6);
+            for (int cell = 0; cell < 64; ++cell) {
+                const Approach c = some.make(some.uniform(1, 4), some.log_uniform(1e-8, 1), some.uniform(0.5, 2), 1);
+                const double x = 10 + 20 * (cell % 8), y = 10 + 20 * (cell / 8);
+                add_disc(scene, x - c.dx / 2, y - c.dy / 2, -c.wx / 2, -c.wy / 2);
+                add_disc(scene, x + c.dx / 2, y + c.dy / 2, c.wx / 2, c.wy / 2);
+            }
+            const Outcome outcome = run(scene, rule);
+            for (const Disc& disc : outcome.discs) most = std::max(most, static_cast<double>(disc.pair_collisions));
+            total += static_cast<double>(outcome.totals.pair_collisions);
+        }
+        CHECK(total > 40 * 64 * 0.9);
+        hold("contact", "2560 lone pairs, grazing to 1e-8: most collisions of a pair", name_of(rule), most, 1);
+    }
+}
+
+// The two roundings of a time, seen from either side of a boundary, must leave no crack to slip through.
+TEST_CASE("contact: none is lost on a step, sync or window boundary", "[contact]") {
+    for (const CollisionRule rule : both) {
+        double lost = 0, n_contacts = 0;
+        for (const TestScene& scene : boundary_contacts()) {
+            for (const double window : {0.5, 1.0, 64.0}) {
+                Tuning tuning;
+                tuning.window = window;
+                const auto expected = static_cast<double>(*scene.expected_pair_collisions);
+                lost += std::fabs(expected - static_cast<double>(run(scene, rule, tuning).totals.pair_collisions));
+                n_contacts += expected;
+            }
+        }
+        hold("contact", number(n_contacts) + " contacts on boundaries, L/r to 1e6: lost or repeated", name_of(rule), lost, 0);
+    }
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Prints one fingerprint of many runs of both rules: what every compiler and instruction set must agree on.
+//
+// With an argument, only for scenes whose name contains it, and one line per run: to find the first that differs.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+
+#include "carrom/core/errors.hpp"
+#include "carrom/parallel/communicator.hpp"
+#include "carrom/parallel/mpi.hpp"
+#include "event_driven.hpp"
+#include "runs.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+std::string text_of(const TestScene& scene, CollisionRule rule) {
+    try {
+        return to_string(run(scene, rule).totals.hash);
+    } catch (const InputError&) {
+        return "refused";
+    }
+}
+
+/// Hundreds of discs on one line, hundreds of diameters a step: millions of collisions that show nothing new.
+bool is_long_under_all(const TestScene& scene) {
+    const bool is_line = scene.name.rfind("chain", 0) == 0 || scene.name.rfind("cradle", 0) == 0;
+    return scene.is_endless_under_all || (is_line && scene.discs.size() >= 400);
+}
+
+/// FNV-1a over the lines.
+void add(std::uint64_t& sum, const std::string& line) {
+    for (const char c : line) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    Mpi mpi(argc, argv);
+    return run_on_all(Communicator::world(), [&](const Communicator& world) {
+        std::uint64_t sum = 0xcbf29ce484222325u;
+        std::size_t n_runs = 0;
+        std::vector<TestScene> scenes = small_scenes();
+        for (TestScene& scene : large_scenes()) {
+            scene.steps = 2;
+            scenes.push_back(scene);
+        }
+        for (TestScene& scene : scenes) {
+            if (argc > 1 && scene.name.find(argv[1]) == std::string::npos) continue;
+            for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+                if (rule == CollisionRule::all && is_long_under_all(scene)) continue;
+                if (rule == CollisionRule::all) scene.steps = std::min<std::int64_t>(scene.steps, 4);
+                const std::string line = text_of(scene, rule) + "  " + name_of(rule) + "  " + scene.name;
+                add(sum, line);
+                ++n_runs;
+                if (argc > 1 && world.is_root()) std::printf("%s\n", line.c_str());
+            }
+        }
+        if (world.is_root()) std::printf("%016llx %zu runs\n", static_cast<unsigned long long>(sum), n_runs);
+        return 0;
+    });
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Worst values against their bounds. The command tests/stability/table.sh makes docs/stability.md of them.
+#pragma once
+
+#include <catch2/catch.hpp>
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+namespace carrom::test {
+
+/// Checks that `worst` <= `bound`. If $CARROM_STABILITY_TABLE names a file, appends a line to it: family, case, rule
+/// ("one", "all", or "both" where the rule has no say), bound, worst value.
+inline void hold(const char* family, const std::string& what, const std::string& rule, double worst, double bound) {
+    INFO(family << ": " << what << ", rule " << rule);
+    CHECK(worst <= bound);
+    const char* const path = std::getenv("CARROM_STABILITY_TABLE");
+    if (path == nullptr) return;
+    std::FILE* const file = std::fopen(path, "a");
+    REQUIRE(file != nullptr);
+    std::fprintf(file, "%s\t%s\t%s\t%.3g\t%.3g\n", family, what.c_str(), rule.c_str(), bound, worst);
+    std::fclose(file);
+}
+
+} // namespace carrom::test

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Family 8, long: what bites only after many steps or collisions.
+//
+// Why hard: counters of 32 bits wrap after hours; a time that counts from the start of the run loses a digit with every
+// tenfold, until t + dt == t and time stands still; energies creep. Sources: the trackers' threads on long runs
+// (counters, negative times after a restart); Bannerman et al. 2014. Bounds: energy to 1e-12 after 1e9 collisions, the
+// same bits after a restart and wherever the count of steps starts.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hold.hpp"
+#include "runs.hpp"
+#include "scene_tools.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+constexpr CollisionRule both[] = {CollisionRule::one, CollisionRule::all};
+
+/// The run's state as a checkpoint would hold it.
+StoredState stored(const Simulation& simulation) {
+    return {{simulation.discs().begin(), simulation.discs().end()}, simulation.micro_steps_done()};
+}
+
+Simulation resume(const TestScene& scene, CollisionRule rule, StoredState state) {
+    Scene checked = scene_of(scene);
+    checked.rule = rule;
+    return {checked, std::move(state), Communicator::world(), {}};
+}
+
+TestScene some_gas() {
+    TestScene scene = gas(100, 0.4, 0.3, 801);
+    scene.setting.micro_steps = 2;
+    scene.setting.sync_every = 8;
+    return scene;
+}
+
+/// Like some_gas, from `micro_steps` on, the counters `counted` ahead; what comes of it in 20 steps.
+Outcome later(CollisionRule rule, std::int64_t micro_steps, std::uint64_t counted) {
+    const TestScene scene = some_gas();
+    StoredState state = stored(start(scene, rule));
+    state.micro_steps_done = micro_steps;
+    for (Disc& disc : state.discs) {
+        disc.wall_collisions += counted;
+        disc.pair_collisions += counted;
+    }
+    Simulation simulation = resume(scene, rule, state);
+    CHECK(simulation.step() == micro_steps / 2);
+    run_to(simulation, micro_steps / 2 + 20);
+    Outcome outcome = outcome_of(simulation);
+    for (Disc& disc : outcome.discs) {
+        disc.wall_collisions -= counted;
+        disc.pair_collisions -= counted;
+    }
+    return outcome;
+}
+
+bool has_same_bits(const Outcome& a, const Outcome& b) { return hash_of(a.discs) == hash_of(b.discs); }
+
+/// The state 20 steps on, by a run that is stopped and started again on the way.
+Outcome with_restart(const TestScene& scene, CollisionRule rule, StoredState state) {
+    Simulation first = resume(scene, rule, std::move(state));
+    const std::int64_t step = first.step();
+    run_to(first, step + 7);
+    Simulation second = resume(scene, rule, stored(first));
+    run_to(second, step + 20);
+    return outcome_of(second);
+}
+
+/// `most` collisions in `parts` parts; energy, and the hash after a restart, are looked at after each.
+void many_collisions(CollisionRule rule, std::size_t n, double most, int parts) {
+    TestScene scene = gas(n, 0.3, 0.5, 803);
+    scene.steps = std::int64_t{1} << 40;
+    Simulation simulation = start(scene, rule);
+    const double energy = squared_speeds(outcome_of(simulation));
+    double worst = 0, n_different = 0;
+    for (int part = 1; part <= parts; ++part) {
+        while (static_cast<double>(simulation.totals().pair_collisions) < most * part / parts) run_to(simulation, simulation.step() + 50);
+        const Outcome again = with_restart(scene, rule, stored(simulation));
+        run_to(simulation, simulation.step() + 20);
+        const Outcome now = outcome_of(simulation);
+        n_different += !has_same_bits(now, again);
+        worst = std::max(worst, std::fabs(squared_speeds(now) / energy - 1));
+    }
+    const std::string what = number(most) + " collisions of " + std::to_string(n) + " discs";
+    hold("long", what + ": change of the energy", name_of(rule), worst, 1e-12);
+    hold("long", what + ": other bits after a restart", name_of(rule), n_different, 0);
+}
+
+} // namespace
+
+TEST_CASE("long: steps above 2^32 and up to 2^53 have the bits of the first ones", "[long]") {
+    for (const CollisionRule rule : both) {
+        const Outcome expected = later(rule, 0, 0);
+        double n_different = 0;
+        for (const int bits : {31, 32, 40, 52}) {
+            // From 16 micro-steps before the boundary across it.
+            n_different += !has_same_bits(later(rule, (std::int64_t{1} << bits) - 16, 0), expected);
+        }
+        hold("long", "steps across 2^31, 2^32, 2^40, 2^52: runs with other bits", name_of(rule), n_different, 0);
+    }
+}
+
+TEST_CASE("long: counters above 2^32 go on counting", "[long]") {
+    for (const CollisionRule rule : both) {
+        const Outcome expected = later(rule, 0, 0);
+        double n_different = 0;
+        for (const std::uint64_t counted : {(std::uint64_t{1} << 31) - 2, (std::uint64_t{1} << 32) - 2, std::uint64_t{1} << 50}) {
+            n_different += !has_same_bits(later(rule, 0, counted), expected);
+        }
+        hold("long", "counters across 2^31, 2^32, at 2^50: runs with other bits", name_of(rule), n_different, 0);
+    }
+}
+
+// Times count from the last sync, so that t + dt == t does not depend on how long the run is, but on sync_every.
+TEST_CASE("long: contacts late in a long sync interval are not lost", "[long]") {
+    for (const CollisionRule rule : both) {
+        for (const int bits : {10, 20, 30}) {
+            TestScene scene = empty_scene("late contacts", 160, 0.5, 0);
+            scene.setting.sync_every = std::int64_t{1} << bits;
+            Random random(804);
+            const double speed = 0.125;
+            for (int cell = 0; cell < 64; ++cell) {
+                const auto [ex, ey] = random.direction();
+                const double x = 10 + 20 * (cell % 8), y = 10 + 20 * (cell / 8), gap = 0.5 * random.uniform(0, 1);
+                add_disc(scene, x, y, speed * ex, speed * ey);
+                add_disc(scene, x + (1 + gap) * ex, y + (1 + gap) * ey, -speed * ex, -speed * ey);
+            }
+            StoredState state = stored(start(scene, rule));
+            state.micro_steps_done = (std::int64_t{1} << bits) - 6; // the discs fly from here, over the sync
+            for (Disc& disc : state.discs) disc.tau = static_cast<double>(state.micro_steps_done);
+            Simulation simulation = resume(scene, rule, state);
+            run_to(simulation, simulation.step() + 12);
+            const auto met = static_cast<double>(simulation.totals().pair_collisions);
+            hold("long", "contacts before and after a sync at 2^" + std::to_string(bits) + ": lost or repeated, of 64", name_of(rule),
+                 std::fabs(met - 64), 0);
+        }
+    }
+}
+
+// A time is rounded to an ulp of its size, and a disc flies on in that: no deeper may an overlap be.
+TEST_CASE("long: late in a long sync interval overlaps are as deep as times are coarse", "[long]") {
+    for (const int bits : {6, 20, 30}) {
+        TestScene scene = gas(64, 0.4, 0.3, 805);
+        scene.setting.sync_every = std::int64_t{1} << bits;
+        StoredState state = stored(start(scene, CollisionRule::all));
+        state.micro_steps_done = scene.setting.sync_every - 40;
+        for (Disc& disc : state.discs) disc.tau = static_cast<double>(state.micro_steps_done);
+        Simulation simulation = resume(scene, CollisionRule::all, state);
+        double worst = 0;
+        for (int step = 0; step < 60; ++step) {
+            run_to(simulation, simulation.step() + 1);
+            const Outcome now = outcome_of(simulation);
+            const double speed = std::sqrt(squared_speeds(now));
+            const double bound = 64 * ulp_of(scene.setting.box_size) + 2 * speed * ulp_of(std::ldexp(0.5, bits));
+            worst = std::max(worst, deepest_overlap(now, 2) / bound);
+        }
+        hold("long", "sync_every 2^" + std::to_string(bits) + ": deepest overlap over 64 ulp(L) + 2 |v| ulp(time)", "all", worst, 1);
+    }
+}
+
+// So fast that a flight from wall to wall takes less than an ulp of the time: t + dt == t. One collision a step goes on.
+TEST_CASE("long: discs faster than times can tell end in finite time, with their energy", "[long]") {
+    double worst = 0, outside = 0;
+    for (const double speed : {0x1p30, 0x1p52, 0x1p60, 0x1p200}) {
+        TestScene scene = gas(16, 0.2, speed, 806);
+        scene.steps = 130;
+        const Outcome before = outcome_of(start(scene, CollisionRule::one)), after = run(scene, CollisionRule::one);
+        worst = std::max(worst, std::fabs(squared_speeds(after) / squared_speeds(before) - 1));
+        const double allowed = 4 * ulp_of(scene.setting.box_size) + std::sqrt(squared_speeds(after)) * ulp_of(32);
+        outside = std::max(outside, farthest_outside(after, scene.setting) / allowed);
+    }
+    hold("long", "2^30 to 2^200 diameters a step: change of the energy", "one", worst, 1e-12);
+    hold("long", "2^30 to 2^200 diameters a step: farthest outside over 4 ulp(L) + |v| ulp(64)", "one", outside, 1);
+}
+
+TEST_CASE("long: energy and restarts over 2e5 collisions", "[long]") {
+    many_collisions(CollisionRule::one, 400, 1e5, 4);
+    many_collisions(CollisionRule::all, 400, 1e5, 4);
+}
+
+TEST_CASE("long: energy and restarts over 1e9 collisions", "[long][.hours]") { many_collisions(CollisionRule::all, 10000, 1e9, 10); }

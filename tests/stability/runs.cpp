@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <random>
+#include <tuple>
+
+#include <omp.h>
+
+#include "carrom/core/errors.hpp"
+#include "carrom/parallel/exchange.hpp"
+#include "quad.hpp"
+
+namespace carrom::test {
+
+namespace {
+
+/// Everybody's items on every rank.
+template <class Item> std::vector<Item> gathered(std::span<const Item> mine, const Communicator& world) {
+    std::vector<Item> all;
+    const auto take = [&](std::span<const Item> some) { all.insert(all.end(), some.begin(), some.end()); };
+    stream_to_root(world, mine, take, 10000);
+    world.broadcast(all);
+    return all;
+}
+
+} // namespace
+
+std::string name_of(CollisionRule rule) { return rule == CollisionRule::one ? "one" : "all"; }
+
+Simulation start(const TestScene& scene, CollisionRule rule, Tuning tuning, unsigned seed) {
+    const Communicator world = Communicator::world();
+    std::mt19937 random(seed);
+    std::vector<InputDisc> mine;
+    for (const InputDisc& disc : scene.discs) {
+        if (static_cast<int>(random() % static_cast<unsigned>(world.size())) == world.rank()) mine.push_back(disc);
+    }
+    std::shuffle(mine.begin(), mine.end(), random);
+    Scene checked = scene_of(scene);
+    checked.rule = rule;
+    tuning.threads = omp_get_max_threads();
+    tuning.discs_per_thread = 1;
+    return {checked, std::move(mine), world, tuning};
+}
+
+void run_to(Simulation& simulation, std::int64_t step) {
+    while (simulation.step() < step) simulation.advance_towards(step);
+}
+
+Outcome outcome_of(const Simulation& simulation) {
+    Outcome outcome{gathered(simulation.discs(), Communicator::world()), simulation.clock(), simulation.totals()};
+    std::sort(outcome.discs.begin(), outcome.discs.end(), [](const Disc& a, const Disc& b) { return a.id < b.id; });
+    return outcome;
+}
+
+Outcome run(const TestScene& scene, CollisionRule rule, const Tuning& tuning, unsigned seed) {
+    Simulation simulation = start(scene, rule, tuning, seed);
+    run_to(simulation, scene.steps);
+    return outcome_of(simulation);
+}
+
+std::string failure_of(const TestScene& scene, CollisionRule rule) {
+    try {
+        run(scene, rule);
+    } catch (const InputError& error) {
+        return error.what();
+    } catch (const CollectiveError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+std::vector<Collision> collisions_of(const TestScene& scene, CollisionRule rule) {
+    Simulation simulation = start(scene, rule);
+    std::vector<Collision> mine;
+    simulation.log_to(&mine);
+    run_to(simulation, scene.steps);
+    std::vector<Collision> all = gathered(std::span<const Collision>(mine), Communicator::world());
+    std::sort(all.begin(), all.end(), [](const Collision& a, const Collision& b) {
+        const auto key = [](const Collision& c) {
+            return std::make_tuple(c.micro_step, c.time, c.generation, c.p, c.q != Collision::wall, c.q);
+        };
+        return key(a) < key(b);
+    });
+    return all;
+}
+
+double ulp_of(double size) { return std::nextafter(size, std::numeric_limits<double>::max()) - size; }
+
+double deepest_overlap(const Outcome& outcome, double sigma) {
+    // Sorted by x, only neighbours within a diameter count.
+    std::vector<std::pair<double, double>> places;
+    for (const Disc& disc : outcome.discs) places.emplace_back(disc.x_at(outcome.clock), disc.y_at(outcome.clock));
+    std::sort(places.begin(), places.end());
+    double deepest = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        for (std::size_t j = i + 1; j < places.size() && places[j].first - places[i].first < 1.01 * sigma; ++j) {
+            const double dx = places[j].first - places[i].first, dy = places[j].second - places[i].second;
+            deepest = std::max(deepest, sigma - std::sqrt(dx * dx + dy * dy));
+        }
+    }
+    return deepest;
+}
+
+double farthest_outside(const Outcome& outcome, const reference::Setting& setting) {
+    double farthest = -std::numeric_limits<double>::infinity();
+    for (const Disc& disc : outcome.discs) {
+        for (const double centre : {disc.x_at(outcome.clock), disc.y_at(outcome.clock)}) {
+            farthest = std::max({farthest, setting.radius - centre, centre - (setting.box_size - setting.radius)});
+        }
+    }
+    return farthest;
+}
+
+double squared_speeds(const Outcome& outcome) {
+    Quad sum = 0;
+    for (const Disc& disc : outcome.discs) sum += Quad(disc.vx) * disc.vx + Quad(disc.vy) * disc.vy;
+    return static_cast<double>(sum);
+}
+
+} // namespace carrom::test

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs of both rules, and how their worst values are held to their bounds and written down.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "carrom/core/disc.hpp"
+#include "carrom/parallel/communicator.hpp"
+#include "carrom/simulation/simulation.hpp"
+#include "scenes.hpp"
+
+namespace carrom::test {
+
+/// All discs of all ranks in the order of their ids; velocities per micro-step, times on `clock`.
+struct Outcome {
+    std::vector<Disc> discs;
+    double clock = 0;
+    Totals totals;
+};
+
+/// "one" or "all".
+std::string name_of(CollisionRule rule);
+
+/// The scene's start, dealt to the ranks at random and in an arbitrary order. As many threads as OpenMP has.
+/// **Collective.**
+Simulation start(const TestScene& scene, CollisionRule rule, Tuning tuning = {}, unsigned seed = 1);
+
+/// Goes on to `step`. **Collective.**
+void run_to(Simulation& simulation, std::int64_t step);
+
+/// **Collective.**
+Outcome outcome_of(const Simulation& simulation);
+
+/// The whole scene. **Collective.**
+Outcome run(const TestScene& scene, CollisionRule rule, const Tuning& tuning = {}, unsigned seed = 1);
+
+/// The text with which the run is refused or ends; empty if it does not fail. **Collective.**
+std::string failure_of(const TestScene& scene, CollisionRule rule);
+
+/// Every collision of the whole scene in the total order, on every rank. **Collective.**
+std::vector<Collision> collisions_of(const TestScene& scene, CollisionRule rule);
+
+/// One ulp of the box: the spacing of doubles just below `box_size` doubles at most.
+double ulp_of(double size);
+
+/// Depth of the deepest overlap of any two discs at `outcome.clock`; negative if none touch.
+double deepest_overlap(const Outcome& outcome, double sigma);
+
+/// How far the centre that is farthest out lies beyond [r, L-r]; negative if all are inside.
+double farthest_outside(const Outcome& outcome, const reference::Setting& setting);
+
+/// The sum of squared speeds, in quadruple precision rounded once.
+double squared_speeds(const Outcome& outcome);
+
+} // namespace carrom::test
