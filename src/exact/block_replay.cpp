@@ -180,6 +180,7 @@ void BlockReplay<Law>::Scratch::gather(const ReplayGround& of_rank, const CellBl
     x_inner_high = static_cast<float>((law.box_size() - inner - x_corner) * cells_per_length);
     y_inner_high = static_cast<float>((law.box_size() - inner - y_corner) * cells_per_length);
     for (std::size_t slot = 0; slot < n; ++slot) {
+        if (slot + 16 < n) __builtin_prefetch(&ground.discs[indices[slot + 16]]);
         discs[slot] = ground.discs[indices[slot]];
         place(static_cast<std::uint32_t>(slot), window.begin);
     }

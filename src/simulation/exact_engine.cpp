@@ -72,7 +72,7 @@ void ExactEngine::run_window(double target) {
     }
     migrate();
     window_ = choose(target);
-    halo_depth_ = exact_.halo;
+    halo_depth_ = choice_.halo;
     settle();
     for (bool is_first = true;; is_first = false) {
         replay();
@@ -174,7 +174,7 @@ void ExactEngine::make_blocks() {
     const int n_block_columns = cells_each(n_columns, block_columns_);
     n_block_rows_ = cells_each(frame.n_rows, block_rows_);
     const auto n_blocks = static_cast<std::size_t>(n_block_columns) * static_cast<std::size_t>(n_block_rows_);
-    const bool is_new = halo_depth_ == exact_.halo || blocks_.size() != n_blocks;
+    const bool is_new = halo_depth_ == choice_.halo || blocks_.size() != n_blocks;
     blocks_.resize(n_blocks);
     for (int k = 0; k < n_block_columns; ++k) {
         for (int j = 0; j < n_block_rows_; ++j) {
@@ -184,7 +184,7 @@ void ExactEngine::make_blocks() {
             block.cells.first_row = j * block_rows_;
             block.cells.end_row = std::min(block.cells.first_row + block_rows_, frame.n_rows);
             block.is_marked = 1;
-            if (is_new) block.halo = exact_.halo;
+            if (is_new) block.halo = choice_.halo;
         }
     }
 }

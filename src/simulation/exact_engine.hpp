@@ -24,7 +24,7 @@ namespace carrom {
 
 /// What tests turn; nothing of it changes the bits, but for the certificate.
 struct ExactTuning {
-    int halo = 3;                       ///< reaches that blocks look beyond their own cells at first
+    std::optional<int> halo;            ///< reaches that blocks look beyond their own cells at first
     std::optional<double> block_side;   ///< in reaches
     double speed_allowance = 1.15;      ///< bound over the largest speed at a window's start
     bool has_certificate = true;        ///< false gives wrong results

@@ -16,7 +16,9 @@ constexpr double cost_per_disc = 40;      ///< to sort, copy and give back, once
 constexpr double cost_per_copy = 40;      ///< of each disc in a block or its halo
 constexpr double cost_per_event = 160;
 constexpr double cost_per_partner = 1.0;  ///< of each disc that a prediction looks at
-constexpr double discs_in_cache = 8000;   ///< of a block with its halo
+constexpr double discs_in_cache = 16000;  ///< of a block with its halo; most of them are looked at once only
+/// News travel by collisions. Where discs fly far compared with their size few go two reaches in a window.
+constexpr double thin_gas = 0.2; ///< diameter to reach
 
 ReplayWindow window_of(const ExactNeeds& needs, double duration) {
     return {needs.time, needs.time + duration, false, needs.speed_bound};
@@ -27,7 +29,8 @@ ExactChoice choice_of(const ExactNeeds& needs, double duration) {
     choice.duration = duration;
     choice.reach = exact_reach(window_of(needs, duration), 2 * needs.radius, needs.box_size);
     const double spacing = needs.box_size / std::sqrt(needs.n_discs + 1);
-    const double margin = needs.halo * choice.reach;
+    choice.halo = needs.halo.value_or(2 * needs.radius < thin_gas * choice.reach ? 2 : 3);
+    const double margin = choice.halo * choice.reach;
     const double side = std::sqrt(discs_in_cache) * spacing - 2 * margin;
     choice.block_side = needs.is_one_block ? needs.box_size : std::min(std::max(side, 1.5 * margin), needs.box_size);
     return choice;
@@ -35,7 +38,7 @@ ExactChoice choice_of(const ExactNeeds& needs, double duration) {
 
 double cost_per_time(const ExactNeeds& needs, const ExactChoice& choice) {
     const double side = choice.block_side;
-    double with_halo = std::min(side + 2 * needs.halo * choice.reach, needs.box_size);
+    double with_halo = std::min(side + 2 * choice.halo * choice.reach, needs.box_size);
     if (needs.is_one_block) with_halo = side;
     const double share = (with_halo / side) * (with_halo / side); // of discs replayed, halo included, to own ones
     const double looked_at = std::min(1.6 * choice.reach, needs.box_size) / needs.box_size;

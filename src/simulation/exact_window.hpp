@@ -17,13 +17,14 @@ struct ExactNeeds {
     double speed_bound = 0;
     double collision_rate = 0; ///< per disc and time
     double time = 0;           ///< since the last sync
-    int halo = 3;              ///< reaches that blocks look beyond their own cells
+    std::optional<int> halo;   ///< reaches that blocks look beyond their own cells at first, if that is wanted
     bool is_one_block = false; ///< all discs in one block, whatever their number
 };
 
 struct ExactChoice {
     double duration = 0;   ///< of the window
     double reach = 0;
+    int halo = 3;          ///< in reaches
     double block_side = 0; ///< wanted
 };
 

@@ -28,7 +28,7 @@ void check_against_reference(const std::vector<TestScene>& scenes, std::size_t n
         for (std::size_t k = 0; k < n_shapes; ++k) {
             const Shape shape = shape_number(s * n_shapes + k + machine, diameter_time(scene));
             INFO(scene.name << ", N = " << scene.discs.size() << ", window " << shape.tuning.window.value_or(0) << ", block "
-                            << shape.exact.block_side.value_or(0) << ", halo " << shape.exact.halo << ", rebalance above "
+                            << shape.exact.block_side.value_or(0) << ", halo " << shape.exact.halo.value_or(0) << ", rebalance above "
                             << shape.tuning.rebalance_above);
             try {
                 const ExactResult result = run_exactly(scene, shape, world, static_cast<unsigned>(s));
