@@ -81,11 +81,11 @@ TEST_CASE("contact: pairs that slide along each other get no impulse to speak of
     }
 }
 
-// The impulse is taken from the stored places, so that afterwards b > 0 up to its own rounding.
-TEST_CASE("contact: a million random collisions leave no pair that approaches faster than its rounding", "[contact]") {
+// The impulse is taken from the stored places, so that afterwards b > 0.
+TEST_CASE("contact: a million random collisions leave no pair that approaches", "[contact]") {
     Approaches some(201);
     const PlainLaw law(64, 0.5);
-    double worst = 0, n_again = 0;
+    double n_again = 0;
     for (int i = 0; i < 1000000; ++i) {
         const Approach c = some.make(some.log_uniform(1, 30), some.log_uniform(1e-10, 1), some.log_uniform(1e-3, 10), 1);
         Disc p, q;
@@ -102,14 +102,9 @@ TEST_CASE("contact: a million random collisions leave no pair that approaches fa
         if (!contact.exists()) continue;
         PlainLaw::collide_at(p, q, contact.base + contact.delay);
         const PairContact<double> next = law.exact_contact(p, q);
-        if (!next.exists() || next.delay > 1e-12) continue;
-        n_again += 1;
-        const double ex = q.x - p.x, ey = q.y - p.y, wx = q.vx - p.vx, wy = q.vy - p.vy;
-        const double speed = std::fabs(p.vx) + std::fabs(p.vy) + std::fabs(q.vx) + std::fabs(q.vy);
-        worst = std::max(worst, -(ex * wx + ey * wy) / speed);
+        n_again += next.exists() && next.delay < 1e-12;
     }
-    CAPTURE(n_again);
-    hold("contact", "after 1e6 collisions: fastest approach of a pair that has just collided, over its speeds", "both", worst, 8 * 0x1p-53);
+    hold("contact", "1e6 random collisions: pairs due to collide again at once", "both", n_again, 0);
 }
 
 // Grazing pairs and all: in a run, each pair meets once.

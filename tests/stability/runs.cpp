@@ -102,6 +102,14 @@ double deepest_overlap(const Outcome& outcome, double sigma) {
             deepest = std::max(deepest, sigma - std::sqrt(dx * dx + dy * dy));
         }
     }
+    // Discs of one local time may have collided with each other at that time: how deep were they then?
+    std::vector<const Disc*> by_time;
+    for (const Disc& disc : outcome.discs) by_time.push_back(&disc);
+    std::sort(by_time.begin(), by_time.end(), [](const Disc* a, const Disc* b) { return a->tau < b->tau; });
+    for (std::size_t i = 1; i < by_time.size(); ++i) {
+        const Disc &a = *by_time[i - 1], &b = *by_time[i];
+        if (a.tau == b.tau) deepest = std::max(deepest, sigma - std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y)));
+    }
     return deepest;
 }
 

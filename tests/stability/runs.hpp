@@ -44,7 +44,8 @@ std::vector<Collision> collisions_of(const TestScene& scene, CollisionRule rule)
 /// One ulp of the box: the spacing of doubles just below `box_size` doubles at most.
 double ulp_of(double size);
 
-/// Depth of the deepest overlap of any two discs at `outcome.clock`; negative if none touch.
+/// Depth of the deepest overlap of any two discs at `outcome.clock`, or of two at the time they collided last, if that
+/// was with each other; negative if none touch.
 double deepest_overlap(const Outcome& outcome, double sigma);
 
 /// How far the centre that is farthest out lies beyond [r, L-r]; negative if all are inside.

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Makes the tables of docs/stability.md anew: every case, its bound, and the worst value measured.
+#
+#   tests/stability/table.sh [BUILD] [--long]
+#
+# Runs the tests of BUILD (default: build), one rank with two threads: some 20 seconds on two idle cores. With --long also
+# the long cases, which take half an hour; without, their table stays as it is.
+set -euo pipefail
+source_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+page=$source_folder/docs/stability.md
+build=$source_folder/build
+is_long=no
+for word; do
+    case $word in --long) is_long=yes ;; *) build=$word ;; esac
+done
+export OMP_NUM_THREADS=2 OMP_WAIT_POLICY=passive OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export CARROM_TEST_SECONDS=7200
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+# table MARK: puts the measured lines between <!-- MARK --> and <!-- end of MARK --> of the page.
+table() {
+    {
+        printf '| family | case | rule | bound | worst |\n|---|---|---|---|---|\n'
+        awk -F '\t' '{ gsub(/\|/, "\\|"); printf "| %s | %s | %s | %s | %s |\n", $1, $2, $3, $4, $5 }' "$CARROM_STABILITY_TABLE"
+    } >"$folder/table"
+    awk -v mark="$1" -v table="$folder/table" '
+        $0 == "<!-- end of " mark " -->" { is_inside = 0 }
+        !is_inside { print }
+        $0 == "<!-- " mark " -->" { is_inside = 1; while ((getline line < table) > 0) print line }' "$page" >"$folder/page"
+    cat "$folder/page" >"$page"
+}
+
+export CARROM_STABILITY_TABLE=$folder/short
+"$build/tests/stability_unit_test"
+"$build/tests/stability_mpi_test"
+table 'cases'
+[ $is_long = yes ] || exit 0
+export CARROM_STABILITY_TABLE=$folder/long
+"$build/tests/stability_mpi_test" '[hours]'
+table 'long cases'
