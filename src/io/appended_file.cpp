@@ -62,7 +62,7 @@ void AppendedFile::commit() {
 
 void create_growing(hid_t parent, const char* name, hid_t type, std::span<const hsize_t> row, std::span<const hsize_t> chunk,
                     int level) {
-    const h5::Properties creation = h5::properties(H5P_DATASET_CREATE);
+    const h5::Properties creation = h5::dataset_creation();
     std::vector<hsize_t> dimensions = {0}, largest = {H5S_UNLIMITED};
     dimensions.insert(dimensions.end(), row.begin(), row.end());
     largest.insert(largest.end(), row.begin(), row.end());

@@ -6,10 +6,6 @@
 
 namespace carrom {
 
-std::uint64_t bits_of(const Column& column, const Disc& disc) {
-    return std::visit([&disc](auto field) { return std::bit_cast<std::uint64_t>(disc.*field); }, column.field);
-}
-
 void set_bits(const Column& column, Disc& disc, std::uint64_t bits) {
     std::visit([&](auto field) { disc.*field = std::bit_cast<std::remove_reference_t<decltype(disc.*field)>>(bits); }, column.field);
 }

@@ -55,8 +55,7 @@ inline constexpr std::array<HeaderField, 17> checkpoint_header = {
      {"pair_collisions", &H::pair_collisions},
      {"state_hash", &H::state_hash}}};
 
-/// The column's number of a disc as its 8 bytes, and back.
-std::uint64_t bits_of(const Column& column, const Disc& disc);
+/// Sets the column's number of a disc by its 8 bytes.
 void set_bits(const Column& column, Disc& disc, std::uint64_t bits);
 hid_t type_of(const Column& column);
 

@@ -42,7 +42,7 @@ private:
 };
 
 void create_column(hid_t parent, const char* name, std::span<const hsize_t> dimensions, hid_t type) {
-    const h5::Properties creation = h5::properties(H5P_DATASET_CREATE);
+    const h5::Properties creation = h5::dataset_creation();
     h5::checked(H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY), name);
     h5::checked(H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER), name);
     const h5::Dataset dataset(
@@ -86,32 +86,43 @@ struct Target {
     std::string path;
     hid_t type;
     std::size_t bytes_per_disc;
-    std::function<void(const Disc&, std::byte*)> put;
+    std::function<void(std::span<const Disc>, std::byte*)> put;
     h5::Dataset dataset;
 };
 
-template <class Number, std::size_t n> void put_numbers(std::byte* out, const std::array<Number, n>& numbers) {
-    std::memcpy(out, numbers.data(), sizeof numbers);
+/// What `number_of` makes of each disc, one after the other.
+template <class NumberOf> void put_each(std::span<const Disc> discs, std::byte* out, const NumberOf& number_of) {
+    for (const Disc& disc : discs) {
+        const auto number = number_of(disc);
+        std::memcpy(out, &number, sizeof number);
+        out += sizeof number;
+    }
 }
 
 std::vector<Target> targets_of(const CheckpointHeader& header) {
     std::vector<Target> targets;
     for (const Column& column : checkpoint_columns)
         targets.push_back({std::string("/carrom/discs/") + column.name, type_of(column), sizeof(std::uint64_t),
-                           [&column](const Disc& disc, std::byte* out) { put_numbers(out, std::array{bits_of(column, disc)}); }, {}});
+                           [&column](std::span<const Disc> discs, std::byte* out) {
+                               std::visit([&](auto field) { put_each(discs, out, [=](const Disc& disc) { return disc.*field; }); }, column.field);
+                           }, {}});
     const double clock = header.clock(), k = static_cast<double>(header.micro_steps);
     const auto vector_of = [](double x, double y) { return std::array<float, 3>{static_cast<float>(x), static_cast<float>(y), 0}; };
     targets.push_back({"/particles/discs/position/value", H5T_NATIVE_FLOAT, 3 * sizeof(float),
-                       [=](const Disc& disc, std::byte* out) { put_numbers(out, vector_of(disc.x_at(clock), disc.y_at(clock))); }, {}});
+                       [=](std::span<const Disc> discs, std::byte* out) {
+                           put_each(discs, out, [=](const Disc& disc) { return vector_of(disc.x_at(clock), disc.y_at(clock)); });
+                       }, {}});
     targets.push_back({"/particles/discs/velocity/value", H5T_NATIVE_FLOAT, 3 * sizeof(float),
-                       [=](const Disc& disc, std::byte* out) { put_numbers(out, vector_of(disc.vx * k, disc.vy * k)); }, {}});
+                       [=](std::span<const Disc> discs, std::byte* out) {
+                           put_each(discs, out, [=](const Disc& disc) { return vector_of(disc.vx * k, disc.vy * k); });
+                       }, {}});
     return targets;
 }
 
 /// The ranks' shares of all datasets, each written by its rank in pieces that stay in cache while they are taken apart.
 class ColumnWriter {
 public:
-    ColumnWriter(const std::string& path, const CheckpointHeader& header, std::span<const Disc> slab, const Communicator& communicator)
+    ColumnWriter(const std::string& path, const CheckpointHeader& header, const Slab<Disc>& slab, const Communicator& communicator)
         : path_(path), slab_(slab), communicator_(communicator),
           first_(slab_begin(communicator.rank(), header.n_discs, communicator.size())), targets_(targets_of(header)) {}
 
@@ -155,26 +166,29 @@ private:
     template <class Act> void on_ranks(const Act& act) const { on_all(communicator_, path_, ExitCode::output_failure, act); }
 
     void write_piece(std::uint64_t begin, std::uint64_t end) {
+        piece_.clear();
+        for (std::uint64_t row = begin; row < end; ++row) piece_.push_back(slab_[row]);
         for (const Target& target : targets_) {
             bytes_.resize((end - begin) * target.bytes_per_disc);
-            for (std::uint64_t row = begin; row < end; ++row) target.put(slab_[row], bytes_.data() + (row - begin) * target.bytes_per_disc);
+            target.put(piece_, bytes_.data());
             h5::write_rows(target.dataset.id(), {first_ + begin, first_ + end}, target.type, bytes_.data());
         }
     }
 
     const std::string& path_;
-    std::span<const Disc> slab_;
+    const Slab<Disc>& slab_;
     const Communicator& communicator_;
     std::uint64_t first_; ///< the id of the slab's first disc
     std::vector<Target> targets_;
     h5::File file_;
+    std::vector<Disc> piece_;
     std::vector<std::byte> bytes_;
 };
 
-void fill_sums(CheckpointHeader& header, std::span<const Disc> slab, const Communicator& communicator) {
-    const StateHash hash = hash_of(slab);
+void fill_sums(CheckpointHeader& header, std::span<const Disc> discs, const Communicator& communicator) {
+    const StateHash hash = hash_of(discs);
     std::array<std::uint64_t, 4> sums = {0, 0, hash.low, hash.high};
-    for (const Disc& disc : slab) {
+    for (const Disc& disc : discs) {
         sums[0] += disc.wall_collisions;
         sums[1] += disc.pair_collisions;
     }
@@ -189,8 +203,8 @@ void fill_sums(CheckpointHeader& header, std::span<const Disc> slab, const Commu
 void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs,
                       const Communicator& communicator) {
     header.n_discs = communicator.sum(std::uint64_t{discs.size()});
-    const std::vector<Disc> slab = to_slabs(communicator, discs, header.n_discs, [](const Disc& disc) { return disc.id; });
-    fill_sums(header, slab, communicator);
+    fill_sums(header, discs, communicator);
+    const Slab<Disc> slab = to_slabs(communicator, discs, header.n_discs, [](const Disc& disc) { return disc.id; });
     const PartialFile partial(path + ".partial", communicator);
     on_root(communicator, path, ExitCode::output_failure, [&] {
         check_room(folder_of(path), header.n_discs * bytes_per_disc + bytes_of_structure);

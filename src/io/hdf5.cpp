@@ -48,7 +48,7 @@ void write_attribute(hid_t object, const char* name, hid_t type, const Space& sh
 
 /// Small writes reach the file when the dataset is closed.
 void write_dataset(hid_t parent, const char* name, const Space& shape, hid_t type, const void* values) {
-    Dataset dataset(checked(H5Dcreate2(parent, name, type, shape.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), name));
+    Dataset dataset(checked(H5Dcreate2(parent, name, type, shape.id(), H5P_DEFAULT, dataset_creation().id(), H5P_DEFAULT), name));
     checked(H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
     dataset.close(name);
 }
@@ -90,6 +90,12 @@ void fail(const std::string& what) {
 }
 
 Properties properties(hid_t kind) { return Properties(checked(H5Pcreate(kind), "cannot make a property list")); }
+
+Properties dataset_creation() {
+    Properties creation = properties(H5P_DATASET_CREATE);
+    checked(H5Pset_obj_track_times(creation.id(), false), "cannot leave out times");
+    return creation;
+}
 
 Space space(std::span<const hsize_t> dimensions, std::span<const hsize_t> largest) {
     return Space(checked(H5Screate_simple(static_cast<int>(dimensions.size()), dimensions.data(),

@@ -59,6 +59,8 @@ using Attribute = Handle<H5Aclose>;
 using Properties = Handle<H5Pclose>;
 
 Properties properties(hid_t kind);
+/// For a new dataset, which is not to say when it was made: the same contents are the same bytes.
+Properties dataset_creation();
 Space space(std::span<const hsize_t> dimensions, std::span<const hsize_t> largest = {});
 Space scalar_space();
 

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Checkpoints that cannot be written: exit code 4 and a message within a minute on 1 and 3 ranks, and the last good
 # checkpoint stays. A full disk is a small tmpfs, failing disks are strace's: tried only where mounting and tracing work.
+# Argument: the library that makes writes short.
 source "$(dirname "$0")/common.sh"
+short_writes=$1
 scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=20000 --set discs.speed=2 --steps 30 --quiet
        --set output.checkpoint.every_steps=10)
 
@@ -73,4 +75,26 @@ if strace -o /dev/null true 2>/dev/null; then
 else
     echo 'skipped: failing disks (strace is not there, or may not trace here)'
 fi
+
+# on_one_rank RANK SHELL_WORDS: three ranks, of which one begins with these words.
+on_one_rank() {
+    printf '#!/bin/sh\n[ "${OMPI_COMM_WORLD_RANK:-${PMI_RANK:-0}}" = %s ] && { %s; }\nexec "$@"\n' "$1" "$2" >one.sh
+    chmod +x one.sh
+    rm -rf kept
+    timeout --kill-after=5 60 "$CARROM_MPIEXEC" -n 3 ./one.sh "$CARROM_PROGRAM" run "${scene[@]}" --set output.checkpoint.folder=kept \
+        >"$test_folder/out" 2>"$test_folder/err"
+    code=$?
+}
+
+# Short writes are no failure: what is left is written by the next one.
+for rank in 0 1; do
+    on_one_rank "$rank" "export LD_PRELOAD=$short_writes"
+    expect_code 0 "short writes on rank $rank"
+    run 2 verify kept/checkpoint-000000000030.h5
+    expect_code 0 "after short writes on rank $rank"
+done
+# A rank that may not write as far as its share lies: a write that ends early, then errors.
+on_one_rank 1 "trap '' XFSZ; ulimit -f 150"
+failed 'a limit to the size of files on rank 1' 'checkpoint-000000000010.h5'
+[ -z "$(ls kept)" ] || complain "a file is left though none was written whole: $(ls kept)"
 finish

@@ -118,7 +118,7 @@ TEST_CASE("records in any place come to their slab in order") {
         for (const std::uint64_t id : ids)
             if (static_cast<int>(random() % static_cast<unsigned>(world.size() * world.size())) / world.size() == world.rank())
                 mine.push_back({id, 0.5 * static_cast<double>(id)});
-        const std::vector<Record> slab = carrom::to_slabs(world, mine, n, id_of);
+        const carrom::Slab<Record> slab = carrom::to_slabs(world, std::span<const Record>(mine), n, id_of);
         const std::uint64_t first = carrom::slab_begin(world.rank(), n, world.size());
         CHECK(slab.size() == carrom::slab_begin(world.rank() + 1, n, world.size()) - first);
         for (std::size_t k = 0; k < slab.size(); ++k) {
