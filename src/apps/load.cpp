@@ -106,13 +106,18 @@ void check_without_scene(const RunOptions& options, const Problems& problems_so_
     agree_on_problems(ranks, problems);
 }
 
-/// **Collective.**
-void check_folders(const Scene& scene, const Communicator& ranks) {
-    if (!scene.checkpoint) return;
-    const std::string& folder = scene.checkpoint->folder;
-    std::string obstacle;
-    if (ranks.is_root()) obstacle = obstacle_to_folder(folder);
-    agree(ranks, obstacle.empty(), fmt::format("output.checkpoint.folder {}: {}", folder, obstacle), ExitCode::output_failure);
+/// Finds out now, not after the discs are made, that something cannot be written. **Collective.**
+void check_outputs(const Scene& scene, const Communicator& ranks) {
+    std::string text;
+    if (ranks.is_root()) {
+        const auto check = [&text](const char* key, const std::string& path, const std::string& obstacle) {
+            if (!obstacle.empty()) text += fmt::format("{}{} {}: {}", text.empty() ? "" : "\n", key, path, obstacle);
+        };
+        if (scene.checkpoint) check("output.checkpoint.folder", scene.checkpoint->folder, obstacle_to_folder(scene.checkpoint->folder));
+        if (scene.trajectory) check("output.trajectory.file", scene.trajectory->file, obstacle_to_opening(scene.trajectory->file));
+        if (scene.collisions) check("output.collisions.file", scene.collisions->file, obstacle_to_opening(scene.collisions->file));
+    }
+    agree(ranks, text.empty(), text, ExitCode::output_failure);
 }
 
 /// The discs that a scene starts with. **Collective.**
@@ -135,7 +140,7 @@ Loaded load(const RunOptions& options, const Problems& problems, StopSignals& si
     if (!options.restart.empty()) load_restart(options, loaded, ranks);
     const Scene& scene = loaded.scene;
     if (!scene.checkpoint) signals.let_go();
-    check_folders(scene, ranks);
+    check_outputs(scene, ranks);
     if (!loaded.stored) loaded.discs = load_discs(scene, stream, ranks);
     if (ranks.is_root())
         for (const std::string& warning : scene.warnings) fmt::print(stderr, "{}: warning: {}\n", scene.name, warning);

@@ -333,6 +333,9 @@ void fill_output(const Check& check) {
     fill_trajectory(check);
     if (has_table(check, "output.collisions"))
         check.scene.collisions = CollisionOutput{destination(check, "output.collisions.file", "the file for the collisions")};
+    const Setting* log = check.settings.find("output.collisions.file");
+    if (log && check.scene.trajectory && check.scene.collisions && check.scene.trajectory->file == check.scene.collisions->file)
+        check.refuse(*log, "'output.collisions.file' and 'output.trajectory.file' are the same file; each needs its own");
 }
 
 } // namespace

@@ -66,5 +66,10 @@ same parts 'killed and gone on with'
 
 run 3 run "$input" "${small[@]}" "${record[@]}" --steps 1 --set output.trajectory.file=no/such/folder.h5
 expect_code 4 'a trajectory in no folder'
-expect_told 'no/such/folder.h5' 'a trajectory in no folder'
+expect_told 'output.trajectory.file no/such/folder.h5: cannot be written: No such file or directory' 'a trajectory in no folder'
+run 2 run "$input" "${small[@]}" "${record[@]}" --set output.collisions.file=whole/t.h5 --set output.trajectory.file=whole/t.h5
+expect_code 2 'two recordings in one file'
+expect_told 'are the same file' 'two recordings in one file'
+run 1 verify whole/t.h5
+expect_code 0 'a file that was refused as the place for two recordings'
 finish
