@@ -24,15 +24,16 @@ finish() {
     exit 0
 }
 
-# run RANKS WORD...: the program on that many ranks; sets `code`. Never waits longer than a minute. One rank needs no
-# mpiexec, which takes two seconds to leave when its only rank has failed.
+# run RANKS WORD...: the program on that many ranks; sets `code`. Never waits longer than a minute, or `patience`
+# seconds. One rank needs no mpiexec, which takes two seconds to leave when its only rank has failed.
+patience=60
 run() {
     local launch=("$CARROM_MPIEXEC" -n "$1")
     [ "$1" -gt 1 ] || launch=()
     shift
-    timeout --kill-after=5 60 "${launch[@]}" "$CARROM_PROGRAM" "$@" >"$test_folder/out" 2>"$test_folder/err"
+    timeout --kill-after=5 "$patience" "${launch[@]}" "$CARROM_PROGRAM" "$@" >"$test_folder/out" 2>"$test_folder/err"
     code=$?
-    [ "$code" -ne 124 ] || complain "no end within a minute: $*"
+    [ "$code" -ne 124 ] || complain "no end within $patience seconds: $*"
 }
 show() { sed 's/^/    /' "$test_folder/err"; }
 

@@ -9,16 +9,33 @@ scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=3000 --set discs.s
        --set output.checkpoint.folder=kept --set output.checkpoint.every_steps=20)
 steps=$((n_kills * 150))
 
-# kill_once RANKS MILLISECONDS: starts or goes on, and kills one rank after that time. False if the run was over before.
+# kill_once RANKS MILLISECONDS: starts or goes on, and kills one rank that time after there are any. False if the run was over before.
 kill_once() {
     local launcher rank
     "$CARROM_MPIEXEC" -n "$1" "$CARROM_PROGRAM" run "${scene[@]}" --steps "$steps" --restart latest --report report.json \
         >"$test_folder/out" 2>"$test_folder/err" &
     launcher=$!
+    while ! pgrep -P "$launcher" >/dev/null && kill -0 "$launcher" 2>/dev/null; do sleep 0.05; done
     sleep "$(printf '%d.%03d' $(($2 / 1000)) $(($2 % 1000)))"
     mapfile -t rank_pids < <(pgrep -P "$launcher")
     [ ${#rank_pids[@]} -eq 0 ] || kill -KILL "${rank_pids[RANDOM % ${#rank_pids[@]}]}" 2>/dev/null
-    wait "$launcher"
+    end_of "$launcher"
+}
+
+# end_of LAUNCHER: its exit code. All ranks must be gone half a minute after one was killed. Open MPI 4.1's launcher may
+# stay nevertheless, if the rank was killed just when it made itself known: that is told, and the launcher ended.
+end_of() {
+    local i
+    for ((i = 0; i < 300; ++i)); do
+        kill -0 "$1" 2>/dev/null || break
+        sleep 0.1
+    done
+    if kill -0 "$1" 2>/dev/null; then
+        ps -o stat= --ppid "$1" | grep -qv '^Z' && complain 'ranks live on after one of them was killed'
+        echo 'the launcher did not come back though all its ranks were gone'
+        kill -KILL "$1"
+    fi
+    wait "$1"
 }
 
 n_survived=0
@@ -30,6 +47,7 @@ for ((i = 0; i < n_kills; ++i)); do
     grep -q 'passing over' "$test_folder/err" && grep 'passing over' "$test_folder/err"
 done
 [ "$n_survived" -le $((n_kills / 2)) ] || complain "$n_survived of $n_kills runs were over before they were killed"
+patience=300
 run 3 run "${scene[@]}" --steps "$steps" --restart latest --report report.json
 expect_code 0 'the last stretch'
 killed=$(json_value report.json state_hash)
