@@ -33,6 +33,18 @@ def fast(n_discs, steps):
     return f"{n_discs}\n20000\n1\n{steps}\nperf\n", "in"
 
 
+def exact(n_discs, packing, n_collisions):
+    """A gas under the rule "all", run for about so many collisions of pairs (Enskog's rate)."""
+    size = math.sqrt(n_discs * math.pi / packing)
+    contact = (1 - 7 * packing / 16) / (1 - packing) ** 2
+    per_step = n_discs * math.sqrt(2 / math.pi) * packing * contact
+    steps = max(1, round(n_collisions / per_step))
+    return (f"[box]\nsize = {size!r}\n[discs]\ncount = {n_discs}\nradius = 1.0\nspeed = 1.0\n"
+            f"[time]\nsteps = {steps}\ncollisions = \"all\"\n", "toml")
+
+
+EXACT_SIZES = {"1e4": (10_000, 4e6), "1e5": (100_000, 4e6), "1e6": (1_000_000, 1.2e7)}
+
 # name: (scene, ranks, threads)
 CASES = {
     "gas 1e4": (gas(10_000, 4000), 1, 1),
@@ -43,8 +55,10 @@ CASES = {
     "gas 1e7": (gas(10_000_000, 32), 1, 1),
     "fast 1e4": (fast(10_000, 64), 1, 1),
     "fast 6.4e4": (fast(64_000, 8), 1, 1),
-    "exact 1e5, packing 0.3": (gas(100_000, 64, packing=0.3, rule="all"), 1, 1),
-    "exact 1e6, packing 0.3": (gas(1_000_000, 8, packing=0.3, rule="all"), 1, 1),
+} | {f"exact {size}, packing {packing}": (exact(n_discs, packing, n_collisions), 1, 1)
+     for size, (n_discs, n_collisions) in EXACT_SIZES.items() for packing in (0.1, 0.3, 0.5)} | {
+    "exact 1e6, packing 0.3, 2 threads": (exact(1_000_000, 0.3, 1.2e7), 1, 2),
+    "exact 1e6, packing 0.3, 2 ranks": (exact(1_000_000, 0.3, 1.2e7), 2, 1),
 }
 
 
@@ -70,6 +84,7 @@ def main():
     options = parser.parse_args()
 
     rates = {name: [] for name in options.only}
+    collisions = {name: [] for name in options.only}
     with open(options.output, "w", newline="") as file, tempfile.TemporaryDirectory() as folder:
         table = csv.writer(file)
         table.writerow(["round", "case", "ranks", "threads", "n_discs", "steps", "ns_per_disc_step", "pair_collisions",
@@ -82,10 +97,12 @@ def main():
                     "ranks", "threads", "n_discs", "steps", "ns_per_disc_step", "pair_collisions", "wall_seconds",
                     "peak_bytes_per_disc")])
                 file.flush()
-                print(f"round {turn}  {name:26} {rates[name][-1]:10.2f} ns per disc-step", file=sys.stderr)
-    print("| case | ns per disc-step: median | least | most |\n|---|---|---|---|")
+                collisions[name].append(result["pair_collisions"] / result["wall_seconds"] / 1e6)
+                print(f"round {turn}  {name:36} {rates[name][-1]:10.2f} ns per disc-step", file=sys.stderr)
+    print("| case | ns per disc-step: median | least | most | million collisions per second |\n|---|---|---|---|---|")
     for name, values in rates.items():
-        print(f"| {name} | {statistics.median(values):.1f} | {min(values):.1f} | {max(values):.1f} |")
+        print(f"| {name} | {statistics.median(values):.1f} | {min(values):.1f} | {max(values):.1f} "
+              f"| {statistics.median(collisions[name]):.2f} |")
 
 
 if __name__ == "__main__":
