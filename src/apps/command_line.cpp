@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "accuracy_command.hpp"
 #include "file_commands.hpp"
 #include "machine.hpp"
 #include "run_command.hpp"
@@ -16,6 +17,7 @@ constexpr const char* examples = R"(Examples:
   carrom run inputs/gas.toml
   mpirun -np 4 carrom run inputs/gas.toml --threads 2 --report report.json
   carrom run inputs/gas.toml --set time.steps=50 --set discs.count=2000
+  carrom accuracy inputs/gas.toml --output gas.csv
   carrom info FILE.h5
   carrom diff A.h5 B.h5
   carrom convert FILE.h5 --to xyz > discs.xyz
@@ -51,6 +53,7 @@ Action parse_command_line(int argc, char** argv) {
     app.require_subcommand(1);
     Action action;
     add_run_command(app, action);
+    add_accuracy_command(app, action);
     add_file_commands(app, action);
     try {
         app.parse(argc, argv);

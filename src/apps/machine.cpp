@@ -47,6 +47,17 @@ AllowedCores allowed_cores() {
 
 std::string version() { return CARROM_VERSION; }
 
+BuildFacts build_facts() { return {CARROM_COMPILER, CARROM_FLAGS}; }
+
+std::string processor_name() {
+    std::ifstream facts("/proc/cpuinfo");
+    for (std::string line; std::getline(facts, line);) {
+        const std::size_t colon = line.find(": ");
+        if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
+    }
+    return {};
+}
+
 int default_threads(const Communicator& ranks) {
     const AllowedCores mine = allowed_cores();
     std::vector<std::uint64_t> keys(static_cast<std::size_t>(ranks.size()), 0);

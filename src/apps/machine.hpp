@@ -12,6 +12,16 @@ namespace carrom {
 /// "0.1.0"
 std::string version();
 
+/// What the program was built with, as measurements should say.
+struct BuildFacts {
+    std::string compiler; ///< "GNU 12.2.0"
+    std::string flags;    ///< of optimisation, and what holds for all targets
+};
+BuildFacts build_facts();
+
+/// The processor's name; empty where the system does not tell.
+std::string processor_name();
+
 /// Threads for this rank when nobody chose: OMP_NUM_THREADS, else the cores it may use, shared out among the ranks of
 /// its node that may use the same ones; at least 1. **Collective.**
 int default_threads(const Communicator& ranks);

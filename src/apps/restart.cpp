@@ -12,6 +12,7 @@
 #include "carrom/scene/compare.hpp"
 #include "carrom/scene/read_scene.hpp"
 #include "machine.hpp"
+#include "setting_choice.hpp"
 
 namespace carrom {
 
@@ -57,7 +58,11 @@ void tell_of_unfinished(const std::string& folder) {
 Checkpoint read_matching(const std::string& path, const RunOptions& options, Scene& scene, const Communicator& ranks) {
     Checkpoint checkpoint = read_checkpoint(path, ranks);
     const Scene there = scene_of(checkpoint.header, {});
-    const Scene here = options.input.empty() ? scene_of(checkpoint.header, options.overrides) : scene;
+    Scene here = options.input.empty() ? scene_of(checkpoint.header, options.overrides) : scene;
+    if (here.accuracy) {
+        settle_on(here, {there.rule, there.micro_steps});
+        if (ranks.is_root() && !options.quiet) fmt::print(stderr, "time.accuracy chooses at a run's start: going on with the checkpoint's setting\n");
+    }
     std::vector<Problem> problems;
     for (const std::string& difference : physical_differences(there, here))
         problems.push_back({"--restart " + path, 0, difference + "; a restart cannot change it"});

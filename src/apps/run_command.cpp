@@ -19,6 +19,7 @@
 #include "recordings.hpp"
 #include "report_file.hpp"
 #include "run_options.hpp"
+#include "setting_choice.hpp"
 #include "stop_signals.hpp"
 #include "stopwatch.hpp"
 #include "summary.hpp"
@@ -89,9 +90,10 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     Stopwatch watch;
     StopSignals signals;
     Loaded loaded = load(options, problems, signals, ranks);
-    const Scene& scene = loaded.scene;
     Tuning tuning = options.tuning;
     tuning.threads = options.threads.value_or(default_threads(ranks));
+    if (loaded.scene.accuracy) choose_setting(loaded.scene, loaded.discs, options.quiet, ranks, tuning);
+    const Scene& scene = loaded.scene;
     const bool is_restart = loaded.stored.has_value();
     Simulation simulation = is_restart ? Simulation(scene, std::move(*loaded.stored), ranks, tuning)
                                        : Simulation(scene, std::move(loaded.discs), ranks, tuning);

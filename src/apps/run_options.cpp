@@ -84,6 +84,9 @@ void declare_run_options(CLI::App& command, RunWords& words) {
                        "Go on from a checkpoint: a FILE, a FOLDER (its newest whole one), or `latest` in the scene's folder; "
                        "INPUT may be left out with FILE and FOLDER")->type_name("FILE|FOLDER|latest");
     command.add_option("--steps", words.steps, "Steps to run, instead of the input's")->type_name("S");
+    command.add_option("--accuracy", words.accuracy,
+                       "Let a short pilot choose the cheapest rule and micro-steps whose collision rate and pressure are within "
+                       "this share of the truth")->type_name("X");
     command.add_option("--set", words.overrides, "Set any scene key, as in --set time.steps=100; may be repeated")
         ->type_name("KEY=VALUE")->allow_extra_args(false);
     command.add_option("--digits", words.digits,
@@ -120,6 +123,8 @@ RunOptions checked_run_options(const RunWords& words, std::vector<Problem>& prob
     options.quiet = words.quiet;
     options.threads = checker.integer<int>("--threads", words.threads, 1, 1024);
     options.digits = checker.integer<int>("--digits", words.digits, 1, RunOptions::round_trip_digits).value_or(options.digits);
+    if (const auto accuracy = checker.real("--accuracy", words.accuracy, true))
+        options.overrides.push_back(fmt::format("time.accuracy={}", *accuracy));
     if (const auto steps = checker.integer<std::int64_t>("--steps", words.steps, 0, unbounded))
         options.overrides.push_back(fmt::format("time.steps={}", *steps));
     Tuning& tuning = options.tuning;

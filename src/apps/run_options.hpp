@@ -29,7 +29,7 @@ struct RunOptions {
 
 /// The words of the command line as they stand.
 struct RunWords {
-    std::string input, restart, threads, steps, digits, output, report;
+    std::string input, restart, threads, steps, accuracy, digits, output, report;
     std::string window, cell_width, rebalance_every, rebalance_above;
     std::vector<std::string> overrides;
     bool quiet = false;

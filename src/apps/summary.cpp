@@ -21,6 +21,21 @@ double disc_steps(const RunResult& result) {
 
 double ratio(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
+/// What leaves the default's bits, and so its promise; empty for the default.
+std::string arithmetic_text(const Scene& scene) {
+    std::string text;
+    if (scene.precision == Precision::single) text += ", precision = \"single\"";
+    if (scene.arithmetic == Arithmetic::naive) text += scene.contraction ? ", arithmetic = \"naive\", contraction = true" : ", arithmetic = \"naive\"";
+    return text;
+}
+
+/// Pairs that a disc takes part in, on average, as with collisions.
+double overlapping_pairs_per_disc(const RunResult& result) {
+    return ratio(2 * static_cast<double>(result.end.overlapping_pairs), static_cast<double>(result.end.n_discs));
+}
+
+double deepest_overlap(const Scene& scene, const RunResult& result) { return ratio(result.end.deepest_overlap, 2 * scene.radius); }
+
 std::string phases_text(const RunResult& result) {
     double all = 0;
     for (const auto& [name, seconds] : result.phase_seconds) all += seconds;
@@ -95,14 +110,21 @@ double collisions_per_disc(const Scene& scene, const RunResult& result) {
     return ratio(static_cast<double>(taken_part), disc_steps(result) * static_cast<double>(scene.micro_steps));
 }
 
+double rejected_share(const RunResult& result) {
+    const auto kept = static_cast<double>((result.end.wall_collisions - result.start.wall_collisions) +
+                                          (result.end.pair_collisions - result.start.pair_collisions));
+    const auto rejected = static_cast<double>(result.end.rejected_candidates);
+    return ratio(rejected, kept + rejected);
+}
+
 std::string summary_text(const Scene& scene, const RunResult& result) {
     const auto line = [](const char* label, const std::string& text) { return fmt::format("{:<12}{}\n", label, text); };
     const std::int64_t n_steps = result.last_step - result.first_step;
     std::string text;
     text += line("scene", fmt::format("{}: {} discs of radius {:g} in a box of {:g}, packing {:.4g}", scene.name,
                                       scene.n_discs, scene.radius, scene.box_size, scene.packing()));
-    text += line("rule", fmt::format("collisions = \"{}\", micro_steps = {}, sync_every = {}", name_of(scene.rule),
-                                     scene.micro_steps, scene.sync_every));
+    text += line("rule", fmt::format("collisions = \"{}\", micro_steps = {}, sync_every = {}{}", name_of(scene.rule),
+                                     scene.micro_steps, scene.sync_every, arithmetic_text(scene)));
     text += line("steps", fmt::format("{} in {:.4g} s: {:.4g} steps/s, {:.4g} ns per disc-step", n_steps,
                                       result.wall_seconds, ratio(static_cast<double>(n_steps), result.wall_seconds),
                                       ns_per_disc_step(result)));
@@ -118,9 +140,11 @@ std::string summary_text(const Scene& scene, const RunResult& result) {
         text += line("speeds", speeds_text(scene, result.averages));
     }
     if (scene.rule == CollisionRule::all) text += line("windows", windows_text(result.replays));
-    else text += line("rejected", fmt::format("{} candidates lost a disc to an earlier collision", result.end.rejected_candidates));
-    text += line("overlapping", fmt::format("{} pairs at the end, {} at the start", result.end.overlapping_pairs,
-                                            result.start.overlapping_pairs));
+    else text += line("rejected", fmt::format("{} candidates lost a disc to an earlier collision, {:.3g} % of all",
+                                              result.end.rejected_candidates, 100 * rejected_share(result)));
+    text += line("overlapping", fmt::format("{} pairs at the end, {:.3g} per disc, by up to {:.2g} diameters; {} at the start",
+                                            result.end.overlapping_pairs, overlapping_pairs_per_disc(result),
+                                            deepest_overlap(scene, result), result.start.overlapping_pairs));
     text += line("energy", fmt::format("{:.17g}, changed by {:.2g} of itself", result.end.kinetic_energy, energy_drift(result)));
     text += line("momentum", fmt::format("{:.17g} {:.17g}", result.end.momentum_x, result.end.momentum_y));
     text += line("state hash", to_string(result.end.hash));
@@ -138,13 +162,19 @@ std::string report_text(const Scene& scene, const RunResult& result) {
         {"packing", scene.packing()},
         {"rule", name_of(scene.rule)},
         {"micro_steps", scene.micro_steps},
+        {"precision", scene.precision == Precision::single ? "single" : "double"},
+        {"arithmetic", scene.arithmetic == Arithmetic::naive ? "naive" : "stable"},
+        {"contraction", scene.contraction},
         {"sync_every", scene.sync_every},
         {"first_step", result.first_step},
         {"steps", result.last_step - result.first_step},
         {"wall_collisions", result.end.wall_collisions},
         {"pair_collisions", result.end.pair_collisions},
         {"rejected_candidates", result.end.rejected_candidates},
+        {"rejected_share", rejected_share(result)},
         {"overlapping_pairs", result.end.overlapping_pairs},
+        {"overlapping_pairs_per_disc", overlapping_pairs_per_disc(result)},
+        {"deepest_overlap", deepest_overlap(scene, result)},
         {"collisions_per_disc_per_micro_step", collisions_per_disc(scene, result)},
         {"averages", averages_json(result.averages)},
         {"kinetic_energy", result.end.kinetic_energy},

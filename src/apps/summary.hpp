@@ -31,6 +31,9 @@ double energy_drift(const RunResult& result);
 /// Collisions that a disc takes part in per micro-step, on average: what the error of the rule "one" grows with.
 double collisions_per_disc(const Scene& scene, const RunResult& result);
 
+/// Candidates that were not carried out, of all candidates since this process began.
+double rejected_share(const RunResult& result);
+
 /// Lines of text, each ended.
 std::string summary_text(const Scene& scene, const RunResult& result);
 

@@ -153,7 +153,7 @@ void Search<Law>::predict_pair(const Population& population, const Window& windo
     if (a >= population.n_own && b >= population.n_own) return;
     const Disc& first = population.discs[a];
     const Disc& second = population.discs[b];
-    const PairContact<double> contact = law_.contact(first, second);
+    const auto contact = law_.contact(first, second);
     if (!contact.exists()) return;
     const int m = first_micro_step(contact, from, window.end_micro());
     if (m == window.end_micro()) return;
@@ -214,5 +214,10 @@ template <class Law> std::size_t Search<Law>::bytes() const {
 }
 
 template class Search<PlainLaw>;
+template class Search<NaiveLaw>;
+template class Search<ContractedLaw>;
+template class Search<SingleLaw>;
+template class Search<SingleNaiveLaw>;
+template class Search<SingleContractedLaw>;
 
 } // namespace carrom

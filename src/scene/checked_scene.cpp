@@ -181,6 +181,8 @@ bool check_sizes(const Check& check, const Setting& radius_setting) {
         if (scene.rule == CollisionRule::one) check.refuse(radius_setting, text + "; collisions = \"one\" refuses that");
         else scene.warnings.push_back(text);
     }
+    if (scene.precision == Precision::single && (r < smallest_single_size || l > largest_single_size))
+        check.refuse(radius_setting, "precision = \"single\" takes lengths from 2^-40 to 2^40 only");
     return check.problems.size() == n_problems;
 }
 
@@ -253,6 +255,27 @@ void fill_streams(const Check& check) {
     }
 }
 
+/// The knobs of the accuracy study; the rule "all" has none.
+void fill_arithmetic(const Check& check) {
+    static constexpr Choices<Precision, 2> precisions = {{{"double", Precision::double_}, {"single", Precision::single}}};
+    static constexpr Choices<Arithmetic, 2> arithmetics = {{{"stable", Arithmetic::stable}, {"naive", Arithmetic::naive}}};
+    Scene& scene = check.scene;
+    if (const auto precision = choice(check, "time.precision", precisions)) scene.precision = *precision;
+    if (const auto arithmetic = choice(check, "time.arithmetic", arithmetics)) scene.arithmetic = *arithmetic;
+    const Setting* contraction = check.settings.find("time.contraction");
+    if (contraction) scene.contraction = std::get<bool>(contraction->value);
+    if (contraction && scene.arithmetic == Arithmetic::stable)
+        check.refuse(*contraction, "'time.contraction' has no meaning without time.arithmetic = \"naive\"");
+    if (scene.rule == CollisionRule::all && scene.precision == Precision::single)
+        check.refuse(*check.settings.find("time.precision"), "collisions = \"all\" needs precision = \"double\": no collision may be lost");
+    if (scene.rule == CollisionRule::all && scene.arithmetic == Arithmetic::naive)
+        check.refuse(*check.settings.find("time.arithmetic"), "collisions = \"all\" needs arithmetic = \"stable\": no collision may be lost");
+    if (scene.precision == Precision::single && scene.sync_every > longest_single_sync)
+        check.refuse(*check.settings.find("time.precision"),
+                     fmt::format("precision = \"single\" counts micro-steps up to {} between syncs; 'time.sync_every' is {}",
+                                 longest_single_sync, scene.sync_every));
+}
+
 void fill_time(const Check& check) {
     static constexpr Choices<CollisionRule, 2> rules = {{{"one", CollisionRule::one}, {"all", CollisionRule::all}}};
     Scene& scene = check.scene;
@@ -267,10 +290,14 @@ void fill_time(const Check& check) {
     if (!std::has_single_bit(static_cast<std::uint64_t>(scene.micro_steps)))
         scene.warnings.push_back(fmt::format("time.micro_steps = {} is not a power of two: velocities are rounded when they are "
                                              "divided by it", scene.micro_steps));
+    fill_arithmetic(check);
     if (const auto accuracy = finite_number(check, "time.accuracy")) {
         if (!(*accuracy > 0))
             check.refuse(*check.settings.find("time.accuracy"), fmt::format("'time.accuracy' must be greater than 0, not {}", *accuracy));
         scene.accuracy = *accuracy;
+        for (const std::string_view key : {"time.collisions", "time.micro_steps", "time.precision", "time.arithmetic", "time.contraction"})
+            if (const Setting* setting = check.settings.find(key))
+                check.refuse(*setting, fmt::format("'{}' is what 'time.accuracy' chooses: give one of them", key));
     }
 }
 
@@ -353,12 +380,6 @@ void fill_scene(Scene& scene, const Settings& settings, Problems& problems) {
         check_listed_discs(check);
         check_generator(check);
     }
-    refuse_unbuilt(settings, problems);
-}
-
-void refuse_unbuilt(const Settings& settings, Problems& problems) {
-    if (const Setting* accuracy = settings.find("time.accuracy"))
-        add_problem(problems, accuracy->place, "'time.accuracy' is not available in this version");
 }
 
 } // namespace carrom

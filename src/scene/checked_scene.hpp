@@ -11,7 +11,4 @@ namespace carrom {
 /// Fills in all but the name and the text.
 void fill_scene(Scene& scene, const Settings& settings, Problems& problems);
 
-/// Refuses what a scene may ask for and this version cannot do.
-void refuse_unbuilt(const Settings& settings, Problems& problems);
-
 } // namespace carrom

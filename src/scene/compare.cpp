@@ -23,6 +23,10 @@ bool same_streams(const std::vector<Stream>& a, const std::vector<Stream>& b) {
 
 std::string_view name_of(CollisionRule rule) { return rule == CollisionRule::one ? "\"one\"" : "\"all\""; }
 
+std::string_view name_of(Precision precision) { return precision == Precision::single ? "\"single\"" : "\"double\""; }
+
+std::string_view name_of(Arithmetic arithmetic) { return arithmetic == Arithmetic::naive ? "\"naive\"" : "\"stable\""; }
+
 std::string_view name_of(Generator generator) {
     switch (generator) {
     case Generator::random: return "\"random\"";
@@ -71,6 +75,9 @@ std::vector<std::string> physical_differences(const Scene& there, const Scene& h
     c.compare("time.collisions", name_of(there.rule), name_of(here.rule));
     c.compare("time.micro_steps", there.micro_steps, here.micro_steps);
     c.compare("time.sync_every", there.sync_every, here.sync_every);
+    c.compare("time.precision", name_of(there.precision), name_of(here.precision));
+    c.compare("time.arithmetic", name_of(there.arithmetic), name_of(here.arithmetic));
+    c.compare("time.contraction", there.contraction, here.contraction);
     c.compare("time.accuracy", shown(there.accuracy), shown(here.accuracy));
     return c.differences;
 }

@@ -26,6 +26,8 @@ constexpr std::array keys = {
     Key{"discs.streams", ValueKind::streams},    Key{"time.steps", ValueKind::integer},
     Key{"time.collisions", ValueKind::text},     Key{"time.micro_steps", ValueKind::integer},
     Key{"time.sync_every", ValueKind::integer},  Key{"time.accuracy", ValueKind::number},
+    Key{"time.precision", ValueKind::text},      Key{"time.arithmetic", ValueKind::text},
+    Key{"time.contraction", ValueKind::flag},
     Key{"output.text", ValueKind::text},         Key{"output.checkpoint.folder", ValueKind::text},
     Key{"output.checkpoint.every_steps", ValueKind::integer},
     Key{"output.checkpoint.every_minutes", ValueKind::number},

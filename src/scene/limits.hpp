@@ -17,6 +17,8 @@ inline constexpr std::uint64_t largest_count = 0xFFFFFFFEu; ///< 32-bit places i
 inline constexpr std::int64_t largest_steps = std::int64_t{1} << 53; ///< step numbers are exact in a double
 inline constexpr double largest_packing = 0.9069; ///< just above pi / (2 sqrt 3), the densest packing of the plane
 inline constexpr double largest_random_packing = 0.5; ///< random insertion stalls at about 0.54
+inline constexpr std::int64_t longest_single_sync = 4096; ///< a float then knows 1/2048 of a micro-step
+inline constexpr double smallest_single_size = 0x1p-40, largest_single_size = 0x1p+40; ///< their fourth powers are floats
 inline constexpr double largest_box_in_radii = 1e6;   ///< beyond, the wall band 1e-8 r drowns in the rounding of L
 
 /// What is wrong with a velocity component, or empty.

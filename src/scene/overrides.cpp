@@ -18,7 +18,19 @@ namespace {
 constexpr std::array<std::pair<std::string_view, std::string_view>, 2> rivals = {
     {{"discs.radius", "discs.packing"}, {"discs.file", "discs.list"}}};
 
+/// An accuracy asks for these to be chosen.
+constexpr std::array<std::string_view, 5> chosen_by_accuracy = {"time.collisions", "time.micro_steps", "time.precision",
+                                                                "time.arithmetic", "time.contraction"};
+
+void remove_rivals_of_accuracy(Settings& settings, const Settings& given) {
+    for (const std::string_view key : chosen_by_accuracy) {
+        if (given.has("time.accuracy")) settings.remove(key);
+        else if (given.has(key)) settings.remove("time.accuracy");
+    }
+}
+
 void remove_rivals(Settings& settings, const Settings& given) {
+    remove_rivals_of_accuracy(settings, given);
     for (const auto& [a, b] : rivals) {
         if (given.has(a) && !given.has(b)) settings.remove(b);
         if (given.has(b) && !given.has(a)) settings.remove(a);

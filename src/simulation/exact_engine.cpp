@@ -275,7 +275,7 @@ ReplayCounts ExactEngine::replay_counts() const {
 
 void ExactEngine::add_to(Totals& totals) {
     settle_now();
-    totals.overlapping_pairs = count_overlaps(discs_.population(), grid_, time_, law_, communicator_, tuning_.threads);
+    measure_overlaps(discs_.population(), grid_, time_, {law_.diameter(), law_.tolerance()}, communicator_, tuning_.threads, totals);
 }
 
 } // namespace carrom

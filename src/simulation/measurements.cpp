@@ -40,19 +40,20 @@ void measure_motion(std::span<const Disc> own, double velocity_unit, const Commu
     totals.momentum_y = momentum_y.value();
 }
 
-std::uint64_t count_overlaps(const Population& population, const CellGrid& grid, double time, const PlainLaw& law,
-                             const Communicator& communicator, int n_threads) {
+void measure_overlaps(const Population& population, const CellGrid& grid, double time, const Touching& touching,
+                      const Communicator& communicator, int n_threads, Totals& totals) {
     const auto pair_is_mine = [&](LocalIndex a, LocalIndex b) { // the rank of the lower id counts the pair
         return (population.discs[a].id < population.discs[b].id ? a : b) < population.n_own;
     };
-    const auto overlap = [&](const Disc& p, const Disc& q) {
+    const auto depth = [&](const Disc& p, const Disc& q) {
         const double dx = q.x_at(time) - p.x_at(time), dy = q.y_at(time) - p.y_at(time);
-        return std::sqrt(dx * dx + dy * dy) - law.diameter() < -law.tolerance();
+        return touching.diameter - std::sqrt(dx * dx + dy * dy);
     };
     std::uint64_t n_pairs = 0;
+    double deepest = 0;
     const std::span<const LocalIndex> order = grid.order();
     const int n_columns = grid.frame().n_columns, n_reach = grid.frame().n_reach;
-#pragma omp parallel for num_threads(n_threads) schedule(dynamic, 8) reduction(+ : n_pairs)
+#pragma omp parallel for num_threads(n_threads) schedule(dynamic, 8) reduction(+ : n_pairs) reduction(max : deepest)
     for (int column = 0; column < n_columns; ++column) {
         const SlotRange all = grid.run(column, 0, grid.frame().n_rows - 1);
         for (std::uint32_t slot = all.begin; slot < all.end; ++slot) {
@@ -61,12 +62,16 @@ std::uint64_t count_overlaps(const Population& population, const CellGrid& grid,
             for (int other = column; other <= std::min(column + n_reach, n_columns - 1); ++other) {
                 const SlotRange run = grid.run(other, row - n_reach, row + n_reach);
                 for (std::uint32_t k = other == column ? slot + 1 : run.begin; k < run.end; ++k) {
-                    if (overlap(population.discs[index], population.discs[order[k]])) n_pairs += pair_is_mine(index, order[k]);
+                    const double overlap = depth(population.discs[index], population.discs[order[k]]);
+                    if (!(overlap > touching.tolerance)) continue;
+                    n_pairs += pair_is_mine(index, order[k]);
+                    deepest = std::max(deepest, overlap);
                 }
             }
         }
     }
-    return communicator.sum(n_pairs);
+    totals.overlapping_pairs = communicator.sum(n_pairs);
+    totals.deepest_overlap = communicator.max(deepest);
 }
 
 } // namespace carrom

@@ -7,7 +7,6 @@
 #include "carrom/collision/cell_grid.hpp"
 #include "carrom/collision/search.hpp"
 #include "carrom/core/disc.hpp"
-#include "carrom/effects/plain_law.hpp"
 #include "carrom/parallel/communicator.hpp"
 #include "carrom/simulation/simulation.hpp"
 
@@ -19,9 +18,14 @@ void measure_collisions(std::span<const Disc> own, const Communicator& communica
 /// Fills in energy and momentum; `velocity_unit` turns stored velocities into those per step. **Collective.**
 void measure_motion(std::span<const Disc> own, double velocity_unit, const Communicator& communicator, Totals& totals);
 
-/// Pairs whose discs overlap by more than the tolerance at `time`, each counted once. The grid holds the population at
-/// that time, and partners within a diameter are within its reach. **Collective.**
-std::uint64_t count_overlaps(const Population& population, const CellGrid& grid, double time, const PlainLaw& law,
-                             const Communicator& communicator, int n_threads);
+/// When two discs count as overlapping: closer than the diameter by more than the tolerance.
+struct Touching {
+    double diameter = 0, tolerance = 0;
+};
+
+/// Fills in the pairs that overlap at `time`, each counted once, and how far the deepest overlaps. The grid holds the
+/// population at that time, and partners within a diameter are within its reach. **Collective.**
+void measure_overlaps(const Population& population, const CellGrid& grid, double time, const Touching& touching,
+                      const Communicator& communicator, int n_threads, Totals& totals);
 
 } // namespace carrom

@@ -28,18 +28,22 @@ double speed_of(const Disc& disc) { return std::sqrt(disc.vx * disc.vx + disc.vy
 
 } // namespace
 
-OneEngine::OneEngine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning)
+template <class Law>
+OneEngine<Law>::OneEngine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning)
     : communicator_(communicator), tuning_(with_useful_threads(tuning, scene, communicator)), law_(scene.box_size, scene.radius), micro_steps_(scene.micro_steps),
       sync_every_(scene.sync_every), last_micro_step_(scene.steps * scene.micro_steps), discs_(communicator, scene.box_size, std::move(state.discs)),
       n_micro_done_(state.micro_steps_done), micro_(static_cast<int>(n_micro_done_ % sync_every_)),
       search_(law_, tuning_.threads), local_(tuning_.threads), across_strips_(communicator) {
+    if constexpr (!Law::is_double) {
+        for (Disc& disc : discs_.all()) Law::round(disc);
+    }
     for (const Disc& disc : own()) largest_speed_ = std::max(largest_speed_, speed_of(disc));
     const double density = static_cast<double>(discs_.n_total()) / (law_.box_size() * law_.box_size());
     hits_per_micro_step_ = std::min(1.0, 2 * density * law_.diameter() * communicator_.max(largest_speed_)); // a first guess
     discs_.rebalance(micro_, tuning_.rebalance_above);
 }
 
-void OneEngine::advance_towards(std::int64_t last_step) {
+template <class Law> void OneEngine<Law>::advance_towards(std::int64_t last_step) {
     if (n_windows_ == 0) { // discs come in any order
         settle_now();
         reorder();
@@ -55,7 +59,7 @@ void OneEngine::advance_towards(std::int64_t last_step) {
 }
 
 /// Runs one window of at most `n_left` micro-steps: to its end, or to where discs have become too fast for it.
-void OneEngine::run_window(int n_left) {
+template <class Law> void OneEngine<Law>::run_window(int n_left) {
     const Window window = settle(n_left);
     {
         const PhaseClock::Scope scope(clock_, Phase::search);
@@ -76,7 +80,7 @@ void OneEngine::run_window(int n_left) {
 }
 
 /// Brings every disc to its strip, the halo to every strip and all into cells, for the window that it chooses.
-Window OneEngine::settle(int n_left) {
+template <class Law> Window OneEngine<Law>::settle(int n_left) {
     const PhaseClock::Scope scope(clock_, Phase::settle);
     if (part_ == 0 && n_windows_ % windows_per_reorder == 0 && n_windows_ > 0) reorder();
     if (part_ == 0) agree_on_speed();
@@ -88,12 +92,12 @@ Window OneEngine::settle(int n_left) {
     return window;
 }
 
-void OneEngine::reorder() { grid_.reorder(discs_.all(), discs_.n_own(), tuning_.threads); }
+template <class Law> void OneEngine<Law>::reorder() { grid_.reorder(discs_.all(), discs_.n_own(), tuning_.threads); }
 
-void OneEngine::settle_now() {
+template <class Law> void OneEngine<Law>::settle_now() {
     agree_on_speed();
     migrate(micro_);
-    const double reach = reach_of({law_.box_size(), law_.radius(), static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
+    const double reach = reach_of({law_.box_size(), law_.radius() + law_.slack(), static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
     fetch_halo(micro_, reach);
     Window now;
     now.first_micro = micro_;
@@ -101,13 +105,13 @@ void OneEngine::settle_now() {
     build_grid(now, reach);
 }
 
-void OneEngine::add_to(Totals& totals) {
+template <class Law> void OneEngine<Law>::add_to(Totals& totals) {
     totals.rejected_candidates = communicator_.sum(n_candidates_ - n_kept_);
     settle_now();
-    totals.overlapping_pairs = count_overlaps(population(), grid_, micro_, law_, communicator_, tuning_.threads);
+    measure_overlaps(population(), grid_, micro_, {law_.diameter(), law_.tolerance()}, communicator_, tuning_.threads, totals);
 }
 
-void OneEngine::build_grid(const Window& window, double reach) {
+template <class Law> void OneEngine<Law>::build_grid(const Window& window, double reach) {
     const double x_low = std::max(0.0, discs_.strips().low(communicator_.rank()) - reach);
     const double x_high = std::min(law_.box_size(), discs_.strips().high(communicator_.rank()) + reach);
     const std::span<const Disc> all = population().discs;
@@ -116,7 +120,7 @@ void OneEngine::build_grid(const Window& window, double reach) {
     states_.assign(all.size(), 0);
 }
 
-Window OneEngine::choose(int n_left) {
+template <class Law> Window OneEngine<Law>::choose(int n_left) {
     Window window;
     window.first_micro = micro_;
     if (part_ == 0) {
@@ -135,36 +139,36 @@ Window OneEngine::choose(int n_left) {
     return window;
 }
 
-WindowNeeds OneEngine::window_needs() const {
-    return {law_.box_size(), law_.radius(), static_cast<double>(discs_.n_total()), window_speed_, hits_per_micro_step_,
+template <class Law> WindowNeeds OneEngine<Law>::window_needs() const {
+    return {law_.box_size(), law_.radius() + law_.slack(), static_cast<double>(discs_.n_total()), window_speed_, hits_per_micro_step_,
             static_cast<double>(discs_.n_total()) / communicator_.size()};
 }
 
-void OneEngine::agree_on_speed() {
+template <class Law> void OneEngine<Law>::agree_on_speed() {
     const PhaseClock::Scope scope(clock_, Phase::wait);
     travel_speed_ = communicator_.max(largest_speed_);
     largest_speed_ = refreshed_speed_ > 0 ? std::exchange(refreshed_speed_, 0) : travel_speed_;
 }
 
-void OneEngine::migrate(double time) {
+template <class Law> void OneEngine<Law>::migrate(double time) {
     // A disc was settled where its old flight would take it; it is where the new one does, which began no earlier than
     // the states last changed. Between the parts of a micro-step no state changes.
     const double from = part_ > 0 ? settled_time_ : unchanged_until_;
     const double flown = (time - from) + std::fabs(settled_time_ - from);
-    const double farthest = travel_speed_ * flown * (1 + 1e-6) + 64 * 0x1p-53 * law_.box_size();
+    const double farthest = travel_speed_ * flown * (1 + 1e-6) + 64 * 0x1p-53 * law_.box_size() + law_.slack();
     const PhaseClock::Scope scope(clock_, Phase::exchange);
     discs_.migrate(time, farthest, in_parts_ ? &outcomes_ : nullptr);
     settled_time_ = time;
     if (part_ == 0) unchanged_until_ = micro_;
 }
 
-void OneEngine::fetch_halo(double time, double reach) {
+template <class Law> void OneEngine<Law>::fetch_halo(double time, double reach) {
     const PhaseClock::Scope scope(clock_, Phase::exchange);
     discs_.fetch_halo(time, reach, in_parts_ ? &outcomes_ : nullptr);
 }
 
 /// Decides and applies micro-step m. False, with nothing done, if discs have become faster than the window allows for.
-bool OneEngine::run_micro_step(const Window& window, int m) {
+template <class Law> bool OneEngine<Law>::run_micro_step(const Window& window, int m) {
     {
         const PhaseClock::Scope scope(clock_, Phase::resolve);
         search_.collect(window, m, states_, live_);
@@ -194,13 +198,13 @@ bool OneEngine::run_micro_step(const Window& window, int m) {
 }
 
 /// Candidates with a disc that an earlier part of this micro-step has taken are lost, but they were candidates.
-void OneEngine::strike_taken(std::vector<Candidate>& live) const {
+template <class Law> void OneEngine<Law>::strike_taken(std::vector<Candidate>& live) const {
     const std::span<const Disc> discs = population().discs;
     const auto is_taken = [&](LocalIndex index) { return outcomes_[index].version() != discs[index].version(); };
     std::erase_if(live, [&](const Candidate& c) { return is_taken(c.p) || (!c.is_wall() && is_taken(c.q)); });
 }
 
-void OneEngine::apply(const Window& window, int m) {
+template <class Law> void OneEngine<Law>::apply(const Window& window, int m) {
     std::vector<Disc>& results = in_parts_ ? outcomes_ : discs_.all();
     const bool is_last = m + 1 >= window.end_micro(); // nobody asks for these states any more
     {
@@ -244,13 +248,13 @@ void OneEngine::apply(const Window& window, int m) {
     search_.predict_again(population(), grid_, window, m + 1, reach, hits_, states_);
 }
 
-void OneEngine::note_velocities(std::span<const Disc> results) {
+template <class Law> void OneEngine<Law>::note_velocities(std::span<const Disc> results) {
     unhit_.clear();
     for (const Candidate& c : verdicts_.kept) unhit_.push_back(results[c.p]);
 }
 
 /// Two ranks may know of a collision: the one that owns the first disc logs it.
-void OneEngine::log_collisions(std::span<const Disc> results, int m) {
+template <class Law> void OneEngine<Law>::log_collisions(std::span<const Disc> results, int m) {
     const auto k = static_cast<double>(micro_steps_);
     for (std::size_t i = 0; i < unhit_.size(); ++i) {
         const Candidate& c = verdicts_.kept[i];
@@ -262,7 +266,7 @@ void OneEngine::log_collisions(std::span<const Disc> results, int m) {
 }
 
 /// Exchanges new states with the neighbours; `hits_` grows by those discs of the halo that this rank has not struck itself.
-void OneEngine::hear_of_hits(const Window& window, int m) {
+template <class Law> void OneEngine<Law>::hear_of_hits(const Window& window, int m) {
     if (communicator_.size() == 1) return;
     const PhaseClock::Scope scope(clock_, Phase::exchange);
     std::erase(hits_, wall);
@@ -276,7 +280,7 @@ void OneEngine::hear_of_hits(const Window& window, int m) {
     }
 }
 
-void OneEngine::sync() {
+template <class Law> void OneEngine<Law>::sync() {
     const PhaseClock::Scope scope(clock_, Phase::sync);
     const double time = micro_;
     double fastest = 0;
@@ -301,6 +305,24 @@ void OneEngine::sync() {
     if (tuning_.rebalance_every > 0 && n_syncs_ % tuning_.rebalance_every == 0) {
         discs_.rebalance(0, tuning_.rebalance_above);
     }
+}
+
+namespace {
+
+template <class Real>
+std::unique_ptr<Engine> engine_in(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning) {
+    const auto with = [&]<class Formula>(Formula) -> std::unique_ptr<Engine> {
+        return std::make_unique<OneEngine<BasicPlainLaw<Real, Formula>>>(scene, std::move(state), communicator, tuning);
+    };
+    if (scene.arithmetic == Arithmetic::stable) return with(StableContact{});
+    return scene.contraction ? with(NaiveContact<true>{}) : with(NaiveContact<false>{});
+}
+
+} // namespace
+
+std::unique_ptr<Engine> make_one_engine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning) {
+    return scene.precision == Precision::single ? engine_in<float>(scene, std::move(state), communicator, tuning)
+                                                : engine_in<double>(scene, std::move(state), communicator, tuning);
 }
 
 } // namespace carrom

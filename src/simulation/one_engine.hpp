@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "carrom/collision/cell_grid.hpp"
@@ -25,10 +26,8 @@
 
 namespace carrom {
 
-class OneEngine final : public Engine {
+template <class Law> class OneEngine final : public Engine {
 public:
-    using Law = PlainLaw;
-
     OneEngine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning);
 
     void advance_towards(std::int64_t last_step) override;
@@ -96,5 +95,8 @@ private:
     std::uint64_t n_candidates_ = 0, n_kept_ = 0, n_kept_at_sync_ = 0; ///< of those whose first disc is own
     PhaseClock clock_;
 };
+
+/// The engine of the rule "one" with the law that the scene's precision and arithmetic ask for. **Collective.**
+std::unique_ptr<Engine> make_one_engine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning);
 
 } // namespace carrom

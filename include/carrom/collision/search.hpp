@@ -64,5 +64,10 @@ private:
 };
 
 extern template class Search<PlainLaw>;
+extern template class Search<NaiveLaw>;
+extern template class Search<ContractedLaw>;
+extern template class Search<SingleLaw>;
+extern template class Search<SingleNaiveLaw>;
+extern template class Search<SingleContractedLaw>;
 
 } // namespace carrom

@@ -37,15 +37,17 @@ struct Window {
 };
 
 /// In-step time of a contact as micro-step m sees it.
-inline double in_step_time(const PairContact<double>& contact, int m) { return (contact.base - m) + contact.delay; }
+template <class Real> Real in_step_time(const PairContact<Real>& contact, int m) {
+    return (contact.base - static_cast<Real>(m)) + contact.delay;
+}
 
 /// The first micro-step of [from, to) that has this contact as a candidate (0 <= t <= 1), or `to`.
-inline int first_micro_step(const PairContact<double>& contact, int from, int to) {
+template <class Real> int first_micro_step(const PairContact<Real>& contact, int from, int to) {
     const double time = contact.base + contact.delay;
     if (!(time < to + 1.0)) return to;
     const int guess = static_cast<int>(time);
     for (int m = std::max(from, guess - 1); m <= guess + 1 && m < to; ++m) {
-        const double t = in_step_time(contact, m);
+        const Real t = in_step_time(contact, m);
         if (t >= 0 && t <= 1) return m;
     }
     return to;

@@ -4,34 +4,58 @@
 // Kernels take the law as a template argument and ask it what a disc does; another set of effects is another law with
 // the same members, chosen once at start. Under the rule "one" times t are in-step times of the micro-step [m, m+1];
 // m is exact in a double.
+//
+// `Real` is what states are rounded to and what is computed in, `Formula` how contacts are found. Both are knobs of the
+// accuracy study (docs/accuracy.md); PlainLaw is what runs unless a scene asks for another. A float's states are stored
+// as doubles of the same value, so that all else need not know.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "carrom/core/disc.hpp"
+#include "carrom/geometry/naive_contact.hpp"
 #include "carrom/geometry/pair_contact.hpp"
 
 namespace carrom {
 
-class PlainLaw {
+/// What the contact formula asks of a disc, in the precision that it computes in.
+template <class Real> struct RoundedState {
+    Real x, y, vx, vy, tau;
+
+    explicit RoundedState(const Disc& disc)
+        : x(static_cast<Real>(disc.x)), y(static_cast<Real>(disc.y)), vx(static_cast<Real>(disc.vx)),
+          vy(static_cast<Real>(disc.vy)), tau(static_cast<Real>(disc.tau)) {}
+    Real x_at(Real time) const { return x + vx * (time - tau); }
+    Real y_at(Real time) const { return y + vy * (time - tau); }
+};
+
+template <class Real, class Formula> class BasicPlainLaw {
 public:
     static constexpr double never = std::numeric_limits<double>::infinity();
+    static constexpr bool is_double = std::is_same_v<Real, double>;
 
-    PlainLaw(double box_size, double radius)
-        : box_size_(box_size), radius_(radius), diameter_(2 * radius), band_(1e-8 * radius),
-          tolerance_(std::max(1e-12 * diameter_, 32 * 0x1p-53 * box_size)) {}
+    BasicPlainLaw(double box_size, double radius)
+        : box_size_(static_cast<Real>(box_size)), radius_(static_cast<Real>(radius)), diameter_(2 * radius_),
+          band_(static_cast<Real>(1e-8) * radius_),
+          tolerance_(std::max(static_cast<Real>(1e-12) * diameter_, 16 * std::numeric_limits<Real>::epsilon() * box_size_)) {}
 
     double box_size() const { return box_size_; }
     double radius() const { return radius_; }
     double diameter() const { return diameter_; }
     double tolerance() const { return tolerance_; }
+    /// What rounding to `Real` may move a disc by, beyond what a search in double precision allows for.
+    double slack() const { return is_double ? 0 : 0x1p-20 * box_size(); }
+
+    /// Rounds a state to the precision that it is to have.
+    static void round(Disc& disc) {
+        for (double* number : {&disc.x, &disc.y, &disc.vx, &disc.vy, &disc.tau}) *number = static_cast<Real>(*number);
+    }
 
     /// Contact of a pair under the rule "one": pairs deeper than the tolerance pass through each other.
-    PairContact<double> contact(const Disc& p, const Disc& q) const {
-        return pair_contact(p, q, diameter_, tolerance_);
-    }
+    PairContact<Real> contact(const Disc& p, const Disc& q) const { return contact(p, q, tolerance_); }
 
     /// In-step time of the disc's one wall candidate of micro-step m, or `never`. The earlier axis gives it.
     double wall_time(const Disc& disc, double m) const {
@@ -40,11 +64,11 @@ public:
 
     /// Bounce `disc` at in-step time t = wall_time(disc, m); a corner reverses both axes and counts once.
     void bounce(Disc& disc, double m, double t) const {
-        const double tx = axis_time(disc.x, disc.vx, disc.tau, m);
-        const double ty = axis_time(disc.y, disc.vy, disc.tau, m);
-        advance(disc, m + t);
-        const bool x_reverses = tx == t || touches_wall(disc.x, disc.vx);
-        const bool y_reverses = ty == t || touches_wall(disc.y, disc.vy);
+        const Real tx = axis_time(disc.x, disc.vx, disc.tau, m);
+        const Real ty = axis_time(disc.y, disc.vy, disc.tau, m);
+        advance(disc, real(m) + real(t));
+        const bool x_reverses = tx == real(t) || touches_wall(disc.x, disc.vx);
+        const bool y_reverses = ty == real(t) || touches_wall(disc.y, disc.vy);
         if (x_reverses) disc.vx = -disc.vx;
         if (y_reverses) disc.vy = -disc.vy;
         disc.wall_collisions += 1;
@@ -53,7 +77,7 @@ public:
 
     /// Collide the pair at in-step time t; `p` has the lower id.
     void collide(Disc& p, Disc& q, double m, double t) const {
-        collide_at(p, q, m + t);
+        collide_at(p, q, real(m) + real(t));
         stop_at_wall(p, m, t);
         stop_at_wall(q, m, t);
     }
@@ -61,7 +85,7 @@ public:
     // The rule "all". Times count from the last sync; there is no band, no stop and no micro-step.
 
     /// Contact of a pair that is free to move: touching or overlapping pairs that approach collide at once.
-    PairContact<double> exact_contact(const Disc& p, const Disc& q) const { return pair_contact(p, q, diameter_, never); }
+    PairContact<Real> exact_contact(const Disc& p, const Disc& q) const { return contact(p, q, static_cast<Real>(never)); }
 
     /// When the disc meets the wall that it approaches along x or y; infinite or `never` if it does not.
     double x_wall_time(const Disc& disc) const { return exact_axis_time(disc.x, disc.vx, disc.tau); }
@@ -71,7 +95,7 @@ public:
     bool may_meet_wall(const Disc& disc, double time) const {
         const double x = disc.x_at(time), y = disc.y_at(time);
         // The last term: a time is rounded, and a fast disc goes some way in that.
-        const double margin = tolerance_ + 0x1p-50 * time * std::max(std::fabs(disc.vx), std::fabs(disc.vy));
+        const double margin = tolerance() + 0x1p-50 * time * std::max(std::fabs(disc.vx), std::fabs(disc.vy));
         const double inner_low = low() + margin, inner_high = high() - margin;
         return !(x > inner_low && x < inner_high && y > inner_low && y < inner_high);
     }
@@ -91,36 +115,44 @@ public:
     static void collide_at(Disc& p, Disc& q, double time) {
         advance(p, time);
         advance(q, time);
-        const double ex = q.x - p.x, ey = q.y - p.y;
-        const double wx = q.vx - p.vx, wy = q.vy - p.vy;
-        const double k = (wx * ex + wy * ey) / (ex * ex + ey * ey);
-        p.vx += k * ex;
-        p.vy += k * ey;
-        q.vx -= k * ex;
-        q.vy -= k * ey;
+        const Real ex = real(q.x) - real(p.x), ey = real(q.y) - real(p.y);
+        const Real wx = real(q.vx) - real(p.vx), wy = real(q.vy) - real(p.vy);
+        const Real k = (wx * ex + wy * ey) / (ex * ex + ey * ey);
+        p.vx = real(p.vx) + k * ex;
+        p.vy = real(p.vy) + k * ey;
+        q.vx = real(q.vx) - k * ex;
+        q.vy = real(q.vy) - k * ey;
         p.pair_collisions += 1;
         q.pair_collisions += 1;
     }
 
     static void advance(Disc& disc, double time) {
-        disc.x = disc.x_at(time);
-        disc.y = disc.y_at(time);
-        disc.tau = time;
+        const RoundedState<Real> flight(disc);
+        disc.x = flight.x_at(real(time));
+        disc.y = flight.y_at(real(time));
+        disc.tau = real(time);
     }
 
 private:
+    static Real real(double number) { return static_cast<Real>(number); }
+
+    PairContact<Real> contact(const Disc& p, const Disc& q, Real deepest_overlap) const {
+        if constexpr (is_double) return pair_contact(p, q, diameter_, deepest_overlap, Formula{});
+        else return pair_contact(RoundedState<Real>(p), RoundedState<Real>(q), diameter_, deepest_overlap, Formula{});
+    }
+
     /// Only the wall being approached counts; a slow disc inside the band bounces at t = 1 without touching.
-    double axis_time(double x, double v, double tau, double m) const {
-        const double at_end = x + v * ((m + 1) - tau);
-        if (v < 0 && at_end < radius_ + band_) return std::clamp((tau - m) + (low() - x) / v, 0.0, 1.0);
-        if (v > 0 && at_end > high() - band_) return std::clamp((tau - m) + (high() - x) / v, 0.0, 1.0);
-        return never;
+    Real axis_time(double x, double v, double tau, double m) const {
+        const Real at_end = real(x) + real(v) * ((real(m) + 1) - real(tau));
+        if (v < 0 && at_end < radius_ + band_) return std::clamp((real(tau) - real(m)) + (low() - real(x)) / real(v), Real{0}, Real{1});
+        if (v > 0 && at_end > high() - band_) return std::clamp((real(tau) - real(m)) + (high() - real(x)) / real(v), Real{0}, Real{1});
+        return real(never);
     }
 
     double exact_axis_time(double x, double v, double tau) const {
         if (v == 0) return never;
-        const double delay = ((v < 0 ? low() : high()) - x) / v;
-        return tau + (delay > 0 ? delay : 0);
+        const Real delay = ((v < 0 ? low() : high()) - real(x)) / real(v);
+        return real(tau) + (delay > 0 ? delay : 0);
     }
 
     bool touches_wall(double x, double v) const {
@@ -129,25 +161,34 @@ private:
 
     /// A disc that would leave the box before the micro-step ends waits at the wall; it bounces in the next one.
     void stop_at_wall(Disc& disc, double m, double t) const {
-        const double rest = 1 - t;
-        const double stop = std::min(axis_stop(disc.x, disc.vx, rest), axis_stop(disc.y, disc.vy, rest));
-        if (stop == never) return;
-        disc.x += disc.vx * stop;
-        disc.y += disc.vy * stop;
+        const Real rest = 1 - real(t);
+        const Real stop = std::min(axis_stop(disc.x, disc.vx, rest), axis_stop(disc.y, disc.vy, rest));
+        if (stop == real(never)) return;
+        disc.x = real(disc.x) + real(disc.vx) * stop;
+        disc.y = real(disc.y) + real(disc.vy) * stop;
         disc.tau = m + 1;
     }
 
-    double axis_stop(double x, double v, double rest) const {
-        const double at_end = x + v * rest;
-        if (v < 0 && at_end < low()) return std::max((low() - x) / v, 0.0);
-        if (v > 0 && at_end > high()) return std::max((high() - x) / v, 0.0);
-        return never;
+    Real axis_stop(double x, double v, Real rest) const {
+        const Real at_end = real(x) + real(v) * rest;
+        if (v < 0 && at_end < low()) return std::max((low() - real(x)) / real(v), Real{0});
+        if (v > 0 && at_end > high()) return std::max((high() - real(x)) / real(v), Real{0});
+        return real(never);
     }
 
-    double low() const { return radius_; }
-    double high() const { return box_size_ - radius_; }
+    Real low() const { return radius_; }
+    Real high() const { return box_size_ - radius_; }
 
-    double box_size_, radius_, diameter_, band_, tolerance_;
+    Real box_size_, radius_, diameter_, band_, tolerance_;
 };
+
+/// The law that the promise of the same bits is about.
+using PlainLaw = BasicPlainLaw<double, StableContact>;
+
+using NaiveLaw = BasicPlainLaw<double, NaiveContact<false>>;
+using ContractedLaw = BasicPlainLaw<double, NaiveContact<true>>;
+using SingleLaw = BasicPlainLaw<float, StableContact>;
+using SingleNaiveLaw = BasicPlainLaw<float, NaiveContact<false>>;
+using SingleContractedLaw = BasicPlainLaw<float, NaiveContact<true>>;
 
 } // namespace carrom

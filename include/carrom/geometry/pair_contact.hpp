@@ -47,13 +47,20 @@ template <class Real> Real contact_delay(Real dx, Real dy, Real wx, Real wy, Rea
     return c / (-b + std::sqrt(disc));
 }
 
+/// The formula above as a choice that a law makes (another one: naive_contact.hpp).
+struct StableContact {
+    template <class Real> static Real delay(Real dx, Real dy, Real wx, Real wy, Real sigma, Real deepest_overlap) {
+        return contact_delay(dx, dy, wx, wy, sigma, deepest_overlap);
+    }
+};
+
 /// The contact of discs `p` and `q` (any order) from their stored states alone: the same bits whoever asks, and when.
-template <class Real, class AnyDisc>
-PairContact<Real> pair_contact(const AnyDisc& p, const AnyDisc& q, Real sigma, Real deepest_overlap) {
+template <class Real, class AnyDisc, class Formula = StableContact>
+PairContact<Real> pair_contact(const AnyDisc& p, const AnyDisc& q, Real sigma, Real deepest_overlap, Formula = {}) {
     const Real base = std::max(p.tau, q.tau);
     const Real dx = q.x_at(base) - p.x_at(base);
     const Real dy = q.y_at(base) - p.y_at(base);
-    return {base, contact_delay(dx, dy, q.vx - p.vx, q.vy - p.vy, sigma, deepest_overlap)};
+    return {base, Formula::delay(dx, dy, q.vx - p.vx, q.vy - p.vy, sigma, deepest_overlap)};
 }
 
 } // namespace carrom

@@ -14,6 +14,10 @@
 namespace carrom {
 
 enum class CollisionRule { one, all };
+/// What states are rounded to and what is computed in.
+enum class Precision { double_, single };
+/// How contacts are found: by the predicate, or by the ancestor's formula.
+enum class Arithmetic { stable, naive };
 enum class Generator { random, lattice, ancestor, file };
 enum class VelocityKind { maxwell, uniform };
 
@@ -80,6 +84,9 @@ struct Scene {
     CollisionRule rule = CollisionRule::one;
     std::int64_t micro_steps = 1;
     std::int64_t sync_every = 64;
+    Precision precision = Precision::double_;
+    Arithmetic arithmetic = Arithmetic::stable;
+    bool contraction = false;           ///< of the naive formula's products and sums
     std::optional<double> accuracy;
 
     TextOutput text_output = TextOutput::none;

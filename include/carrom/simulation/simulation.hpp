@@ -35,6 +35,7 @@ struct Totals {
     std::uint64_t pair_collisions = 0;      ///< pairs, not discs
     std::uint64_t rejected_candidates = 0;  ///< since this process started stepping
     std::uint64_t overlapping_pairs = 0;    ///< now, deeper than the tolerance
+    double deepest_overlap = 0;             ///< of these; 2 r where two discs are in one place
     double kinetic_energy = 0;
     double momentum_x = 0, momentum_y = 0;
     StateHash hash;

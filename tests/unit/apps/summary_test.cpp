@@ -42,6 +42,28 @@ TEST_CASE("Rates are per disc, and per step or micro-step") {
     CHECK(collisions_per_disc(small_scene(), small_result()) == Approx((20 + 2 * 30) / (4.0 * 50 * 2)));
 }
 
+TEST_CASE("Rejected candidates are a share of all candidates, overlaps are per disc and in diameters") {
+    RunResult result = small_result();
+    CHECK(rejected_share(result) == 0);
+    result.end.rejected_candidates = 50;
+    CHECK(rejected_share(result) == Approx(50.0 / (20 + 30 + 50)));
+    result.end.overlapping_pairs = 3;
+    result.end.deepest_overlap = 0.5;
+    const auto report = nlohmann::json::parse(report_text(small_scene(), result));
+    CHECK(report.at("overlapping_pairs_per_disc") == 1.5);
+    CHECK(report.at("deepest_overlap") == 0.25);
+    CHECK(summary_text(small_scene(), result).find("50 % of all") != std::string::npos);
+    CHECK(summary_text(small_scene(), result).find("3 pairs at the end, 1.5 per disc, by up to 0.25 diameters") != std::string::npos);
+}
+
+TEST_CASE("The summary names precision and arithmetic where they leave the default") {
+    Scene scene = small_scene();
+    CHECK(summary_text(scene, small_result()).find("precision") == std::string::npos);
+    scene.precision = Precision::single;
+    scene.arithmetic = Arithmetic::naive;
+    CHECK(summary_text(scene, small_result()).find("precision = \"single\", arithmetic = \"naive\"") != std::string::npos);
+}
+
 TEST_CASE("A run of no steps, and one of discs at rest, have rates of zero") {
     RunResult result = small_result();
     result.last_step = 0;

@@ -85,6 +85,29 @@ TEST_CASE("Every key of a scene is taken over") {
     CHECK(scene.text_output == TextOutput::every_step);
 }
 
+TEST_CASE("An accuracy stands in for the settings that it chooses, and the command line wins over the scene") {
+    const std::string asks = "[box]\nsize = 100\n[discs]\ncount = 50\nradius = 1\n[time]\nsteps = 5\naccuracy = 0.1\n";
+    CHECK(read_scene(asks, "s.toml").accuracy == 0.1);
+    const Scene chosen = read_scene(asks, "s.toml", {"time.collisions=all", "time.micro_steps=4"});
+    CHECK_FALSE(chosen.accuracy);
+    CHECK((chosen.rule == CollisionRule::all && chosen.micro_steps == 4));
+    const Scene asked = read_scene(good, "s.toml", {"time.accuracy=0.5"});
+    CHECK(asked.accuracy == 0.5);
+    CHECK_THROWS_AS(read_scene(asks + "micro_steps = 2\n", "s.toml"), InputError);
+}
+
+TEST_CASE("Precision and arithmetic are knobs of the rule one alone") {
+    const Scene plain = read_scene(good, "s.toml");
+    CHECK((plain.precision == Precision::double_ && plain.arithmetic == Arithmetic::stable && !plain.contraction));
+    const Scene other = read_scene(good, "s.toml", {"time.precision=single", "time.arithmetic=naive", "time.contraction=true"});
+    CHECK((other.precision == Precision::single && other.arithmetic == Arithmetic::naive && other.contraction));
+    CHECK_THROWS_AS(read_scene(good, "s.toml", {"time.collisions=all", "time.precision=single"}), InputError);
+    CHECK_THROWS_AS(read_scene(good, "s.toml", {"time.collisions=all", "time.arithmetic=naive"}), InputError);
+    CHECK_THROWS_AS(read_scene(good, "s.toml", {"time.precision=single", "time.sync_every=5000"}), InputError);
+    CHECK_THROWS_AS(read_scene(good, "s.toml", {"time.precision=single", "box.size=1e20", "discs.radius=1e19"}), InputError);
+    CHECK_NOTHROW(read_scene(good, "s.toml", {"time.collisions=all", "time.precision=double", "time.arithmetic=stable"}));
+}
+
 TEST_CASE("Discs can be listed in the scene or in a file beside it") {
     const Scene listed = read_scene("[box]\nsize = 10\n[discs]\nradius = 5\nlist = [[5, 5, 1, -1]]\n[time]\nsteps = 1\n", "s.toml");
     CHECK(listed.generator == Generator::file);
@@ -155,7 +178,8 @@ TEST_CASE("One wrong further value is one problem at its line") {
         "[discs]\nspeed = nan", "[discs]\nspeed = -1", "[discs]\nspeed = 1e100", "[discs]\nvelocities = 'maxwel'", "[discs]\nseed = -1",
         "[discs]\ngenerator = 'latice'", "[discs]\ngenerator = 'file'", "[discs]\nfile = 3", "[discs]\nfile = ''",
         "[discs]\nlist = 3", "[discs]\nlist = [[1, 2, 3, 4]]", "[discs]\nradios = 1", "[time]\ncollisions = 'two'", "[time]\ncollisions = 1",
-        "[time]\naccuracy = 1e-9", "[time]\nmicro_steps = 0",
+        "[time]\naccuracy = 0", "[time]\ncollisions = 'one'\naccuracy = 0.1", "[time]\nmicro_steps = 0", "[time]\nprecision = 'half'", "[time]\narithmetic = 'exact'",
+        "[time]\ncontraction = 1", "[time]\ncontraction = true",
         "[time]\nsync_every = 0", "[time]\nsync_every = 1e12", "[output]\ntext = 'all'", "[output]\ntrajectory = 'x'",
         "[effects]\ngravity = 1", "[speed]\n", "\nspeed = 1"};
     for (const std::string& addition : all) {

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `time.accuracy` delivers what it is asked for, on scenes that it was not tuned on.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "carrom/scene/read_scene.hpp"
+#include "carrom/simulation/initial_state.hpp"
+#include "setting_choice.hpp"
+
+using namespace carrom;
+
+namespace {
+
+Scene unknown_gas(const std::string& more) {
+    return read_scene("[box]\nsize = 50\n[time]\nsteps = 10\n[discs]\n" + more, "gas.toml");
+}
+
+/// The errors of a chosen setting, over several starts that the pilot has not seen.
+void check_delivery(Scene scene, double accuracy, const Communicator& world) {
+    scene.accuracy = accuracy;
+    choose_setting(scene, initial_state(scene, nullptr, world), true, world, {});
+    CHECK_FALSE(scene.accuracy);
+    const RunSetting setting{scene.rule, scene.micro_steps};
+    CAPTURE(scene.n_discs, scene.packing(), accuracy, setting.micro_steps, setting.rule == CollisionRule::all);
+    double frequency = 0, pressure = 0, error = 0;
+    constexpr int n_starts = 3;
+    for (int start = 0; start < n_starts; ++start) {
+        Scene other = scene;
+        other.seed = 900 + static_cast<std::uint64_t>(start);
+        const TrialStart begin = bring_to_equilibrium(other, initial_state(other, nullptr, world), 10, world, {});
+        TrialLength length;
+        length.steps = std::max<std::int64_t>(1, std::llround(1e5 / (begin.frequency * static_cast<double>(scene.n_discs) / 2)));
+        const TrialError here = error_of(run_trial(other, setting, begin, length, world, {}),
+                                         run_trial(other, {CollisionRule::all}, begin, length, world, {}));
+        frequency += here.frequency / n_starts;
+        pressure += here.pressure / n_starts;
+        error += here.error / n_starts;
+    }
+    error /= std::sqrt(double{n_starts});
+    CHECK(std::fabs(frequency) < accuracy + 4 * error);
+    CHECK(std::fabs(pressure) < accuracy + 4 * error);
+}
+
+} // namespace
+
+TEST_CASE("An accuracy is delivered on three scenes that the choice was not made for") {
+    const Communicator world = Communicator::world();
+    check_delivery(unknown_gas("count = 300\npacking = 0.05\nspeed = 0.3\nvelocities = 'uniform'\nseed = 5\n"), 0.1, world);
+    check_delivery(unknown_gas("count = 1000\npacking = 0.4\nspeed = 0.02\ngenerator = 'lattice'\n"), 0.05, world);
+    check_delivery(unknown_gas("count = 600\npacking = 0.2\nspeed = 0.9\n[[discs.streams]]\nregion = [0, 0, 25, 50]\nvelocity = [0.2, 0]\n"), 0.3, world);
+}
+
+TEST_CASE("What no pilot can see is left to the exact rule, and the choice is written over the question") {
+    const Communicator world = Communicator::world();
+    Scene scene = unknown_gas("count = 300\npacking = 0.1\nspeed = 0.3\n");
+    scene.overrides = {"time.accuracy=1e-6", "time.steps=9"};
+    scene.accuracy = 1e-6;
+    choose_setting(scene, initial_state(scene, nullptr, world), true, world, {});
+    CHECK(scene.rule == CollisionRule::all);
+    CHECK(scene.overrides == std::vector<std::string>{"time.steps=9", "time.collisions=all", "time.micro_steps=1"});
+    const Scene again = read_scene({"gas.toml", "[box]\nsize = 50\n[discs]\ncount = 300\npacking = 0.1\n[time]\nsteps = 1\naccuracy = 0.1\n", 0, false}, scene.overrides);
+    CHECK((again.rule == CollisionRule::all && !again.accuracy && again.steps == 9));
+}
+
+TEST_CASE("Discs that never meet have no error to choose by") {
+    const Communicator world = Communicator::world();
+    Scene scene = read_scene("[box]\nsize = 9\n[discs]\nradius = 1\nlist = [[2, 2, 0, 1], [5, 2, 0, 1]]\n[time]\nsteps = 5\naccuracy = 0.1\n", "two.toml");
+    CHECK_THROWS_AS(choose_setting(scene, scene.listed_discs, true, world, {}), InputError);
+}
