@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "carrom/core/errors.hpp"
 #include "carrom/scene/read_scene.hpp"
 #include "carrom/simulation/initial_state.hpp"
 #include "setting_choice.hpp"
