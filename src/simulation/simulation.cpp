@@ -13,7 +13,8 @@ namespace carrom {
 
 namespace {
 
-StoredState first_state(const Scene& scene, const std::vector<InputDisc>& inputs) {
+/// Uses the inputs up: they are gone before an engine needs memory.
+StoredState first_state(const Scene& scene, std::vector<InputDisc> inputs) {
     const auto k = static_cast<double>(scene.micro_steps);
     StoredState state;
     state.discs.reserve(inputs.size());
@@ -38,7 +39,7 @@ std::unique_ptr<Engine> engine_for(const Scene& scene, StoredState state, const 
 
 Simulation::Simulation(const Scene& scene, std::vector<InputDisc> discs, const Communicator& communicator,
                        const Tuning& tuning)
-    : Simulation(scene, first_state(scene, discs), communicator, tuning) {}
+    : Simulation(scene, first_state(scene, std::move(discs)), communicator, tuning) {}
 
 Simulation::Simulation(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning)
     : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)),
