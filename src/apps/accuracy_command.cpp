@@ -111,16 +111,23 @@ private:
 
 double cost_of(const RunSetting& setting) { return static_cast<double>(setting.micro_steps) + 4; }
 
+bool is_in_share(const AccuracyOptions& options, const std::vector<RunSetting>& settings, int number, std::size_t k) {
+    const std::size_t item = static_cast<std::size_t>(number) * settings.size() + k;
+    return item % static_cast<std::size_t>(options.n_shares) == static_cast<std::size_t>(options.share - 1);
+}
+
+/// Of this process's trials from that start; 0 if there are none.
+double cost_of_share(const AccuracyOptions& options, const std::vector<RunSetting>& settings, int number) {
+    double cost = 0;
+    for (std::size_t k = 0; k < settings.size(); ++k)
+        if (is_in_share(options, settings, number, k)) cost += cost_of(settings[k]);
+    return cost;
+}
+
 /// The trials of one start that are this process's share.
 void study_start(const Scene& scene, const std::vector<InputDisc>& discs, int number, const std::vector<RunSetting>& settings,
                  const AccuracyOptions& options, AccuracyTable& table, StudyProgress& progress, const Communicator& ranks) {
-    const auto is_mine = [&](std::size_t k) {
-        const std::size_t item = static_cast<std::size_t>(number) * settings.size() + k;
-        return item % static_cast<std::size_t>(options.n_shares) == static_cast<std::size_t>(options.share - 1);
-    };
-    bool has_work = false;
-    for (std::size_t k = 0; k < settings.size(); ++k) has_work = has_work || is_mine(k);
-    if (!has_work) return;
+    if (cost_of_share(options, settings, number) == 0) return;
     Tuning tuning;
     tuning.threads = options.threads;
     const TrialStart start = make_start(scene, discs, number, options, ranks, tuning);
@@ -129,7 +136,7 @@ void study_start(const Scene& scene, const std::vector<InputDisc>& discs, int nu
     length.early_step = std::clamp<std::int64_t>(std::llround(1 / start.frequency), 1, length.steps);
     std::optional<Trial> exact; // as far as the early step
     for (std::size_t k = 0; k < settings.size(); ++k) {
-        if (!is_mine(k)) continue;
+        if (!is_in_share(options, settings, number, k)) continue;
         const TrialKey key{number, settings[k], length};
         const bool is_new = !table.has(scene, start, key);
         if (is_new && !exact) exact = run_trial(scene, settings[0], start, {length.early_step, length.early_step, 1}, ranks, tuning);
@@ -153,8 +160,8 @@ ExitCode study(const AccuracyOptions& options, std::vector<Problem> problems, co
     AccuracyTable table(options.table);
     const std::vector<RunSetting> settings = settings_of(options);
     double cost = 0;
-    for (const RunSetting& setting : settings) cost += cost_of(setting);
-    StudyProgress progress(cost * options.n_starts / options.n_shares, !options.run.quiet);
+    for (int number = 0; number < options.n_starts; ++number) cost += cost_of_share(options, settings, number);
+    StudyProgress progress(cost, !options.run.quiet);
     for (int number = 0; number < options.n_starts; ++number)
         study_start(loaded.scene, loaded.discs, number, settings, options, table, progress, ranks);
     return ExitCode::success;

@@ -38,7 +38,7 @@ std::string plain(std::string text) {
 
 std::string key_of(const Scene& scene, const TrialStart& start, const TrialKey& key) {
     const RunSetting& s = key.setting;
-    return fmt::format("{},{},{},{},{:.6g},{},{},{},{},{},{},{},{},{},{}", plain(scene.name), scene.box_size, scene.radius,
+    return fmt::format("{},{},{},{},{:.6g},{},{},{},{},{},{},{},{},{},{}", plain(std::filesystem::path(scene.name).filename().string()), scene.box_size, scene.radius,
                        scene.n_discs, scene.packing(), scene.sync_every, key.start, to_string(start.hash),
                        s.rule == CollisionRule::one ? "one" : "all", s.micro_steps,
                        s.precision == Precision::single ? "single" : "double", s.arithmetic == Arithmetic::naive ? "naive" : "stable",

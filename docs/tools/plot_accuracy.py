@@ -1,0 +1,281 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Draws the tables of `carrom accuracy`: error against cost, error against nu dt, cost against N, and what formulas lose.
+
+Errors are taken start by start, against the exact rule from the same start; bars are one standard error over starts. Costs
+are medians over starts, with bars from quartile to quartile, in core-microseconds per disc and mean free time (that of the
+exact rule), which is physical time. A figure is drawn where the tables have what it needs. tables.md gets the numbers.
+"""
+import argparse
+import csv
+import math
+import pathlib
+from collections import defaultdict
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import matplotlib.ticker
+import numpy as np
+
+STYLES = [("o", "-"), ("s", "--"), ("^", "-."), ("D", ":"), ("v", "-"), ("P", "--")]
+GREYS = ["#000000", "#c05000", "#0060b0", "#777777", "#208040", "#a040a0"]
+FORMULAS = [("stable", "off"), ("naive", "off"), ("naive", "on")]
+NAMES = {("stable", "off"): "stable", ("naive", "off"): "naive", ("naive", "on"): "naive, contracted"}
+
+
+def read(paths):
+    rows = []
+    for path in paths:
+        with open(path, newline="") as table:
+            rows += list(csv.DictReader(table))
+    return rows
+
+
+def setting_of(row):
+    return row["rule"], int(row["micro_steps"]), row["precision"], row["arithmetic"], row["contraction"]
+
+
+class Point:
+    """A setting of one gas, over its starts."""
+
+    def __init__(self, rows, exact):
+        self.failures = sum(1 for row in rows if row["failure"])
+        good = [row for row in rows if not row["failure"] and (row["start_hash"], row["steps"]) in exact]
+        pairs = [(row, exact[row["start_hash"], row["steps"]]) for row in good]
+        self.n_starts = len(pairs)
+        self.rate = self.mean([float(a["collision_frequency"]) / float(b["collision_frequency"]) - 1 for a, b in pairs])
+        self.wall = self.mean([float(a["wall_pressure"]) / float(b["wall_pressure"]) - 1 for a, b in pairs])
+        self.pressure = self.mean([float(a["virial_pressure"]) / float(b["virial_pressure"]) - 1 for a, b in pairs])
+        self.identity = self.mean([float(b["wall_pressure"]) / float(b["virial_pressure"]) - 1 for _, b in pairs])
+        self.overlaps = self.mean([float(a["overlapping_pairs_per_disc"]) for a, _ in pairs])
+        self.deepest = max([float(a["deepest_overlap"]) for a, _ in pairs], default=0)
+        self.distance = self.mean([float(a["distance_rms"]) for a, _ in pairs])
+        self.nu_dt = self.mean([float(b["collision_frequency"]) / int(a["micro_steps"]) for a, b in pairs])[0]
+        costs = [1e6 * float(a["core_seconds"]) / (int(a["n_discs"]) * int(a["steps"]) * float(b["collision_frequency"])) for a, b in pairs]
+        self.costs = np.percentile(costs, [25, 50, 75]) if costs else np.full(3, np.nan)
+        self.cost = self.costs[1]
+
+    @staticmethod
+    def mean(values):
+        if not values:
+            return math.nan, math.nan
+        error = np.std(values, ddof=1) / math.sqrt(len(values)) if len(values) > 1 else math.nan
+        return float(np.mean(values)), float(error)
+
+
+def points_by_gas(rows):
+    """{(packing, N): {setting: Point}}"""
+    gases = defaultdict(lambda: defaultdict(list))
+    for row in rows:
+        gases[float(row["packing"]), int(row["n_discs"])][setting_of(row)].append(row)
+    result = {}
+    for gas, settings in sorted(gases.items()):
+        exact = {(r["start_hash"], r["steps"]): r for s, rs in settings.items() if s[0] == "all" for r in rs if not r["failure"]}
+        result[gas] = {setting: Point(rs, exact) for setting, rs in settings.items()}
+    return result
+
+
+def default_curve(points):
+    """Points of the rule "one" as runs use it, by K."""
+    return sorted((s[1], p) for s, p in points.items() if s[0] == "one" and s[2:] == ("double", "stable", "off"))
+
+
+def exact_point(points):
+    return next((p for s, p in points.items() if s[0] == "all"), None)
+
+
+def draw_errors(axes, xs, means, index, label):
+    """Errors with bars; hollow where an error is less than two standard errors: nothing but noise is known of it there."""
+    marker, line = STYLES[index]
+    values, errors = np.array([abs(m[0]) for m in means]), np.array([m[1] for m in means])
+    lower = np.minimum(errors, 0.9 * values)
+    axes.errorbar(xs, values, yerr=[lower, errors], marker=marker, linestyle=line, color=GREYS[index], label=label, capsize=2, linewidth=1.2,
+                  markersize=5, markerfacecolor="white")
+    clear = values > 2 * errors
+    axes.plot(np.array(xs)[clear], values[clear], marker=marker, linestyle="none", color=GREYS[index], markersize=5)
+
+
+def plain_ticks(axis):
+    axis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
+    axis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+
+
+def slope_one(axes, x, y, factor, rising):
+    xs = np.array([x, x * factor])
+    axes.plot(xs, y * (xs / x) ** (1 if rising else -1), color="0.6", linewidth=3, alpha=0.6, zorder=0, label="slope 1 (first order)" if rising else "slope -1 (first order)")
+
+
+def crossover(points):
+    """The error and K at which the rule "one" costs as much as the exact rule; None where it does so from K = 1 on."""
+    curve, exact = default_curve(points), exact_point(points)
+    if exact is None or not curve or curve[0][1].cost >= exact.cost:
+        return None
+    for (k1, a), (k2, b) in zip(curve, curve[1:]):
+        if b.cost >= exact.cost:
+            share = math.log(exact.cost / a.cost) / math.log(b.cost / a.cost)
+            return (math.exp((1 - share) * math.log(abs(a.rate[0])) + share * math.log(abs(b.rate[0]))), k1, k2)
+    return None
+
+
+def figure_error_against_cost(gases, path):
+    figure, panels = plt.subplots(2, 2, figsize=(10, 8.8), layout="constrained", sharey=True)
+    for axes, ((packing, n), points) in zip(panels.flat, gases.items()):
+        curve, exact = default_curve(points), exact_point(points)
+        costs = [p.cost for _, p in curve]
+        draw_errors(axes, costs, [p.rate for _, p in curve], 0, "collision rate")
+        draw_errors(axes, costs, [p.pressure for _, p in curve], 1, "pressure (virial)")
+        draw_errors(axes, costs, [p.wall for _, p in curve], 2, "pressure (walls)")
+        floor = np.median([p.rate[1] for _, p in curve])
+        axes.axhspan(1e-5, 2 * floor, color="0.9", zorder=-1, label="statistical floor (2 st. errors of the rate)")
+        middle = curve[len(curve) // 2][1]
+        slope_one(axes, middle.cost / 2, 9 * abs(middle.rate[0]), 16, rising=False)
+        axes.axvspan(exact.costs[0], exact.costs[2], color="0.75", zorder=-1)
+        axes.axvline(exact.cost, color="black", linewidth=1.6, linestyle=(0, (6, 2)), label="cost of the exact rule")
+        for k, p in curve:
+            if k in (1, 4, 16, 64, 256):
+                axes.annotate(f"K={k}", (p.cost, abs(p.rate[0])), xytext=(-5, 4) if k == 1 else (5, 5), textcoords="offset points",
+                              ha="right" if k == 1 else "left", fontsize=8, bbox={"pad": 0.5, "color": "white", "alpha": 0.7})
+        failed = [p.cost for _, p in curve if p.failures]
+        if failed:
+            axes.plot(failed, [1] * len(failed), "x", color="black", label="some starts failed")
+        axes.set(xscale="log", yscale="log", ylim=(3e-4, 1.2), title=f"packing {packing:.3g}, {n} discs")
+        axes.set_xlabel("cost: core-microseconds per disc and mean free time")
+        axes.set_xlim(0.62 * min(costs[0], exact.cost), 1.9 * costs[-1])
+        plain_ticks(axes.xaxis)
+        axes.grid(True, which="major", color="0.92")
+    for axes in panels[:, 0]:
+        axes.set_ylabel("relative error")
+    figure.legend(*panels.flat[0].get_legend_handles_labels(), fontsize=8.5, loc="outside lower center", ncols=3)
+    figure.savefig(path, dpi=120)
+    plt.close(figure)
+
+
+def figure_error_against_nu_dt(gases, path):
+    figure, panels = plt.subplots(1, 2, figsize=(10, 4.6), layout="constrained")
+    for index, ((packing, _), points) in enumerate(gases.items()):
+        curve = default_curve(points)
+        nu_dt = [p.nu_dt for _, p in curve]
+        draw_errors(panels[0], nu_dt, [p.rate for _, p in curve], index, f"packing {packing:.3g}")
+        panels[1].errorbar(nu_dt, [p.overlaps[0] for _, p in curve], yerr=[p.overlaps[1] for _, p in curve], marker=STYLES[index][0],
+                           linestyle=STYLES[index][1], color=GREYS[index], label=f"packing {packing:.3g}", capsize=2, linewidth=1.2, markersize=5)
+    slope_one(panels[0], 1e-3, 1.3e-3, 200, rising=True)
+    slope_one(panels[1], 1e-3, 2e-4, 200, rising=True)
+    panels[0].set(ylabel="collisions lost, of those of the exact rule", ylim=(1e-4, 1.2))
+    panels[1].set(ylabel="overlapping pairs that a disc is in")
+    for axes in panels:
+        axes.set(xscale="log", yscale="log", xlabel=r"$\nu\,dt$: collisions per disc and micro-step (exact rule)")
+        axes.grid(True, which="major", color="0.92")
+    panels[0].legend(fontsize=8)
+    figure.savefig(path, dpi=120)
+    plt.close(figure)
+
+
+def figure_cost_against_size(gases, path):
+    figure, panels = plt.subplots(1, 3, figsize=(13, 4.4), layout="constrained")
+    sizes = [n for _, n in gases]
+
+    def curve(setting, of):
+        return [of(points[setting]) if setting in points else math.nan for points in gases.values()]
+
+    for axes, precision in zip(panels, ("double", "single")):
+        for index, formula in enumerate(FORMULAS):
+            values = curve(("one", 1, precision, *formula), lambda p: p.cost) * np.array(sizes) * 1e-6
+            axes.plot(sizes, values, marker=STYLES[index][0], linestyle=STYLES[index][1], color=GREYS[index], label=f"{NAMES[formula]}", markersize=5)
+        exact = np.array([exact_point(points).cost for points in gases.values()]) * np.array(sizes) * 1e-6
+        axes.plot(sizes, exact, marker="x", linestyle=(0, (6, 2)), color="0.5", label="exact rule (double)")
+        axes.set(xscale="log", yscale="log", xlabel="number of discs N", title=f"{precision} precision, K = 1",
+                 ylabel="core-seconds per mean free time")
+        axes.grid(True, which="major", color="0.92")
+        axes.legend(fontsize=8)
+    index = 0
+    for precision in ("double", "single"):
+        for formula in FORMULAS:
+            if (precision, formula) == ("double", FORMULAS[0]):
+                continue
+            index += 1
+            ratios = np.array(curve(("one", 1, precision, *formula), lambda p: p.cost)) / np.array(curve(("one", 1, "double", "stable", "off"), lambda p: p.cost))
+            panels[2].plot(sizes, ratios, marker=STYLES[index][0], linestyle=STYLES[index][1], color=GREYS[index], label=f"{precision}, {NAMES[formula]}", markersize=5)
+    panels[2].axhline(1, color="black", linewidth=0.8)
+    panels[2].set(xscale="log", xlabel="number of discs N", ylabel="cost over that of double, stable", title="ratio, K = 1", ylim=(0.8, 1.3))
+    panels[2].grid(True, which="major", color="0.92")
+    panels[2].legend(fontsize=8, ncols=2)
+    figure.savefig(path, dpi=120)
+    plt.close(figure)
+
+
+def figure_formulas(gases, path):
+    (gas, points), = list(gases.items())[:1]
+    figure, axes = plt.subplots(figsize=(6.6, 4.6), layout="constrained")
+    base = {s[1]: p for s, p in points.items() if s[0] == "one" and s[2:] == ("double", "stable", "off")}
+    index = 0
+    for precision in ("double", "single"):
+        for formula in FORMULAS:
+            curve = sorted((s[1], p) for s, p in points.items() if s[0] == "one" and s[2:] == (precision, *formula))
+            shift = 1 + 0.02 * (index - 2.5)
+            axes.errorbar([shift * k for k, _ in curve], [100 * ((1 + p.rate[0]) / (1 + base[k].rate[0]) - 1) for k, p in curve],
+                          yerr=[100 * p.rate[1] / (1 + base[k].rate[0]) for k, p in curve], marker=STYLES[index][0],
+                          linestyle=STYLES[index][1], color=GREYS[index], label=f"{precision}, {NAMES[formula]}", capsize=2, markersize=5, linewidth=1.2)
+            index += 1
+    axes.set(xscale="log", xlabel="micro-steps K per step", ylabel="collision rate against double, stable (%)", title=f"packing {gas[0]:.3g}, {gas[1]} discs: long flights")
+    axes.set_xticks([k for k, _ in curve], [str(k) for k, _ in curve])
+    axes.minorticks_off()
+    axes.grid(True, color="0.92")
+    axes.legend(fontsize=8)
+    figure.savefig(path, dpi=120)
+    plt.close(figure)
+
+
+def percent(mean):
+    return f"{100 * mean[0]:.2f} ± {100 * mean[1]:.2f}"
+
+
+def tables(errors, sizes, thin):
+    lines = ["| packing | the exact rule costs (µs per disc and mean free time) | \"one\" at K = 1 | \"one\" costs as much at | and is wrong there by |", "|---|---|---|---|---|"]
+    for (packing, _), points in errors.items():
+        crossing, first = crossover(points), default_curve(points)[0][1]
+        lines.append(f"| {packing:.3g} | {exact_point(points).cost:.3f} | {first.cost:.3f}, wrong by {100 * abs(first.rate[0]):.0f} % | " +
+                     (f"K = {crossing[1]} to {crossing[2]} | {100 * crossing[0]:.2g} % |" if crossing else "every K | never cheaper |"))
+    lines += ["", "The exact rule's two pressures, which must agree: " + "; ".join(
+        f"packing {packing:.3g}: {percent(exact_point(points).identity)} %" for (packing, _), points in errors.items()) + "."]
+    lines += ["", "| packing | K | ν dt | rate, % | pressure (virial), % | pressure (walls), % | overlapping pairs per disc | deepest, σ | distance after one collision, σ | cost, µs |",
+              "|---|---|---|---|---|---|---|---|---|---|"]
+    for (packing, _), points in errors.items():
+        for k, p in default_curve(points) + [("exact", exact_point(points))]:
+            lines.append(f"| {packing:.3g} | {k} | {p.nu_dt:.4f} | {percent(p.rate)} | {percent(p.pressure)} | {percent(p.wall)} | {p.overlaps[0]:.4f} ± {p.overlaps[1]:.4f} | "
+                         f"{p.deepest:.2f} | {p.distance[0]:.3f} | {p.cost:.3f} |")
+    for title, gases in (("Cost against N, K = 1", sizes), ("Few small discs, long flights", thin)):
+        if not gases:
+            continue
+        lines += ["", title, "", "| N | precision | formula | K | rate, % | cost, µs | distance after one collision, σ |", "|---|---|---|---|---|---|---|"]
+        for (_, n), points in gases.items():
+            for s, p in sorted(points.items()):
+                if s[0] == "one" and (s[1] == 1 or gases is thin):
+                    lines.append(f"| {n} | {s[2]} | {NAMES[s[3:]]} | {s[1]} | {percent(p.rate)} | {p.cost:.3f} | {p.distance[0]:.2g} |")
+            p = exact_point(points)
+            lines.append(f"| {n} | double | exact rule | | | {p.cost:.3f} | |")
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("tables", nargs="+", type=pathlib.Path, help="error*.csv, size*.csv and thin*.csv of a study, or any one table")
+    parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("."), help="folder for the figures")
+    options = parser.parse_args()
+    named = {kind: points_by_gas(read([p for p in options.tables if p.name.startswith(kind)])) for kind in ("size", "thin")}
+    errors = points_by_gas(read([p for p in options.tables if not p.name.startswith(("size", "thin"))]))
+    options.output.mkdir(parents=True, exist_ok=True)
+    if errors:
+        figure_error_against_cost(errors, options.output / "error_against_cost.png")
+        figure_error_against_nu_dt(errors, options.output / "error_against_nu_dt.png")
+    if named["size"]:
+        figure_cost_against_size(named["size"], options.output / "cost_against_size.png")
+    if named["thin"]:
+        figure_formulas(named["thin"], options.output / "formulas.png")
+    (options.output / "tables.md").write_text(tables(errors, named["size"], named["thin"]))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Repeats the study of docs/accuracy.md: three tables of CSV in a folder, then the figures. Goes on where it was stopped.
+#
+#   job_scripts/accuracy_study.sh [FOLDER]           all of it on one core; default folder build/accuracy
+#   PYTHON=build/pictures/bin/python job_scripts/accuracy_study.sh   with the environment of docs/tools/README.md
+#   SHARE=2/8 job_scripts/accuracy_study.sh FOLDER   the second of eight shares, tables named after it, no figures
+#
+# Lengths are in disc diameters. At K = 1 a disc collides with others once in four steps: the speed is set so, from
+# nu sigma = (4 / sqrt(pi)) (Z - 1) sqrt(kT) with the compressibility factor Z (the rates of the tables are measured ones).
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+carrom=${CARROM:-$here/build/carrom}
+folder=${1:-$here/build/accuracy}
+share=${SHARE:-1/1}
+suffix=
+[ "$share" = 1/1 ] || suffix=-${share/\//-of-}
+mkdir -p "$folder"
+
+# study TABLE N PACKING Z OPTION...
+study() {
+    local table=$folder/$1$suffix.csv n=$2 packing=$3 z=$4
+    shift 4
+    local box speed
+    box=$(awk -v n="$n" -v p="$packing" 'BEGIN { printf "%.10g", sqrt(n * atan2(0, -1) / 4 / p) }')
+    speed=$(awk -v z="$z" 'BEGIN { printf "%.6g", sqrt(2) * 0.25 / (4 / sqrt(atan2(0, -1)) * (z - 1)) }')
+    echo "$(basename "$table"): $n discs, packing $packing" >&2
+    "$carrom" accuracy "$here/docs/accuracy/gas.toml" --set box.size="$box" --set discs.count="$n" --set discs.speed="$speed" \
+        --share "$share" --output "$table" "$@"
+}
+
+# Error against cost and against nu dt.
+study error 1024 0.1 1.236 --arithmetic default --starts 8 --collisions 100
+study error 1024 0.3 2.063 --arithmetic default --starts 8 --collisions 100
+study error 1024 0.5 4.10 --arithmetic default --starts 8 --collisions 100
+study error 1024 0.7 10.31 --arithmetic default --starts 8 --collisions 100
+# Cost against N, in both precisions and with each formula.
+for n in 256 1024 4096 16384 65536; do
+    study size "$n" 0.3 2.063 --micro-steps 4 --starts 5 --collisions 20 --approach 10
+done
+# Few small discs and long flights, as in the ancestor's own scenes: here formulas lose collisions.
+study thin 1024 0.0000785 1.000157 --micro-steps 16 --starts 8 --collisions 20 --approach 10
+
+[ "$share" = 1/1 ] || exit 0
+"${PYTHON:-python3}" "$here/docs/tools/plot_accuracy.py" "$folder"/error*.csv "$folder"/size*.csv "$folder"/thin*.csv --output "$folder"

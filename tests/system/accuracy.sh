@@ -1,0 +1,75 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# `carrom accuracy` writes a line for each trial, goes on where it was stopped and can be shared out; `--accuracy` settles
+# on a setting that a restart keeps.
+source "$(dirname "$0")/common.sh"
+cat >small.toml <<'END'
+[box]
+size = 46
+[discs]
+count = 200
+packing = 0.3
+speed = 0.2
+[time]
+steps = 20
+END
+study=(accuracy small.toml --starts 2 --micro-steps 2 --collisions 10 --approach 5 --quiet)
+
+# All but the times.
+bits() { cut -d, -f1-29 "$1" | sort; }
+
+run 1 "${study[@]}" --output whole.csv
+expect_code 0 'a study'
+expect_silence 'a study'
+[ "$(wc -l <whole.csv)" -eq $((1 + 2 * (1 + 2 * 6))) ] || complain "the table has $(wc -l <whole.csv) lines"
+[ "$(cut -d, -f9-13 whole.csv | sort | uniq -c | awk '$1 == 2' | wc -l)" -eq 13 ] || complain 'not every setting was run from both starts'
+[ "$(awk -F, 'NR > 1 && ($16 <= 0 || $30 <= 0)' whole.csv | wc -l)" -eq 0 ] || complain 'a trial without collisions or cost'
+
+mkdir elsewhere
+cp small.toml elsewhere
+cp whole.csv moved.csv
+run 1 accuracy elsewhere/small.toml "${study[@]:2}" --output moved.csv
+expect_same moved.csv whole.csv 'the folder of a scene is no part of its name'
+
+head -c 4000 whole.csv >stopped.csv
+run 1 "${study[@]}" --output stopped.csv
+expect_code 0 'a study that goes on'
+cmp <(bits whole.csv) <(bits stopped.csv) || complain 'a study that goes on ends in another table'
+cp stopped.csv finished.csv
+run 1 "${study[@]}" --output stopped.csv
+expect_same stopped.csv finished.csv 'a finished study was run again'
+
+for k in 1 2 3; do
+    run 1 "${study[@]}" --share "$k/3" --output "share$k.csv"
+    expect_code 0 "share $k of 3"
+done
+cmp <(bits whole.csv) <((head -1 share1.csv; tail -qn +2 share?.csv) | cut -d, -f1-29 | sort) || complain 'three shares are not the whole'
+
+run 2 "${study[@]}" --output two.csv
+expect_code 2 'a study on two ranks'
+expect_told 'runs on one rank' 'a study on two ranks'
+[ ! -e two.csv ] || complain 'a refused study wrote a table'
+run 1 accuracy small.toml --starts 0 --share 4/3 --arithmetic some --output none.csv
+expect_code 2 'wrong options'
+for option in --starts --share --arithmetic; do expect_told "$option" 'all wrong options at once'; done
+run 1 "${study[@]}" --output small.toml
+expect_code 2 'a table over another file'
+
+for ranks in 1 2; do
+    run "$ranks" run small.toml --accuracy 1e-6 --set output.checkpoint.folder="kept$ranks"
+    expect_code 0 "a run with an accuracy on $ranks ranks"
+    expect_told 'collisions = "all"' 'what was chosen'
+done
+run 1 run small.toml --accuracy 1e-6 --steps 30 --set output.checkpoint.folder=kept1 --restart latest
+expect_code 0 'going on from a run with an accuracy'
+expect_told 'going on with the checkpoint' 'a restart does not choose again'
+run 1 run --restart kept2 --steps 30 --report report.json --quiet
+expect_code 0 'going on without the scene'
+[ "$(json_value report.json rule)" = all ] || complain 'the choice is not in the checkpoint'
+
+for ranks in 1 3; do
+    run "$ranks" run small.toml --set time.precision=single --set time.arithmetic=naive --set time.contraction=true --report report.json --quiet
+    expect_code 0 "single precision on $ranks ranks"
+    [ "$(json_value report.json precision)" = single ] || complain 'the report does not name the precision'
+done
+finish
