@@ -12,6 +12,7 @@
 #include "carrom/io/frame_file.hpp"
 #include "carrom/parallel/agreement.hpp"
 #include "data_output.hpp"
+#include "destinations.hpp"
 #include "disc_lines.hpp"
 #include "restart.hpp"
 #include "run_options.hpp"
@@ -190,8 +191,11 @@ void append_header(fmt::memory_buffer& out, Format format, const FileSummary& su
 void append_row(fmt::memory_buffer& out, Format format, std::int64_t step, std::uint64_t id, const FrameRow& row, bool with_counters) {
     const auto end = std::back_inserter(out);
     if (format == Format::xyz) fmt::format_to(end, "D {} {} 0 {} {} 0 {}\n", row.x, row.y, row.vx, row.vy, id);
-    if (format == Format::csv)
-        fmt::format_to(end, "{},{},{},{},{},{},{},{}\n", step, id, row.x, row.y, row.vx, row.vy, row.pair_collisions, row.wall_collisions);
+    if (format == Format::csv) { // counters that the file does not have stay empty
+        fmt::format_to(end, "{},{},{},{},{},{},", step, id, row.x, row.y, row.vx, row.vy);
+        if (with_counters) fmt::format_to(end, "{},{}\n", row.pair_collisions, row.wall_collisions);
+        else fmt::format_to(end, ",\n");
+    }
     if (format == Format::text)
         append_line(out, step, {id, row.x, row.y, row.vx, row.vy, row.pair_collisions, row.wall_collisions}, RunOptions::round_trip_digits,
                     with_counters);
@@ -229,6 +233,10 @@ ExitCode convert(const std::string& path, Format format, const std::string& targ
     check_damage(path, ranks);
     std::string failure;
     let_root(ranks, [&] {
+        if (!target.empty()) {
+            std::vector<Problem> problems = problems_with({{"--output", target, true}}, {{"the file to convert", path}});
+            if (!problems.empty()) throw InputError(std::move(problems));
+        }
         const FrameFile file(path);
         const bool is_log = file.summary().kind == FileKind::collisions;
         if (is_log && format != Format::csv) refuse(path, "is a log of collisions; it can be converted to csv only");

@@ -14,6 +14,7 @@
 #include "carrom/scene/read_scene.hpp"
 #include "carrom/simulation/initial_state.hpp"
 #include "data_output.hpp"
+#include "destinations.hpp"
 #include "report_file.hpp"
 #include "restart.hpp"
 
@@ -50,23 +51,47 @@ void broadcast(SceneText& text, const Communicator& ranks) {
     text.discs_follow = discs_follow == 1;
 }
 
-bool is_same_file(const std::string& a, const std::string& b) {
-    std::error_code ignored; // a file that is not there is no other one
-    return std::filesystem::equivalent(a, b, ignored);
+/// What the options alone name: a run must not end in a file that cannot be written, nor empty its own input.
+std::vector<NamedFile> named_by(const RunOptions& options) {
+    std::vector<NamedFile> destinations;
+    if (!options.output.empty()) destinations.push_back({"--output", options.output, true});
+    if (!options.report.empty()) destinations.push_back({"--report", options.report});
+    return destinations;
 }
 
-/// A run must not end in a file that cannot be written, nor begin by emptying its own input.
-void check_destination(const char* option, const std::string& path, std::string obstacle, const RunOptions& options,
-                       Problems& problems) {
-    if (is_same_file(path, options.input)) obstacle = "is the input itself";
-    if (!obstacle.empty()) problems.push_back({fmt::format("{} {}", option, path), 0, obstacle});
+std::vector<NamedFile> read_by(const RunOptions& options) {
+    std::vector<NamedFile> sources;
+    if (!options.input.empty() && options.input != "-") sources.push_back({"the input", options.input});
+    if (!options.restart.empty()) sources.push_back({"the checkpoint", options.restart});
+    return sources;
 }
 
 void check_destinations(const RunOptions& options, Problems& problems) {
-    if (!options.output.empty())
-        check_destination("--output", options.output, obstacle_to_opening(options.output), options, problems);
-    if (!options.report.empty())
-        check_destination("--report", options.report, obstacle_to_writing(options.report), options, problems);
+    const auto check = [&problems](const char* option, const std::string& path, const std::string& obstacle) {
+        if (!path.empty() && !obstacle.empty()) problems.push_back({fmt::format("{} {}", option, path), 0, obstacle});
+    };
+    if (!options.output.empty()) check("--output", options.output, obstacle_to_opening(options.output));
+    Problems found = problems_with(named_by(options), read_by(options));
+    if (!options.report.empty() && found.empty()) check("--report", options.report, obstacle_to_writing(options.report));
+    problems.insert(problems.end(), found.begin(), found.end());
+}
+
+/// The scene's own files beside those of the options: what is read must survive. **Collective.**
+void check_scene_destinations(const RunOptions& options, const Scene& scene, const Communicator& ranks) {
+    Problems problems;
+    if (ranks.is_root()) {
+        std::vector<NamedFile> sources = read_by(options), destinations = named_by(options);
+        if (!scene.discs_file.empty()) sources.push_back({"the file of discs", discs_path(scene)});
+        if (scene.trajectory) {
+            const std::string& file = scene.trajectory->file;
+            destinations.push_back({"output.trajectory.file", file});
+            destinations.push_back({"the sidecar of output.trajectory.file",
+                                    std::filesystem::path(file).replace_extension(".xdmf").string()});
+        }
+        if (scene.collisions) destinations.push_back({"output.collisions.file", scene.collisions->file});
+        problems = problems_with(destinations, sources);
+    }
+    agree_on_problems(ranks, problems);
 }
 
 /// The scene; `stream`, on rank 0, is left at the first line of discs. **Collective.**
@@ -140,6 +165,7 @@ Loaded load(const RunOptions& options, const Problems& problems, StopSignals& si
     if (!options.restart.empty()) load_restart(options, loaded, ranks);
     const Scene& scene = loaded.scene;
     if (!scene.checkpoint) signals.let_go();
+    check_scene_destinations(options, scene, ranks);
     check_outputs(scene, ranks);
     if (!loaded.stored) loaded.discs = load_discs(scene, stream, ranks);
     if (ranks.is_root())

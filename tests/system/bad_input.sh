@@ -105,4 +105,15 @@ expect_told '--report nowhere/report.json: cannot be written' 'a report in a fol
 run "$ranks" run good.toml --output good.toml
 expect_code 2 'output into the input'
 expect_told '--output good.toml: is the input itself' 'output into the input'
+cp good.toml kept.toml
+for what in output.trajectory.file output.collisions.file; do
+    refuse "a recording into the input" "$what good.toml: is the input itself" run good.toml --set "$what=good.toml"
+done
+refuse 'a recording and the lines in one file' 'is the same file as --output' \
+    run good.toml --set output.collisions.file=./lines.txt
+refuse 'a recording in the place of a sidecar' 'the sidecar of output.trajectory.file' \
+    run good.toml --set output.trajectory.file=a.h5 --set output.collisions.file=./a.xdmf
+mkfifo pipe
+refuse 'a recording into a pipe' 'output.trajectory.file pipe: is not a plain file' run good.toml --set output.trajectory.file=pipe
+cmp -s good.toml kept.toml || complain 'an input was written to'
 finish
