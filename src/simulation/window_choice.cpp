@@ -15,7 +15,7 @@ struct Costs {
     double hit;         ///< of predicting a disc again that was hit inside the window
     double hit_partner; ///< and of each disc within a square of one reach
 };
-constexpr Costs in_cache{30, 1.3, 85, 5.4}, in_memory{60, 1.3, 370, 13};
+constexpr Costs in_cache{30, 1.3, 85, 3}, in_memory{60, 1.3, 370, 7};
 constexpr double discs_in_cache = 200'000; // a rank's, in its share of the last cache
 
 double cost_per_micro_step(const WindowNeeds& needs, double duration) {
