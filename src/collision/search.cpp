@@ -44,7 +44,7 @@ template <class Law> struct Search<Law>::Bounds {
     float touching_squared;
     float x_low, x_high, y_low, y_high;
 
-    Bounds(const Law& law, const CellGrid& grid) : touching_squared(grid.touching_squared(law.diameter())) {
+    Bounds(const Law& law, const CellGrid& grid) : touching_squared(grid.touching_squared(law.search_diameter())) {
         const GridFrame& frame = grid.frame();
         const double margin = law.radius() * 1e-6 / frame.cell_width + 0x1p-18 * (std::max(frame.n_columns, frame.n_rows) + 8);
         const auto cells = [&](double length, double origin) { return (length - origin) / frame.cell_width; };
@@ -106,7 +106,7 @@ void Search<Law>::predict_again(const Population& population, const CellGrid& gr
                                 double reach, std::span<const LocalIndex> hit, std::span<const WindowState> states) {
     const Bounds bounds(law_, grid);
     // Two discs that touch are a diameter apart, and the other one is half a reach less a radius from its cell.
-    const float half_reach = grid.cells_of(reach / 2 + law_.radius());
+    const float half_reach = grid.cells_of(reach / 2 + law_.radius() + law_.slack());
     const auto begin = static_cast<float>((from - window.begin()) / window.duration());
     const std::span<const LocalIndex> order = grid.order();
     const auto n_batches = static_cast<std::int64_t>((hit.size() + hits_per_batch - 1) / hits_per_batch);

@@ -12,10 +12,9 @@ namespace carrom {
 
 namespace {
 
-/// So many collisions of a block's discs within `one_time` (in micro-steps) are without end, and some for each disc more.
+/// So many collisions of a block's discs within a law's `one_time` are without end, and some for each disc more.
 constexpr std::uint64_t endless_count = 100000;
 constexpr std::uint64_t endless_count_per_disc = 1000;
-constexpr double one_time = 0x1p-40;
 
 /// What has happened to a disc in this window.
 struct Past {
@@ -165,16 +164,16 @@ void BlockReplay<Law>::Scratch::gather(const ReplayGround& of_rank, const CellBl
     cells_per_length = 1 / frame.cell_width;
     cells_per_speed = window.duration() / frame.cell_width;
     windows_per_time = 1 / window.duration();
-    const double sigma = law.diameter() * cells_per_length;
+    const double sigma = law.search_diameter() * cells_per_length;
     const double extent = std::max(cells.end_column - cells.first_column, cells.end_row - cells.first_row) + 8.0;
-    const double reach = exact_reach(window, law.diameter(), law.box_size()) * cells_per_length;
+    const double reach = exact_reach(window, law.search_diameter(), law.box_size()) * cells_per_length;
     // Positions carry an error of 2^-23 of the block's size; the rounding of the filter's other terms acts like a longer
     // diameter by 2^-20 d^2 / diameter, d being the largest distance that is looked at.
     const double looked_at = 3 * reach + 3;
     const double touching = sigma * (1 + 0x1p-18) + 0x1p-20 * extent + 0x1p-20 * looked_at * looked_at / sigma;
     touching_squared = static_cast<float>(touching * touching);
     farthest = static_cast<float>((reach + sigma) / 2 + 0x1p-18 * extent + 1e-6);
-    const double inner = law.radius() + 1e-3 * frame.cell_width + 0x1p-18 * extent * frame.cell_width;
+    const double inner = law.radius() + law.slack() + 1e-3 * frame.cell_width + 0x1p-18 * extent * frame.cell_width;
     x_inner_low = static_cast<float>((inner - x_corner) * cells_per_length);
     y_inner_low = static_cast<float>((inner - y_corner) * cells_per_length);
     x_inner_high = static_cast<float>((law.box_size() - inner - x_corner) * cells_per_length);
@@ -273,7 +272,7 @@ void BlockReplay<Law>::Scratch::predict_pairs(std::uint32_t slot, std::uint32_t 
 }
 
 template <class Law> void BlockReplay<Law>::Scratch::predict_pair(std::uint32_t a, std::uint32_t b) {
-    const PairContact<double> contact = law.exact_contact(discs[a], discs[b]);
+    const auto contact = law.exact_contact(discs[a], discs[b]);
     if (!contact.exists()) return;
     const double time = contact.base + contact.delay;
     // Two discs that have just collided with each other do not collide again at the same time: what rounding has left of
@@ -313,7 +312,7 @@ template <class Law> void BlockReplay<Law>::Scratch::push(double time, std::uint
 }
 
 template <class Law> void BlockReplay<Law>::Scratch::happen(const Event& event) {
-    if (event.time > crowd_begin + one_time) {
+    if (event.time > crowd_begin + Law::one_time) {
         crowd_begin = event.time;
         crowd = 0;
     }
@@ -415,5 +414,10 @@ template <class Law> std::size_t BlockReplay<Law>::bytes() const {
 }
 
 template class BlockReplay<PlainLaw>;
+template class BlockReplay<NaiveLaw>;
+template class BlockReplay<ContractedLaw>;
+template class BlockReplay<SingleLaw>;
+template class BlockReplay<SingleNaiveLaw>;
+template class BlockReplay<SingleContractedLaw>;
 
 } // namespace carrom

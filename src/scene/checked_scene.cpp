@@ -255,7 +255,7 @@ void fill_streams(const Check& check) {
     }
 }
 
-/// The knobs of the accuracy study; the rule "all" has none.
+/// The knobs of the accuracy study.
 void fill_arithmetic(const Check& check) {
     static constexpr Choices<Precision, 2> precisions = {{{"double", Precision::double_}, {"single", Precision::single}}};
     static constexpr Choices<Arithmetic, 2> arithmetics = {{{"stable", Arithmetic::stable}, {"naive", Arithmetic::naive}}};
@@ -266,10 +266,6 @@ void fill_arithmetic(const Check& check) {
     if (contraction) scene.contraction = std::get<bool>(contraction->value);
     if (contraction && scene.arithmetic == Arithmetic::stable)
         check.refuse(*contraction, "'time.contraction' has no meaning without time.arithmetic = \"naive\"");
-    if (scene.rule == CollisionRule::all && scene.precision == Precision::single)
-        check.refuse(*check.settings.find("time.precision"), "collisions = \"all\" needs precision = \"double\": no collision may be lost");
-    if (scene.rule == CollisionRule::all && scene.arithmetic == Arithmetic::naive)
-        check.refuse(*check.settings.find("time.arithmetic"), "collisions = \"all\" needs arithmetic = \"stable\": no collision may be lost");
     if (scene.precision == Precision::single && scene.sync_every > longest_single_sync)
         check.refuse(*check.settings.find("time.precision"),
                      fmt::format("precision = \"single\" counts micro-steps up to {} between syncs; 'time.sync_every' is {}",

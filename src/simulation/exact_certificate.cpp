@@ -11,7 +11,7 @@
 namespace carrom {
 
 /// Marks the blocks that have to be replayed, on all ranks.
-ExactEngine::Verdict ExactEngine::certify() {
+template <class Law> typename ExactEngine<Law>::Verdict ExactEngine<Law>::certify() {
     const PhaseClock::Scope scope(clock_, Phase::resolve);
     double fastest = 0;
     for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.largest_speed);
@@ -36,7 +36,7 @@ ExactEngine::Verdict ExactEngine::certify() {
 }
 
 /// Marks both blocks wherever a ring disc has another history than its owner has seen; `foreign` are those of other ranks.
-void ExactEngine::compare_histories(std::vector<LocalIndex>& foreign) {
+template <class Law> void ExactEngine<Law>::compare_histories(std::vector<LocalIndex>& foreign) {
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
 #pragma omp parallel num_threads(tuning_.threads)
     {
@@ -62,7 +62,7 @@ void ExactEngine::compare_histories(std::vector<LocalIndex>& foreign) {
     }
 }
 
-void ExactEngine::mark_owner(LocalIndex own_index) {
+template <class Law> void ExactEngine<Law>::mark_owner(LocalIndex own_index) {
     const int column = std::clamp(grid_.column_of(own_index), first_own_column_, end_own_column_ - 1) - first_own_column_;
     const int k = column / block_columns_ * n_block_rows_ + grid_.row_of(own_index) / block_rows_;
     std::atomic_ref(blocks_[static_cast<std::size_t>(k)].is_marked).store(1, std::memory_order_relaxed);
@@ -70,7 +70,7 @@ void ExactEngine::mark_owner(LocalIndex own_index) {
 
 /// Doubles the halo of all marked blocks that do not see the whole box yet. True if more halo has to be fetched for that;
 /// all blocks are to be replayed then. **Collective.**
-bool ExactEngine::widen_marked() {
+template <class Law> bool ExactEngine<Law>::widen_marked() {
     const int n_reach = grid_.frame().n_reach;
     int deepest = halo_depth_;
     std::uint64_t n_widened = 0;
@@ -93,18 +93,18 @@ bool ExactEngine::widen_marked() {
     return true;
 }
 
-bool ExactEngine::sees_all(const Block& block) const {
+template <class Law> bool ExactEngine<Law>::sees_all(const Block& block) const {
     const GridFrame& frame = grid_.frame();
     const int halo = block.halo * frame.n_reach;
     const bool has_all_cells = block.cells.first_column <= halo && block.cells.end_column + halo >= frame.n_columns &&
                                block.cells.first_row <= halo && block.cells.end_row + halo >= frame.n_rows;
-    const double reach = exact_reach(window_, law_.diameter(), law_.box_size());
+    const double reach = exact_reach(window_, law_.search_diameter(), law_.box_size());
     const bool rank_has_all = communicator_.size() == 1 || halo_depth_ * reach > law_.box_size();
     return has_all_cells && rank_has_all;
 }
 
 /// Ends the run on all ranks if a block that has seen the whole box has found no end. **Collective.**
-void ExactEngine::fail_if_endless() const {
+template <class Law> void ExactEngine<Law>::fail_if_endless() const {
     std::string text;
     for (const Block& block : blocks_) {
         const BlockOutcome& outcome = block.outcome;
@@ -113,13 +113,22 @@ void ExactEngine::fail_if_endless() const {
         const std::string partner = outcome.endless_partner == outcome.endless_disc
                                         ? "a wall"
                                         : fmt::format("disc {}", outcome.endless_partner);
-        text = fmt::format("disc {} collides without end at step {:.9g}, at last with {}: it has no room to move",
+        text = fmt::format("disc {} collides without end at step {:.9g}, at last with {}: {}",
                            outcome.endless_disc,
                            (static_cast<double>(micro_step) + outcome.endless_time) / static_cast<double>(micro_steps_),
-                           partner);
+                           partner,
+                           Law::is_loose ? "it has no room to move, or the scene's precision and arithmetic do not tell when it moves"
+                                         : "it has no room to move");
         break;
     }
     agree(communicator_, text.empty(), text);
 }
+
+template class ExactEngine<PlainLaw>;
+template class ExactEngine<NaiveLaw>;
+template class ExactEngine<ContractedLaw>;
+template class ExactEngine<SingleLaw>;
+template class ExactEngine<SingleNaiveLaw>;
+template class ExactEngine<SingleContractedLaw>;
 
 } // namespace carrom

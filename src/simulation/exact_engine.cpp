@@ -11,6 +11,7 @@
 
 #include "carrom/parallel/agreement.hpp"
 #include "exact_overlaps.hpp"
+#include "law_of_scene.hpp"
 #include "measurements.hpp"
 #include "window_choice.hpp"
 
@@ -36,21 +37,26 @@ int cells_along(double length, double width) { return static_cast<int>(std::clam
 
 } // namespace
 
-ExactEngine::ExactEngine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning,
-                         const ExactTuning& exact)
+template <class Law>
+ExactEngine<Law>::ExactEngine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning,
+                              const ExactTuning& exact)
     : communicator_(communicator), tuning_(tuning), exact_(exact), law_(scene.box_size, scene.radius),
       micro_steps_(scene.micro_steps), sync_every_(scene.sync_every),
       discs_(communicator, scene.box_size, std::move(state.discs)), n_micro_done_(state.micro_steps_done),
       time_(static_cast<double>(n_micro_done_ % sync_every_)) {
     for (int thread = 0; thread < tuning_.threads; ++thread) replays_.emplace_back(law_);
+    if constexpr (!Law::is_double) {
+        for (Disc& disc : discs_.all()) Law::round(disc);
+    }
     for (const Disc& disc : own()) largest_speed_ = std::max(largest_speed_, speed_of(disc));
     travel_speed_ = communicator_.max(largest_speed_);
     discs_.rebalance(time_, tuning_.rebalance_above);
     settle_now();
-    refuse_overlaps(discs_.population(), grid_, time_, law_, communicator_, scene.name);
+    if (Law::parts_overlaps || n_micro_done_ == 0) // else the run itself may have come to them
+        refuse_overlaps(discs_.population(), grid_, time_, {law_.diameter(), law_.tolerance()}, communicator_, scene.name);
 }
 
-void ExactEngine::advance_towards(std::int64_t last_step) {
+template <class Law> void ExactEngine<Law>::advance_towards(std::int64_t last_step) {
     const std::int64_t last_sync = n_micro_done_ / sync_every_ * sync_every_;
     const std::int64_t good_stop = (last_sync + sync_every_ + micro_steps_ - 1) / micro_steps_ * micro_steps_;
     const std::int64_t stop = std::min(last_step * micro_steps_, good_stop);
@@ -65,7 +71,7 @@ void ExactEngine::advance_towards(std::int64_t last_step) {
 }
 
 /// One window, to `target` at most.
-void ExactEngine::run_window(double target) {
+template <class Law> void ExactEngine<Law>::run_window(double target) {
     if (n_windows_ % windows_per_reorder == 0 && n_windows_ > 0) {
         const PhaseClock::Scope scope(clock_, Phase::settle);
         grid_.reorder(discs_.all(), discs_.n_own(), tuning_.threads);
@@ -89,21 +95,21 @@ void ExactEngine::run_window(double target) {
     ++counts_.windows;
 }
 
-void ExactEngine::migrate() {
+template <class Law> void ExactEngine<Law>::migrate() {
     const PhaseClock::Scope scope(clock_, Phase::exchange);
-    const double farthest = travel_speed_ * (time_ - settled_time_) * (1 + 1e-6) + 64 * 0x1p-53 * law_.box_size();
+    const double farthest = travel_speed_ * (time_ - settled_time_) * (1 + 1e-6) + 64 * 0x1p-53 * law_.box_size() + law_.slack();
     discs_.migrate(time_, farthest, nullptr);
     settled_time_ = time_;
 }
 
-ReplayWindow ExactEngine::choose(double target) {
+template <class Law> ReplayWindow ExactEngine<Law>::choose(double target) {
     ReplayWindow window;
     window.begin = time_;
     window.holds_begin = time_ == 0;
     // Largest speeds come and go: what was needed lately may be needed again.
     window.speed_bound = std::max(communicator_.max(largest_speed_) * exact_.speed_allowance, 0.99 * travel_speed_);
     const auto n = static_cast<double>(discs_.n_total());
-    ExactNeeds needs{law_.box_size(), law_.radius(), n, window.speed_bound, 0, time_, exact_.halo, false};
+    ExactNeeds needs{law_.box_size(), law_.radius() + law_.slack(), n, window.speed_bound, 0, time_, exact_.halo, false};
     is_one_block_ = communicator_.size() == 1 && tuning_.threads == 1 && n <= most_discs_alone;
     needs.is_one_block = is_one_block_;
     if (n_windows_ > 0) collision_rate_ = static_cast<double>(communicator_.sum(n_events_)) / (n * last_duration_);
@@ -118,7 +124,7 @@ ReplayWindow ExactEngine::choose(double target) {
 }
 
 /// The same reach at a higher speed: a shorter window.
-void ExactEngine::shorten() {
+template <class Law> void ExactEngine<Law>::shorten() {
     double fastest = 0;
     for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.largest_speed);
     const double bound = communicator_.max(fastest) * exact_.speed_allowance;
@@ -128,9 +134,9 @@ void ExactEngine::shorten() {
 }
 
 /// Brings the halo to every strip, all discs into cells and the own cells into blocks, all of which are to be replayed.
-void ExactEngine::settle() {
+template <class Law> void ExactEngine<Law>::settle() {
     const PhaseClock::Scope scope(clock_, Phase::settle);
-    const double reach = exact_reach(window_, law_.diameter(), law_.box_size());
+    const double reach = exact_reach(window_, law_.search_diameter(), law_.box_size());
     {
         const PhaseClock::Scope exchange(clock_, Phase::exchange);
         discs_.forget_halo();
@@ -158,7 +164,7 @@ void ExactEngine::settle() {
 }
 
 /// Cuts the own cells into blocks of about equal size. A block that exists already keeps its halo.
-void ExactEngine::make_blocks() {
+template <class Law> void ExactEngine<Law>::make_blocks() {
     const GridFrame& frame = grid_.frame();
     const int n_columns = end_own_column_ - first_own_column_;
     const double width = n_columns * frame.cell_width, height = frame.n_rows * frame.cell_width;
@@ -189,7 +195,7 @@ void ExactEngine::make_blocks() {
     }
 }
 
-void ExactEngine::replay() {
+template <class Law> void ExactEngine<Law>::replay() {
     const PhaseClock::Scope scope(clock_, Phase::search);
     const ReplayGround ground{discs_.all(), discs_.n_own(), &grid_, first_own_column_, end_own_column_, window_, log_ != nullptr};
     const int n_reach = grid_.frame().n_reach;
@@ -209,7 +215,7 @@ void ExactEngine::replay() {
     }
 }
 
-void ExactEngine::commit() {
+template <class Law> void ExactEngine<Law>::commit() {
     const PhaseClock::Scope scope(clock_, Phase::move);
     Disc* const discs = discs_.all().data();
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
@@ -229,7 +235,7 @@ void ExactEngine::commit() {
     last_duration_ = window_.duration();
 }
 
-void ExactEngine::log_events(const BlockOutcome& outcome) {
+template <class Law> void ExactEngine<Law>::log_events(const BlockOutcome& outcome) {
     const std::int64_t last_sync = n_micro_done_ / sync_every_ * sync_every_;
     for (const LoggedEvent& event : outcome.log) {
         log_->push_back({last_sync, event.time, event.generation, event.p, event.is_wall ? Collision::wall : event.q,
@@ -237,7 +243,7 @@ void ExactEngine::log_events(const BlockOutcome& outcome) {
     }
 }
 
-void ExactEngine::sync() {
+template <class Law> void ExactEngine<Law>::sync() {
     const PhaseClock::Scope scope(clock_, Phase::sync);
     discs_.forget_halo();
     std::vector<Disc>& discs = discs_.all();
@@ -256,9 +262,9 @@ void ExactEngine::sync() {
     }
 }
 
-void ExactEngine::settle_now() {
+template <class Law> void ExactEngine<Law>::settle_now() {
     migrate();
-    const double reach = reach_of({law_.box_size(), law_.radius(), static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
+    const double reach = reach_of({law_.box_size(), law_.radius() + law_.slack(), static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
     discs_.fetch_halo(time_, reach, nullptr);
     const double x_low = std::max(0.0, discs_.strips().low(communicator_.rank()) - reach);
     const double x_high = std::min(law_.box_size(), discs_.strips().high(communicator_.rank()) + reach);
@@ -266,16 +272,30 @@ void ExactEngine::settle_now() {
     grid_.build(discs_.all(), frame, time_, time_, 1, tuning_.threads);
 }
 
-ReplayCounts ExactEngine::replay_counts() const {
+template <class Law> ReplayCounts ExactEngine<Law>::replay_counts() const {
     ReplayCounts counts = counts_;
     counts.blocks = communicator_.sum(counts_.blocks);
     counts.blocks_redone = communicator_.sum(counts_.blocks_redone);
     return counts;
 }
 
-void ExactEngine::add_to(Totals& totals) {
+template <class Law> void ExactEngine<Law>::add_to(Totals& totals) {
     settle_now();
     measure_overlaps(discs_.population(), grid_, time_, {law_.diameter(), law_.tolerance()}, communicator_, tuning_.threads, totals);
+}
+
+template class ExactEngine<PlainLaw>;
+template class ExactEngine<NaiveLaw>;
+template class ExactEngine<ContractedLaw>;
+template class ExactEngine<SingleLaw>;
+template class ExactEngine<SingleNaiveLaw>;
+template class ExactEngine<SingleContractedLaw>;
+
+std::unique_ptr<Engine> make_exact_engine(const Scene& scene, StoredState state, const Communicator& communicator,
+                                          const Tuning& tuning) {
+    return with_law_of(scene, [&]<class Law>() -> std::unique_ptr<Engine> {
+        return std::make_unique<ExactEngine<Law>>(scene, std::move(state), communicator, tuning);
+    });
 }
 
 } // namespace carrom

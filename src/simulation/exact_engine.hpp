@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "carrom/collision/cell_grid.hpp"
@@ -30,10 +31,8 @@ struct ExactTuning {
     bool has_certificate = true;        ///< false gives wrong results
 };
 
-class ExactEngine final : public Engine {
+template <class Law> class ExactEngine final : public Engine {
 public:
-    using Law = PlainLaw;
-
     /// Refuses discs that overlap. **Collective.**
     ExactEngine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning,
                 const ExactTuning& exact = {});
@@ -107,5 +106,9 @@ private:
 
     PhaseClock clock_;
 };
+
+/// The engine of the rule "all" with the law that the scene's precision and arithmetic ask for. **Collective.**
+std::unique_ptr<Engine> make_exact_engine(const Scene& scene, StoredState state, const Communicator& communicator,
+                                          const Tuning& tuning);
 
 } // namespace carrom

@@ -53,7 +53,7 @@ template <class Visit> void visit_pairs(const CellGrid& grid, const Visit& visit
 
 } // namespace
 
-void refuse_overlaps(const Population& population, const CellGrid& grid, double time, const PlainLaw& law,
+void refuse_overlaps(const Population& population, const CellGrid& grid, double time, const Touching& touching,
                      const Communicator& communicator, const std::string& scene_name) {
     FirstOverlaps mine;
     visit_pairs(grid, [&](LocalIndex a, LocalIndex b) {
@@ -62,8 +62,8 @@ void refuse_overlaps(const Population& population, const CellGrid& grid, double 
         const Disc& p = population.discs[a];
         const Disc& q = population.discs[b];
         const double dx = q.x_at(time) - p.x_at(time), dy = q.y_at(time) - p.y_at(time);
-        const double depth = law.diameter() - std::sqrt(dx * dx + dy * dy);
-        if (depth > 2 * law.tolerance()) mine.add({p.id, q.id, depth});
+        const double depth = touching.diameter - std::sqrt(dx * dx + dy * dy);
+        if (depth > 2 * touching.tolerance) mine.add({p.id, q.id, depth});
     });
     FirstOverlaps all;
     std::uint64_t number = 0;

@@ -6,14 +6,14 @@
 
 #include "carrom/collision/cell_grid.hpp"
 #include "carrom/collision/search.hpp"
-#include "carrom/effects/plain_law.hpp"
 #include "carrom/parallel/communicator.hpp"
+#include "measurements.hpp"
 
 namespace carrom {
 
 /// Throws InputError on every rank, naming the first few pairs and their number, if discs overlap at `time` by more than
 /// twice the tolerance. The grid holds the population at that time and partners within a diameter. **Collective.**
-void refuse_overlaps(const Population& population, const CellGrid& grid, double time, const PlainLaw& law,
+void refuse_overlaps(const Population& population, const CellGrid& grid, double time, const Touching& touching,
                      const Communicator& communicator, const std::string& scene_name);
 
 } // namespace carrom

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "law_of_scene.hpp"
 #include "measurements.hpp"
 
 namespace carrom {
@@ -307,22 +308,10 @@ template <class Law> void OneEngine<Law>::sync() {
     }
 }
 
-namespace {
-
-template <class Real>
-std::unique_ptr<Engine> engine_in(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning) {
-    const auto with = [&]<class Formula>(Formula) -> std::unique_ptr<Engine> {
-        return std::make_unique<OneEngine<BasicPlainLaw<Real, Formula>>>(scene, std::move(state), communicator, tuning);
-    };
-    if (scene.arithmetic == Arithmetic::stable) return with(StableContact{});
-    return scene.contraction ? with(NaiveContact<true>{}) : with(NaiveContact<false>{});
-}
-
-} // namespace
-
 std::unique_ptr<Engine> make_one_engine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning) {
-    return scene.precision == Precision::single ? engine_in<float>(scene, std::move(state), communicator, tuning)
-                                                : engine_in<double>(scene, std::move(state), communicator, tuning);
+    return with_law_of(scene, [&]<class Law>() -> std::unique_ptr<Engine> {
+        return std::make_unique<OneEngine<Law>>(scene, std::move(state), communicator, tuning);
+    });
 }
 
 } // namespace carrom

@@ -31,7 +31,7 @@ StoredState first_state(const Scene& scene, std::vector<InputDisc> inputs) {
 
 std::unique_ptr<Engine> engine_for(const Scene& scene, StoredState state, const Communicator& communicator,
                                    const Tuning& tuning) {
-    if (scene.rule == CollisionRule::all) return std::make_unique<ExactEngine>(scene, std::move(state), communicator, tuning);
+    if (scene.rule == CollisionRule::all) return make_exact_engine(scene, std::move(state), communicator, tuning);
     return make_one_engine(scene, std::move(state), communicator, tuning);
 }
 

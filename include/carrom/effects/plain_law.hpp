@@ -36,6 +36,12 @@ template <class Real, class Formula> class BasicPlainLaw {
 public:
     static constexpr double never = std::numeric_limits<double>::infinity();
     static constexpr bool is_double = std::is_same_v<Real, double>;
+    /// Whether contacts may be found where discs do not touch, or be missed.
+    static constexpr bool is_loose = !is_double || Formula::template looseness<Real> > 0;
+    /// Whether discs that overlap part when they approach; else they pass through each other.
+    static constexpr bool parts_overlaps = Formula::parts_overlaps;
+    /// Under the rule "all": times less than so many micro-steps apart are hardly told from each other.
+    static constexpr double one_time = is_double ? 0x1p-40 : 0x1p-11;
 
     BasicPlainLaw(double box_size, double radius)
         : box_size_(static_cast<Real>(box_size)), radius_(static_cast<Real>(radius)), diameter_(2 * radius_),
@@ -46,8 +52,10 @@ public:
     double radius() const { return radius_; }
     double diameter() const { return diameter_; }
     double tolerance() const { return tolerance_; }
-    /// What rounding to `Real` may move a disc by, beyond what a search in double precision allows for.
-    double slack() const { return is_double ? 0 : 0x1p-20 * box_size(); }
+    /// What a radius has to be longer by in a search, for no contact to be lost: for what rounding to `Real` moves discs by,
+    /// and for contacts that `Formula` finds too early or too late.
+    double slack() const { return rounding() + Formula::template looseness<Real> * radius(); }
+    double search_diameter() const { return diameter() + 2 * slack(); }
 
     /// Rounds a state to the precision that it is to have.
     static void round(Disc& disc) {
@@ -55,7 +63,13 @@ public:
     }
 
     /// Contact of a pair under the rule "one": pairs deeper than the tolerance pass through each other.
-    PairContact<Real> contact(const Disc& p, const Disc& q) const { return contact(p, q, tolerance_); }
+    PairContact<Real> contact(const Disc& p, const Disc& q) const {
+        const PairContact<Real> found = contact(p, q, tolerance_);
+        if constexpr (is_loose) {
+            if (!is_near(p, q, static_cast<double>(found.base) + static_cast<double>(found.delay))) return {};
+        }
+        return found;
+    }
 
     /// In-step time of the disc's one wall candidate of micro-step m, or `never`. The earlier axis gives it.
     double wall_time(const Disc& disc, double m) const {
@@ -85,7 +99,13 @@ public:
     // The rule "all". Times count from the last sync; there is no band, no stop and no micro-step.
 
     /// Contact of a pair that is free to move: touching or overlapping pairs that approach collide at once.
-    PairContact<Real> exact_contact(const Disc& p, const Disc& q) const { return contact(p, q, static_cast<Real>(never)); }
+    PairContact<Real> exact_contact(const Disc& p, const Disc& q) const {
+        const PairContact<Real> found = contact(p, q, static_cast<Real>(never));
+        if constexpr (is_loose) {
+            if (!is_near(p, q, found.base + found.delay)) return {};
+        }
+        return found;
+    }
 
     /// When the disc meets the wall that it approaches along x or y; infinite or `never` if it does not.
     double x_wall_time(const Disc& disc) const { return exact_axis_time(disc.x, disc.vx, disc.tau); }
@@ -95,7 +115,7 @@ public:
     bool may_meet_wall(const Disc& disc, double time) const {
         const double x = disc.x_at(time), y = disc.y_at(time);
         // The last term: a time is rounded, and a fast disc goes some way in that.
-        const double margin = tolerance() + 0x1p-50 * time * std::max(std::fabs(disc.vx), std::fabs(disc.vy));
+        const double margin = tolerance() + rounding() + time_rounding * time * std::max(std::fabs(disc.vx), std::fabs(disc.vy));
         const double inner_low = low() + margin, inner_high = high() - margin;
         return !(x > inner_low && x < inner_high && y > inner_low && y < inner_high);
     }
@@ -134,11 +154,23 @@ public:
     }
 
 private:
+    static constexpr double time_rounding = is_double ? 0x1p-50 : 0x1p-21;
+
+    double rounding() const { return is_double ? 0 : 0x1p-18 * box_size(); }
+
     static Real real(double number) { return static_cast<Real>(number); }
 
     PairContact<Real> contact(const Disc& p, const Disc& q, Real deepest_overlap) const {
         if constexpr (is_double) return pair_contact(p, q, diameter_, deepest_overlap, Formula{});
         else return pair_contact(RoundedState<Real>(p), RoundedState<Real>(q), diameter_, deepest_overlap, Formula{});
+    }
+
+    /// A search looks where discs touch, with a margin, and how far depends on the machine's shape. So that the shape has no
+    /// say in what is found, a contact counts only where the discs, taken to that time in double precision, are within it.
+    bool is_near(const Disc& p, const Disc& q, double time) const {
+        const double dx = q.x_at(time) - p.x_at(time), dy = q.y_at(time) - p.y_at(time);
+        const double farthest = search_diameter() - rounding();
+        return dx * dx + dy * dy <= farthest * farthest;
     }
 
     /// Only the wall being approached counts; a slow disc inside the band bounces at t = 1 without touching.

@@ -96,5 +96,10 @@ private:
 };
 
 extern template class BlockReplay<PlainLaw>;
+extern template class BlockReplay<NaiveLaw>;
+extern template class BlockReplay<ContractedLaw>;
+extern template class BlockReplay<SingleLaw>;
+extern template class BlockReplay<SingleNaiveLaw>;
+extern template class BlockReplay<SingleContractedLaw>;
 
 } // namespace carrom

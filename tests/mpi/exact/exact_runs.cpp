@@ -90,7 +90,7 @@ Shape shape_number(std::size_t number, double diameter_time) {
 }
 
 ExactResult run_exactly(const TestScene& scene, const Shape& shape, const Communicator& world, unsigned seed) {
-    ExactEngine engine(scene_of(scene), {dealt_discs(scene, world, seed), 0}, world, shape.tuning, shape.exact);
+    ExactEngine<PlainLaw> engine(scene_of(scene), {dealt_discs(scene, world, seed), 0}, world, shape.tuning, shape.exact);
     const std::int64_t last = scene.steps * scene.setting.micro_steps;
     while (engine.micro_steps_done() < last) engine.advance_towards(scene.steps);
     StateHash hash = hash_of(engine.own());

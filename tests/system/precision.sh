@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Both precisions, both formulas, contracted and not, under both rules: each has bits of its own, and the same for
+# other ranks, threads and windows.
+source "$(dirname "$0")/common.sh"
+
+# scene NAME DISCS PACKING SPEED
+scene() {
+    cat >"$1.toml" <<END
+[box]
+size = 50
+[discs]
+count = $2
+packing = $3
+speed = $4
+generator = "lattice"
+[time]
+steps = 64
+END
+}
+scene dense 500 0.7 0.3
+scene fast 300 0.02 40
+
+laws=("double naive" "double naive --set time.contraction=true"
+    "single stable" "single naive" "single naive --set time.contraction=true")
+: >hashes
+for name in dense fast; do
+    for rule in one all; do
+        for law in "${laws[@]}"; do
+            words=(run "$name.toml" --set "time.collisions=$rule" --set "time.precision=${law%% *}" --set "time.arithmetic=${law#* }")
+            read -r -a words <<<"${words[*]}"
+            hash=
+            for shape in '1 1' '2 2 --window 0.3 --rebalance-every 1 --rebalance-above 0'; do
+                read -r ranks threads options <<<"$shape"
+                run "$ranks" "${words[@]}" --threads "$threads" $options --report report.json --quiet
+                expect_code 0 "$name, $rule, $law, $shape"
+                hash=${hash:-$(json_value report.json state_hash)}
+                [ "$(json_value report.json state_hash)" = "$hash" ] || complain "another state hash: $name, $rule, $law, $shape"
+            done
+            echo "$hash" >>hashes
+        done
+    done
+done
+[ "$(sort -u hashes | wc -l)" -eq 20 ] || complain "some settings have the same bits: $(sort hashes | uniq -d | wc -l)"
+finish
