@@ -18,6 +18,9 @@ std::size_t share(std::size_t n, int part, int n_parts) {
     return n * static_cast<std::size_t>(part) / static_cast<std::size_t>(n_parts);
 }
 
+/// Discs placed later whose states are asked for now.
+constexpr std::uint32_t states_ahead = 8;
+
 /// Windows of many lengths have cells of many sizes: memory of the smallest ones is not kept for all.
 void resize_close(std::vector<std::uint32_t>& numbers, std::size_t size) {
     if (numbers.capacity() > size + size / 2) std::vector<std::uint32_t>().swap(numbers);
@@ -40,7 +43,7 @@ GridFrame make_frame(double x_low, double x_high, double y_low, double y_high, d
     GridFrame frame;
     frame.x_low = x_low;
     frame.y_low = y_low;
-    frame.cell_width = std::max(wanted, 0.8 * sparse_width);
+    frame.set_cell_width(std::max(wanted, 0.8 * sparse_width));
     frame.n_reach = std::max(1, static_cast<int>(std::ceil(reach / frame.cell_width * (1 - 1e-9))));
     frame.n_columns = cells_along(width, frame.cell_width);
     frame.n_rows = cells_along(height, frame.cell_width);
@@ -53,28 +56,61 @@ void CellGrid::build(std::span<const Disc> discs, const GridFrame& frame, double
     duration_ = duration;
     n_rows_inverse_ = rows() == 1 ? 0 : ~std::uint64_t{0} / rows() + 1;
     const std::size_t n = discs.size();
-    const std::size_t n_columns = static_cast<std::size_t>(frame.n_columns);
     order_.resize(n);
     cell_of_.resize(n);
     slot_of_.resize(n);
     lane_length_ = n + filter_padding;
     lanes_.resize(4 * lane_length_);
-    resize_close(cell_start_, n_columns * rows() + 1);
+    resize_close(cell_start_, static_cast<std::size_t>(frame.n_columns) * rows() + 1);
+    if (n_threads == 1) sort_alone(discs, anchor);
+    else sort_together(discs, anchor, n_threads);
+    for (std::size_t lane = 1; lane <= 4; ++lane) {
+        std::fill_n(lanes_.begin() + static_cast<std::ptrdiff_t>(lane * lane_length_ - filter_padding), filter_padding, 0.0f);
+    }
+}
+
+std::uint32_t CellGrid::cell_at(const Disc& disc, double time) const {
+    const auto column = static_cast<std::uint32_t>(frame_.column_of(disc.x_at(time)));
+    const auto row = static_cast<std::uint32_t>(frame_.row_of(disc.y_at(time)));
+    return column * rows() + row;
+}
+
+// One counting sort: states are read in the order in which they lie.
+void CellGrid::sort_alone(std::span<const Disc> discs, double anchor) {
+    std::fill(cell_start_.begin(), cell_start_.end(), 0u);
+    std::uint32_t* next = cell_start_.data() + 1; // by cell: how many discs, then the slot of the next one
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        cell_of_[i] = cell_at(discs[i], anchor);
+        ++next[cell_of_[i]];
+    }
+    std::uint32_t start = 0;
+    for (std::size_t cell = 0; cell + 1 < cell_start_.size(); ++cell) {
+        const std::uint32_t count = next[cell];
+        next[cell] = start;
+        start += count;
+    }
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        const std::uint32_t slot = next[cell_of_[i]]++;
+        order_[slot] = static_cast<LocalIndex>(i);
+        slot_of_[i] = slot;
+        place(slot, discs[i]);
+    }
+}
+
+// Two counting sorts, first by column over equal shares of the discs, then by row inside each column: no atomics,
+// and the scattered writes of the second stay within one column.
+void CellGrid::sort_together(std::span<const Disc> discs, double anchor, int n_threads) {
+    const std::size_t n = discs.size(), n_columns = static_cast<std::size_t>(frame_.n_columns);
     column_start_.resize(n_columns + 1);
     thread_column_start_.assign(n_columns * static_cast<std::size_t>(n_threads), 0);
-
-    // Two counting sorts, first by column over equal shares of the discs, then by row inside each column: no atomics,
-    // and the scattered writes of the second stay within one column.
 #pragma omp parallel num_threads(n_threads)
     {
         const int thread = omp_get_thread_num();
         std::uint32_t* counts = thread_column_start_.data() + n_columns * static_cast<std::size_t>(thread);
         const std::size_t begin = share(n, thread, n_threads), end = share(n, thread + 1, n_threads);
         for (std::size_t i = begin; i < end; ++i) {
-            const auto column = static_cast<std::uint32_t>(frame_.column_of(discs[i].x_at(anchor)));
-            const auto row = static_cast<std::uint32_t>(frame_.row_of(discs[i].y_at(anchor)));
-            cell_of_[i] = column * rows() + row;
-            ++counts[column];
+            cell_of_[i] = cell_at(discs[i], anchor);
+            ++counts[column_of_cell(cell_of_[i])];
         }
 #pragma omp barrier
 #pragma omp single
@@ -103,9 +139,6 @@ void CellGrid::build(std::span<const Disc> discs, const GridFrame& frame, double
 #pragma omp for schedule(static)
         for (std::size_t slot = 0; slot < n; ++slot) slot_of_[order_[slot]] = static_cast<std::uint32_t>(slot);
     }
-    for (std::size_t lane = 1; lane <= 4; ++lane) {
-        std::fill_n(lanes_.begin() + static_cast<std::ptrdiff_t>(lane * lane_length_ - filter_padding), filter_padding, 0.0f);
-    }
 }
 
 void CellGrid::sort_column(std::span<const Disc> discs, int column) {
@@ -122,6 +155,7 @@ void CellGrid::sort_column(std::span<const Disc> discs, int column) {
         start += count;
     }
     for (std::uint32_t k = begin; k < end; ++k) {
+        if (k + states_ahead < end) __builtin_prefetch(&discs[slot_of_[k + states_ahead]]);
         const LocalIndex index = slot_of_[k];
         const std::uint32_t slot = starts[cell_of_[index] - base]++;
         order_[slot] = index;
@@ -133,7 +167,7 @@ void CellGrid::sort_column(std::span<const Disc> discs, int column) {
 }
 
 void CellGrid::place(std::uint32_t slot, const Disc& disc) {
-    const double cells = 1 / frame_.cell_width;
+    const double cells = frame_.cells_per_length();
     float* lane = lanes_.data() + slot;
     lane[0] = static_cast<float>((disc.x_at(time_) - frame_.x_low) * cells);
     lane[lane_length_] = static_cast<float>((disc.y_at(time_) - frame_.y_low) * cells);

@@ -146,7 +146,7 @@ template <class Law> void ExactEngine<Law>::settle() {
     const double x_to = std::min(law_.box_size(), discs_.strips().high(communicator_.rank()));
     const double spacing = std::sqrt(law_.box_size() * std::max(x_to - x_from, 0.0) / static_cast<double>(discs_.n_own() + 16));
     GridFrame frame;
-    frame.cell_width = std::max(reach / cells_per_reach(reach, spacing), 0.7 * spacing);
+    frame.set_cell_width(std::max(reach / cells_per_reach(reach, spacing), 0.7 * spacing));
     frame.n_reach = static_cast<int>(std::ceil(reach / frame.cell_width * (1 - 1e-9)));
     const int n_own = cells_along(x_to - x_from, frame.cell_width);
     const int n_halo = communicator_.size() > 1 ? halo_depth_ * frame.n_reach : 0;

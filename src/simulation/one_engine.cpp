@@ -25,7 +25,7 @@ Tuning with_useful_threads(Tuning tuning, const Scene& scene, const Communicator
     return tuning;
 }
 
-double speed_of(const Disc& disc) { return std::sqrt(disc.vx * disc.vx + disc.vy * disc.vy); }
+double squared_speed_of(const Disc& disc) { return disc.vx * disc.vx + disc.vy * disc.vy; }
 
 } // namespace
 
@@ -38,7 +38,7 @@ OneEngine<Law>::OneEngine(const Scene& scene, StoredState state, const Communica
     if constexpr (!Law::is_double) {
         for (Disc& disc : discs_.all()) Law::round(disc);
     }
-    for (const Disc& disc : own()) largest_speed_ = std::max(largest_speed_, speed_of(disc));
+    for (const Disc& disc : own()) largest_speed_ = std::max(largest_speed_, std::sqrt(squared_speed_of(disc)));
     const double density = static_cast<double>(discs_.n_total()) / (law_.box_size() * law_.box_size());
     hits_per_micro_step_ = std::min(1.0, 2 * density * law_.diameter() * communicator_.max(largest_speed_)); // a first guess
     discs_.rebalance(micro_, tuning_.rebalance_above);
@@ -216,17 +216,26 @@ template <class Law> void OneEngine<Law>::apply(const Window& window, int m) {
         hits_.resize(is_last ? 0 : 2 * verdicts_.kept.size());
 #pragma omp parallel for num_threads(tuning_.threads) schedule(static) reduction(max : fastest) if (n_kept > 256)
         for (std::int64_t k = 0; k < n_kept; ++k) {
-            if (k + 8 < n_kept) {
-                const Candidate& later = verdicts_.kept[static_cast<std::size_t>(k + 8)];
+            if (k + 16 < n_kept) {
+                const Candidate& later = verdicts_.kept[static_cast<std::size_t>(k + 16)];
                 __builtin_prefetch(&results[later.p], 1);
-                if (!later.is_wall()) __builtin_prefetch(&results[later.q], 1);
+                if (!is_last) grid_.prefetch_slot(later.p);
+                if (!later.is_wall()) {
+                    __builtin_prefetch(&results[later.q], 1);
+                    if (!is_last) grid_.prefetch_slot(later.q);
+                }
+            }
+            if (!is_last && k + 8 < n_kept) {
+                const Candidate& later = verdicts_.kept[static_cast<std::size_t>(k + 8)];
+                grid_.prefetch_flight(later.p);
+                if (!later.is_wall()) grid_.prefetch_flight(later.q);
             }
             const Candidate& c = verdicts_.kept[static_cast<std::size_t>(k)];
             if (c.is_wall()) {
                 law_.bounce(results[c.p], m, c.time);
             } else {
                 law_.collide(results[c.p], results[c.q], m, c.time);
-                fastest = std::max({fastest, speed_of(results[c.p]), speed_of(results[c.q])});
+                fastest = std::max({fastest, squared_speed_of(results[c.p]), squared_speed_of(results[c.q])});
             }
             if (is_last) continue;
             const auto place = static_cast<std::size_t>(2 * k);
@@ -239,8 +248,8 @@ template <class Law> void OneEngine<Law>::apply(const Window& window, int m) {
             }
         }
         if (log_) log_collisions(results, m);
-        speed_exceeded_ = fastest > window_speed_;
-        largest_speed_ = std::max(largest_speed_, fastest);
+        largest_speed_ = std::max(largest_speed_, std::sqrt(fastest));
+        speed_exceeded_ = largest_speed_ > window_speed_;
     }
     if (is_last) return;
     hear_of_hits(window, m);
@@ -293,7 +302,7 @@ template <class Law> void OneEngine<Law>::sync() {
         Disc& disc = discs[static_cast<std::size_t>(i)];
         Law::advance(disc, time);
         disc.tau = 0;
-        fastest = std::max(fastest, disc.vx * disc.vx + disc.vy * disc.vy);
+        fastest = std::max(fastest, squared_speed_of(disc));
     }
     // Discs may have moved at the old largest speed since they were last settled: the next migration allows for that.
     settled_time_ -= time;

@@ -17,14 +17,21 @@ namespace carrom {
 /// Where the cells lie. Discs outside the frame are put into its border cells, which brings no two discs further apart.
 struct GridFrame {
     double x_low = 0, y_low = 0;
-    double cell_width = 1;
+    double cell_width = 1; ///< see set_cell_width
     int n_columns = 1, n_rows = 1;
     int n_reach = 1; ///< cells on each side that can hold a partner
 
-    int column_of(double x) const { return clamp_cell((x - x_low) / cell_width, n_columns); }
-    int row_of(double y) const { return clamp_cell((y - y_low) / cell_width, n_rows); }
+    int column_of(double x) const { return clamp_cell((x - x_low) * cells_per_length_, n_columns); }
+    int row_of(double y) const { return clamp_cell((y - y_low) * cells_per_length_, n_rows); }
+    double cells_per_length() const { return cells_per_length_; }
+
+    void set_cell_width(double width) {
+        cell_width = width;
+        cells_per_length_ = 1 / width;
+    }
 
 private:
+    double cells_per_length_ = 1; ///< a division a disc costs as much as all else that finds its cell
     static int clamp_cell(double cell, int n) {
         if (!(cell > 0)) return 0;
         return cell < n ? static_cast<int>(cell) : n - 1;
@@ -110,6 +117,12 @@ public:
         }
     }
 
+    void prefetch_slot(LocalIndex index) const { __builtin_prefetch(&slot_of_[index]); }
+    void prefetch_flight(LocalIndex index) const {
+        const float* flight = lanes_.data() + slot_of_[index];
+        for (int lane = 0; lane < 4; ++lane) __builtin_prefetch(flight + static_cast<std::size_t>(lane) * lane_length_, 1);
+    }
+
     /// Squared distance in cells, with a margin for single precision, beyond which flights cannot touch.
     float touching_squared(double diameter) const;
     /// `length` in cells, with a margin for single precision.
@@ -125,6 +138,9 @@ private:
         return n_rows_inverse_ == 0 ? cell : static_cast<std::uint32_t>((static_cast<Wide>(n_rows_inverse_) * cell) >> 64);
     }
     std::uint32_t rows() const { return static_cast<std::uint32_t>(frame_.n_rows); }
+    std::uint32_t cell_at(const Disc& disc, double time) const;
+    void sort_alone(std::span<const Disc> discs, double anchor);
+    void sort_together(std::span<const Disc> discs, double anchor, int n_threads);
     void sort_column(std::span<const Disc> discs, int column);
     void place(std::uint32_t slot, const Disc& disc);
 
@@ -132,8 +148,8 @@ private:
     std::uint64_t n_rows_inverse_ = 0; ///< 2^64 / rows, rounded up; 0 for one row
     double time_ = 0, duration_ = 1;
     std::vector<std::uint32_t> cell_start_;  ///< by cell, and one more
-    std::vector<std::uint32_t> column_start_;
-    std::vector<std::uint32_t> thread_column_start_; ///< scratch: by thread and column
+    std::vector<std::uint32_t> column_start_; ///< scratch for several threads, as the next
+    std::vector<std::uint32_t> thread_column_start_; ///< by thread and column
     std::vector<LocalIndex> order_;          ///< by slot
     std::vector<std::uint32_t> cell_of_, slot_of_; ///< by disc
     std::size_t lane_length_ = 0;            ///< slots and padding for whole vectors
