@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Repeats the study of docs/accuracy.md: three tables of CSV in a folder, then the figures. Goes on where it was stopped.
+# Repeats the study of docs/accuracy.md: tables of CSV in a folder, then the figures. Goes on where it was stopped.
 #
 #   job_scripts/accuracy_study.sh [FOLDER]           all of it on one core; default folder build/accuracy
 #   PYTHON=build/pictures/bin/python job_scripts/accuracy_study.sh   with the environment of docs/tools/README.md
@@ -34,12 +34,20 @@ study error 1024 0.1 1.236 --arithmetic default --starts 8 --collisions 100
 study error 1024 0.3 2.063 --arithmetic default --starts 8 --collisions 100
 study error 1024 0.5 4.10 --arithmetic default --starts 8 --collisions 100
 study error 1024 0.7 10.31 --arithmetic default --starts 8 --collisions 100
-# Cost against N, in both precisions and with each formula.
+# Everything: K, both rules, both precisions, all formulas.
+study arithmetic 1024 0.3 2.063 --starts 4 --collisions 50 --repetitions 2
+study arithmetic 1024 0.7 10.31 --starts 4 --collisions 50 --repetitions 2
+# Cost against N.
 for n in 256 1024 4096 16384 65536; do
-    study size "$n" 0.3 2.063 --micro-steps 4 --starts 5 --collisions 20 --approach 10
+    study size "$n" 0.3 2.063 --micro-steps 1 --starts 4 --collisions 20 --approach 10
 done
 # Few small discs and long flights, as in the ancestor's own scenes: here formulas lose collisions.
-study thin 1024 0.0000785 1.000157 --micro-steps 16 --starts 8 --collisions 20 --approach 10
+study thin 1024 0.0000785 1.000157 --micro-steps 16 --starts 8 --collisions 20 --approach 10 --repetitions 2
+# Distances to the exact run along time.
+study distances 256 0.1 1.236 --distances --arithmetic stable --starts 4 --collisions 25
+study distances 256 0.3 2.063 --distances --arithmetic stable --starts 4 --collisions 45
+study distances 256 0.5 4.10 --distances --arithmetic stable --starts 4 --collisions 75
 
 [ "$share" = 1/1 ] || exit 0
-"${PYTHON:-python3}" "$here/docs/tools/plot_accuracy.py" "$folder"/error*.csv "$folder"/size*.csv "$folder"/thin*.csv --output "$folder"
+"${PYTHON:-python3}" "$here/docs/tools/plot_accuracy.py" "$folder"/error*.csv "$folder"/arithmetic*.csv "$folder"/size*.csv "$folder"/thin*.csv --output "$folder"
+"${PYTHON:-python3}" "$here/docs/tools/plot_distances.py" "$folder"/distances*.csv --output "$folder"

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws the tables of `carrom accuracy`: error against cost, error against nu dt, cost against N, and what formulas lose.
 
-Errors are taken start by start, against the exact rule from the same start; bars are one standard error over starts. Costs
-are medians over starts, with bars from quartile to quartile, in core-microseconds per disc and mean free time (that of the
-exact rule), which is physical time. A figure is drawn where the tables have what it needs. tables.md gets the numbers.
+Errors are taken start by start, against the exact rule (double, stable, K = 1) from the same start; bars are one standard
+error over starts. Costs are medians over starts and repetitions, with bars from quartile to quartile, in core-microseconds
+per disc and mean free time (that of the exact rule), which is physical time; ratios of costs are taken within a start and
+repetition. A figure is drawn where the tables have what it needs. tables.md gets the numbers.
 """
 import argparse
 import csv
@@ -23,6 +24,8 @@ STYLES = [("o", "-"), ("s", "--"), ("^", "-."), ("D", ":"), ("v", "-"), ("P", "-
 GREYS = ["#000000", "#c05000", "#0060b0", "#777777", "#208040", "#a040a0"]
 FORMULAS = [("stable", "off"), ("naive", "off"), ("naive", "on")]
 NAMES = {("stable", "off"): "stable", ("naive", "off"): "naive", ("naive", "on"): "naive, contracted"}
+LAWS = [(precision, *formula) for precision in ("double", "single") for formula in FORMULAS]
+EXACT = ("all", 1, "double", "stable", "off")
 
 
 def read(paths):
@@ -41,9 +44,9 @@ class Point:
     """A setting of one gas, over its starts."""
 
     def __init__(self, rows, exact):
-        self.failures = sum(1 for row in rows if row["failure"])
         good = [row for row in rows if not row["failure"] and (row["start_hash"], row["steps"]) in exact]
-        pairs = [(row, exact[row["start_hash"], row["steps"]]) for row in good]
+        everything = [(row, exact[row["start_hash"], row["steps"]]) for row in good]
+        pairs = [(row, reference) for row, reference in everything if row["repetition"] == "0"] # the others have the same bits
         self.n_starts = len(pairs)
         self.rate = self.mean([float(a["collision_frequency"]) / float(b["collision_frequency"]) - 1 for a, b in pairs])
         self.wall = self.mean([float(a["wall_pressure"]) / float(b["wall_pressure"]) - 1 for a, b in pairs])
@@ -53,9 +56,24 @@ class Point:
         self.deepest = max([float(a["deepest_overlap"]) for a, _ in pairs], default=0)
         self.distance = self.mean([float(a["distance_rms"]) for a, _ in pairs])
         self.nu_dt = self.mean([float(b["collision_frequency"]) / int(a["micro_steps"]) for a, b in pairs])[0]
-        costs = [1e6 * float(a["core_seconds"]) / (int(a["n_discs"]) * int(a["steps"]) * float(b["collision_frequency"])) for a, b in pairs]
-        self.costs = np.percentile(costs, [25, 50, 75]) if costs else np.full(3, np.nan)
+        self.runs = {(a["start"], a["repetition"]): 1e6 * float(a["core_seconds"]) / (int(a["n_discs"]) * int(a["steps"]) * float(b["collision_frequency"]))
+                     for a, b in everything}
+        self.costs = np.percentile(list(self.runs.values()), [25, 50, 75]) if self.runs else np.full(3, np.nan)
         self.cost = self.costs[1]
+        # What is no trajectory of hard discs any more: it stopped, or the rule "all" has let discs into each other.
+        self.failures = sum(1 for row in rows if row["failure"] or (row["rule"] == "all" and float(row["overlapping_pairs_per_disc"]) > 0))
+
+    def cost_ratios(self, other):
+        """Quartiles of the cost over that of another setting, within the same start and repetition."""
+        ratios = [cost / other.runs[run] for run, cost in self.runs.items() if run in other.runs]
+        return np.percentile(ratios, [25, 50, 75]) if ratios else np.full(3, np.nan)
+
+    def spread(self):
+        """Of the costs of one start's repetitions, largest over smallest less 1: the median over starts."""
+        by_start = defaultdict(list)
+        for (start, _), cost in self.runs.items():
+            by_start[start].append(cost)
+        return float(np.median([max(costs) / min(costs) - 1 for costs in by_start.values()]))
 
     @staticmethod
     def mean(values):
@@ -72,7 +90,7 @@ def points_by_gas(rows):
         gases[float(row["packing"]), int(row["n_discs"])][setting_of(row)].append(row)
     result = {}
     for gas, settings in sorted(gases.items()):
-        exact = {(r["start_hash"], r["steps"]): r for s, rs in settings.items() if s[0] == "all" for r in rs if not r["failure"]}
+        exact = {(r["start_hash"], r["steps"]): r for r in settings.get(EXACT, []) if not r["failure"] and r["repetition"] == "0"}
         result[gas] = {setting: Point(rs, exact) for setting, rs in settings.items()}
     return result
 
@@ -83,15 +101,29 @@ def default_curve(points):
 
 
 def exact_point(points):
-    return next((p for s, p in points.items() if s[0] == "all"), None)
+    return points.get(EXACT)
 
 
-def draw_errors(axes, xs, means, index, label):
+def law_name(law):
+    return f"{law[0]}, {NAMES[law[1:]]}"
+
+
+def curve_of(points, rule, law):
+    return sorted((s[1], p) for s, p in points.items() if s[0] == rule and s[2:] == law)
+
+
+def bars(quartiles):
+    """Medians, and the lengths of bars down and up to the quartiles."""
+    quartiles = np.array(quartiles)
+    return quartiles[:, 1], [quartiles[:, 1] - quartiles[:, 0], quartiles[:, 2] - quartiles[:, 1]]
+
+
+def draw_errors(axes, xs, means, index, label, x_bars=None):
     """Errors with bars; hollow where an error is less than two standard errors: nothing but noise is known of it there."""
     marker, line = STYLES[index]
     values, errors = np.array([abs(m[0]) for m in means]), np.array([m[1] for m in means])
     lower = np.minimum(errors, 0.9 * values)
-    axes.errorbar(xs, values, yerr=[lower, errors], marker=marker, linestyle=line, color=GREYS[index], label=label, capsize=2, linewidth=1.2,
+    axes.errorbar(xs, values, yerr=[lower, errors], xerr=x_bars, marker=marker, linestyle=line, color=GREYS[index], label=label, capsize=2, linewidth=1.2,
                   markersize=5, markerfacecolor="white")
     clear = values > 2 * errors
     axes.plot(np.array(xs)[clear], values[clear], marker=marker, linestyle="none", color=GREYS[index], markersize=5)
@@ -124,8 +156,8 @@ def figure_error_against_cost(gases, path):
     figure, panels = plt.subplots(2, 2, figsize=(10, 8.8), layout="constrained", sharey=True)
     for axes, ((packing, n), points) in zip(panels.flat, gases.items()):
         curve, exact = default_curve(points), exact_point(points)
-        costs = [p.cost for _, p in curve]
-        draw_errors(axes, costs, [p.rate for _, p in curve], 0, "collision rate")
+        costs, cost_bars = bars([p.costs for _, p in curve])
+        draw_errors(axes, costs, [p.rate for _, p in curve], 0, "collision rate", cost_bars)
         draw_errors(axes, costs, [p.pressure for _, p in curve], 1, "pressure (virial)")
         draw_errors(axes, costs, [p.wall for _, p in curve], 2, "pressure (walls)")
         floor = np.median([p.rate[1] for _, p in curve])
@@ -138,9 +170,9 @@ def figure_error_against_cost(gases, path):
             if k in (1, 4, 16, 64, 256):
                 axes.annotate(f"K={k}", (p.cost, abs(p.rate[0])), xytext=(-5, 4) if k == 1 else (5, 5), textcoords="offset points",
                               ha="right" if k == 1 else "left", fontsize=8, bbox={"pad": 0.5, "color": "white", "alpha": 0.7})
-        failed = [p.cost for _, p in curve if p.failures]
+        failed = [p for p in points.values() if p.failures]
         if failed:
-            axes.plot(failed, [1] * len(failed), "x", color="black", label="some starts failed")
+            axes.plot([p.cost for p in failed], [np.clip(abs(p.rate[0]), 4e-4, 1) for p in failed], "X", color="black", markersize=8, label="some starts failed")
         axes.set(xscale="log", yscale="log", ylim=(3e-4, 1.2), title=f"packing {packing:.3g}, {n} discs")
         axes.set_xlabel("cost: core-microseconds per disc and mean free time")
         axes.set_xlim(0.62 * min(costs[0], exact.cost), 1.9 * costs[-1])
@@ -174,56 +206,52 @@ def figure_error_against_nu_dt(gases, path):
 
 
 def figure_cost_against_size(gases, path):
-    figure, panels = plt.subplots(1, 3, figsize=(13, 4.4), layout="constrained")
-    sizes = [n for _, n in gases]
-
-    def curve(setting, of):
-        return [of(points[setting]) if setting in points else math.nan for points in gases.values()]
-
-    for axes, precision in zip(panels, ("double", "single")):
-        for index, formula in enumerate(FORMULAS):
-            values = curve(("one", 1, precision, *formula), lambda p: p.cost) * np.array(sizes) * 1e-6
-            axes.plot(sizes, values, marker=STYLES[index][0], linestyle=STYLES[index][1], color=GREYS[index], label=f"{NAMES[formula]}", markersize=5)
-        exact = np.array([exact_point(points).cost for points in gases.values()]) * np.array(sizes) * 1e-6
-        axes.plot(sizes, exact, marker="x", linestyle=(0, (6, 2)), color="0.5", label="exact rule (double)")
-        axes.set(xscale="log", yscale="log", xlabel="number of discs N", title=f"{precision} precision, K = 1",
-                 ylabel="core-seconds per mean free time")
-        axes.grid(True, which="major", color="0.92")
-        axes.legend(fontsize=8)
-    index = 0
-    for precision in ("double", "single"):
-        for formula in FORMULAS:
-            if (precision, formula) == ("double", FORMULAS[0]):
-                continue
-            index += 1
-            ratios = np.array(curve(("one", 1, precision, *formula), lambda p: p.cost)) / np.array(curve(("one", 1, "double", "stable", "off"), lambda p: p.cost))
-            panels[2].plot(sizes, ratios, marker=STYLES[index][0], linestyle=STYLES[index][1], color=GREYS[index], label=f"{precision}, {NAMES[formula]}", markersize=5)
-    panels[2].axhline(1, color="black", linewidth=0.8)
-    panels[2].set(xscale="log", xlabel="number of discs N", ylabel="cost over that of double, stable", title="ratio, K = 1", ylim=(0.8, 1.3))
-    panels[2].grid(True, which="major", color="0.92")
-    panels[2].legend(fontsize=8, ncols=2)
+    figure, panels = plt.subplots(2, 2, figsize=(11, 8.4), layout="constrained", sharex=True)
+    sizes = np.array([n for _, n in gases])
+    for column, (rule, title) in enumerate((("one", 'rule "one", K = 1'), ("all", 'rule "all"'))):
+        usual = [points[rule, 1, *LAWS[0]] for points in gases.values()]
+        for index, law in enumerate(LAWS):
+            points = [gas[rule, 1, *law] for gas in gases.values()]
+            shift = sizes * 1.04 ** (index - 2.5) # side by side
+            style = {"marker": STYLES[index][0], "linestyle": STYLES[index][1], "color": GREYS[index], "label": law_name(law), "markersize": 5, "capsize": 2}
+            costs, cost_bars = bars([p.costs for p in points])
+            panels[0, column].errorbar(shift, costs * sizes * 1e-6, yerr=np.array(cost_bars) * sizes * 1e-6, **style)
+            if index > 0:
+                ratios, ratio_bars = bars([p.cost_ratios(base) for p, base in zip(points, usual)])
+                panels[1, column].errorbar(shift, ratios, yerr=ratio_bars, **style)
+        panels[0, column].set(xscale="log", yscale="log", title=title)
+        panels[1, column].axhline(1, color="black", linewidth=0.8)
+        panels[1, column].set(xscale="log", xlabel="number of discs N", ylim=(0.8, 1.4))
+        panels[0, column].legend(fontsize=8)
+        for axes in panels[:, column]:
+            axes.grid(True, which="major", color="0.92")
+    panels[0, 0].set_ylabel("core-seconds per mean free time")
+    panels[1, 0].set_ylabel("cost over that of double, stable")
     figure.savefig(path, dpi=120)
     plt.close(figure)
 
 
 def figure_formulas(gases, path):
     (gas, points), = list(gases.items())[:1]
-    figure, axes = plt.subplots(figsize=(6.6, 4.6), layout="constrained")
-    base = {s[1]: p for s, p in points.items() if s[0] == "one" and s[2:] == ("double", "stable", "off")}
-    index = 0
-    for precision in ("double", "single"):
-        for formula in FORMULAS:
-            curve = sorted((s[1], p) for s, p in points.items() if s[0] == "one" and s[2:] == (precision, *formula))
+    figure, panels = plt.subplots(1, 2, figsize=(11, 4.8), layout="constrained", sharey=True)
+    for axes, rule in zip(panels, ("one", "all")):
+        base = dict(curve_of(points, rule, LAWS[0])) if rule == "one" else defaultdict(lambda: exact_point(points))
+        for index, law in enumerate(LAWS):
+            curve = curve_of(points, rule, law)
+            if not curve or (rule == "all" and index == 0):
+                continue
             shift = 1 + 0.02 * (index - 2.5)
             axes.errorbar([shift * k for k, _ in curve], [100 * ((1 + p.rate[0]) / (1 + base[k].rate[0]) - 1) for k, p in curve],
                           yerr=[100 * p.rate[1] / (1 + base[k].rate[0]) for k, p in curve], marker=STYLES[index][0],
-                          linestyle=STYLES[index][1], color=GREYS[index], label=f"{precision}, {NAMES[formula]}", capsize=2, markersize=5, linewidth=1.2)
-            index += 1
-    axes.set(xscale="log", xlabel="micro-steps K per step", ylabel="collision rate against double, stable (%)", title=f"packing {gas[0]:.3g}, {gas[1]} discs: long flights")
-    axes.set_xticks([k for k, _ in curve], [str(k) for k, _ in curve])
-    axes.minorticks_off()
-    axes.grid(True, color="0.92")
-    axes.legend(fontsize=8)
+                          linestyle=STYLES[index][1], color=GREYS[index], label=law_name(law), capsize=2, markersize=5, linewidth=1.2)
+        axes.axhline(0, color="black", linewidth=0.8)
+        axes.set(xscale="log", xlabel="micro-steps K per step", title=f'rule "{rule}", packing {gas[0]:.3g}, {gas[1]} discs')
+        ticks = sorted({s[1] for s in points})
+        axes.set_xticks(ticks, [str(k) for k in ticks])
+        axes.minorticks_off()
+        axes.grid(True, color="0.92")
+    panels[0].set_ylabel("collision rate against double, stable (%)")
+    panels[0].legend(fontsize=8)
     figure.savefig(path, dpi=120)
     plt.close(figure)
 
@@ -232,40 +260,58 @@ def percent(mean):
     return f"{100 * mean[0]:.2f} ± {100 * mean[1]:.2f}"
 
 
-def tables(errors, sizes, thin):
+def table_of_errors(errors):
     lines = ["| packing | the exact rule costs (µs per disc and mean free time) | \"one\" at K = 1 | \"one\" costs as much at | and is wrong there by |", "|---|---|---|---|---|"]
     for (packing, _), points in errors.items():
-        crossing, first = crossover(points), default_curve(points)[0][1]
-        lines.append(f"| {packing:.3g} | {exact_point(points).cost:.3f} | {first.cost:.3f}, wrong by {100 * abs(first.rate[0]):.0f} % | " +
+        crossing, first, exact = crossover(points), default_curve(points)[0][1], exact_point(points)
+        lines.append(f"| {packing:.3g} | {exact.cost:.3f} ({exact.costs[0]:.3f} to {exact.costs[2]:.3f}) | {first.cost:.3f}, wrong by {100 * abs(first.rate[0]):.0f} % | " +
                      (f"K = {crossing[1]} to {crossing[2]} | {100 * crossing[0]:.2g} % |" if crossing else "every K | never cheaper |"))
     lines += ["", "The exact rule's two pressures, which must agree: " + "; ".join(
         f"packing {packing:.3g}: {percent(exact_point(points).identity)} %" for (packing, _), points in errors.items()) + "."]
-    lines += ["", "| packing | K | ν dt | rate, % | pressure (virial), % | pressure (walls), % | overlapping pairs per disc | deepest, σ | distance after one collision, σ | cost, µs |",
-              "|---|---|---|---|---|---|---|---|---|---|"]
+    spreads = [p.spread() for points in errors.values() for p in points.values()]
+    lines += ["", f"The same trial, timed again in turns: the slowest over the fastest is {100 * np.median(spreads):.0f} % more in the median setting."]
+    lines += ["", "| packing | rule | K | ν dt | rate, % | pressure (virial), % | pressure (walls), % | overlapping pairs per disc | deepest, σ | distance after one collision, σ | cost, µs: median (quartiles) |",
+              "|---|---|---|---|---|---|---|---|---|---|---|"]
     for (packing, _), points in errors.items():
-        for k, p in default_curve(points) + [("exact", exact_point(points))]:
-            lines.append(f"| {packing:.3g} | {k} | {p.nu_dt:.4f} | {percent(p.rate)} | {percent(p.pressure)} | {percent(p.wall)} | {p.overlaps[0]:.4f} ± {p.overlaps[1]:.4f} | "
-                         f"{p.deepest:.2f} | {p.distance[0]:.3f} | {p.cost:.3f} |")
-    for title, gases in (("Cost against N, K = 1", sizes), ("Few small discs, long flights", thin)):
-        if not gases:
-            continue
-        lines += ["", title, "", "| N | precision | formula | K | rate, % | cost, µs | distance after one collision, σ |", "|---|---|---|---|---|---|---|"]
-        for (_, n), points in gases.items():
-            for s, p in sorted(points.items()):
-                if s[0] == "one" and (s[1] == 1 or gases is thin):
-                    lines.append(f"| {n} | {s[2]} | {NAMES[s[3:]]} | {s[1]} | {percent(p.rate)} | {p.cost:.3f} | {p.distance[0]:.2g} |")
-            p = exact_point(points)
-            lines.append(f"| {n} | double | exact rule | | | {p.cost:.3f} | |")
+        for rule in ("one", "all"):
+            for k, p in curve_of(points, rule, LAWS[0]):
+                lines.append(f"| {packing:.3g} | {rule} | {k} | {p.nu_dt:.4f} | {percent(p.rate)} | {percent(p.pressure)} | {percent(p.wall)} | {p.overlaps[0]:.4f} ± {p.overlaps[1]:.4f} | "
+                             f"{p.deepest:.2f} | {p.distance[0]:.2g} | {p.cost:.3f} ({p.costs[0]:.3f} to {p.costs[2]:.3f}) |")
+    return lines
+
+
+def table_of_laws(title, gases, wanted):
+    """Lines for each precision and formula, of the K that `wanted` says; failures are marked."""
+    lines = ["", title, "", "| packing | N | rule | precision, formula | K | rate, % | overlapping pairs per disc | deepest, σ | distance after one collision, σ | cost, µs: median (quartiles) | |",
+             "|---|---|---|---|---|---|---|---|---|---|---|"]
+    for (packing, n), points in gases.items():
+        for rule in ("one", "all"):
+            for law in LAWS:
+                for k, p in curve_of(points, rule, law):
+                    if wanted(k):
+                        lines.append(f"| {packing:.3g} | {n} | {rule} | {law_name(law)} | {k} | {percent(p.rate)} | {p.overlaps[0]:.2g} | {p.deepest:.2g} | {p.distance[0]:.2g} | "
+                                     f"{p.cost:.3f} ({p.costs[0]:.3f} to {p.costs[2]:.3f}) | {'**fails**: discs in each other, or stopped' if p.failures else ''} |")
+    return lines
+
+
+def tables(errors, arithmetic, sizes, thin):
+    lines = table_of_errors(errors) if errors else []
+    if arithmetic:
+        lines += table_of_laws("Precision and formula, two gases", arithmetic, lambda k: k in (1, 16, 256))
+    if sizes:
+        lines += table_of_laws("Cost against N, K = 1", sizes, lambda k: k == 1)
+    if thin:
+        lines += table_of_laws("Few small discs, long flights", thin, lambda k: True)
     return "\n".join(lines) + "\n"
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("tables", nargs="+", type=pathlib.Path, help="error*.csv, size*.csv and thin*.csv of a study, or any one table")
+    parser.add_argument("tables", nargs="+", type=pathlib.Path, help="error*.csv, arithmetic*.csv, size*.csv and thin*.csv of a study, or any one table")
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("."), help="folder for the figures")
     options = parser.parse_args()
-    named = {kind: points_by_gas(read([p for p in options.tables if p.name.startswith(kind)])) for kind in ("size", "thin")}
-    errors = points_by_gas(read([p for p in options.tables if not p.name.startswith(("size", "thin"))]))
+    named = {kind: points_by_gas(read([p for p in options.tables if p.name.startswith(kind)])) for kind in ("arithmetic", "size", "thin")}
+    errors = points_by_gas(read([p for p in options.tables if not p.name.startswith(tuple(named))]))
     options.output.mkdir(parents=True, exist_ok=True)
     if errors:
         figure_error_against_cost(errors, options.output / "error_against_cost.png")
@@ -274,7 +320,7 @@ def main():
         figure_cost_against_size(named["size"], options.output / "cost_against_size.png")
     if named["thin"]:
         figure_formulas(named["thin"], options.output / "formulas.png")
-    (options.output / "tables.md").write_text(tables(errors, named["size"], named["thin"]))
+    (options.output / "tables.md").write_text(tables(errors, named["arithmetic"], named["size"], named["thin"]))
 
 
 if __name__ == "__main__":

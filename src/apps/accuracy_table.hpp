@@ -1,36 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table that `carrom accuracy` writes: CSV, a line for each trial, appended as soon as it is done. A study that was
-// stopped goes on where its table ends; tables of several processes are put together by concatenation.
+// The tables that `carrom accuracy` writes: a line for each trial, or, of distances along time, one for each look.
 #pragma once
 
-#include <set>
 #include <string>
 #include <vector>
 
+#include "csv_table.hpp"
 #include "trial.hpp"
 
 namespace carrom {
 
-/// What tells one line of a table from another; a line begins with it.
+/// What tells one trial from another; a line begins with it.
 struct TrialKey {
     int start = 0; ///< number of the start, from 0
     RunSetting setting;
     TrialLength length;
+    int repetition = 0; ///< the same trial again, for its cost
 };
 
-/// How far a trial's discs are from the exact run's at the early step, in diameters.
+/// How far discs are from those of another run, in diameters.
 struct Distance {
     double root_mean_square = 0, median = 0;
 };
 
 class AccuracyTable {
 public:
-    /// Opens `path` to append to, and drops a line that was half written. Throws InputError where it cannot be written or
-    /// is another table.
-    explicit AccuracyTable(std::string path);
+    /// Throws InputError as CsvTable does.
+    explicit AccuracyTable(const std::string& path);
 
     bool has(const Scene& scene, const TrialStart& start, const TrialKey& key) const;
-    /// Adds a line and brings it to disk; throws InputError where that fails.
+    /// Adds a line; `distance` is that to the exact run at the early step. Throws InputError where that fails.
     void add(const Scene& scene, const TrialStart& start, const TrialKey& key, const Trial& trial, const Distance& distance,
              int threads);
     /// A trial that could not be run: the line holds the reason, and no numbers.
@@ -39,8 +38,22 @@ public:
 private:
     void append(const std::string& key, const std::vector<std::string>& fields, const std::string& failure, int threads);
 
-    std::string path_;
-    std::set<std::string> keys_;
+    CsvTable table_;
+};
+
+/// Distances of one trial to the exact run, look by look.
+class DistanceTable {
+public:
+    /// Throws InputError as CsvTable does.
+    explicit DistanceTable(const std::string& path);
+
+    /// Whether a trial has its line at that step; the last one says that it is done.
+    bool has(const Scene& scene, const TrialStart& start, const TrialKey& key, std::int64_t step) const;
+    /// `collisions` are those that a disc has had with others in the exact run until then.
+    void add(const Scene& scene, const TrialStart& start, const TrialKey& key, std::int64_t step, double collisions, const Distance& distance);
+
+private:
+    CsvTable table_;
 };
 
 } // namespace carrom

@@ -23,11 +23,17 @@ double process_seconds() {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+double collisions_per_disc(const Totals& totals) {
+    return 2 * static_cast<double>(totals.pair_collisions) / static_cast<double>(totals.n_discs);
+}
+
+} // namespace
+
 void advance_to(Simulation& simulation, std::int64_t step) {
     while (simulation.step() < step) simulation.advance_towards(step);
 }
 
-std::vector<InputDisc> discs_of(const Simulation& simulation) {
+std::vector<InputDisc> discs_now(const Simulation& simulation) {
     std::vector<InputDisc> discs;
     const double clock = simulation.clock(), unit = simulation.velocity_unit();
     for (const Disc& disc : simulation.discs())
@@ -35,12 +41,6 @@ std::vector<InputDisc> discs_of(const Simulation& simulation) {
     std::sort(discs.begin(), discs.end(), [](const InputDisc& a, const InputDisc& b) { return a.id < b.id; });
     return discs;
 }
-
-double collisions_per_disc(const Totals& totals) {
-    return 2 * static_cast<double>(totals.pair_collisions) / static_cast<double>(totals.n_discs);
-}
-
-} // namespace
 
 Scene with_setting(Scene scene, const RunSetting& setting) {
     scene.rule = setting.rule;
@@ -68,7 +68,7 @@ TrialStart bring_to_equilibrium(const Scene& scene, std::vector<InputDisc> discs
         done = collisions_per_disc(simulation.totals());
     }
     TrialStart start;
-    start.discs = discs_of(simulation);
+    start.discs = discs_now(simulation);
     start.hash = simulation.totals().hash;
     start.frequency = (done - before) / static_cast<double>(simulation.step() - from);
     return start;
@@ -92,7 +92,7 @@ Trial run_trial(const Scene& scene, const RunSetting& setting, const TrialStart&
         advance_to(simulation, stop);
         trial.core_seconds += process_seconds() - before;
         trial.wall_seconds += watch.lap();
-        if (stop == length.early_step) trial.early = discs_of(simulation);
+        if (stop == length.early_step) trial.early = discs_now(simulation);
         if (!looks.contains(stop)) continue;
         trial.totals = simulation.totals();
         trial.overlapping_pairs_per_disc += 2 * static_cast<double>(trial.totals.overlapping_pairs) /

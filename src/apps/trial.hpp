@@ -51,6 +51,11 @@ struct Trial {
     std::vector<InputDisc> early;          ///< this rank's discs at `early_step`, by id; empty if it is 0
 };
 
+/// Runs to the end of that step. **Collective.**
+void advance_to(Simulation& simulation, std::int64_t step);
+/// This rank's discs as they are now, by id, in the scene's units.
+std::vector<InputDisc> discs_now(const Simulation& simulation);
+
 struct TrialLength {
     std::int64_t steps = 1;
     std::int64_t early_step = 0; ///< where places are kept, 0 for nowhere

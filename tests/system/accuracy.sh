@@ -13,17 +13,17 @@ speed = 0.2
 [time]
 steps = 20
 END
-study=(accuracy small.toml --starts 2 --micro-steps 2 --collisions 10 --approach 5 --quiet)
+study=(accuracy small.toml --starts 2 --repetitions 2 --micro-steps 2 --collisions 10 --approach 5 --quiet)
 
 # All but the times.
-bits() { cut -d, -f1-29 "$1" | sort; }
+bits() { cut -d, -f1-30 "$1" | sort; }
 
 run 1 "${study[@]}" --output whole.csv
 expect_code 0 'a study'
 expect_silence 'a study'
-[ "$(wc -l <whole.csv)" -eq $((1 + 2 * (1 + 2 * 6))) ] || complain "the table has $(wc -l <whole.csv) lines"
-[ "$(cut -d, -f9-13 whole.csv | sort | uniq -c | awk '$1 == 2' | wc -l)" -eq 13 ] || complain 'not every setting was run from both starts'
-[ "$(awk -F, 'NR > 1 && ($16 <= 0 || $30 <= 0)' whole.csv | wc -l)" -eq 0 ] || complain 'a trial without collisions or cost'
+[ "$(wc -l <whole.csv)" -eq $((1 + 2 * 2 * 2 * 2 * 6)) ] || complain "the table has $(wc -l <whole.csv) lines"
+[ "$(cut -d, -f9-13 whole.csv | sort | uniq -c | awk '$1 == 4' | wc -l)" -eq 24 ] || complain 'not every setting was run twice from both starts'
+[ "$(awk -F, 'NR > 1 && ($17 <= 0 || $31 <= 0)' whole.csv | wc -l)" -eq 0 ] || complain 'a trial without collisions or cost'
 
 mkdir elsewhere
 cp small.toml elsewhere
@@ -43,7 +43,21 @@ for k in 1 2 3; do
     run 1 "${study[@]}" --share "$k/3" --output "share$k.csv"
     expect_code 0 "share $k of 3"
 done
-cmp <(bits whole.csv) <((head -1 share1.csv; tail -qn +2 share?.csv) | cut -d, -f1-29 | sort) || complain 'three shares are not the whole'
+cmp <(bits whole.csv) <((head -1 share1.csv; tail -qn +2 share?.csv) | cut -d, -f1-30 | sort) || complain 'three shares are not the whole'
+
+[ "$(cut -d, -f1-15,17-30 whole.csv | sed 1d | sort | uniq -c | awk '$1 != 2' | wc -l)" -eq 0 ] || complain 'a repetition has other results'
+
+# Distances: none between the exact rule and itself, all above 0 and below the box's diagonal, and the same again.
+run 1 "${study[@]}" --distances --arithmetic stable --output distances.csv
+expect_code 0 'distances'
+[ "$(cut -d, -f9-11 distances.csv | sed 1d | sort -u | wc -l)" -eq 3 ] || complain 'not three settings beside the exact one'
+[ "$(sed 1d distances.csv | wc -l)" -ge $((2 * 3 * 9)) ] || complain 'not a look for every collision'
+[ "$(awk -F, 'NR > 1 && !($16 > 0 && $16 < 65 * 1.5)' distances.csv | wc -l)" -eq 0 ] || complain 'distances that cannot be'
+cp distances.csv known.csv
+run 1 "${study[@]}" --distances --arithmetic stable --output distances.csv
+expect_same distances.csv known.csv 'finished distances were run again'
+run 1 "${study[@]}" --output distances.csv
+expect_code 2 'rates into a table of distances'
 
 run 2 "${study[@]}" --output two.csv
 expect_code 2 'a study on two ranks'

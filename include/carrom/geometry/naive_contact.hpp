@@ -3,7 +3,7 @@
 //
 // It takes B^2 - 4 A C and -B - sqrt(...) as they stand, both differences of like numbers when a pair is far apart or
 // grazes: in single precision it misses a fifth of the hits at a thousand diameters (docs/accuracy.md), and would miss
-// two thirds if a discriminant that rounds to 0 were no contact. A pair that overlaps, by a rounding even, has its root in
+// seven tenths if a discriminant that rounds to 0 were no contact. A pair that overlaps, by a rounding even, has its root in
 // the past and passes through. `contracted`: products are fused with the
 // sums they go into, as a compiler does with -ffp-contract=fast, but written out, so that all compilers do the same.
 #pragma once

@@ -130,6 +130,20 @@ TEST_CASE("Precision and formula change no rate where discs are near to each oth
     }
 }
 
+TEST_CASE("Under the rule all no precision and no formula changes the rate, and the stable one leaves no overlaps") {
+    const Communicator world = Communicator::world();
+    for (const Column& column : table) {
+        for (const Precision precision : {Precision::double_, Precision::single}) {
+            for (const Arithmetic arithmetic : {Arithmetic::stable, Arithmetic::naive}) {
+                const Loss loss = measure(column.packing, column.frequency, {CollisionRule::all, 2, precision, arithmetic}, world);
+                CAPTURE(column.packing, precision == Precision::single, arithmetic == Arithmetic::naive, loss.rate.value, loss.rate.error);
+                CHECK(std::fabs(loss.rate.value - 1) < 4 * error_of_rate(loss.rate));
+                if (arithmetic == Arithmetic::stable) CHECK(loss.overlaps.value == 0);
+            }
+        }
+    }
+}
+
 TEST_CASE("Single precision rounds every state, keeps energy to its own rounding, and says so in the bits") {
     const Communicator world = Communicator::world();
     const Scene scene = known_gas(0.3, 2.4595, 7);
@@ -149,8 +163,9 @@ TEST_CASE("Single precision rounds every state, keeps energy to its own rounding
 
 TEST_CASE("Micro-steps by a power of two are exact scaling: the same bits as velocities divided by hand") {
     const Communicator world = Communicator::world();
-    for (const std::int64_t k : {2, 8, 64}) {
+    for (const auto& [rule, k] : {std::pair{CollisionRule::one, std::int64_t{2}}, {CollisionRule::one, 8}, {CollisionRule::one, 64}, {CollisionRule::all, 8}}) {
         Scene scene = known_gas(0.3, 2.4595, 11);
+        scene.rule = rule;
         scene.steps = 40;
         scene.micro_steps = k;
         std::vector<InputDisc> discs = initial_state(scene, nullptr, world);

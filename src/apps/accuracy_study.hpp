@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The two studies of `carrom accuracy`: what settings make of collision rates and pressures, and at what cost; and how far
+// their discs get from those of the exact run, along time. Both run every setting from the same starts.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "carrom/parallel/communicator.hpp"
+#include "carrom/scene/scene.hpp"
+
+namespace carrom {
+
+enum class Formulas { usual, stable, all }; ///< double and stable; both precisions; and the naive formulas too
+
+struct StudyOptions {
+    std::string table = "accuracy.csv";
+    int n_starts = 8, n_repetitions = 3, share = 1, n_shares = 1, threads = 1;
+    double collisions = 100, approach = 20;
+    std::int64_t most_micro_steps = 256;
+    Formulas formulas = Formulas::all;
+    bool quiet = false;
+};
+
+/// Costs and errors of K = 1, 2, 4, ... under both rules; repetitions take turns. Throws InputError. On one rank.
+void study_costs(const Scene& scene, const std::vector<InputDisc>& discs, const StudyOptions& options, const Communicator& ranks);
+
+/// Distances to the exact run after about each collision of a disc, for K = 1, 16, 256. Throws InputError. On one rank.
+void study_distances(const Scene& scene, const std::vector<InputDisc>& discs, const StudyOptions& options, const Communicator& ranks);
+
+} // namespace carrom
