@@ -56,6 +56,14 @@ public:
         return std::nullopt;
     }
 
+    /// A finite number from `least` on.
+    std::optional<double> real_from(const char* option, const std::string& word, double least, const char* why) {
+        const auto value = word.empty() ? std::nullopt : number<double>(word);
+        if (word.empty() || (value && std::isfinite(*value) && *value >= least)) return value;
+        complain(option, word, fmt::format("a number from {:g} on ({})", least, why));
+        return std::nullopt;
+    }
+
     /// A finite number >= 0, or > 0 if `zero_is_wrong`.
     std::optional<double> real(const char* option, const std::string& word, bool zero_is_wrong) {
         if (word.empty()) return std::nullopt;
@@ -99,7 +107,7 @@ void declare_run_options(CLI::App& command, RunWords& words) {
     command.add_flag("--quiet", words.quiet, "No progress and no summary; errors are still told");
     const std::string group = "Cost only, never bits";
     command.add_option("--window", words.window,
-                       "Micro-steps per window; below 1 a micro-step is cut into parts")->type_name("W")->group(group);
+                       "Micro-steps per window; below 1 a micro-step is cut into parts, at most 100000")->type_name("W")->group(group);
     command.add_option("--cell-width", words.cell_width, "Width of a cell, in reaches of the window")
         ->type_name("C")->group(group);
     command.add_option("--rebalance-every", words.rebalance_every,
@@ -128,7 +136,7 @@ RunOptions checked_run_options(const RunWords& words, std::vector<Problem>& prob
     if (const auto steps = checker.integer<std::int64_t>("--steps", words.steps, 0, unbounded))
         options.overrides.push_back(fmt::format("time.steps={}", *steps));
     Tuning& tuning = options.tuning;
-    tuning.window = checker.real("--window", words.window, true);
+    tuning.window = checker.real_from("--window", words.window, 1e-5, "a hundred thousand windows to a micro-step");
     tuning.cell_width = checker.real("--cell-width", words.cell_width, true);
     tuning.rebalance_every =
         checker.integer<std::int64_t>("--rebalance-every", words.rebalance_every, 0, unbounded).value_or(tuning.rebalance_every);

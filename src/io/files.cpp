@@ -19,8 +19,13 @@ namespace carrom {
 
 void fail_with_errno(const std::string& what) { throw FileError(what + ": " + std::strerror(errno)); }
 
-Descriptor::Descriptor(const std::string& path, int flags) : number_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
+// Without waiting for the other end of a pipe: what is no plain file is refused.
+Descriptor::Descriptor(const std::string& path, int flags) : number_(::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK, 0666)) {
     if (number_ < 0) fail_with_errno("cannot be opened");
+    struct stat status {};
+    if ((flags & O_DIRECTORY) != 0 || (::fstat(number_, &status) == 0 && S_ISREG(status.st_mode))) return;
+    ::close(number_);
+    throw FileError("is not a plain file");
 }
 
 Descriptor::~Descriptor() { ::close(number_); }

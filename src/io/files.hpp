@@ -28,6 +28,7 @@ public:
 /// A file descriptor that closes itself.
 class Descriptor {
 public:
+    /// Throws FileError where it cannot be opened, and for a directory (without O_DIRECTORY), a pipe or a device.
     Descriptor(const std::string& path, int flags);
     ~Descriptor();
     Descriptor(const Descriptor&) = delete;

@@ -21,7 +21,7 @@ inline constexpr std::uint64_t seal_size = 4096;
 /// CollectiveError, code 4. **Collective.**
 void seal(const std::string& path, const Communicator& communicator);
 
-/// Whether a file begins like a sealed one, of any format. Of one rank; throws FileError where it cannot be read.
+/// Whether a file begins like a sealed one, of any format, or has room for a seal before what HDF5 has written. Of one rank; throws FileError where it cannot be read.
 bool is_sealed(const std::string& path);
 
 /// Throws CollectiveError, code 2, on every rank unless the file is whole: sealed, of its size, each byte as it was.

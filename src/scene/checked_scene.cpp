@@ -86,8 +86,7 @@ std::optional<Choice> choice(const Check& check, std::string_view key, const Cho
         names[i] = choices[i].first;
         list += (i == 0 ? "" : i + 1 == n ? " or " : ", ") + fmt::format("\"{}\"", names[i]);
     }
-    check.refuse(*setting, fmt::format("'{}' must be {}, not {}; did you mean \"{}\"?", key, list, quoted(word),
-                                       nearest_of(word, names.data(), n)));
+    check.refuse(*setting, fmt::format("'{}' must be {}, not {}{}", key, list, quoted(word), guess(word, names, '"')));
     return std::nullopt;
 }
 
@@ -108,8 +107,8 @@ void check_listed_discs(const Check& check) {
     const auto& rows = std::get<std::vector<Row>>(list->value);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (rows[i].numbers.empty()) continue;
-        if (std::string text = disc_problem(check.scene.listed_discs[i], check.scene); !text.empty())
-            add_problem(check.problems, rows[i].place, std::move(text));
+        if (const std::string text = disc_problem(check.scene.listed_discs[i], check.scene); !text.empty())
+            add_problem(check.problems, rows[i].place, fmt::format("row {} of 'discs.list': {}", i + 1, text));
     }
 }
 
@@ -176,10 +175,10 @@ bool check_sizes(const Check& check, const Setting& radius_setting) {
                                  scene.n_discs, r, l, scene.packing(), largest_packing));
     }
     if (l / r > largest_box_in_radii) {
-        const std::string text = fmt::format("the box is {:.4g} radii wide, and walls lose their precision above {:.0e}", l / r,
-                                             largest_box_in_radii);
-        if (scene.rule == CollisionRule::one) check.refuse(radius_setting, text + "; collisions = \"one\" refuses that");
-        else scene.warnings.push_back(text);
+        const std::string text = fmt::format("discs of radius {} in a box of side {}: it is {:.4g} radii wide, and above {:.0e} positions "
+                                             "are too coarse for contacts with walls", r, l, l / r, largest_box_in_radii);
+        if (scene.rule == CollisionRule::all) scene.warnings.push_back(text);
+        else check.refuse(radius_setting, text + "; take larger discs or a smaller box (collisions = \"all\" only warns)");
     }
     if (scene.precision == Precision::single && (r < smallest_single_size || l > largest_single_size))
         check.refuse(radius_setting, "precision = \"single\" takes lengths from 2^-40 to 2^40 only");
@@ -199,7 +198,8 @@ bool fill_sizes(const Check& check) {
     const auto given_radius = size_number(check, "discs.radius");
     auto share = finite_number(check, "discs.packing");
     if (share && !(*share > 0 && *share <= largest_packing)) {
-        check.refuse(*packing, fmt::format("'discs.packing' must be greater than 0 and at most {}, not {}", largest_packing, *share));
+        check.refuse(*packing, fmt::format("'discs.packing' must be greater than 0 and at most {}, not {}: equal discs cover no more of the plane",
+                                          largest_packing, *share));
         share.reset();
     }
     if (!box || scene.n_discs == 0 || (radius && packing) || (!given_radius && !share)) return false;
@@ -244,13 +244,14 @@ void fill_streams(const Check& check) {
     const Setting* streams = check.settings.find("discs.streams");
     if (!streams) return;
     for (const StreamRows& row : std::get<std::vector<StreamRows>>(streams->value)) {
+        const auto refuse = [&](const std::string& text) { add_problem(check.problems, row.place, fmt::format("stream {}: {}", row.number, text)); };
         const Stream stream{row.region[0], row.region[1], row.region[2], row.region[3], row.velocity[0], row.velocity[1]};
         const bool is_finite = std::isfinite(stream.x_low) && std::isfinite(stream.y_low) && std::isfinite(stream.x_high) &&
                                std::isfinite(stream.y_high);
         if (!is_finite || !(stream.x_low < stream.x_high && stream.y_low < stream.y_high))
-            add_problem(check.problems, row.place, "the region of a stream must be finite, with x0 < x1 and y0 < y1");
+            refuse("its region must be finite, with x0 < x1 and y0 < y1");
         for (const double component : row.velocity)
-            if (std::string text = velocity_problem(component); !text.empty()) add_problem(check.problems, row.place, std::move(text));
+            if (const std::string text = velocity_problem(component); !text.empty()) refuse(text);
         check.scene.streams.push_back(stream);
     }
 }

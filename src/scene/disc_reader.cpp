@@ -26,11 +26,12 @@ DiscReader::~DiscReader() = default;
 bool DiscReader::read(std::vector<InputDisc>& chunk, std::size_t limit) {
     chunk.clear();
     std::string_view line;
-    while (chunk.size() < limit && lines_->next(line)) {
+    while (chunk.size() < limit && n_problems_ < most_wrong_lines && lines_->next(line)) {
         if (lines_->is_cut()) {
             refuse(fmt::format("a line of more than {} characters", LineReader::longest_line));
             continue;
         }
+        if (lines_->line_number() == 1 && line.starts_with(byte_order_mark)) line.remove_prefix(byte_order_mark.size());
         InputDisc disc;
         if (!trimmed(line).empty() && parse(line, disc)) chunk.push_back(disc);
     }
@@ -40,13 +41,15 @@ bool DiscReader::read(std::vector<InputDisc>& chunk, std::size_t limit) {
 std::vector<Problem> DiscReader::problems() const {
     std::vector<Problem> all = problems_;
     if (n_problems_ > problems_.size())
-        all.push_back({place_, 0, fmt::format("and {} more lines with problems", n_problems_ - problems_.size())});
+        all.push_back({place_, 0, fmt::format("and {} more lines with problems{}", n_problems_ - problems_.size(),
+                                              n_problems_ < most_wrong_lines ? "" : "; it was not read beyond them")});
+    if (lines_->is_endless()) all.push_back({place_, lines_->line_number(), "this line does not end: it was not read beyond"});
     if (lines_->has_failed()) all.push_back({place_, lines_->line_number(), "cannot be read beyond this line"});
     if (n_seen_ < scene_.n_discs) all.push_back({place_, 0, missing_ids()});
     return all;
 }
 
-/// Whether the line is a disc; otherwise its first problem is noted.
+/// Whether the line is a disc; otherwise what is wrong with it is noted as one problem.
 bool DiscReader::parse(std::string_view line, InputDisc& disc) {
     split_words(line, 5, words_);
     const bool has_id = note_id(words_[0], disc.id);
@@ -55,20 +58,16 @@ bool DiscReader::parse(std::string_view line, InputDisc& disc) {
         refuse(fmt::format("expected 'id x y vx vy', found only {} of the 5 numbers", words_.size()));
         return false;
     }
+    std::string text;
+    const auto add = [&text](const std::string& fault) { text += (text.empty() ? "" : "; ") + fault; };
     const std::array<double*, 4> numbers = {&disc.x, &disc.y, &disc.vx, &disc.vy};
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const auto number = parse_double(words_[i + 1]);
-        if (!number) {
-            refuse(fmt::format("{} is not a number", quoted(words_[i + 1])));
-            return false;
-        }
-        *numbers[i] = *number;
+        if (number) *numbers[i] = *number;
+        else add(fmt::format("{} is not a number", quoted(words_[i + 1])));
     }
-    if (words_.size() > 5) {
-        refuse(fmt::format("{} after the 5 numbers 'id x y vx vy'", quoted(words_[5])));
-        return false;
-    }
-    std::string text = disc_problem(disc, scene_);
+    if (text.empty()) text = disc_problem(disc, scene_);
+    if (words_.size() > 5) add(fmt::format("{} after the 5 numbers 'id x y vx vy'", quoted(words_[5])));
     if (text.empty()) return true;
     refuse(std::move(text));
     return false;

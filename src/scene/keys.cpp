@@ -46,18 +46,48 @@ constexpr std::array<std::string_view, 8> tables = {
 
 std::string_view part_after(std::string_view key, std::size_t dot) { return key.substr(dot + 1, key.find('.', dot + 1) - dot - 1); }
 
-/// Of a key without a table, the name is compared with the tables' names and with keys whose table was forgotten.
-std::string nearest_key(std::string_view key) {
-    const bool has_table = key.find('.') != std::string_view::npos;
+/// The place of the nearest name, if it is near enough to have been meant.
+std::optional<std::size_t> nearest_of(std::string_view name, std::span<const std::string_view> names) {
+    name = name.substr(0, 200);
+    std::size_t least = std::max<std::size_t>(1, name.size() / 3) + 1;
+    std::optional<std::size_t> nearest;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const std::size_t distance = edit_distance(name, names[i]);
+        if (distance >= least) continue;
+        least = distance;
+        nearest = i;
+    }
+    return nearest;
+}
+
+/// "; [time] has steps, collisions, ...", or the tables where `key` is in none.
+std::string what_there_is(std::string_view key) {
+    const std::size_t dot = key.rfind('.');
+    const std::string table{key.substr(0, dot == std::string_view::npos ? 0 : dot)};
+    std::string list;
+    for (const Key& known : keys)
+        if (!table.empty() && known.name.starts_with(table + '.') && known.name.find('.', table.size() + 1) == std::string_view::npos)
+            list += (list.empty() ? "" : ", ") + std::string(known.name.substr(table.size() + 1));
+    if (list.empty()) return "; keys stand in the tables [box], [discs], [time] and [output]";
+    return "; [" + table + "] has " + list;
+}
+
+/// In a table that there is, the name alone is compared, with that table's; a key without a table also with keys whose
+/// table was forgotten.
+std::string no_such_key(std::string_view key) {
+    const std::size_t dot = key.rfind('.');
+    const bool has_table = dot != std::string_view::npos;
+    const std::string_view table = key.substr(0, has_table ? dot : 0);
     std::vector<std::string_view> names, compared;
     if (!has_table) names = compared = {"box", "discs", "time", "output", "effects"};
     for (const Key& known : keys) {
+        const std::size_t known_dot = known.name.rfind('.');
+        if (is_table(table) && known.name.substr(0, known_dot) != table) continue;
         names.push_back(known.name);
-        compared.push_back(has_table ? known.name : known.name.substr(known.name.find('.') + 1));
+        compared.push_back(has_table && !is_table(table) ? known.name : known.name.substr(known_dot + 1));
     }
-    const std::string nearest = nearest_of(key, compared.data(), compared.size());
-    const auto found = std::find(compared.begin(), compared.end(), nearest);
-    return std::string(names[static_cast<std::size_t>(found - compared.begin())]);
+    const auto nearest = nearest_of(is_table(table) ? key.substr(dot + 1) : key, compared);
+    return "no such key " + quoted(key) + (nearest ? "; did you mean '" + std::string(names[*nearest]) + "'?" : what_there_is(key));
 }
 
 } // namespace
@@ -86,21 +116,18 @@ std::string unknown_key_text(std::string_view key) {
         const std::string what = table == "effects" ? "effect" : "output";
         const std::size_t second_dot = dot == std::string_view::npos ? dot : key.find('.', dot + 1);
         if (second_dot != std::string_view::npos && is_table(key.substr(0, second_dot)))
-            return "no such key " + quoted(key) + "; did you mean '" + nearest_key(key) + "'?";
+            return no_such_key(key);
         if (dot == std::string_view::npos) return quoted(key) + " is a table of " + what + "s, not a value";
         const std::string_view name = part_after(key, dot);
         const bool is_misspelt = table == "output" && edit_distance(name, "text") <= 2;
         return "this version has no " + what + ' ' + quoted(name) + (is_misspelt ? "; did you mean 'output.text'?" : "");
     }
-    return "no such key " + quoted(key) + "; did you mean '" + nearest_key(key) + "'?";
+    return no_such_key(key);
 }
 
-std::string nearest_of(std::string_view name, const std::string_view* names, std::size_t n_names) {
-    name = name.substr(0, 200);
-    const auto* nearest = std::min_element(names, names + n_names, [name](std::string_view a, std::string_view b) {
-        return edit_distance(name, a) < edit_distance(name, b);
-    });
-    return std::string(*nearest);
+std::string guess(std::string_view name, std::span<const std::string_view> names, char quote) {
+    const auto nearest = nearest_of(name, names);
+    return nearest ? std::string("; did you mean ") + quote + std::string(names[*nearest]) + quote + '?' : "";
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {

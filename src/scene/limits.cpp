@@ -16,18 +16,24 @@ std::string velocity_problem(double component) {
 }
 
 std::string disc_problem(const InputDisc& disc, const Scene& scene) {
+    std::string all;
+    const auto add = [&all](const std::string& text) {
+        if (!text.empty()) all += (all.empty() ? "" : "; ") + text;
+    };
     // L - r and whatever wrote the input round to within an ulp of L, at most 2^-52 L.
     const double slack = 0x1p-52 * scene.box_size;
     const double low = scene.radius - slack, high = (scene.box_size - scene.radius) + slack;
+    bool is_finite = true, is_inside = true;
     for (const double centre : {disc.x, disc.y}) {
-        if (!std::isfinite(centre)) return fmt::format("the position {} is not a finite number", centre);
-        if (centre < low || centre > high)
-            return fmt::format("disc {} at ({}, {}) is not inside the box: centres lie between r = {} and L - r = {}",
-                               disc.id, disc.x, disc.y, scene.radius, scene.box_size - scene.radius);
+        if (!std::isfinite(centre)) add(fmt::format("the position {} is not a finite number", centre));
+        is_finite = is_finite && std::isfinite(centre);
+        is_inside = is_inside && centre >= low && centre <= high;
     }
-    for (const double component : {disc.vx, disc.vy})
-        if (std::string text = velocity_problem(component); !text.empty()) return text;
-    return {};
+    if (is_finite && !is_inside)
+        add(fmt::format("disc {} at ({}, {}) is not inside the box: centres lie between r = {} and L - r = {}", disc.id,
+                        disc.x, disc.y, scene.radius, scene.box_size - scene.radius));
+    for (const double component : {disc.vx, disc.vy}) add(velocity_problem(component));
+    return all;
 }
 
 } // namespace carrom

@@ -15,6 +15,7 @@ LineReader::LineReader(std::istream& stream, std::int64_t lines_before)
 
 bool LineReader::next(std::string_view& line) {
     if (is_cut_) skip_rest_of_line();
+    if (is_endless_) return false;
     std::size_t searched = 0;
     for (;;) {
         const std::size_t available = end_ - begin_;
@@ -47,12 +48,13 @@ std::size_t LineReader::find_line_end(std::size_t searched) const {
 
 void LineReader::skip_rest_of_line() {
     is_cut_ = false;
-    for (;;) {
+    for (std::size_t skipped = 0; !is_endless_; is_endless_ = skipped > most_skipped) {
         const std::size_t length = find_line_end(0);
         if (length < end_ - begin_) {
             begin_ += length + 1;
             return;
         }
+        skipped += length;
         begin_ = end_;
         if (!refill()) return;
     }

@@ -14,6 +14,9 @@ std::optional<double> parse_double(std::string_view text);
 std::optional<std::int64_t> parse_integer(std::string_view text);
 std::optional<std::uint64_t> parse_id(std::string_view text);
 
+/// Some editors begin UTF-8 with it.
+inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
 /// Without blanks (space, tab, carriage return) at either end.
 std::string_view trimmed(std::string_view text);
 

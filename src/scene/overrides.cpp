@@ -52,7 +52,7 @@ void add_overrides(Settings& settings, Problems& problems, const std::vector<std
     for (const std::string& text : overrides) {
         const std::size_t equals = text.find('=');
         const std::string key{trimmed(std::string_view(text).substr(0, equals))};
-        const Place place{"--set " + key, 0};
+        const Place place{"--set " + (key.empty() ? text : key), 0};
         if (equals == std::string::npos || key.empty())
             add_problem(problems, place, fmt::format("{} is not of the form key=value", quoted(text)));
         else if (!kind_of_key(key))

@@ -70,7 +70,10 @@ bool skip_blank(std::istream& stream, std::int64_t& n_lines) {
 
 std::ifstream open_input(const std::string& path) {
     std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) refuse(path, 0, "is a directory, not a file");
+    const auto status = std::filesystem::status(path, ignored);
+    if (std::filesystem::is_directory(status)) refuse(path, 0, "is a directory, not a file");
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+        refuse(path, 0, "is not a plain file; the ancestor's text from a pipe or a device is read from standard input, as in `carrom run -`");
     errno = 0;
     std::ifstream stream(path, std::ios::binary);
     if (!stream) refuse(path, 0, "cannot be opened: " + std::generic_category().message(errno));
@@ -87,7 +90,9 @@ SceneText read_scene_text(std::istream& stream, const std::string& name) {
     for (int found = 0; found < ancestor_header_lines && take_line(stream, line);) {
         input.lines_before_discs += 1;
         if (line.size() > LineReader::longest_line) refuse(name, input.lines_before_discs, "a line of more than 4096 characters");
+        if (input.lines_before_discs == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
         std::string_view content = line;
+        if (content.empty()) continue;
         if (content.back() == '\n') content.remove_suffix(1);
         found += !trimmed(content).empty();
         input.text += line;

@@ -3,6 +3,7 @@
 // `--set key=value`. Each setting remembers where it stands, so that every problem can name its line.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -30,6 +31,7 @@ struct Row {
 /// `discs.streams`: region and velocity as written.
 struct StreamRows {
     Place place;
+    std::size_t number = 0; ///< among the streams, from 1
     std::vector<double> region, velocity;
 };
 

@@ -78,37 +78,39 @@ std::optional<std::vector<double>> numbers_of(Walk& walk, const toml::node& node
 std::vector<Row> rows_of(Walk& walk, const toml::array& array) {
     std::vector<Row> rows;
     for (const toml::node& node : array) {
-        const auto numbers = numbers_of(walk, node, 4, "a disc of 'discs.list' must be four numbers, [x, y, vx, vy]");
+        const auto numbers = numbers_of(walk, node, 4, fmt::format("row {} of 'discs.list' must be four numbers, [x, y, vx, vy]", rows.size() + 1));
         rows.push_back({walk.place_of(node.source()), numbers.value_or(std::vector<double>{})});
     }
     return rows;
 }
 
-std::optional<StreamRows> stream_of(Walk& walk, const toml::table& table) {
+/// The `number`-th stream, from 1; nothing after a problem.
+std::optional<StreamRows> stream_of(Walk& walk, const toml::table& table, std::size_t number) {
+    const std::string name = fmt::format("stream {}", number);
     static constexpr std::array<std::string_view, 2> names = {"region", "velocity"};
     for (const auto& [key, node] : table)
         if (key.str() != names[0] && key.str() != names[1])
             add_problem(walk.problems, walk.place_of(key.source()),
-                        fmt::format("a stream has no {}; did you mean '{}'?", quoted(key.str()),
-                                    nearest_of(key.str(), names.data(), names.size())));
+                        fmt::format("{}: a stream has no {}{}", name, quoted(key.str()), guess(key.str(), names, '\'')));
     const toml::node* region = table.get("region");
     const toml::node* velocity = table.get("velocity");
     if (!region || !velocity) {
         add_problem(walk.problems, walk.place_of(table.source()),
-                    "a stream needs region = [x0, y0, x1, y1] and velocity = [vx, vy]");
+                    name + " needs region = [x0, y0, x1, y1] and velocity = [vx, vy]");
         return std::nullopt;
     }
-    auto corners = numbers_of(walk, *region, 4, "the region of a stream must be four numbers, [x0, y0, x1, y1]");
-    auto components = numbers_of(walk, *velocity, 2, "the velocity of a stream must be two numbers, [vx, vy]");
+    auto corners = numbers_of(walk, *region, 4, name + ": its region must be four numbers, [x0, y0, x1, y1]");
+    auto components = numbers_of(walk, *velocity, 2, name + ": its velocity must be two numbers, [vx, vy]");
     if (!corners || !components) return std::nullopt;
-    return StreamRows{walk.place_of(region->source()), std::move(*corners), std::move(*components)};
+    return StreamRows{walk.place_of(region->source()), number, std::move(*corners), std::move(*components)};
 }
 
 std::optional<std::vector<StreamRows>> streams_of(Walk& walk, const toml::array& array) {
     std::vector<StreamRows> streams;
+    std::size_t number = 0;
     for (const toml::node& node : array) {
         if (!node.is_table()) return std::nullopt;
-        if (auto stream = stream_of(walk, *node.as_table())) streams.push_back(std::move(*stream));
+        if (auto stream = stream_of(walk, *node.as_table(), ++number)) streams.push_back(std::move(*stream));
     }
     return streams;
 }

@@ -46,6 +46,17 @@ if [ -r secret/a.in ]; then refuse 'an unreadable file' '/proc/self/mem: cannot 
 else refuse 'an unreadable file' 'secret/a.in: cannot be opened: Permission denied' run secret/a.in; fi
 rm -rf secret
 
+mkfifo pipe
+refuse 'a pipe that nobody writes to' 'pipe: is not a plain file' run pipe
+refuse 'a device that never ends' '/dev/zero: is not a plain file' run /dev/zero
+refuse 'a checkpoint that is a pipe' 'pipe: is not a plain file' run --restart pipe
+for command in info verify 'diff pipe' 'convert --to csv'; do
+    run "$ranks" $command pipe
+    expect_code 2 "$command pipe"
+    expect_told 'pipe: is not a plain file' "$command pipe"
+done
+rm pipe
+
 # Ancestor text, the header.
 refuse_text 'an empty file' '' 'bad.in: the input is empty'
 refuse_text 'a header that ends early' '2\n10\n1\n' 'bad.in:3: the input ends before'
@@ -93,6 +104,11 @@ refuse_toml 'discs from no file' "${good/radius = 1/radius = 1$'\n'generator = \
 refuse_toml 'discs from a file that is not there' \
     "${good/radius = 1/radius = 1$'\n'generator = \"file\"$'\n'file = \"nowhere.txt\"}" 'nowhere.txt: cannot be opened'
 printf '%s\n' "$good" >good.toml
+for device in /dev/zero /dev/full; do
+    refuse "discs from $device" "$device: is not a plain file" run good.toml --set discs.file="$device"
+done
+refuse 'a window too short to end' '--window: must be a number from 1e-05 on' run good.toml --window 1e-300
+refuse 'an override without a key' "--set =3: '=3' is not of the form key=value" run good.toml --set =3
 refuse 'a wrong override' '--set time.stps' run good.toml --set time.stps=3
 refuse 'an override that is none' '--set time.steps' run good.toml --set time.steps
 refuse 'wrong options and a wrong scene at once' $'--threads: must be\n--set discs.count' \

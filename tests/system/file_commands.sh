@@ -72,6 +72,13 @@ for command in verify info; do
     expect_code 2 "$command of a damaged file"
     expect_told 'is damaged' "$command of a damaged file"
 done
+cp "$first" blurred.h5
+printf 'X' | dd of=blurred.h5 bs=1 seek=5 conv=notrunc status=none
+for command in info verify "diff $first" 'convert --to csv'; do
+    run 1 $command blurred.h5
+    expect_code 2 "$command of a checkpoint with a damaged first line"
+    expect_silence "$command of a checkpoint with a damaged first line"
+done
 run 1 diff "$first" t.h5
 expect_code 2 'diff of two kinds'
 run 1 convert c.h5 --to xyz

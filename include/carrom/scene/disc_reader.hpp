@@ -21,6 +21,7 @@ namespace carrom {
 class DiscReader {
 public:
     static constexpr std::size_t most_problems = 20; ///< listed in full; the rest are counted
+    static constexpr std::size_t most_wrong_lines = 1'000'000; ///< reading ends there: this is no list of discs
 
     /// Reads `stream`, which stands at the first disc; `stream` and `scene` must outlive the reader.
     DiscReader(std::istream& stream, const Scene& scene);

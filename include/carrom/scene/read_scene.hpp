@@ -25,7 +25,8 @@ struct SceneText {
     bool discs_follow = false;           ///< ancestor text: the stream goes on with lines of discs
 };
 
-/// Opens a file to read; InputError where it is missing, a directory, or not readable. One rank calls this.
+/// Opens a file to read; InputError where it is missing, no plain file (a device or a pipe may never end), or not
+/// readable. One rank calls this.
 std::ifstream open_input(const std::string& path);
 
 /// Takes the scene's text from `stream` and leaves the stream at the first line of discs, if any. One rank calls this.

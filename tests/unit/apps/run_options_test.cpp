@@ -74,6 +74,19 @@ TEST_CASE("Every wrong option is told, each by its name") {
                                              "--threads", "--window"});
 }
 
+TEST_CASE("A window may be a hundred-thousandth of a micro-step, and no shorter") {
+    RunWords words;
+    words.window = "1e-5";
+    CHECK(checked(words).problems.empty());
+    for (const char* wrong : {"0.99e-5", "1e-300", "0", "-1", "inf"}) {
+        words.window = wrong;
+        const auto [options, problems] = checked(words);
+        REQUIRE(problems.size() == 1);
+        CHECK(problems[0].text.find("a number from 1e-05 on") != std::string::npos);
+        CHECK_FALSE(options.tuning.window.has_value());
+    }
+}
+
 TEST_CASE("Zero is a number of steps, and switches rebalancing off or on at every look") {
     RunWords words;
     words.steps = words.rebalance_every = words.rebalance_above = "0";

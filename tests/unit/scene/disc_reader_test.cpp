@@ -140,6 +140,48 @@ TEST_CASE("Lines are cut, not swallowed, when they have no end") {
     CHECK(places_of(outcome.problems) == Texts{"t.in:7", "t.in:9"});
 }
 
+TEST_CASE("All that is wrong with a line is told") {
+    const Outcome outcome = read_all("0 five 5 0 six 7\n1 nan 5 inf 0\n", scene_of(2));
+    CHECK(places_of(outcome.problems) == Texts{"t.in:6", "t.in:7"});
+    CHECK(mentions(outcome.problems, "'five' is not a number; 'six' is not a number; '7' after the 5 numbers"));
+    CHECK(mentions(outcome.problems, "the position nan is not a finite number; the velocity inf is not"));
+}
+
+TEST_CASE("A line that does not end, and lines that are never right, end the reading") {
+    struct Endless : std::streambuf {
+        explicit Endless(std::string text) : text_(std::move(text)) {}
+        int_type underflow() override {
+            n_blocks += 1;
+            setg(text_.data(), text_.data(), text_.data() + text_.size());
+            return traits_type::to_int_type(text_[0]);
+        }
+        std::string text_;
+        std::size_t n_blocks = 0;
+    };
+    const auto problems_with = [](Endless& source) {
+        std::istream stream(&source);
+        const Scene scene = scene_of(2);
+        DiscReader reader(stream, scene);
+        std::vector<InputDisc> chunk;
+        while (reader.read(chunk, 1000)) {}
+        return reader.problems();
+    };
+    Endless zeros(std::string(1 << 16, '\0'));
+    CHECK(mentions(problems_with(zeros), "does not end"));
+    CHECK(zeros.n_blocks <= (LineReader::most_skipped >> 16) + 16);
+    std::string lines;
+    for (int i = 0; i < 1000; ++i) lines += "y\n";
+    Endless words(lines);
+    CHECK(mentions(problems_with(words), "it was not read beyond them"));
+    CHECK(words.n_blocks <= DiscReader::most_wrong_lines / 1000 + 1000);
+}
+
+TEST_CASE("A file of discs may begin with a mark of the byte order") {
+    Scene scene = scene_of(1);
+    scene.discs_file = "d.txt";
+    CHECK(read_all("\xef\xbb\xbf" "0 5 5 0 0\n", scene).problems.empty());
+}
+
 TEST_CASE("The line reader agrees with getline on any lengths of lines") {
     std::mt19937_64 engine(3);
     std::string text;

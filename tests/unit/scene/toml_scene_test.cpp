@@ -291,6 +291,40 @@ TEST_CASE("Misspelt keys name the nearest known one") {
     }
 }
 
+TEST_CASE("Where no known key is near none is guessed: those that there are get listed") {
+    for (const char* wrong : {"foo=1", "discs.zzzzzzzqqqqq=1", "box.sidelength=3", "time.tau=1", "output.trajectory.colour='x'"}) {
+        CAPTURE(wrong);
+        const auto problems = problems_in(good, {wrong});
+        CHECK(problems.size() == 1);
+        CHECK_FALSE(mentions(problems, "did you mean"));
+    }
+    CHECK(mentions(problems_in(good, {"foo=1"}), "the tables [box], [discs], [time] and [output]"));
+    CHECK(mentions(problems_in(good, {"box.sidelength=1"}), "[box] has size"));
+    CHECK(mentions(problems_in(good, {"output.trajectory.colour=1"}), "[output.trajectory] has file, every_steps, fields"));
+    CHECK_FALSE(mentions(problems_in(good, {"time.collisions=everything"}), "did you mean"));
+    CHECK(mentions(problems_in(good, {"time.collisions=al"}), "did you mean \"all\"?"));
+}
+
+TEST_CASE("An override without a key is shown as it was written") {
+    CHECK(places_of(problems_in(good, {"=3"})) == Texts{"--set =3"});
+    CHECK(places_of(problems_in(good, {" = 3"})) == Texts{"--set  = 3"});
+}
+
+TEST_CASE("A mark of the byte order at the start of a file is no part of it") {
+    CHECK(problems_in("\xef\xbb\xbf" + good).empty());
+    CHECK(read_scene("\xef\xbb\xbf" "2\n10\n1\n5\nperf\n", "s.in").n_discs == 2);
+    CHECK(read_scene("\xef\xbb\xbf\n2\n10\n1\n5\nperf\n0 3 3 0 0\n1 7 7 0 0\n", "s.in").lines_before_discs == 6);
+    CHECK(places_of(problems_of([] { read_scene("\xef\xbb\xbf", "s.in"); })) == Texts{"s.in"});
+}
+
+TEST_CASE("A packing or a radius that cannot be says what the bound is") {
+    CHECK(mentions(problems_in(with_line(5, "packing = 0.95")), "at most 0.9069, not 0.95: equal discs cover no more of the plane"));
+    CHECK(mentions(problems_in(with_line(5, "radius = 1e-9")), "discs of radius 1e-09 in a box of side 100"));
+    const Scene all = read_scene(with_line(5, "radius = 1e-9"), "s.toml", {"time.collisions=all"});
+    REQUIRE(all.warnings.size() == 1);
+    CHECK(all.warnings[0].find("discs of radius 1e-09 in a box of side 100") == 0);
+}
+
 TEST_CASE("Keys that have no say in the discs are refused") {
     CHECK(problems_in(with_line(5, "radius = 1\nfile = 'd'\nspeed = 1\nseed = 1")).size() == 2);
     CHECK(problems_in(with_line(5, "radius = 1\ngenerator = 'ancestor'\nvelocities = 'uniform'")).size() == 1);
@@ -306,6 +340,11 @@ TEST_CASE("Discs listed in the scene must lie in the box and move") {
     CHECK(places_of(problems_in(head + "[0.99, 5, 0, 0],\n[5, 5, 0, 0],\n[5, 9.01, 0, 0],\n[nan, 5, 0, 0],\n[5, 5, inf, 0],\n"
                                        "[5, 5, 1e100, 0],\n[5, 5, 0, 1e-100],\n[5, 5, 0],\n[5, 5, 0, 0, 0],\n['a', 5, 0, 0]\n" + tail)) ==
           Texts{"s.toml:6", "s.toml:8", "s.toml:9", "s.toml:10", "s.toml:11", "s.toml:12", "s.toml:13", "s.toml:14", "s.toml:15"});
+    const auto inline_rows = problems_in(good, {"discs.list=[[1, 2, 3], [5, 5, inf, nan], [0, nan, 1, 0], [5, 5, 0, 0]]", "discs.count=4"});
+    CHECK(inline_rows.size() == 3); // they have no lines of their own
+    CHECK(mentions(inline_rows, "row 1 of 'discs.list' must be four numbers"));
+    CHECK(mentions(inline_rows, "row 2 of 'discs.list': the velocity inf is not a finite number; the velocity nan is not"));
+    CHECK(mentions(inline_rows, "row 3 of 'discs.list': the position nan is not"));
     CHECK(places_of(problems_in("[box]\nsize = 10\n[discs]\nradius = 1\nlist = []\n[time]\nsteps = 1\n")) == Texts{"s.toml:5"});
 }
 
@@ -319,6 +358,12 @@ TEST_CASE("Streams need a region and a finite velocity") {
         CAPTURE(wrong);
         CHECK(problems_in(head + wrong).size() == 1);
     }
+    const auto several = problems_in(good, {"discs.streams=[{region=[0,0,1,1],velocity=[1,2]}, {region=[0,0,1],velocity=[1]}, "
+                                            "{region=[3,0,1,1],velocity=[inf,2]}, {region=[0,0,1,1],speed=2}]"});
+    CHECK(several.size() == 6);
+    for (const char* text : {"stream 2: its region must be four", "stream 2: its velocity must be two", "stream 3: its region must be finite",
+                             "stream 3: the velocity inf", "stream 4: a stream has no 'speed'", "stream 4 needs region"})
+        CHECK(mentions(several, text));
     CHECK(problems_in(with_line(5, "radius = 1\nstreams = 3")).size() == 1);
     CHECK(problems_in(with_line(5, "radius = 1\nstreams = [3]")).size() == 1);
 }
