@@ -15,6 +15,7 @@
 #include "hard_cases.hpp"
 #include "load.hpp"
 #include "machine.hpp"
+#include "neighbourhood.hpp"
 #include "progress.hpp"
 #include "recordings.hpp"
 #include "report_file.hpp"
@@ -72,7 +73,8 @@ bool step_to_end(Simulation& simulation, RunResult& result, double& output_secon
     output_seconds += watch.lap();
     while (simulation.step() < scene.steps && !must_stop) {
         const std::int64_t step = simulation.step();
-        simulation.advance_towards(std::min({lines.next_due(step), checkpoints.next_look(step), recordings.next_due(step)}));
+        const std::int64_t next = std::min({lines.next_due(step), checkpoints.next_look(step), recordings.next_due(step)});
+        advance_or_tell(simulation, next, scene, ranks);
         result.wall_seconds += watch.lap();
         write_if_due();
         recordings.record(simulation);
@@ -83,6 +85,13 @@ bool step_to_end(Simulation& simulation, RunResult& result, double& output_secon
     lines.close();
     recordings.finish();
     return !must_stop;
+}
+
+/// **Collective.**
+void check_every_step(Simulation& simulation, const Scene& scene) {
+    if (scene.precision != Precision::double_ || scene.arithmetic != Arithmetic::stable)
+        throw InputError({{"--check", 0, "its bounds are those of time.precision = \"double\" and time.arithmetic = \"stable\"; leave one out"}});
+    simulation.check_every_step(scene);
 }
 
 /// The run itself. **Collective.**
@@ -99,6 +108,7 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
                                        : Simulation(scene, std::move(loaded.discs), ranks, tuning);
 
     warn_of_hard_cases(scene, simulation, ranks);
+    if (options.check) check_every_step(simulation, scene);
     RunResult result;
     result.first_step = simulation.step();
     result.start = simulation.totals();

@@ -31,7 +31,7 @@ Examples:
   carrom run --digits 8 - < input.in > output.txt
 
 Exit codes: 0 done; 2 wrong input, nothing was done; 3 a rank failed; 4 output
-could not be written; 75 stopped on request before the end.)";
+could not be written; 70 a broken invariant; 75 stopped on request before the end.)";
 
 template <class Number> std::optional<Number> number(std::string_view word) {
     Number value{};
@@ -105,6 +105,9 @@ void declare_run_options(CLI::App& command, RunWords& words) {
         ->type_name("FILE");
     command.add_option("--report", words.report, "Write the summary's numbers to FILE as JSON")->type_name("FILE");
     command.add_flag("--quiet", words.quiet, "No progress and no summary; errors are still told");
+    command.add_flag("--check", words.check,
+                     "After every step hold the state to its invariants; exit code 70 and the scene of the discs around where "
+                     "one is broken");
     const std::string group = "Cost only, never bits";
     command.add_option("--window", words.window,
                        "Micro-steps per window; below 1 a micro-step is cut into parts, at most 100000")->type_name("W")->group(group);
@@ -129,6 +132,7 @@ RunOptions checked_run_options(const RunWords& words, std::vector<Problem>& prob
     options.output = words.output;
     options.report = words.report;
     options.quiet = words.quiet;
+    options.check = words.check;
     options.threads = checker.integer<int>("--threads", words.threads, 1, 1024);
     options.digits = checker.integer<int>("--digits", words.digits, 1, RunOptions::round_trip_digits).value_or(options.digits);
     if (const auto accuracy = checker.real("--accuracy", words.accuracy, true))

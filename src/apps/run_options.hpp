@@ -23,6 +23,7 @@ struct RunOptions {
     std::string output;                 ///< a file for the lines of text; empty for standard output
     std::string report;                 ///< empty for none
     bool quiet = false;
+    bool check = false;                 ///< hold every step to its invariants
     std::optional<int> threads;
     Tuning tuning;                      ///< but for `threads`, which needs to know the machine
 };
@@ -32,7 +33,7 @@ struct RunWords {
     std::string input, restart, threads, steps, accuracy, digits, output, report;
     std::string window, cell_width, rebalance_every, rebalance_above;
     std::vector<std::string> overrides;
-    bool quiet = false;
+    bool quiet = false, check = false;
 };
 
 /// Declares the options on `command`. `words` must live until it has parsed.

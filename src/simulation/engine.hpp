@@ -6,10 +6,21 @@
 #include <span>
 #include <vector>
 
+#include "carrom/collision/cell_grid.hpp"
+#include "carrom/collision/search.hpp"
 #include "carrom/core/disc.hpp"
+#include "carrom/domain/strips.hpp"
 #include "carrom/simulation/simulation.hpp"
 
 namespace carrom {
+
+/// A rank's discs at `time`, as every window begins: own ones in their strip, the halo behind them, all in cells.
+struct Settled {
+    Population population;
+    const CellGrid* grid = nullptr; ///< partners within a diameter are within its reach
+    const Strips* strips = nullptr;
+    double time = 0;                ///< since the last sync
+};
 
 class Engine {
 public:
@@ -22,6 +33,8 @@ public:
     virtual void advance_towards(std::int64_t last_step) = 0;
     /// Fills in what only the engine knows or finds: overlaps, rejected candidates, windows. **Collective.**
     virtual void add_to(Totals& totals) = 0;
+    /// Settles the discs where they are now, for a look at them; good until the next step. **Collective.**
+    virtual Settled settled() = 0;
 
     /// **Collective.**
     virtual ReplayCounts replay_counts() const { return {}; }

@@ -279,6 +279,11 @@ template <class Law> ReplayCounts ExactEngine<Law>::replay_counts() const {
     return counts;
 }
 
+template <class Law> Settled ExactEngine<Law>::settled() {
+    settle_now();
+    return {discs_.population(), &grid_, &discs_.strips(), time_};
+}
+
 template <class Law> void ExactEngine<Law>::add_to(Totals& totals) {
     settle_now();
     measure_overlaps(discs_.population(), grid_, time_, {law_.diameter(), law_.tolerance()}, communicator_, tuning_.threads, totals);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "carrom/core/errors.hpp"
+#include "near_pairs.hpp"
 
 namespace carrom {
 
@@ -35,28 +36,12 @@ struct FirstOverlaps {
     }
 };
 
-/// Calls `visit(p, q)` for each pair of discs in cells near each other, once.
-template <class Visit> void visit_pairs(const CellGrid& grid, const Visit& visit) {
-    const GridFrame& frame = grid.frame();
-    const std::span<const LocalIndex> order = grid.order();
-    for (int column = 0; column < frame.n_columns; ++column) {
-        const SlotRange all = grid.run(column, 0, frame.n_rows - 1);
-        for (std::uint32_t slot = all.begin; slot < all.end; ++slot) {
-            const int row = grid.row_of(order[slot]);
-            for (int other = column; other <= std::min(column + frame.n_reach, frame.n_columns - 1); ++other) {
-                const SlotRange run = grid.run(other, row - frame.n_reach, row + frame.n_reach);
-                for (std::uint32_t k = other == column ? slot + 1 : run.begin; k < run.end; ++k) visit(order[slot], order[k]);
-            }
-        }
-    }
-}
-
 } // namespace
 
 void refuse_overlaps(const Population& population, const CellGrid& grid, double time, const Touching& touching,
                      const Communicator& communicator, const std::string& scene_name) {
     FirstOverlaps mine;
-    visit_pairs(grid, [&](LocalIndex a, LocalIndex b) {
+    visit_near_pairs(grid, [&](LocalIndex a, LocalIndex b) {
         if (population.discs[b].id < population.discs[a].id) std::swap(a, b);
         if (a >= population.n_own) return; // the rank of the lower id counts the pair
         const Disc& p = population.discs[a];

@@ -106,6 +106,11 @@ template <class Law> void OneEngine<Law>::settle_now() {
     build_grid(now, reach);
 }
 
+template <class Law> Settled OneEngine<Law>::settled() {
+    settle_now();
+    return {population(), &grid_, &discs_.strips(), static_cast<double>(micro_)};
+}
+
 template <class Law> void OneEngine<Law>::add_to(Totals& totals) {
     totals.rejected_candidates = communicator_.sum(n_candidates_ - n_kept_);
     settle_now();

@@ -8,6 +8,7 @@
 #include "exact_engine.hpp"
 #include "measurements.hpp"
 #include "one_engine.hpp"
+#include "state_check.hpp"
 
 namespace carrom {
 
@@ -51,8 +52,22 @@ Simulation::~Simulation() = default;
 
 void Simulation::advance_towards(std::int64_t last_step) {
     if (!averages_->has_begun()) average_anew();
-    engine_->advance_towards(last_step); // never beyond the first step after a sync, where blocks may end
+    if (check_ && step() < last_step) advance_checked();
+    else engine_->advance_towards(last_step); // never beyond the first step after a sync, where blocks may end
     if (averages_->ends_block(step())) averages_->end_block(step(), look_at(discs(), engine_->n_discs(), n_threads_, communicator_));
+}
+
+void Simulation::check_every_step(const Scene& scene) {
+    check_ = std::make_unique<StateCheck>(scene, discs(), micro_steps_done(), communicator_);
+}
+
+void Simulation::advance_checked() {
+    std::vector<Collision> collisions;
+    engine_->log_to(&collisions);
+    engine_->advance_towards(step() + 1);
+    engine_->log_to(log_);
+    check_->look(engine_->settled(), micro_steps_done(), collisions);
+    if (log_) log_->insert(log_->end(), collisions.begin(), collisions.end());
 }
 
 void Simulation::average_anew() { averages_->begin(step(), look_at(discs(), engine_->n_discs(), n_threads_, communicator_)); }
@@ -70,7 +85,10 @@ std::span<const Disc> Simulation::discs() const { return engine_->own(); }
 
 double Simulation::clock() const { return engine_->clock(); }
 
-void Simulation::log_to(std::vector<Collision>* log) { engine_->log_to(log); }
+void Simulation::log_to(std::vector<Collision>* log) {
+    log_ = log;
+    engine_->log_to(log);
+}
 
 Totals Simulation::totals() const {
     Totals totals;

@@ -11,7 +11,15 @@
 
 namespace carrom {
 
-enum class ExitCode : int { success = 0, difference = 1, bad_input = 2, collective_failure = 3, output_failure = 4, stopped = 75 };
+enum class ExitCode : int {
+    success = 0,
+    difference = 1,
+    bad_input = 2,
+    collective_failure = 3,
+    output_failure = 4,
+    broken_invariant = 70,
+    stopped = 75
+};
 
 /// One thing wrong with an input: where, what, and how to mend it. `line` 0 means the place has no line.
 struct Problem {

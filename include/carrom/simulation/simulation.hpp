@@ -70,6 +70,7 @@ struct Collision {
 
 class BlockAverages;
 class Engine;
+class StateCheck;
 
 class Simulation {
 public:
@@ -97,6 +98,11 @@ public:
     /// From now on every collision is appended to `log` of one rank, in no particular order; null ends that.
     void log_to(std::vector<Collision>* log);
 
+    /// From now on every step is held to the invariants of check_failure.hpp: `advance_towards` goes one step at a time and
+    /// throws CheckFailure on every rank when one is broken. `scene` must outlive the run, and be of the default precision
+    /// and arithmetic. **Collective.**
+    void check_every_step(const Scene& scene);
+
     /// Averages since this process began, or since `average_anew`. **Collective.**
     Averages averages() const;
     /// Forgets what has been averaged so far, as before a gas had come to equilibrium. **Collective.**
@@ -108,11 +114,15 @@ public:
     PhaseSeconds phase_seconds() const;
 
 private:
+    void advance_checked();
+
     Communicator communicator_;
     double velocity_unit_;
     int n_threads_;
     std::unique_ptr<Engine> engine_;
     std::unique_ptr<BlockAverages> averages_;
+    std::unique_ptr<StateCheck> check_;
+    std::vector<Collision>* log_ = nullptr; ///< the user's, while the check has a log of its own
 };
 
 } // namespace carrom

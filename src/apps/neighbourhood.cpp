@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "neighbourhood.hpp"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "report_file.hpp"
+
+namespace carrom {
+
+namespace {
+
+std::string scene_text(const Scene& scene, const CheckFailure& failure, const std::string& discs_file) {
+    std::string text = fmt::format("# {}\n# Discs as they were at step {}; their ids in {}:", failure.what(), failure.step - 1, scene.name);
+    for (std::size_t i = 0; i < failure.neighbourhood.size(); ++i) text += fmt::format(" {} was {};", i, failure.neighbourhood[i].id);
+    text.back() = '.';
+    return text + fmt::format("\n[box]\nsize = {}\n[discs]\nradius = {}\ncount = {}\nfile = \"{}\"\n"
+                              "[time]\nsteps = 1\nmicro_steps = {}\nsync_every = {}\ncollisions = \"{}\"\n",
+                              scene.box_size, scene.radius, failure.neighbourhood.size(), discs_file, scene.micro_steps, scene.sync_every,
+                              scene.rule == CollisionRule::one ? "one" : "all");
+}
+
+std::string disc_lines(const std::vector<InputDisc>& discs) {
+    std::string text;
+    for (std::size_t i = 0; i < discs.size(); ++i)
+        text += fmt::format("{} {} {} {} {}\n", i, discs[i].x, discs[i].y, discs[i].vx, discs[i].vy);
+    return text;
+}
+
+} // namespace
+
+std::string write_neighbourhood(const std::string& folder, const Scene& scene, const CheckFailure& failure) {
+    if (failure.neighbourhood.empty()) return "there are no discs around it to show";
+    const std::string name = fmt::format("check_step_{}_disc_{}", failure.step, failure.disc);
+    const std::string scene_path = (std::filesystem::path(folder) / (name + ".toml")).string();
+    std::string obstacle = write_whole_file((std::filesystem::path(folder) / (name + ".discs")).string(), disc_lines(failure.neighbourhood));
+    if (obstacle.empty()) obstacle = write_whole_file(scene_path, scene_text(scene, failure, name + ".discs"));
+    if (!obstacle.empty()) return "the discs around it could not be written: " + obstacle;
+    return fmt::format("{} discs around it, from the step before, are in {}", failure.neighbourhood.size(), scene_path);
+}
+
+CollectiveError told(const CheckFailure& failure, const Scene& scene, const Communicator& ranks) {
+    std::string sentence;
+    if (ranks.is_root()) sentence = write_neighbourhood("", scene, failure);
+    ranks.broadcast(sentence);
+    return CollectiveError(fmt::format("{}\n{}", failure.what(), sentence), failure.code());
+}
+
+void advance_or_tell(Simulation& simulation, std::int64_t last_step, const Scene& scene, const Communicator& ranks) {
+    try {
+        simulation.advance_towards(last_step);
+    } catch (const CheckFailure& failure) {
+        throw told(failure, scene, ranks);
+    }
+}
+
+} // namespace carrom

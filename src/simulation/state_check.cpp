@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "state_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "carrom/effects/plain_law.hpp"
+#include "carrom/parallel/exchange.hpp"
+#include "carrom/parallel/slabs.hpp"
+#include "measurements.hpp"
+#include "near_pairs.hpp"
+#include "shared_energy.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr double energy_bound = 1e-12;
+constexpr double energy_bound_per_collision = 32 * 0x1p-53;
+
+/// One disc's part in a collision, for the rank that keeps its record.
+struct Part {
+    DiscId disc = 0;
+    std::int64_t end_of_micro_step = 0;
+    std::uint64_t is_wall = 0;
+};
+
+bool is_finite(const Disc& disc) {
+    return std::isfinite(disc.x) && std::isfinite(disc.y) && std::isfinite(disc.vx) && std::isfinite(disc.vy) && std::isfinite(disc.tau);
+}
+
+double squared_speed(const Disc& disc) { return disc.vx * disc.vx + disc.vy * disc.vy; }
+
+} // namespace
+
+StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64_t micro_steps_done, const Communicator& communicator)
+    : scene_(scene), communicator_(communicator), first_id_(slab_begin(communicator.rank(), scene.n_discs, communicator.size())),
+      micro_steps_done_(micro_steps_done), micro_steps_before_(micro_steps_done),
+      tolerance_(PlainLaw(scene.box_size, scene.radius).tolerance()) {
+    known_.resize(slab_begin(communicator.rank() + 1, scene.n_discs, communicator.size()) - first_id_);
+    for (Known& known : known_) known.free_from = micro_steps_done;
+    fail_if_found(first_not_finite(own), {});
+    fail_if_found(take_records(own), {});
+    before_ = known_;
+    double square = 0;
+    for (const Disc& disc : own) square = std::max(square, squared_speed(disc));
+    fastest_ = std::sqrt(communicator_.max(square)) * std::sqrt(static_cast<double>(scene.n_discs));
+    energy_ = energy_of(own);
+}
+
+void StateCheck::look(const Settled& now, std::int64_t micro_steps_done, Log log) {
+    before_ = known_;
+    micro_steps_before_ = std::exchange(micro_steps_done_, micro_steps_done);
+    const std::span<const Disc> own = now.population.discs.first(now.population.n_own);
+    fail_if_found(first_not_finite(own), log);
+    fail_if_found(take_records(own), log);
+    take_log(log);
+    fail_if_found(first_out_of_place(now), log);
+    fail_if_found(first_wrong_count(), log);
+    fail_if_found(first_other_motion(), log);
+    fail_if_found(first_overlap(now), log);
+    fail_if_found(first_other_energy(own, log), log);
+}
+
+StateCheck::Finding StateCheck::first_not_finite(std::span<const Disc> own) const {
+    for (const Disc& disc : own) {
+        if (!is_finite(disc)) return {Invariant::finite, communicator_.rank(), 1, disc.id};
+    }
+    return {};
+}
+
+/// Brings every disc to the rank that keeps its record. `value` of a finding: how many ranks, or places, own the disc.
+StateCheck::Finding StateCheck::take_records(std::span<const Disc> own) {
+    std::vector<std::vector<Disc>> out(static_cast<std::size_t>(communicator_.size()));
+    Finding finding;
+    for (const Disc& disc : own) {
+        if (disc.id < scene_.n_discs) out[static_cast<std::size_t>(slab_of_disc(disc.id))].push_back(disc);
+        else finding = {Invariant::owned_once, communicator_.rank(), 1, disc.id, 0, 1, 0};
+    }
+    const Received<Disc> in = send_to_owners(communicator_, out);
+    std::vector<int> n_owners(known_.size(), 0);
+    for (Known& known : known_) known.walls = known.pairs = 0;
+    for (std::size_t k = 0; k < in.n_senders(); ++k) {
+        for (const Disc& disc : in.from(k)) {
+            const std::size_t i = disc.id - first_id_;
+            ++n_owners[i];
+            known_[i].disc = disc;
+            known_[i].owner = static_cast<int>(k);
+        }
+    }
+    for (std::size_t i = 0; i < known_.size() && finding.is_found == 0; ++i) {
+        if (n_owners[i] != 1) finding = {Invariant::owned_once, known_[i].owner, 1, first_id_ + i, 0, static_cast<double>(n_owners[i]), 1};
+    }
+    return finding;
+}
+
+void StateCheck::take_log(Log log) {
+    std::vector<std::vector<Part>> out(static_cast<std::size_t>(communicator_.size()));
+    std::uint64_t n_pairs = 0;
+    for (const Collision& collision : log) {
+        const bool is_wall = collision.q == Collision::wall;
+        n_pairs += is_wall ? 0 : 1;
+        for (const DiscId id : {collision.p, is_wall ? collision.p : collision.q}) {
+            ensure(id < scene_.n_discs, "the log of collisions names a disc that does not exist");
+            out[static_cast<std::size_t>(slab_of_disc(id))].push_back({id, collision.micro_step + 1, is_wall ? 1u : 0u});
+            if (is_wall) break;
+        }
+    }
+    for (const Part& part : send_to_owners(communicator_, out).items) {
+        Known& known = known_[part.disc - first_id_];
+        ++(part.is_wall == 1 ? known.walls : known.pairs);
+        known.free_from = std::max(known.free_from, part.end_of_micro_step);
+    }
+    n_pair_collisions_ += communicator_.sum(n_pairs);
+}
+
+StateCheck::Finding StateCheck::first_out_of_place(const Settled& now) const {
+    const GridFrame& frame = now.grid->frame();
+    const double allowed = blur(4);
+    std::optional<Finding> first;
+    const auto add = [&](Invariant invariant, DiscId id, double value, double bound) {
+        if (!first || invariant < first->invariant) first = Finding{invariant, communicator_.rank(), 1, id, 0, value, bound};
+    };
+    const bool is_filed = now.grid->is_valid(now.population.discs.size());
+    for (std::size_t i = 0; i < now.population.n_own; ++i) {
+        const Disc& disc = now.population.discs[i];
+        const double x = disc.x_at(now.time), y = disc.y_at(now.time);
+        const double outside = std::max({scene_.radius - std::min(x, y), std::max(x, y) - (scene_.box_size - scene_.radius)});
+        if (outside > allowed) add(Invariant::in_box, disc.id, outside, allowed);
+        if (now.strips->owner(x) != communicator_.rank()) add(Invariant::in_strip, disc.id, now.strips->owner(x), 0);
+        const auto index = static_cast<LocalIndex>(i);
+        if (!is_filed || now.grid->column_of(index) != frame.column_of(x) || now.grid->row_of(index) != frame.row_of(y))
+            add(Invariant::in_cell, disc.id, 0, 0);
+    }
+    return first.value_or(Finding{});
+}
+
+StateCheck::Finding StateCheck::first_wrong_count() const {
+    for (std::size_t i = 0; i < known_.size(); ++i) {
+        const Known &now = known_[i], &then = before_[i];
+        const auto walls = static_cast<double>(now.disc.wall_collisions - then.disc.wall_collisions);
+        const auto pairs = static_cast<double>(now.disc.pair_collisions - then.disc.pair_collisions);
+        // `partner` says which of the two counters it is.
+        if (walls != static_cast<double>(now.walls))
+            return {Invariant::counters, now.owner, 1, first_id_ + i, 0, walls, static_cast<double>(now.walls)};
+        if (pairs != static_cast<double>(now.pairs))
+            return {Invariant::counters, now.owner, 1, first_id_ + i, 1, pairs, static_cast<double>(now.pairs)};
+    }
+    return {};
+}
+
+StateCheck::Finding StateCheck::first_other_motion() const {
+    for (std::size_t i = 0; i < known_.size(); ++i) {
+        const Known& now = known_[i];
+        const Disc &disc = now.disc, &then = before_[i].disc;
+        if (now.walls + now.pairs == 0 && (disc.vx != then.vx || disc.vy != then.vy))
+            return {Invariant::motion, now.owner, 1, first_id_ + i, 0, std::hypot(disc.vx - then.vx, disc.vy - then.vy), 0};
+    }
+    return {};
+}
+
+StateCheck::Finding StateCheck::first_overlap(const Settled& now) const {
+    const bool is_one = scene_.rule == CollisionRule::one;
+    const double bound = (is_one ? 1 : 2) * tolerance_ + blur(64);
+    std::vector<Suspect> suspects;
+    visit_near_pairs(*now.grid, [&](LocalIndex a, LocalIndex b) {
+        if (now.population.discs[b].id < now.population.discs[a].id) std::swap(a, b);
+        if (a >= now.population.n_own) return; // the rank of the lower id judges the pair
+        Disc p = now.population.discs[a], q = now.population.discs[b];
+        for (Disc* disc : {&p, &q}) PlainLaw::advance(*disc, now.time);
+        const double depth = 2 * scene_.radius - std::hypot(q.x - p.x, q.y - p.y);
+        if (depth > bound) suspects.push_back({p, q, depth, bound, 0, communicator_.rank()});
+    });
+    if (is_one) return first_unexplained(std::move(suspects));
+    Finding first;
+    for (const Suspect& s : suspects) {
+        const Finding next{Invariant::overlap, s.owner, 1, s.p.id, s.q.id, s.depth, bound};
+        if (first.is_found == 0 || std::pair(next.disc, next.partner) < std::pair(first.disc, first.partner)) first = next;
+    }
+    return first;
+}
+
+/// The ranks that keep the records of both discs are asked, one after the other, when the disc last had a collision.
+StateCheck::Finding StateCheck::first_unexplained(std::vector<Suspect> suspects) const {
+    for (const bool is_first : {true, false}) {
+        std::vector<std::vector<Suspect>> out(static_cast<std::size_t>(communicator_.size()));
+        for (const Suspect& suspect : suspects)
+            out[static_cast<std::size_t>(slab_of_disc((is_first ? suspect.p : suspect.q).id))].push_back(suspect);
+        suspects = std::move(send_to_owners(communicator_, out).items);
+        for (Suspect& suspect : suspects) {
+            const std::int64_t free_from = known_[(is_first ? suspect.p : suspect.q).id - first_id_].free_from;
+            suspect.free_from = is_first ? free_from : std::max(free_from, suspect.free_from);
+        }
+    }
+    Finding first;
+    for (const Suspect& s : suspects) {
+        const auto back = static_cast<double>(s.free_from - micro_steps_done_);
+        const double dx = (s.q.x - s.p.x) + (s.q.vx - s.p.vx) * back, dy = (s.q.y - s.p.y) + (s.q.vy - s.p.vy) * back;
+        const double gap = std::hypot(dx, dy) - 2 * scene_.radius;
+        const auto n_syncs = static_cast<double>(micro_steps_done_ / scene_.sync_every - s.free_from / scene_.sync_every);
+        if (gap <= blur(8 * (1 + n_syncs))) continue; // they were not apart yet, or their contact falls on that time
+        const Finding next{Invariant::overlap, s.owner, 1, s.p.id, s.q.id, s.depth, s.bound};
+        if (first.is_found == 0 || std::pair(next.disc, next.partner) < std::pair(first.disc, first.partner)) first = next;
+    }
+    return first;
+}
+
+StateCheck::Finding StateCheck::first_other_energy(std::span<const Disc> own, Log log) const {
+    std::vector<SharedEnergy> mine, all;
+    for (std::size_t i = 0; i < known_.size(); ++i) {
+        if (known_[i].walls + known_[i].pairs == 0) continue;
+        mine.push_back({first_id_ + i, squared_speed(before_[i].disc), squared_speed(known_[i].disc)});
+    }
+    std::vector<std::pair<DiscId, DiscId>> pairs;
+    stream_to_root(communicator_, mine, [&](std::span<const SharedEnergy> some) { all.insert(all.end(), some.begin(), some.end()); }, 10000);
+    stream_to_root(communicator_, log, [&](Log some) {
+        for (const Collision& c : some) {
+            if (c.q != Collision::wall) pairs.emplace_back(c.p, c.q);
+        }
+    }, 10000);
+    Finding finding;
+    if (communicator_.is_root()) {
+        if (const auto worst = worst_energy_change(all, pairs)) finding = {Invariant::energy, 0, 1, worst->disc, 0, worst->share, worst->bound};
+    }
+    const double n = static_cast<double>(scene_.n_discs);
+    const double bound = energy_bound + energy_bound_per_collision * (2 * static_cast<double>(n_pair_collisions_) / n);
+    const double drift = std::fabs(energy_of(own) / energy_ - 1);
+    if (energy_ > 0 && drift > bound && finding.is_found == 0) { // nobody in particular: the lowest disc that collided
+        const DiscId disc = mine.empty() ? first_id_ : mine.front().disc;
+        finding = {Invariant::energy, 0, known_.empty() ? 0 : 1, disc, 0, drift, bound};
+    }
+    if (finding.is_found == 1) finding.rank = -1; // known to the rank that keeps the record
+    return finding;
+}
+
+double StateCheck::energy_of(std::span<const Disc> own) const {
+    Totals totals;
+    totals.n_discs = scene_.n_discs;
+    measure_motion(own, static_cast<double>(scene_.micro_steps), communicator_, totals);
+    return totals.kinetic_energy;
+}
+
+int StateCheck::slab_of_disc(DiscId id) const { return slab_of(id, scene_.n_discs, communicator_.size()); }
+
+double StateCheck::blur(double n_ulps) const {
+    constexpr double ulp = std::numeric_limits<double>::epsilon();
+    const double time = ulp * static_cast<double>(scene_.sync_every); // the rounding of a time just before a sync
+    return n_ulps * ulp * scene_.box_size + 2 * fastest_ * time;
+}
+
+} // namespace carrom

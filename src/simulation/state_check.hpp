@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Holds a run to its invariants, step by step (CheckFailure lists them; docs/stability.md has the bounds).
+//
+// It keeps a record of each disc as it was at the last look, spread over the ranks by id, so that a disc is compared with
+// itself whoever owns it, and learns from the log which discs have collided. Under the rule "one" discs may pass through
+// each other; an overlap is explained if the pair were closer than a diameter already when the last micro-step ended in
+// which one of the two had a collision, or when the check began. From then on both were free to collide, and flew
+// straight: had they been apart then, their contact was a candidate that nothing could have taken from them.
+// Price: 128 bytes a disc, every disc and collision sent once a step, collisions to rank 0.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "carrom/core/disc.hpp"
+#include "carrom/parallel/communicator.hpp"
+#include "carrom/scene/scene.hpp"
+#include "carrom/simulation/check_failure.hpp"
+#include "carrom/simulation/simulation.hpp"
+#include "engine.hpp"
+
+namespace carrom {
+
+class StateCheck {
+public:
+    /// Takes over what is there now as right. `scene` must outlive it; its arithmetic is the default's. **Collective.**
+    StateCheck(const Scene& scene, std::span<const Disc> own, std::int64_t micro_steps_done, const Communicator& communicator);
+
+    /// Looks at the end of a step; `log` has this rank's share of the collisions since the last look. If an invariant is
+    /// broken every rank throws the same CheckFailure. **Collective.**
+    void look(const Settled& now, std::int64_t micro_steps_done, std::span<const Collision> log);
+
+private:
+    struct Finding {
+        Invariant invariant{};
+        int rank = 0;
+        int is_found = 0;
+        DiscId disc = 0, partner = 0;
+        double value = 0, bound = 0;
+    };
+    struct Known {
+        Disc disc;
+        std::int64_t free_from = 0; ///< the end of the last micro-step in which it had a collision, or the check's begin
+        std::uint64_t walls = 0, pairs = 0; ///< collisions since the last look
+        int owner = -1;
+    };
+    struct Suspect {
+        Disc p, q;
+        double depth = 0, bound = 0;
+        std::int64_t free_from = 0;
+        int owner = 0;
+    };
+    using Log = std::span<const Collision>;
+
+    /// The first finding of all ranks becomes a failure; nothing happens where there is none. **Collective.**
+    void fail_if_found(const Finding& mine, Log log);
+    std::string text_of(const Finding& finding) const;
+    std::vector<InputDisc> around(const Finding& finding, Log log) const;
+
+    Finding first_not_finite(std::span<const Disc> own) const;
+    Finding take_records(std::span<const Disc> own);
+    void take_log(Log log);
+    Finding first_out_of_place(const Settled& now) const;
+    Finding first_wrong_count() const;
+    Finding first_other_motion() const;
+    Finding first_overlap(const Settled& now) const;
+    Finding first_unexplained(std::vector<Suspect> suspects) const;
+    Finding first_other_energy(std::span<const Disc> own, Log log) const;
+    double energy_of(std::span<const Disc> own) const;
+
+    int slab_of_disc(DiscId id) const;
+    /// How far rounding moves a disc: so many ulp(L), and what it flies while times are rounded.
+    double blur(double n_ulps) const;
+
+    const Scene& scene_;
+    Communicator communicator_;
+    std::uint64_t first_id_ = 0;
+    std::vector<Known> known_, before_; ///< of this rank's slab of ids: now, and at the last look
+    std::int64_t micro_steps_done_ = 0, micro_steps_before_ = 0;
+    double tolerance_ = 0, fastest_ = 0, energy_ = 0; ///< no disc can become faster, for want of energy
+    std::uint64_t n_pair_collisions_ = 0;             ///< logged on any rank since the check began
+};
+
+} // namespace carrom

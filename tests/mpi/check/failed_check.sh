@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# failed_check.sh MISSED_CONTACT RANKS: a run that misses a contact ends with code 70 on every rank, names step, disc and
+# rank, and leaves a scene in which the contact is not missed.
+source "$CARROM_SOURCE_DIR/tests/system/common.sh"
+missed_contact=$1
+n_ranks=$2
+program=$CARROM_PROGRAM
+
+for rule in one all; do
+    CARROM_PROGRAM=$missed_contact
+    run "$n_ranks" $rule
+    expect_code 70 "a missed contact under $rule"
+    expect_told 'check failed at step 2: disc 5 on rank' "the failure under $rule"
+    expect_told 'overlaps disc 9 by 2' "the failure under $rule"
+    expect_told '12 discs around it, from the step before, are in check_step_2_disc_5.toml' "the failure under $rule"
+    CARROM_PROGRAM=$program
+    run "$n_ranks" run check_step_2_disc_5.toml --check --report report.json
+    expect_code 0 "the neighbourhood again under $rule"
+    [ "$(json_value report.json pair_collisions)" = 1 ] || complain "the contact is missed again under $rule"
+    [ "$(json_value report.json rule)" = $rule ] || complain "the neighbourhood is run by another rule than $rule"
+done
+finish

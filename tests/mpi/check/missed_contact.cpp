@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ends like a run whose search has missed a contact: disc 5 has flown into disc 9, and nobody has collided.
+//
+// missed_contact RULE: writes the neighbourhood to where it runs and leaves with code 70 on every rank.
+#include <cstdio>
+#include <string>
+
+#include "carrom/parallel/mpi.hpp"
+#include "carrom/simulation/check_failure.hpp"
+#include "neighbourhood.hpp"
+#include "settled_discs.hpp"
+#include "state_check.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+/// Thirty discs in rows, still but for disc 5, which reaches disc 9 half-way through the second step.
+std::vector<Disc> thirty_discs() {
+    std::vector<Disc> discs;
+    for (DiscId id = 0; id < 30; ++id) {
+        Disc& disc = discs.emplace_back();
+        disc.id = id;
+        disc.x = 5 + 10 * static_cast<double>(id % 6);
+        disc.y = 5 + 10 * static_cast<double>(id / 6);
+    }
+    discs[5].x = discs[9].x - 8;
+    discs[5].y = discs[9].y;
+    discs[5].vx = 4;
+    return discs;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    const Mpi mpi(argc, argv);
+    return run_on_all(Communicator::world(), [&](const Communicator& world) {
+        Scene scene;
+        scene.name = "thirty discs";
+        scene.box_size = 60;
+        scene.radius = 1;
+        scene.n_discs = 30;
+        scene.rule = argc > 1 && std::string(argv[1]) == "all" ? CollisionRule::all : CollisionRule::one;
+        const std::vector<Disc> discs = thirty_discs();
+        const auto at = [&](double time) { return settled_by_hand(discs, time, scene.box_size, scene.radius, world.rank(), world.size()); };
+        const SettledDiscs start = at(0);
+        StateCheck check(scene, std::span(start.discs).first(start.n_own), 0, world);
+        try {
+            for (const std::int64_t step : {1, 2}) check.look(at(static_cast<double>(step)).view(), step, {});
+        } catch (const CheckFailure& failure) {
+            throw told(failure, scene, world);
+        }
+        return 0;
+    });
+}

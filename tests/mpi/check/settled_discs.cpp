@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "settled_discs.hpp"
+
+#include <algorithm>
+
+namespace carrom::test {
+
+void SettledDiscs::sort_into_cells(double box_size, double radius) {
+    const double reach = 2 * radius * (1 + 1e-6);
+    grid.build(discs, make_frame(0, box_size, 0, box_size, reach, discs.size(), 0), time, time, 1, 1);
+}
+
+SettledDiscs copy_of(const Settled& settled) {
+    const std::span<const Disc> discs = settled.population.discs;
+    return {{discs.begin(), discs.end()}, settled.population.n_own, *settled.grid, *settled.strips, settled.time};
+}
+
+SettledDiscs settled_by_hand(const std::vector<Disc>& discs, double time, double box_size, double radius, int rank, int n_ranks) {
+    std::vector<double> cuts;
+    for (int k = 1; k < n_ranks; ++k) cuts.push_back(box_size * k / n_ranks);
+    SettledDiscs settled{discs, 0, {}, Strips(cuts), time};
+    const auto halo = std::stable_partition(settled.discs.begin(), settled.discs.end(), [&](const Disc& disc) {
+        return settled.strips.owner(disc.x_at(time)) == rank;
+    });
+    settled.n_own = static_cast<std::size_t>(halo - settled.discs.begin());
+    settled.sort_into_cells(box_size, radius);
+    return settled;
+}
+
+} // namespace carrom::test

@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The self-check on data that it sees at the end of a step: as the engines leave it, on every scene the tests have, and
+// with one thing made wrong. Spoilt is a copy: the engines have no way to fail on purpose.
+#include "state_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include <catch2/catch.hpp>
+
+#include "exact_engine.hpp"
+#include "one_engine.hpp"
+#include "one_rule.hpp"
+#include "scene_tools.hpp"
+#include "scenes.hpp"
+#include "settled_discs.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+constexpr CollisionRule both[] = {CollisionRule::one, CollisionRule::all};
+
+std::vector<Disc> share_of(const TestScene& scene, const Communicator& world) {
+    std::vector<Disc> mine;
+    for (const Disc& disc : reference::stored_states(scene.setting, scene.discs)) {
+        if (static_cast<int>(disc.id % static_cast<DiscId>(world.size())) == world.rank()) mine.push_back(disc);
+    }
+    return mine;
+}
+
+Scene checked_scene(const TestScene& test_scene, CollisionRule rule) {
+    Scene scene = scene_of(test_scene);
+    scene.rule = rule;
+    return scene;
+}
+
+std::unique_ptr<Engine> engine_of(const Scene& scene, StoredState state, const Communicator& world) {
+    if (scene.rule == CollisionRule::all) return std::make_unique<ExactEngine<PlainLaw>>(scene, std::move(state), world, Tuning{});
+    return make_one_engine(scene, std::move(state), world, {});
+}
+
+/// The text of a failure in the first steps of a scene; empty if there is none, or the engine refuses the scene.
+std::string failure_of(const TestScene& test_scene, CollisionRule rule, const Communicator& world) {
+    Scene scene = checked_scene(test_scene, rule);
+    try {
+        std::vector<InputDisc> mine;
+        for (const InputDisc& disc : test_scene.discs) {
+            if (static_cast<int>(disc.id % static_cast<DiscId>(world.size())) == world.rank()) mine.push_back(disc);
+        }
+        Simulation simulation(scene, std::move(mine), world, {});
+        simulation.check_every_step(scene);
+        const std::int64_t last = std::min<std::int64_t>(test_scene.steps, rule == CollisionRule::all ? 4 : world.size() == 1 ? 70 : 6);
+        while (simulation.step() < last) simulation.advance_towards(last);
+    } catch (const CheckFailure& failure) {
+        return failure.what();
+    } catch (const InputError&) { // overlaps, under "all"
+    } catch (const CollectiveError& error) {
+        if (!test_scene.is_endless_under_all) return error.what();
+    }
+    return {};
+}
+
+/// What the check sees after the first step of a gas, and what it says when that has been spoilt.
+class OneStep {
+public:
+    explicit OneStep(CollisionRule rule)
+        : world_(Communicator::world()), test_scene_(gas(64, 0.4, 0.3, 901)), scene_(checked_scene(test_scene_, rule)),
+          engine_(engine_of(scene_, {share_of(test_scene_, world_), 0}, world_)), check_(scene_, engine_->own(), 0, world_) {
+        engine_->log_to(&log);
+        engine_->advance_towards(1);
+        settled = copy_of(engine_->settled());
+    }
+
+    /// This rank's own disc of that id, or null.
+    Disc* own(DiscId id) {
+        for (std::size_t i = 0; i < settled.n_own; ++i) {
+            if (settled.discs[i].id == id) return &settled.discs[i];
+        }
+        return nullptr;
+    }
+    void sort_into_cells() { settled.sort_into_cells(scene_.box_size, scene_.radius); }
+    const Scene& scene() const { return scene_; }
+    const Communicator& world() const { return world_; }
+
+    /// The first collision of a pair on any rank, the same on all.
+    Collision first_pair() const {
+        Collision first;
+        first.time = std::numeric_limits<double>::infinity();
+        for (const Collision& collision : log) {
+            if (collision.q != Collision::wall && collision.time < first.time) first = collision;
+        }
+        for (const Collision& other : world_.all_gather(first)) {
+            if (other.time < first.time) first = other;
+        }
+        return first;
+    }
+    /// A disc that has collided with nothing, the same on all ranks.
+    DiscId free_disc() const {
+        std::vector<std::uint64_t> n_collisions(64, 0);
+        for (const Collision& collision : log) {
+            ++n_collisions[collision.p];
+            if (collision.q != Collision::wall) ++n_collisions[collision.q];
+        }
+        world_.sum(n_collisions);
+        return static_cast<DiscId>(std::find(n_collisions.begin(), n_collisions.end(), 0) - n_collisions.begin());
+    }
+
+    /// The failure, after a check that all ranks have met the same one.
+    std::optional<CheckFailure> look() {
+        std::optional<CheckFailure> met;
+        try {
+            check_.look(settled.view(), engine_->micro_steps_done(), log);
+        } catch (const CheckFailure& failure) {
+            met = failure;
+        }
+        std::string text = met ? met->what() : "";
+        world_.broadcast(text);
+        CHECK(text == (met ? met->what() : ""));
+        return met;
+    }
+
+    SettledDiscs settled;
+    std::vector<Collision> log;
+
+private:
+    Communicator world_;
+    TestScene test_scene_;
+    Scene scene_;
+    std::unique_ptr<Engine> engine_;
+    StateCheck check_;
+};
+
+/// Spoils a step under both rules and checks what is said of it: the invariant, the step, and the disc if `disc` is given.
+void expect(Invariant invariant, const std::function<std::optional<DiscId>(OneStep&)>& spoil) {
+    for (const CollisionRule rule : both) {
+        INFO("rule " << (rule == CollisionRule::one ? "one" : "all"));
+        OneStep step(rule);
+        const std::optional<DiscId> disc = spoil(step);
+        const auto failure = step.look();
+        CHECK(failure.has_value());
+        if (!failure) continue;
+        INFO(failure->what());
+        CHECK(failure->invariant == invariant);
+        CHECK(failure->code() == ExitCode::broken_invariant);
+        CHECK(failure->step == 1);
+        CHECK((failure->rank >= 0 && failure->rank < step.world().size()));
+        if (!disc) continue;
+        CHECK(failure->disc == *disc);
+        const bool is_own = step.own(*disc) != nullptr;
+        if (is_own && invariant != Invariant::owned_once) CHECK(failure->rank == step.world().rank());
+        const auto& around = failure->neighbourhood;
+        CHECK(around.size() == 12);
+        CHECK(std::any_of(around.begin(), around.end(), [&](const InputDisc& d) { return d.id == *disc; }));
+    }
+}
+
+} // namespace
+
+TEST_CASE("check: nothing is wrong in the scenes of the tests") {
+    const Communicator world = Communicator::world();
+    for (const TestScene& scene : small_scenes()) {
+        for (const CollisionRule rule : both) {
+            if (rule == CollisionRule::all && (scene.is_endless_under_all || scene.discs.size() > 100)) continue;
+            INFO(scene.name << (rule == CollisionRule::one ? ", one" : ", all"));
+            CHECK(failure_of(scene, rule, world) == "");
+        }
+    }
+}
+
+TEST_CASE("check: nothing is wrong in a step that is not spoilt") {
+    for (const CollisionRule rule : both) CHECK(!OneStep(rule).look().has_value());
+}
+
+TEST_CASE("check: a number that is not finite") {
+    expect(Invariant::finite, [](OneStep& step) {
+        if (Disc* const disc = step.own(7)) disc->y = std::numeric_limits<double>::quiet_NaN();
+        return 7;
+    });
+}
+
+TEST_CASE("check: a disc that nobody owns any more") {
+    expect(Invariant::owned_once, [](OneStep& step) {
+        if (Disc* const disc = step.own(7)) {
+            std::swap(*disc, step.settled.discs[step.settled.n_own - 1]);
+            --step.settled.n_own;
+        }
+        return 7;
+    });
+}
+
+TEST_CASE("check: a disc that is owned twice") {
+    expect(Invariant::owned_once, [](OneStep& step) {
+        if (step.own(8)) step.own(8)->id = 7; // 8 is lost as well, but 7 comes first
+        return 7;
+    });
+}
+
+TEST_CASE("check: a disc that does not exist") {
+    expect(Invariant::owned_once, [](OneStep& step) -> std::optional<DiscId> {
+        if (step.own(0)) step.own(0)->id = 64;
+        return std::nullopt;
+    });
+}
+
+TEST_CASE("check: a disc outside the box, by little") {
+    expect(Invariant::in_box, [](OneStep& step) {
+        const double size = step.scene().box_size;
+        if (Disc* const disc = step.own(7)) disc->y += (size - step.scene().radius) * (1 + 1e-12) - disc->y_at(step.settled.time);
+        return 7;
+    });
+}
+
+TEST_CASE("check: a disc in another rank's strip") {
+    if (Communicator::world().size() == 1) return;
+    expect(Invariant::in_strip, [](OneStep& step) {
+        if (Disc* const disc = step.own(7)) {
+            const double from_left = step.scene().radius, from_right = step.scene().box_size - step.scene().radius;
+            const bool is_left = step.settled.strips.owner(from_left) == step.world().rank();
+            disc->x += (is_left ? from_right : from_left) - disc->x_at(step.settled.time);
+        }
+        return 7;
+    });
+}
+
+TEST_CASE("check: a disc in another cell than it is filed under") {
+    expect(Invariant::in_cell, [](OneStep& step) {
+        if (Disc* const disc = step.own(7)) {
+            const double y = disc->y_at(step.settled.time), width = step.settled.grid.frame().cell_width;
+            disc->y += y > step.scene().box_size / 2 ? -width : width;
+        }
+        return 7;
+    });
+}
+
+TEST_CASE("check: collisions that are counted but have not happened") {
+    expect(Invariant::counters, [](OneStep& step) {
+        if (step.own(7)) ++step.own(7)->wall_collisions;
+        return 7;
+    });
+    expect(Invariant::counters, [](OneStep& step) {
+        if (step.own(7)) ++step.own(7)->pair_collisions;
+        return 7;
+    });
+}
+
+TEST_CASE("check: a pair's collision that one of the two has not counted") {
+    expect(Invariant::counters, [](OneStep& step) {
+        const DiscId q = step.first_pair().q;
+        if (step.own(q)) --step.own(q)->pair_collisions;
+        return q;
+    });
+}
+
+TEST_CASE("check: a collision that is not in the log") {
+    expect(Invariant::counters, [](OneStep& step) {
+        const Collision lost = step.first_pair();
+        std::erase_if(step.log, [&](const Collision& c) { return c.p == lost.p && c.q == lost.q && c.time == lost.time; });
+        return lost.p;
+    });
+}
+
+TEST_CASE("check: a velocity that has changed without a collision") {
+    expect(Invariant::motion, [](OneStep& step) {
+        const DiscId id = step.free_disc();
+        if (Disc* const disc = step.own(id)) disc->vx = std::nextafter(disc->vx, 10);
+        return id;
+    });
+}
+
+TEST_CASE("check: energy that a collision has made up") {
+    expect(Invariant::energy, [](OneStep& step) -> std::optional<DiscId> {
+        const Collision pair = step.first_pair();
+        if (step.own(pair.p)) step.own(pair.p)->vx *= 1 + 1e-11;
+        return std::nullopt;
+    });
+}
+
+namespace {
+
+/// Two discs of radius 1 in a box of 20, as if no contact had been found: 0 flies to the right, 1 rests or flies.
+struct Passing {
+    Communicator world = Communicator::world();
+    Scene scene;
+    std::vector<Disc> discs{2};
+    std::unique_ptr<StateCheck> check;
+    std::int64_t step = 0;
+
+    Passing(CollisionRule rule, double x, double speed) {
+        scene.name = "two discs";
+        scene.box_size = 20;
+        scene.radius = 1;
+        scene.n_discs = 2;
+        scene.rule = rule;
+        discs[0].x = x;
+        discs[0].vx = speed;
+        discs[1].x = 9.5;
+        discs[1].id = 1;
+        discs[0].y = discs[1].y = 10;
+        const SettledDiscs settled = at(0);
+        check = std::make_unique<StateCheck>(scene, std::span(settled.discs).first(settled.n_own), 0, world);
+    }
+    SettledDiscs at(double time) const { return settled_by_hand(discs, time, 20, 1, world.rank(), world.size()); }
+
+    /// Whether the end of the next step is found right; `walls` of disc 0 are counted and logged in it.
+    bool is_right(std::uint64_t walls = 0) {
+        std::vector<Collision> log;
+        discs[0].wall_collisions += walls;
+        if (world.is_root()) log.assign(walls, {step, 0.5, 0, 0, Collision::wall, 0});
+        ++step;
+        try {
+            check->look(at(static_cast<double>(step)).view(), step, log);
+        } catch (const CheckFailure& failure) {
+            CHECK(failure.invariant == Invariant::overlap);
+            CHECK(failure.disc == 0);
+            CHECK(failure.step == step);
+            return false;
+        }
+        return true;
+    }
+};
+
+} // namespace
+
+TEST_CASE("check: an overlap that comes about while both are free is not explained") {
+    for (const CollisionRule rule : both) {
+        Passing passing(rule, 5, 1); // contact after 2.5 steps
+        CHECK(passing.is_right());
+        CHECK(passing.is_right());
+        CHECK(!passing.is_right());
+    }
+}
+
+TEST_CASE("check: a contact lost at the boundary of two steps is not explained") {
+    for (const CollisionRule rule : both) {
+        Passing passing(rule, 5.5, 1); // contact after 2 steps
+        CHECK(passing.is_right());
+        CHECK(passing.is_right());
+        CHECK(!passing.is_right());
+    }
+}
+
+TEST_CASE("check: discs so slow that an overlap deepens by less than its bound a step are found all the same") {
+    Passing passing(CollisionRule::one, 7.5 - 1e-11, 5e-14);
+    bool is_right = true;
+    while (is_right && passing.step < 3000) is_right = passing.is_right();
+    CHECK(!is_right);
+}
+
+TEST_CASE("check: the rule one explains overlaps with a disc that has had its collision, the rule all none") {
+    Passing one(CollisionRule::one, 6.7, 1);
+    CHECK(one.is_right(1));
+    CHECK(one.is_right()); // they go on through each other
+    CHECK(one.is_right());
+    Passing all(CollisionRule::all, 6.7, 1);
+    CHECK(!all.is_right(1));
+}
+
+TEST_CASE("check: a collision in an earlier step explains nothing") {
+    Passing passing(CollisionRule::one, 5.7, 1); // contact after 1.8 steps
+    CHECK(passing.is_right(1));
+    CHECK(!passing.is_right());
+}
+
+TEST_CASE("check: discs that overlap from the start may, under the rule one") {
+    Passing passing(CollisionRule::one, 8, 0.25);
+    for (int k = 0; k < 5; ++k) CHECK(passing.is_right());
+}

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Runs that are right pass the self-check, on 1 and 3 ranks, with the bits and the log of collisions they have without.
+source "$CARROM_SOURCE_DIR/tests/system/common.sh"
+
+# expect_unchanged WHAT WORD...: with and without --check.
+expect_unchanged() {
+    local what=$1 ranks
+    shift
+    run 1 run "$@" --quiet --report plain.json --set output.collisions.file=plain.h5
+    expect_code 0 "$what, unchecked"
+    for ranks in 1 3; do
+        run "$ranks" run "$@" --quiet --check --threads 2 --report checked.json --set output.collisions.file=checked.h5
+        expect_code 0 "$what on $ranks ranks"
+        [ "$(json_value checked.json state_hash)" = "$(json_value plain.json state_hash)" ] || complain "other bits with --check: $what"
+        run 1 diff plain.h5 checked.h5
+        expect_code 0 "the log of $what on $ranks ranks"
+    done
+}
+
+inputs=$CARROM_SOURCE_DIR/inputs
+expect_unchanged 'a gas' "$inputs/gas.toml" --steps 70 --set discs.count=600 --set discs.speed=2
+expect_unchanged 'micro-steps' "$inputs/gas.toml" --steps 20 --set discs.count=500 --set discs.speed=20 \
+    --set time.micro_steps=4 --set time.sync_every=6
+expect_unchanged 'the rule all' "$inputs/dense.toml" --steps 20 --set discs.count=600 --set discs.speed=0.5 --set time.collisions=all
+
+run 3 run "$inputs/gas.toml" --steps 1 --set discs.count=100 --check --set time.precision=single
+expect_code 2 'single precision'
+expect_told '--check: its bounds are those of time.precision = "double"' 'single precision'
+finish
