@@ -126,7 +126,7 @@ def draw_errors(axes, xs, means, index, label, x_bars=None):
     axes.errorbar(xs, values, yerr=[lower, errors], xerr=x_bars, marker=marker, linestyle=line, color=GREYS[index], label=label, capsize=2, linewidth=1.2,
                   markersize=5, markerfacecolor="white")
     clear = values > 2 * errors
-    axes.plot(np.array(xs)[clear], values[clear], marker=marker, linestyle="none", color=GREYS[index], markersize=5)
+    axes.plot(np.array(xs)[clear], values[clear], marker=marker, linestyle="none", color=GREYS[index], markersize=5, zorder=4)
 
 
 def plain_ticks(axis):

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <type_traits>
 
 #include "carrom/core/disc.hpp"
@@ -37,7 +38,7 @@ public:
     static constexpr double never = std::numeric_limits<double>::infinity();
     static constexpr bool is_double = std::is_same_v<Real, double>;
     /// Whether contacts may be found where discs do not touch, or be missed.
-    static constexpr bool is_loose = !is_double || Formula::template looseness<Real> > 0;
+    static constexpr bool is_loose = !is_double || !Formula::keeps_digits;
     /// Whether discs that overlap part when they approach; else they pass through each other.
     static constexpr bool parts_overlaps = Formula::parts_overlaps;
     /// Under the rule "all": times less than so many micro-steps apart are hardly told from each other.
@@ -46,7 +47,8 @@ public:
     BasicPlainLaw(double box_size, double radius)
         : box_size_(static_cast<Real>(box_size)), radius_(static_cast<Real>(radius)), diameter_(2 * radius_),
           band_(static_cast<Real>(1e-8) * radius_),
-          tolerance_(std::max(static_cast<Real>(1e-12) * diameter_, 16 * std::numeric_limits<Real>::epsilon() * box_size_)) {}
+          tolerance_(std::max(static_cast<Real>(1e-12) * diameter_, 16 * std::numeric_limits<Real>::epsilon() * box_size_)),
+          slack_(rounding() + (Formula::keeps_digits ? 0 : misplacement() * this->radius())) {}
 
     double box_size() const { return box_size_; }
     double radius() const { return radius_; }
@@ -54,7 +56,10 @@ public:
     double tolerance() const { return tolerance_; }
     /// What a radius has to be longer by in a search, for no contact to be lost: for what rounding to `Real` moves discs by,
     /// and for contacts that `Formula` finds too early or too late.
-    double slack() const { return rounding() + Formula::template looseness<Real> * radius(); }
+    double slack() const {
+        if constexpr (is_loose) return slack_;
+        return 0;
+    }
     double search_diameter() const { return diameter() + 2 * slack(); }
 
     /// Rounds a state to the precision that it is to have.
@@ -156,6 +161,13 @@ public:
 private:
     static constexpr double time_rounding = is_double ? 0x1p-50 : 0x1p-21;
 
+    /// How far from touching, in diameters, a formula that loses digits finds contacts. At a distance of d diameters rounding
+    /// u moves B^2 - 4 A C by some u (2 d v)^2, a grazing contact's place along the flight by the root of that over 2 v,
+    /// and the distance by its square. Where that is half a diameter and more the contact is taken for lost.
+    double misplacement() const {
+        const double longest = std::numbers::sqrt2 * box_size() / diameter();
+        return std::min(0.5, 2.5 * std::numeric_limits<Real>::epsilon() * longest * longest);
+    }
     double rounding() const { return is_double ? 0 : 0x1p-18 * box_size(); }
 
     static Real real(double number) { return static_cast<Real>(number); }
@@ -212,6 +224,7 @@ private:
     Real high() const { return box_size_ - radius_; }
 
     Real box_size_, radius_, diameter_, band_, tolerance_;
+    double slack_; ///< of loose laws
 };
 
 /// The law that the promise of the same bits is about.

@@ -13,9 +13,7 @@
 namespace carrom {
 
 template <bool contracted> struct NaiveContact {
-    /// A contact counts up to so many diameters beyond touching. Double precision errs by some 1e-4 of them at 10,000
-    /// diameters, single precision by 0.4 at 1000; where it errs by more, at longer distances, the hit is lost.
-    template <class Real> static constexpr double looseness = sizeof(Real) < sizeof(double) ? 0.5 : 0x1p-10;
+    static constexpr bool keeps_digits = false;
     static constexpr bool parts_overlaps = false;
 
     /// Time until the points come within `sigma`; negative for never, and where they overlap already.

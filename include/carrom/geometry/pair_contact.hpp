@@ -49,8 +49,8 @@ template <class Real> Real contact_delay(Real dx, Real dy, Real wx, Real wy, Rea
 
 /// The formula above as a choice that a law makes (another one: naive_contact.hpp).
 struct StableContact {
-    template <class Real> static constexpr double looseness = 0; ///< how far from touching it finds contacts, in diameters
-    static constexpr bool parts_overlaps = true;
+    static constexpr bool keeps_digits = true;   ///< contacts are found where discs touch, to some roundings
+    static constexpr bool parts_overlaps = true; ///< discs that overlap and approach collide at once
 
     template <class Real> static Real delay(Real dx, Real dy, Real wx, Real wy, Real sigma, Real deepest_overlap) {
         return contact_delay(dx, dy, wx, wy, sigma, deepest_overlap);
