@@ -251,7 +251,7 @@ def figure_formulas(gases, path):
         axes.minorticks_off()
         axes.grid(True, color="0.92")
     panels[0].set_ylabel("collision rate against double, stable (%)")
-    panels[0].legend(fontsize=8)
+    figure.legend(*panels[0].get_legend_handles_labels(), fontsize=9, loc="outside lower center", ncols=3)
     figure.savefig(path, dpi=120)
     plt.close(figure)
 
