@@ -5,8 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "event_queue.hpp"
-#include "flight_filter.hpp"
+#include "block_scratch.hpp"
 
 namespace carrom {
 
@@ -15,16 +14,6 @@ namespace {
 /// So many collisions of a block's discs within a law's `one_time` are without end, and some for each disc more.
 constexpr std::uint64_t endless_count = 100000;
 constexpr std::uint64_t endless_count_per_disc = 1000;
-
-/// What has happened to a disc in this window.
-struct Past {
-    static constexpr std::uint32_t nobody = 0xfffffffd;
-
-    std::uint64_t history = 0;      ///< 0: nothing
-    std::uint32_t generation = 0;   ///< of the last collision
-    std::uint32_t partner = nobody; ///< of the last collision
-};
-static_assert(sizeof(Past) == 16);
 
 std::uint64_t rotated_product(std::uint64_t value, std::uint64_t factor) { return std::rotl(value * factor, 31); }
 
@@ -38,65 +27,6 @@ double exact_reach(const ReplayWindow& window, double diameter, double box_size)
     const double travel = window.speed_bound * window.duration();
     return (diameter + 2 * travel) * (1 + 1e-6) + 64 * 0x1p-53 * box_size + 0x1p-50 * window.speed_bound * window.end;
 }
-
-template <class Law> struct BlockReplay<Law>::Scratch {
-    explicit Scratch(const Law& of_scene) : law(of_scene) {}
-
-    void gather(const ReplayGround& of_rank, const CellBlock& own, int halo);
-    void mark_own(const CellBlock& own);
-    void place(std::uint32_t slot, double time);
-    void predict_all();
-    void happen(const Event& event);
-    void carry_out(const Event& event);
-    void note(std::uint32_t slot, std::uint32_t partner, const Event& event);
-    void give_up(const Event& event);
-    void log_event(const Event& event, double wx, double wy);
-    void look_around(const Flight& flight);
-    void predict_pairs(std::uint32_t slot, std::uint32_t except);
-    void predict_pair(std::uint32_t a, std::uint32_t b);
-    void predict_walls(std::uint32_t slot);
-    void push(double time, std::uint32_t a, std::uint32_t b);
-    void report(const CellBlock& own, std::span<std::uint64_t> histories);
-
-    Flight flight_of(std::uint32_t slot) const;
-    int owning_column(int column) const {
-        return std::clamp(column, ground.first_own_column, ground.end_own_column - 1);
-    }
-    /// Slots of cells (column, first_row .. last_row) of our own, counted from `cells`' corner.
-    SlotRange cell_run(int column, int first_row, int last_row) const {
-        const std::uint32_t* const starts = cell_starts.data() + static_cast<std::size_t>(column) * cell_rows;
-        return {starts[first_row], starts[last_row + 1]};
-    }
-    /// The same for cells of the grid.
-    SlotRange grid_run(int column, int first_row, int last_row) const {
-        return cell_run(column - cells.first_column, first_row - cells.first_row, last_row - cells.first_row);
-    }
-
-    Law law;
-    ReplayGround ground;
-    CellBlock cells;       ///< own ones and the halo
-    double x_corner = 0, y_corner = 0, cells_per_length = 1, cells_per_speed = 1, windows_per_time = 1;
-    float column_limit = 0, row_limit = 0;
-    float touching_squared = 0, farthest = 0; ///< farthest: what a partner's place at the start can be off by, in cells
-    float x_inner_low = 0, x_inner_high = 0, y_inner_low = 0, y_inner_high = 0; ///< no wall near in between, in cells
-    std::size_t cell_rows = 0;         ///< entries of `cell_starts` to a column
-    std::vector<std::uint32_t> cell_starts; ///< by column and row, and one more to each column
-    std::vector<LocalIndex> indices;   ///< by slot, as all that follows
-    std::vector<Disc> discs;
-    std::vector<Past> pasts;
-    std::vector<std::uint8_t> is_own;
-    std::vector<float> x, y, vx, vy;
-    FlightLanes lanes;
-    EventQueue queue;
-    std::vector<SlotRange> runs; ///< the first n_runs; room for all columns
-    std::size_t n_runs = 0;
-    std::vector<std::uint32_t> partners;
-    std::vector<std::uint32_t> later, later_ends; ///< of a column: partners behind its discs, and where each one's end
-    double crowd_begin = 0; ///< when the present crowd of collisions at one time began
-    std::uint64_t crowd = 0;
-    BlockOutcome* outcome = nullptr;
-    double largest_squared = 0;
-};
 
 template <class Law> BlockReplay<Law>::BlockReplay(const Law& law) : scratch_(std::make_unique<Scratch>(law)) {}
 template <class Law> BlockReplay<Law>::~BlockReplay() = default;
@@ -196,7 +126,10 @@ template <class Law> void BlockReplay<Law>::Scratch::place(std::uint32_t slot, d
 
 template <class Law> void BlockReplay<Law>::Scratch::mark_own(const CellBlock& own) {
     is_own.assign(indices.size(), 0);
-    largest_squared = 0;
+    bound_squared = ground.window.speed_bound * ground.window.speed_bound;
+    const double bound_lane = ground.window.speed_bound * cells_per_speed * (1 - 1e-6);
+    bound_lane_squared = static_cast<float>(bound_lane * bound_lane);
+    too_fast = 0;
     crowd_begin = -1;
     crowd = 0;
     for (int column = cells.first_column; column < cells.end_column; ++column) {
@@ -206,7 +139,6 @@ template <class Law> void BlockReplay<Law>::Scratch::mark_own(const CellBlock& o
         for (std::uint32_t slot = run.begin; slot < run.end; ++slot) {
             if (indices[slot] >= ground.n_own) continue;
             is_own[slot] = 1;
-            largest_squared = std::max(largest_squared, speed_squared(discs[slot]));
         }
     }
 }
@@ -365,8 +297,28 @@ void BlockReplay<Law>::Scratch::note(std::uint32_t slot, std::uint32_t partner, 
                               rotated_product(bits(disc.vy), 0x94d049bb133111ebu) + partner_id;
     const std::uint64_t hash = (std::rotl(past.history, 17) ^ sum) * 0xff51afd7ed558ccdu;
     past.history = (hash ^ (hash >> 32)) | 1;
+    if (is_own[slot] != 0) {
+        const float before = vx[slot] * vx[slot] + vy[slot] * vy[slot];
+        const double now = speed_squared(disc);
+        if (now > bound_squared || before > bound_lane_squared) [[unlikely]] hold_to_schedule(slot, event.time);
+    }
     place(slot, ground.window.begin);
-    if (is_own[slot] != 0) largest_squared = std::max(largest_squared, speed_squared(disc));
+}
+
+/// What makes a window exact is that no disc gets further from its place at the start than the bound on speeds would
+/// take it until then. So one that is faster for a while is none the worse for it, if it was slower before. It is given
+/// up if it might get too far before the window ends, or if it collides again when it is not back on schedule.
+template <class Law> void BlockReplay<Law>::Scratch::hold_to_schedule(std::uint32_t slot, double time) {
+    const Disc& disc = discs[slot];
+    const Disc& at_start = ground.discs[indices[slot]];
+    const ReplayWindow& window = ground.window;
+    const double dx = disc.x - at_start.x_at(window.begin), dy = disc.y - at_start.y_at(window.begin);
+    const double away = std::sqrt(dx * dx + dy * dy) * (1 + 1e-12) + 8 * 0x1p-53 * law.box_size();
+    const double speed = std::sqrt(speed_squared(disc));
+    if (speed <= window.speed_bound && away <= window.speed_bound * (time - window.begin)) return;
+    const bool will_be_seen = speed > window.speed_bound * (1 + 1e-5); // by its next collision
+    if (will_be_seen && speed < 2 * window.speed_bound && away + speed * (window.end - time) <= window.speed_bound * window.duration()) return;
+    too_fast = std::max({too_fast, speed, window.speed_bound * (1 + 1e-6)});
 }
 
 template <class Law> void BlockReplay<Law>::Scratch::give_up(const Event& event) {
@@ -384,8 +336,13 @@ template <class Law> void BlockReplay<Law>::Scratch::log_event(const Event& even
 
 template <class Law>
 void BlockReplay<Law>::Scratch::report(const CellBlock& own, std::span<std::uint64_t> histories) {
-    outcome->largest_speed = std::sqrt(largest_squared) * (1 + 0x1p-50);
+    outcome->too_fast = too_fast;
     double end_squared = 0;
+    // Memory for what a block has, not for twice as much: all blocks keep theirs until the window is certified.
+    std::size_t n_hit = 0;
+    for (std::size_t slot = 0; slot < pasts.size(); ++slot) n_hit += is_own[slot] != 0 && pasts[slot].history != 0;
+    outcome->hit.reserve(n_hit);
+    outcome->states.reserve(n_hit);
     const int ring = ground.grid->frame().n_reach;
     const int first_column = std::max(cells.first_column, own.first_column - ring);
     const int end_column = std::min(cells.end_column, own.end_column + ring);
@@ -402,7 +359,7 @@ void BlockReplay<Law>::Scratch::report(const CellBlock& own, std::span<std::uint
             end_squared = std::max(end_squared, speed_squared(discs[slot]));
             if (past.history == 0) continue;
             outcome->hit.push_back(indices[slot]);
-            outcome->states.push_back(discs[slot]);
+            outcome->states.emplace_back(discs[slot]);
         }
     }
     outcome->largest_speed_at_end = std::sqrt(end_squared) * (1 + 0x1p-50);

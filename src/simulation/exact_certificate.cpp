@@ -14,8 +14,8 @@ namespace carrom {
 template <class Law> typename ExactEngine<Law>::Verdict ExactEngine<Law>::certify() {
     const PhaseClock::Scope scope(clock_, Phase::resolve);
     double fastest = 0;
-    for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.largest_speed);
-    const bool is_too_fast = fastest > window_.speed_bound;
+    for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.too_fast);
+    const bool is_too_fast = fastest > 0;
     std::vector<LocalIndex> foreign;
     discs_.show(histories_);
     compare_histories(foreign);

@@ -126,7 +126,7 @@ template <class Law> ReplayWindow ExactEngine<Law>::choose(double target) {
 /// The same reach at a higher speed: a shorter window.
 template <class Law> void ExactEngine<Law>::shorten() {
     double fastest = 0;
-    for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.largest_speed);
+    for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.too_fast);
     const double bound = communicator_.max(fastest) * exact_.speed_allowance;
     const double duration = window_.duration() * (window_.speed_bound / bound);
     window_.end = std::max(window_.begin + duration, std::nextafter(window_.begin, window_.end));
@@ -222,7 +222,7 @@ template <class Law> void ExactEngine<Law>::commit() {
 #pragma omp parallel for num_threads(tuning_.threads) schedule(dynamic, 1)
     for (std::int64_t k = 0; k < n_blocks; ++k) {
         const BlockOutcome& outcome = blocks_[static_cast<std::size_t>(k)].outcome;
-        for (std::size_t i = 0; i < outcome.hit.size(); ++i) discs[outcome.hit[i]] = outcome.states[i];
+        for (std::size_t i = 0; i < outcome.hit.size(); ++i) outcome.states[i].overwrite(discs[outcome.hit[i]]);
     }
     n_events_ = 0;
     largest_speed_ = 0;

@@ -27,7 +27,7 @@ namespace carrom {
 struct ExactTuning {
     std::optional<int> halo;            ///< reaches that blocks look beyond their own cells at first
     std::optional<double> block_side;   ///< in reaches
-    double speed_allowance = 1.15;      ///< bound over the largest speed at a window's start
+    double speed_allowance = 1.08;      ///< bound over the largest speed at a window's start
     bool has_certificate = true;        ///< false gives wrong results
 };
 

@@ -16,7 +16,7 @@ constexpr double cost_per_disc = 40;      ///< to sort, copy and give back, once
 constexpr double cost_per_copy = 40;      ///< of each disc in a block or its halo
 constexpr double cost_per_event = 160;
 constexpr double cost_per_partner = 1.0;  ///< of each disc that a prediction looks at
-constexpr double discs_in_cache = 16000;  ///< of a block with its halo; most of them are looked at once only
+constexpr double discs_in_cache = 24000;  ///< of a block with its halo; most of them are looked at once only
 /// News travel by collisions. Where discs fly far compared with their size few go two reaches in a window.
 constexpr double thin_gas = 0.2; ///< diameter to reach
 

@@ -24,7 +24,7 @@ namespace carrom {
 struct ReplayWindow {
     double begin = 0, end = 1;
     bool holds_begin = true;
-    double speed_bound = 0; ///< no disc is faster anywhere, or the replay is void
+    double speed_bound = 0; ///< no disc is faster at the start, none gets further than this takes it, or the replay is void
 
     double duration() const { return end - begin; }
 };
@@ -63,13 +63,38 @@ struct LoggedEvent {
     double impulse = 0;
 };
 
+/// What has become of a disc in a window: three quarters of a state, since many are kept until a window is certified.
+class NewState {
+public:
+    explicit NewState(const Disc& disc)
+        : x_(disc.x), y_(disc.y), vx_(disc.vx), vy_(disc.vy), tau_(disc.tau),
+          wall_collisions_(static_cast<std::uint32_t>(disc.wall_collisions)),
+          pair_collisions_(static_cast<std::uint32_t>(disc.pair_collisions)) {}
+
+    /// `disc` is as it was at the window's start; its counters grow by less than 2^32.
+    void overwrite(Disc& disc) const {
+        disc.x = x_;
+        disc.y = y_;
+        disc.vx = vx_;
+        disc.vy = vy_;
+        disc.tau = tau_;
+        disc.wall_collisions += wall_collisions_ - static_cast<std::uint32_t>(disc.wall_collisions);
+        disc.pair_collisions += pair_collisions_ - static_cast<std::uint32_t>(disc.pair_collisions);
+    }
+
+private:
+    double x_, y_, vx_, vy_, tau_;
+    std::uint32_t wall_collisions_, pair_collisions_; ///< their low halves
+};
+static_assert(sizeof(NewState) == 48);
+
 struct BlockOutcome {
     std::vector<LocalIndex> hit; ///< own discs that have collided
-    std::vector<Disc> states;    ///< what has become of them
+    std::vector<NewState> states; ///< what has become of them
     std::vector<Witness> ring;
     std::vector<LoggedEvent> log;
     std::uint64_t n_events = 0;        ///< whose first disc is own
-    double largest_speed = 0;          ///< of an own disc at any time in the window
+    double too_fast = 0;               ///< the largest speed of an own disc that got too far, else 0
     double largest_speed_at_end = 0;
     bool is_endless = false;           ///< the replay was given up: a disc collided without end at one time
     DiscId endless_disc = 0, endless_partner = 0; ///< equal if it is a wall that it meets

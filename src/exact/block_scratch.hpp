@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What one replay works with: copies of the discs of a block and its halo, what has happened to them, what will.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "carrom/exact/block_replay.hpp"
+#include "event_queue.hpp"
+#include "flight_filter.hpp"
+
+namespace carrom {
+
+/// What has happened to a disc in this window.
+struct Past {
+    static constexpr std::uint32_t nobody = 0xfffffffd;
+
+    std::uint64_t history = 0;      ///< 0: nothing
+    std::uint32_t generation = 0;   ///< of the last collision
+    std::uint32_t partner = nobody; ///< of the last collision
+};
+static_assert(sizeof(Past) == 16);
+
+template <class Law> struct BlockReplay<Law>::Scratch {
+    explicit Scratch(const Law& of_scene) : law(of_scene) {}
+
+    void gather(const ReplayGround& of_rank, const CellBlock& own, int halo);
+    void mark_own(const CellBlock& own);
+    void place(std::uint32_t slot, double time);
+    void predict_all();
+    void happen(const Event& event);
+    void carry_out(const Event& event);
+    void note(std::uint32_t slot, std::uint32_t partner, const Event& event);
+    void hold_to_schedule(std::uint32_t slot, double time);
+    void give_up(const Event& event);
+    void log_event(const Event& event, double wx, double wy);
+    void look_around(const Flight& flight);
+    void predict_pairs(std::uint32_t slot, std::uint32_t except);
+    void predict_pair(std::uint32_t a, std::uint32_t b);
+    void predict_walls(std::uint32_t slot);
+    void push(double time, std::uint32_t a, std::uint32_t b);
+    void report(const CellBlock& own, std::span<std::uint64_t> histories);
+
+    Flight flight_of(std::uint32_t slot) const;
+    int owning_column(int column) const {
+        return std::clamp(column, ground.first_own_column, ground.end_own_column - 1);
+    }
+    /// Slots of cells (column, first_row .. last_row) of our own, counted from `cells`' corner.
+    SlotRange cell_run(int column, int first_row, int last_row) const {
+        const std::uint32_t* const starts = cell_starts.data() + static_cast<std::size_t>(column) * cell_rows;
+        return {starts[first_row], starts[last_row + 1]};
+    }
+    /// The same for cells of the grid.
+    SlotRange grid_run(int column, int first_row, int last_row) const {
+        return cell_run(column - cells.first_column, first_row - cells.first_row, last_row - cells.first_row);
+    }
+
+    Law law;
+    ReplayGround ground;
+    CellBlock cells;       ///< own ones and the halo
+    double x_corner = 0, y_corner = 0, cells_per_length = 1, cells_per_speed = 1, windows_per_time = 1;
+    float column_limit = 0, row_limit = 0;
+    float touching_squared = 0, farthest = 0; ///< farthest: what a partner's place at the start can be off by, in cells
+    float x_inner_low = 0, x_inner_high = 0, y_inner_low = 0, y_inner_high = 0; ///< no wall near in between, in cells
+    std::size_t cell_rows = 0;         ///< entries of `cell_starts` to a column
+    std::vector<std::uint32_t> cell_starts; ///< by column and row, and one more to each column
+    std::vector<LocalIndex> indices;   ///< by slot, as all that follows
+    std::vector<Disc> discs;
+    std::vector<Past> pasts;
+    std::vector<std::uint8_t> is_own;
+    std::vector<float> x, y, vx, vy;
+    FlightLanes lanes;
+    EventQueue queue;
+    std::vector<SlotRange> runs; ///< the first n_runs; room for all columns
+    std::size_t n_runs = 0;
+    std::vector<std::uint32_t> partners;
+    std::vector<std::uint32_t> later, later_ends; ///< of a column: partners behind its discs, and where each one's end
+    double crowd_begin = 0; ///< when the present crowd of collisions at one time began
+    std::uint64_t crowd = 0;
+    BlockOutcome* outcome = nullptr;
+    double bound_squared = 0;      ///< of the speed
+    float bound_lane_squared = 0;  ///< the same in cells per window, somewhat less
+    double too_fast = 0;           ///< see BlockOutcome
+};
+
+} // namespace carrom
