@@ -34,9 +34,7 @@ struct AccuracyOptions {
 
 ExitCode study(const AccuracyOptions& options, std::vector<Problem> problems, const Communicator& ranks) {
     if (ranks.size() > 1) problems.push_back({"carrom accuracy", 0, "runs on one rank; share the work out with --share instead of mpirun"});
-    StopSignals signals;
-    signals.let_go(); // nothing to store: each line of the table is whole
-    Loaded loaded = load(options.run, problems, signals, ranks);
+    Loaded loaded = load(options.run, problems, ranks);
     (options.of_distances ? study_distances : study_costs)(loaded.scene, loaded.discs, options.study, ranks);
     return ExitCode::success;
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "carrom/io/checkpoint.hpp"
 #include "carrom/io/checkpoint_folder.hpp"
@@ -32,18 +31,18 @@ Checkpoints::Checkpoints(const Scene& scene, std::int64_t first_step, bool is_re
 }
 
 std::int64_t Checkpoints::next_look(std::int64_t step) const {
-    if (!scene_.checkpoint) return std::numeric_limits<std::int64_t>::max();
     std::int64_t next = step + stretch_;
+    if (!scene_.checkpoint) return next;
     if (const auto every = scene_.checkpoint->every_steps) next = std::min(next, (step / *every + 1) * *every);
     return next;
 }
 
 bool Checkpoints::look_up(const Simulation& simulation, Recordings& recordings) {
-    if (!scene_.checkpoint) return false;
-    const CheckpointOutput& wanted = *scene_.checkpoint;
     const std::int64_t step = simulation.step();
     const News now = news(step);
     const bool is_end = step >= scene_.steps;
+    if (!scene_.checkpoint) return now.must_stop && !is_end;
+    const CheckpointOutput& wanted = *scene_.checkpoint;
     const bool is_due = now.must_stop || now.is_time || (wanted.every_steps && step > 0 && step % *wanted.every_steps == 0) ||
                         (is_end && wanted.at_end);
     if (is_due && step != last_written_) write(simulation, recordings);
@@ -57,7 +56,7 @@ Checkpoints::News Checkpoints::news(std::int64_t step) {
         const double seconds = stretch_watch_.lap();
         const double steps = static_cast<double>(step - last_looked_) * seconds_between_looks / std::max(seconds, 1e-6);
         seconds_since_written_ += seconds;
-        sums[1] = scene_.checkpoint->every_minutes && seconds_since_written_ >= *scene_.checkpoint->every_minutes * 60 ? 1 : 0;
+        sums[1] = scene_.checkpoint && scene_.checkpoint->every_minutes && seconds_since_written_ >= *scene_.checkpoint->every_minutes * 60 ? 1 : 0;
         sums[2] = static_cast<std::uint64_t>(std::clamp(steps, 1.0, longest_stretch));
     }
     ranks_.sum(sums);

@@ -3,7 +3,7 @@
 //
 // Ranks look up together after each stretch of steps: whether a batch system wants the run to stop, and whether wall
 // time asks for a checkpoint. Stretches are kept to a few seconds where steps are slow. Price: one reduction a stretch,
-// and nothing where the scene asks for no checkpoints.
+// where the scene asks for no checkpoints too: it may still be told to stop.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ public:
     std::int64_t next_look(std::int64_t step) const;
 
     /// Looks up after a stretch of steps and stores the state if it is time, after what is recorded up to there. True if
-    /// the run is to stop here; its state is stored then. If storing fails every rank throws, and the older checkpoints
+    /// the run is to stop here; its state is stored then, if the scene has a folder for it. If storing fails every rank throws, and the older checkpoints
     /// are as they were. **Collective.**
     bool look_up(const Simulation& simulation, Recordings& recordings);
 

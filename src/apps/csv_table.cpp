@@ -23,7 +23,7 @@ namespace {
 CsvTable::CsvTable(std::string path, std::string header, std::size_t n_key_fields)
     : path_(std::move(path)), n_key_fields_(n_key_fields) {
     header += '\n';
-    if (const std::string obstacle = obstacle_to_opening(path_); !obstacle.empty()) refuse(path_, obstacle);
+    if (const Obstacle found = obstacle_to_opening(path_); !found.text.empty()) refuse(path_, found.text);
     std::string text;
     if (std::ifstream file(path_, std::ios::binary); file) text.assign(std::istreambuf_iterator<char>(file), {});
     const std::size_t whole = text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1;

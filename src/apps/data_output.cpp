@@ -52,12 +52,12 @@ void DataOutput::close() {
     file_ = -1;
 }
 
-std::string obstacle_to_opening(const std::string& path) {
+Obstacle obstacle_to_opening(const std::string& path) {
     int file = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
     const bool is_new = file < 0 && errno == ENOENT;
     if (is_new) file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file < 0 && errno == ENXIO) return {}; // a named pipe that nobody reads yet
-    if (file < 0) return std::string("cannot be written: ") + std::strerror(errno);
+    if (file < 0) return obstacle("cannot be written", errno);
     ::close(file);
     if (is_new) ::unlink(path.c_str());
     return {};

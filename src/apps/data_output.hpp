@@ -12,6 +12,8 @@
 
 #include <fmt/format.h>
 
+#include "carrom/core/errors.hpp"
+
 namespace carrom {
 
 class DataOutput {
@@ -47,7 +49,7 @@ private:
     std::string failure_;
 };
 
-/// What would keep a DataOutput from opening `path`, empty if nothing is known to. Leaves the file as it is.
-std::string obstacle_to_opening(const std::string& path);
+/// What would keep a DataOutput from opening `path`, if anything is known to. Leaves the file as it is.
+Obstacle obstacle_to_opening(const std::string& path);
 
 } // namespace carrom

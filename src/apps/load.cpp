@@ -2,19 +2,19 @@
 #include "load.hpp"
 
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
 
 #include <fmt/format.h>
 
-#include "carrom/io/checkpoint_folder.hpp"
 #include "carrom/parallel/agreement.hpp"
 #include "carrom/scene/read_scene.hpp"
 #include "carrom/simulation/initial_state.hpp"
 #include "data_output.hpp"
 #include "destinations.hpp"
+#include "machine.hpp"
+#include "outputs.hpp"
 #include "report_file.hpp"
 #include "restart.hpp"
 
@@ -70,28 +70,10 @@ void check_destinations(const RunOptions& options, Problems& problems) {
     const auto check = [&problems](const char* option, const std::string& path, const std::string& obstacle) {
         if (!path.empty() && !obstacle.empty()) problems.push_back({fmt::format("{} {}", option, path), 0, obstacle});
     };
-    if (!options.output.empty()) check("--output", options.output, obstacle_to_opening(options.output));
+    if (!options.output.empty()) check("--output", options.output, obstacle_to_opening(options.output).text);
     Problems found = problems_with(named_by(options), read_by(options));
     if (!options.report.empty() && found.empty()) check("--report", options.report, obstacle_to_writing(options.report));
     problems.insert(problems.end(), found.begin(), found.end());
-}
-
-/// The scene's own files beside those of the options: what is read must survive. **Collective.**
-void check_scene_destinations(const RunOptions& options, const Scene& scene, const Communicator& ranks) {
-    Problems problems;
-    if (ranks.is_root()) {
-        std::vector<NamedFile> sources = read_by(options), destinations = named_by(options);
-        if (!scene.discs_file.empty()) sources.push_back({"the file of discs", discs_path(scene)});
-        if (scene.trajectory) {
-            const std::string& file = scene.trajectory->file;
-            destinations.push_back({"output.trajectory.file", file});
-            destinations.push_back({"the sidecar of output.trajectory.file",
-                                    std::filesystem::path(file).replace_extension(".xdmf").string()});
-        }
-        if (scene.collisions) destinations.push_back({"output.collisions.file", scene.collisions->file});
-        problems = problems_with(destinations, sources);
-    }
-    agree_on_problems(ranks, problems);
 }
 
 /// The scene; `stream`, on rank 0, is left at the first line of discs. **Collective.**
@@ -131,18 +113,22 @@ void check_without_scene(const RunOptions& options, const Problems& problems_so_
     agree_on_problems(ranks, problems);
 }
 
-/// Finds out now, not after the discs are made, that something cannot be written. **Collective.**
-void check_outputs(const Scene& scene, const Communicator& ranks) {
-    std::string text;
-    if (ranks.is_root()) {
-        const auto check = [&text](const char* key, const std::string& path, const std::string& obstacle) {
-            if (!obstacle.empty()) text += fmt::format("{}{} {}: {}", text.empty() ? "" : "\n", key, path, obstacle);
-        };
-        if (scene.checkpoint) check("output.checkpoint.folder", scene.checkpoint->folder, obstacle_to_folder(scene.checkpoint->folder));
-        if (scene.trajectory) check("output.trajectory.file", scene.trajectory->file, obstacle_to_opening(scene.trajectory->file));
-        if (scene.collisions) check("output.collisions.file", scene.collisions->file, obstacle_to_opening(scene.collisions->file));
-    }
-    agree(ranks, text.empty(), text, ExitCode::output_failure);
+/// The files that are read: what is written must be others.
+std::vector<NamedFile> read_for(const RunOptions& options, const Scene& scene) {
+    std::vector<NamedFile> sources = read_by(options);
+    if (!scene.discs_file.empty()) sources.push_back({"the file of discs", discs_path(scene)});
+    return sources;
+}
+
+/// A mistake in the number of discs would end in the middle, without a word of why. **Collective.**
+void check_memory(const Scene& scene, const Communicator& ranks) {
+    constexpr double bytes_per_disc_one = 110, bytes_per_disc_all = 180; // at least (docs/performance.md)
+    const double bytes_per_disc = scene.rule == CollisionRule::all ? bytes_per_disc_all : bytes_per_disc_one;
+    const double needed = static_cast<double>(scene.n_discs) * bytes_per_disc / ranks.size();
+    const auto available = static_cast<double>(ranks.min(memory_per_rank(ranks)));
+    if (needed <= available) return;
+    throw InputError({{scene.name, 0, fmt::format("discs.count = {} needs at least {:.3g} GB of memory on each of {} ranks, and one has only {:.3g} GB; take "
+                                                  "fewer discs, or ranks on more nodes", scene.n_discs, needed / 1e9, ranks.size(), available / 1e9)}});
 }
 
 /// The discs that a scene starts with. **Collective.**
@@ -157,16 +143,16 @@ std::vector<InputDisc> load_discs(const Scene& scene, std::unique_ptr<std::istre
 
 } // namespace
 
-Loaded load(const RunOptions& options, const Problems& problems, StopSignals& signals, const Communicator& ranks) {
+Loaded load(const RunOptions& options, const Problems& problems, const Communicator& ranks) {
     std::unique_ptr<std::istream> stream;
     Loaded loaded;
     if (options.restart.empty() || !options.input.empty()) loaded.scene = load_scene(options, problems, ranks, stream);
     else check_without_scene(options, problems, ranks);
     if (!options.restart.empty()) load_restart(options, loaded, ranks);
     const Scene& scene = loaded.scene;
-    if (!scene.checkpoint) signals.let_go();
-    check_scene_destinations(options, scene, ranks);
-    check_outputs(scene, ranks);
+    if (!loaded.stored) check_memory(scene, ranks);
+    loaded.locks = claim_outputs(scene, read_for(options, scene), named_by(options), ranks);
+    check_older_checkpoints(scene, loaded.stored ? loaded.stored->micro_steps_done / scene.micro_steps : -1, ranks);
     if (!loaded.stored) loaded.discs = load_discs(scene, stream, ranks);
     if (ranks.is_root())
         for (const std::string& warning : scene.warnings) fmt::print(stderr, "{}: warning: {}\n", scene.name, warning);

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "carrom/core/errors.hpp"
+#include "carrom/io/write_lock.hpp"
 #include "carrom/parallel/communicator.hpp"
 #include "carrom/scene/scene.hpp"
 #include "carrom/simulation/simulation.hpp"
 #include "run_options.hpp"
-#include "stop_signals.hpp"
 
 namespace carrom {
 
@@ -22,11 +22,12 @@ struct Loaded {
     Scene scene;
     std::vector<InputDisc> discs;      ///< of a run from its start
     std::optional<StoredState> stored; ///< what a restart goes on from
+    std::vector<WriteLock> locks;      ///< rank 0's, on what is written to
 };
 
 /// Throws InputError on every rank: with `problems` (found so far, the same on all ranks), those of the report's path
-/// and those of the scene; if there are none, with those of the lines of discs, or of the checkpoint to go on from. A
-/// scene that stores no checkpoints lets go of `signals`. Rank 0 prints the scene's warnings. **Collective.**
-Loaded load(const RunOptions& options, const std::vector<Problem>& problems, StopSignals& signals, const Communicator& ranks);
+/// and those of the scene; if there are none, with those of the outputs' places, of the lines of discs, or of the checkpoint
+/// to go on from. Rank 0 prints the scene's warnings. **Collective.**
+Loaded load(const RunOptions& options, const std::vector<Problem>& problems, const Communicator& ranks);
 
 } // namespace carrom

@@ -5,26 +5,83 @@
 #include <array>
 #include <charconv>
 #include <cstdlib>
-#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <string_view>
 #include <vector>
 
 #include <sched.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace carrom {
 
 namespace {
 
-/// OMP_NUM_THREADS may be a list for nested regions; the first number is for the outermost. 0 where unset or not a number.
-int threads_from_environment() {
+constexpr int most_threads = 1024;
+
+/// A batch script may set it from a variable that is not there; that is as good as unset.
+std::string thread_variable() {
     const char* text = std::getenv("OMP_NUM_THREADS");
-    if (text == nullptr) return 0;
+    return text == nullptr ? "" : text;
+}
+
+/// OMP_NUM_THREADS may be a list for nested regions; the first number is for the outermost. 0 where it is none.
+int threads_from_environment() {
+    const std::string text = thread_variable();
     int threads = 0;
-    std::from_chars(text, text + std::strlen(text), threads);
-    return std::max(threads, 0);
+    const char* const first = text.data() + std::min(text.find_first_not_of(" \t"), text.size());
+    const char* const end = std::from_chars(first, text.data() + text.size(), threads).ptr;
+    const bool is_number = end == text.data() + text.size() || *end == ',' || *end == ' ';
+    return is_number && threads > 0 && threads <= most_threads ? threads : 0;
+}
+
+std::string host_name() {
+    std::string name(256, '\0');
+    gethostname(name.data(), name.size() - 1);
+    return name;
+}
+
+/// How many ranks have this rank's key. **Collective.**
+int sharers_of(std::uint64_t key, const Communicator& ranks) {
+    std::vector<std::uint64_t> keys(static_cast<std::size_t>(ranks.size()), 0);
+    keys[static_cast<std::size_t>(ranks.rank())] = key;
+    ranks.sum(keys); // a sum of one number and zeros: every rank sees every key
+    return static_cast<int>(std::count(keys.begin(), keys.end(), key));
+}
+
+constexpr std::uint64_t without_limit = std::numeric_limits<std::uint64_t>::max();
+
+/// What the node has, swap included.
+std::uint64_t memory_of_node() {
+    std::ifstream facts("/proc/meminfo");
+    std::uint64_t sum = 0;
+    for (std::string line; std::getline(facts, line);)
+        if (line.starts_with("MemTotal:") || line.starts_with("SwapTotal:")) sum += std::strtoull(line.c_str() + line.find(':') + 1, nullptr, 10) * 1024;
+    return sum > 0 ? sum : without_limit;
+}
+
+/// The least limit of this process's control group (version 2, or `memory` of version 1) and those around it.
+std::uint64_t memory_of_control_group() {
+    std::uint64_t least = without_limit;
+    const auto look = [&least](const std::filesystem::path& path) {
+        std::ifstream file(path);
+        if (std::uint64_t bytes = 0; file >> bytes) least = std::min(least, bytes); // "max" is no number
+    };
+    std::ifstream groups("/proc/self/cgroup");
+    for (std::string line; std::getline(groups, line);) {
+        const bool is_second = line.starts_with("0::");
+        if (!is_second && line.find(":memory:") == std::string::npos) continue;
+        const std::filesystem::path root = is_second ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
+        std::filesystem::path group = line.substr(line.rfind(':') + 1);
+        for (;; group = group.parent_path()) {
+            look(root / group.relative_path() / (is_second ? "memory.max" : "memory.limit_in_bytes"));
+            if (!group.has_relative_path()) break;
+        }
+    }
+    return least;
 }
 
 struct AllowedCores {
@@ -36,8 +93,7 @@ AllowedCores allowed_cores() {
     std::array<cpu_set_t, 8> mask{}; // room for 8192 cores
     AllowedCores cores;
     if (sched_getaffinity(0, sizeof mask, mask.data()) == 0) cores.count = std::max(1, CPU_COUNT_S(sizeof mask, mask.data()));
-    std::string identity(256, '\0');
-    gethostname(identity.data(), identity.size() - 1);
+    std::string identity = host_name();
     identity.append(reinterpret_cast<const char*>(mask.data()), sizeof mask);
     cores.key = std::hash<std::string>{}(identity);
     return cores;
@@ -60,12 +116,22 @@ std::string processor_name() {
 
 int default_threads(const Communicator& ranks) {
     const AllowedCores mine = allowed_cores();
-    std::vector<std::uint64_t> keys(static_cast<std::size_t>(ranks.size()), 0);
-    keys[static_cast<std::size_t>(ranks.rank())] = mine.key;
-    ranks.sum(keys); // a sum of one number and zeros: every rank sees every key
-    const auto sharers = static_cast<int>(std::count(keys.begin(), keys.end(), mine.key));
+    const int sharers = sharers_of(mine.key, ranks);
     const int asked = threads_from_environment();
     return asked > 0 ? asked : std::max(1, mine.count / sharers);
+}
+
+std::string thread_warning() {
+    const std::string text = thread_variable();
+    if (text.empty() || threads_from_environment() > 0) return {};
+    return "OMP_NUM_THREADS = '" + text + "' is not a number of threads from 1 to " + std::to_string(most_threads) + " and is not heeded";
+}
+
+std::uint64_t memory_per_rank(const Communicator& ranks) {
+    const auto sharers = static_cast<std::uint64_t>(sharers_of(std::hash<std::string>{}(host_name()), ranks));
+    rlimit limit{};
+    const bool is_limited = getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+    return std::min(std::min(memory_of_node(), memory_of_control_group()) / sharers, is_limited ? std::uint64_t{limit.rlim_cur} : without_limit);
 }
 
 std::uint64_t peak_resident_bytes() {

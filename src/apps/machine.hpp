@@ -26,6 +26,13 @@ std::string processor_name();
 /// its node that may use the same ones; at least 1. **Collective.**
 int default_threads(const Communicator& ranks);
 
+/// What to say where OMP_NUM_THREADS is set to something that is no number of threads; empty where all is well.
+std::string thread_warning();
+
+/// The memory this rank may take, in bytes: what its node has, or its control group or limits allow, shared out among the
+/// ranks of the node; the largest number where the system does not tell. **Collective.**
+std::uint64_t memory_per_rank(const Communicator& ranks);
+
 /// The most memory this process has held at any time, in bytes; 0 where the system does not tell.
 std::uint64_t peak_resident_bytes();
 

@@ -114,6 +114,26 @@ std::vector<std::string> earlier_checkpoints(const Scene& scene, std::int64_t st
     return paths;
 }
 
+OlderCheckpoints older_checkpoints(const Scene& scene, std::int64_t first, std::int64_t last, const Communicator& ranks) {
+    OlderCheckpoints older;
+    for (const std::string& path : candidates_in(scene.checkpoint->folder, ranks)) {
+        try {
+            const CheckpointHeader header = read_checkpoint_header(path, ranks);
+            if (header.step < first || header.step > last) continue;
+            const Scene there = scene_of(header, {});
+            Scene here = scene;
+            if (here.accuracy) settle_on(here, {there.rule, there.micro_steps});
+            const std::vector<std::string> differences = physical_differences(there, here);
+            if (differences.empty()) older.last_own = std::max(older.last_own, header.step);
+            else older.of_others.emplace_back(path, differences.front());
+        } catch (const CollectiveError&) { // damaged: nobody's loss
+        } catch (const InputError&) {
+            older.of_others.emplace_back(path, "its scene cannot be read here");
+        }
+    }
+    return older;
+}
+
 CheckpointHeader header_of(const Scene& scene) {
     CheckpointHeader header;
     header.program_version = version();

@@ -21,6 +21,14 @@ void load_restart(const RunOptions& options, Loaded& loaded, const Communicator&
 /// Whole checkpoints of the scene's run in its folder that are of earlier steps than `step`, oldest first. **Collective.**
 std::vector<std::string> earlier_checkpoints(const Scene& scene, std::int64_t step, const Communicator& ranks);
 
+/// Whole checkpoints in the scene's folder, of steps from `first` to `last`.
+struct OlderCheckpoints {
+    std::vector<std::pair<std::string, std::string>> of_others; ///< path, and what differs from the scene
+    std::int64_t last_own = -1;                                 ///< the latest step of the scene's own run
+};
+/// **Collective.**
+OlderCheckpoints older_checkpoints(const Scene& scene, std::int64_t first, std::int64_t last, const Communicator& ranks);
+
 /// The scene as a checkpoint keeps it, and back.
 CheckpointHeader header_of(const Scene& scene);
 Scene scene_of(const CheckpointHeader& header, const std::vector<std::string>& more_overrides);

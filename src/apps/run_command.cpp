@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -97,10 +98,14 @@ void check_every_step(Simulation& simulation, const Scene& scene) {
 /// The run itself. **Collective.**
 ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, const Communicator& ranks) {
     Stopwatch watch;
-    StopSignals signals;
-    Loaded loaded = load(options, problems, signals, ranks);
+    std::optional<StopSignals> signals;
+    if (options.input != "-") signals.emplace(); // else not while standard input may keep us waiting
+    Loaded loaded = load(options, problems, ranks);
+    if (!signals) signals.emplace();
     Tuning tuning = options.tuning;
     tuning.threads = options.threads.value_or(default_threads(ranks));
+    if (const std::string warning = thread_warning(); !warning.empty() && !options.threads && ranks.is_root())
+        fmt::print(stderr, "warning: {}: running with {} threads a rank\n", warning, tuning.threads);
     if (loaded.scene.accuracy) choose_setting(loaded.scene, loaded.discs, options.quiet, ranks, tuning);
     const Scene& scene = loaded.scene;
     const bool is_restart = loaded.stored.has_value();
@@ -114,7 +119,7 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     result.start = simulation.totals();
     const double setup_seconds = watch.lap();
     double output_seconds = 0;
-    const bool is_done = step_to_end(simulation, result, output_seconds, options, scene, is_restart, signals, ranks);
+    const bool is_done = step_to_end(simulation, result, output_seconds, options, scene, is_restart, *signals, ranks);
     result.last_step = simulation.step();
     result.end = simulation.totals();
     result.averages = simulation.averages();
@@ -127,8 +132,9 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     fill_machine(result, tuning.threads, ranks);
     tell(options, scene, result, ranks);
     if (!is_done && ranks.is_root())
-        fmt::print(stderr, "stopped on request at step {} of {}; run again with --restart {} to go on\n", result.last_step,
-                   scene.steps, scene.checkpoint->folder);
+        fmt::print(stderr, "stopped on request at step {} of {}; {}\n", result.last_step, scene.steps,
+                   scene.checkpoint ? fmt::format("run again with --restart {} to go on", scene.checkpoint->folder)
+                                    : "nothing is kept to go on from: the scene has no output.checkpoint.folder");
     return is_done ? ExitCode::success : ExitCode::stopped;
 }
 

@@ -26,11 +26,6 @@ StopSignals::StopSignals() { handle(note_signal); }
 
 StopSignals::~StopSignals() { handle(SIG_DFL); }
 
-void StopSignals::let_go() {
-    handle(SIG_DFL);
-    if (has_come()) std::raise(signal_that_has_come);
-}
-
 bool StopSignals::has_come() const { return signal_that_has_come != 0; }
 
 } // namespace carrom

@@ -12,9 +12,6 @@ public:
     StopSignals(const StopSignals&) = delete;
     StopSignals& operator=(const StopSignals&) = delete;
 
-    /// From now on they mean again what they mean to any program, and one that has come does so now.
-    void let_go();
-
     /// Whether this rank has got one. Ranks get theirs at different times.
     bool has_come() const;
 };

@@ -2,6 +2,7 @@
 #include "carrom/io/checkpoint_folder.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <filesystem>
 #include <optional>
@@ -11,8 +12,6 @@
 #include <unistd.h>
 
 #include <fmt/format.h>
-
-#include "files.hpp"
 
 namespace carrom {
 
@@ -49,16 +48,14 @@ std::vector<FoundFile> find_checkpoints(const std::string& folder) {
     return found;
 }
 
-std::string obstacle_to_folder(const std::string& folder) {
+Obstacle obstacle_to_folder(const std::string& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error) return "cannot be made: " + error.message();
+    if (error) return obstacle("cannot be made", error.value());
     const std::string probe = (std::filesystem::path(folder) / fmt::format(".carrom-{}", ::getpid())).string();
-    try {
-        const Descriptor file(probe, O_WRONLY | O_CREAT | O_EXCL);
-    } catch (const FileError& failure) {
-        return std::string("cannot be written to: a file there ") + failure.what();
-    }
+    const int file = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0) return obstacle("no file can be made there", errno);
+    ::close(file);
     remove_file(probe);
     return {};
 }

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <new>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -34,6 +35,11 @@ int world_rank = -1; // kept, so that any thread may print it without a call of 
 
 void on_failure(std::string_view text, const char* file, int line) {
     abort_all("internal error", std::string(text) + " (" + file + ':' + std::to_string(line) + ')');
+}
+
+/// Whichever thread asked for the memory, in a parallel region or not: nothing flies out of those.
+void on_no_memory() {
+    abort_all("out of memory", "take fewer discs, or more ranks on more nodes", static_cast<int>(ExitCode::collective_failure));
 }
 
 void on_mpi_error(MPI_Comm*, int* code, ...) { // NOLINT(cert-dcl50-cpp): MPI prescribes the ellipsis
@@ -96,6 +102,7 @@ Mpi::Mpi(int& argc, char**& argv) {
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
     MPI_Comm_rank(MPI_COMM_WORLD, &world_rank);
     set_failure_handler(on_failure);
+    std::set_new_handler(on_no_memory);
     if (provided < MPI_THREAD_FUNNELED) abort_all("error", "this MPI library does not allow threads");
     MPI_Errhandler handler = MPI_ERRHANDLER_NULL;
     MPI_Comm_create_errhandler(on_mpi_error, &handler);

@@ -131,5 +131,15 @@ refuse 'a recording in the place of a sidecar' 'the sidecar of output.trajectory
     run good.toml --set output.trajectory.file=a.h5 --set output.collisions.file=./a.xdmf
 mkfifo pipe
 refuse 'a recording into a pipe' 'output.trajectory.file pipe: is not a plain file' run good.toml --set output.trajectory.file=pipe
+: >file
+refuse 'a folder that is a file' 'output.checkpoint.folder file: cannot be made: Not a directory' run good.toml --set output.checkpoint.folder=file
+refuse 'a folder below a file' 'output.checkpoint.folder file/below: cannot be made' run good.toml --set output.checkpoint.folder=file/below
+refuse 'a folder where there can be none' 'output.checkpoint.folder /proc/carrom: cannot be made' run good.toml --set output.checkpoint.folder=/proc/carrom
+refuse 'recordings into folders' $'output.trajectory.file .: is a directory\noutput.collisions.file no/c.h5: cannot be written: No such file' \
+    run good.toml --set output.trajectory.file=. --set output.collisions.file=no/c.h5 --set output.checkpoint.folder=new
+ulimit -Sv 4194304
+refuse 'more discs than memory' 'good.toml: discs.count = 200000000 needs at least' \
+    run good.toml --set discs.count=200000000 --set discs.packing=0.1
+ulimit -Sv unlimited
 cmp -s good.toml kept.toml || complain 'an input was written to'
 finish

@@ -18,14 +18,6 @@ goes_on_from() { # FOLDER STEP WHAT
     expect_code 0 "going on after $3"
 }
 
-for ranks in 1 3; do
-    : >file
-    run "$ranks" run "${scene[@]}" --set output.checkpoint.folder=file/below
-    failed 'a folder that cannot be made' 'output.checkpoint.folder file/below: cannot be made'
-    run "$ranks" run "${scene[@]}" --set output.checkpoint.folder=/proc/carrom
-    failed 'a folder that is no place for files' 'output.checkpoint.folder /proc/carrom'
-done
-
 mkdir tiny
 if mount -t tmpfs -o size=4m tmpfs tiny 2>/dev/null; then
     trap 'umount "$test_folder/files/tiny"' EXIT

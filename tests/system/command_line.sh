@@ -22,6 +22,23 @@ for option in --threads --steps --set --digits --output --report --quiet --windo
     grep -q -- "^  $option" "$test_folder/out" || complain "the help of run does not explain $option"
 done
 
+# A number of threads that is none is not heeded silently.
+printf '2\n10\n1\n1\nperf\n' >tiny.in
+for number in abc 0 -1 1000000; do
+    export OMP_NUM_THREADS=$number
+    run 3 run tiny.in --quiet
+    expect_code 0 "OMP_NUM_THREADS=$number"
+    expect_told "warning: OMP_NUM_THREADS = '$number' is not a number of threads from 1 to 1024" "OMP_NUM_THREADS=$number"
+    [ "$(grep -c 'warning: OMP_NUM_THREADS' "$test_folder/err")" -eq 1 ] || complain "told on every rank: OMP_NUM_THREADS=$number"
+done
+for number in 2 ' 2' 2,1 ''; do
+    export OMP_NUM_THREADS=$number
+    run 1 run tiny.in --quiet
+    if grep -q 'warning: OMP_NUM_THREADS' "$test_folder/err"; then complain "warned of OMP_NUM_THREADS='$number'"; fi
+done
+unset OMP_NUM_THREADS
+rm tiny.in
+
 run 3
 expect_code 2 'no subcommand'
 expect_silence 'no subcommand'

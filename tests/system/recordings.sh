@@ -65,7 +65,7 @@ same parts 'killed and gone on with'
 [ ! -e parts/t.h5.undo ] || complain 'an undo journal is left'
 
 run 3 run "$input" "${small[@]}" "${record[@]}" --steps 1 --set output.trajectory.file=no/such/folder.h5
-expect_code 4 'a trajectory in no folder'
+expect_code 2 'a trajectory in no folder'
 expect_told 'output.trajectory.file no/such/folder.h5: cannot be written: No such file or directory' 'a trajectory in no folder'
 run 2 run "$input" "${small[@]}" "${record[@]}" --set output.collisions.file=whole/t.h5 --set output.trajectory.file=whole/t.h5
 expect_code 2 'two recordings in one file'

@@ -53,12 +53,18 @@ code=$?
 expect_code 75 'USR1 while discs are made'
 [ "$(ls kept)" = checkpoint-000000000000.h5 ] || complain "USR1 while discs are made did not leave the start: $(ls kept)"
 
-# Without a folder for checkpoints the signals mean what they mean to any program.
-"$CARROM_PROGRAM" run "${scene[@]}" --steps 100000000 >/dev/null 2>&1 &
-program=$!
-sleep 1
-kill -TERM "$program"
-wait "$program"
-code=$?
-expect_code 143 'TERM without checkpoints'
+# Without a folder for checkpoints the run ends in order too: its recordings are whole, and it says that nothing else is.
+for signal in TERM USR1; do
+    "$CARROM_PROGRAM" run "${scene[@]}" --steps 100000000 --set output.trajectory.file=t.h5 --set output.trajectory.every_steps=1000 \
+        >"$test_folder/out" 2>"$test_folder/err" &
+    program=$!
+    sleep 2
+    kill -"$signal" "$program"
+    wait "$program"
+    code=$?
+    expect_code 75 "$signal without checkpoints"
+    expect_told 'nothing is kept to go on from' "$signal without checkpoints"
+    run 1 verify t.h5
+    expect_code 0 "the trajectory after $signal"
+done
 finish

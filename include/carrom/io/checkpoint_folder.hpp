@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "carrom/core/errors.hpp"
+
 namespace carrom {
 
 /// "folder/checkpoint-000000001000.h5"
@@ -22,8 +24,8 @@ struct FoundFile {
 /// Files named like checkpoints, those of the latest step first. A folder that is not there has none.
 std::vector<FoundFile> find_checkpoints(const std::string& folder);
 
-/// Makes the folder where there is none. Returns what keeps files from being written there, or nothing.
-std::string obstacle_to_folder(const std::string& folder);
+/// Makes the folder where there is none. Returns what keeps files from being written there, if anything does.
+Obstacle obstacle_to_folder(const std::string& folder);
 
 /// Removes a file if it is there.
 void remove_file(const std::string& path);

@@ -9,7 +9,8 @@
 namespace carrom {
 
 /// Holds MPI open. Only the thread that made it talks to other ranks (MPI_THREAD_FUNNELED, checked).
-/// From then on an MPI error or a failed `ensure` prints rank and text and aborts all ranks. One per program.
+/// From then on an MPI error or a failed `ensure` prints rank and text and aborts all ranks; where memory runs out, on any
+/// thread, the code is 3. One per program.
 class Mpi {
 public:
     Mpi(int& argc, char**& argv);

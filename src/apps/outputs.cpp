@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "outputs.hpp"
+
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "carrom/io/checkpoint_folder.hpp"
+#include "carrom/parallel/agreement.hpp"
+#include "data_output.hpp"
+#include "restart.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// What rank 0 finds, and the locks it takes on the way.
+class Claims {
+public:
+    void check(const char* key, const std::string& path, const Obstacle& found) {
+        if (found.text.empty()) return;
+        (found.is_failure ? failures_ : problems_).push_back({fmt::format("{} {}", key, path), 0, found.text});
+    }
+
+    /// `path` is locked by `lock_path`.
+    void lock(const char* key, const std::string& path, const std::string& lock_path) {
+        const std::string& holder = locks_.emplace_back(lock_path).holder();
+        if (!holder.empty())
+            problems_.push_back({fmt::format("{} {}", key, path), 0,
+                                 fmt::format("another run is writing there ({}); wait for its end, or name another place", holder)});
+    }
+
+    void add(const std::vector<Problem>& problems) { problems_.insert(problems_.end(), problems.begin(), problems.end()); }
+    bool is_clear() const { return problems_.empty() && failures_.empty(); }
+
+    /// **Collective.**
+    std::vector<WriteLock> agreed(const Communicator& ranks) {
+        std::string text;
+        for (const Problem& failure : failures_) text += (text.empty() ? "" : "\n") + to_string(failure);
+        if (!problems_.empty()) add(failures_);
+        agree_on_problems(ranks, problems_);
+        agree(ranks, text.empty(), text, ExitCode::output_failure);
+        return std::move(locks_);
+    }
+
+private:
+    std::vector<Problem> problems_, failures_;
+    std::vector<WriteLock> locks_;
+};
+
+std::vector<NamedFile> recordings_of(const Scene& scene) {
+    std::vector<NamedFile> files;
+    if (scene.trajectory) {
+        const std::string& file = scene.trajectory->file;
+        files.push_back({"output.trajectory.file", file});
+        files.push_back({"the sidecar of output.trajectory.file", std::filesystem::path(file).replace_extension(".xdmf").string()});
+    }
+    if (scene.collisions) files.push_back({"output.collisions.file", scene.collisions->file});
+    return files;
+}
+
+void check_recording(Claims& claims, const char* key, const std::string& path) {
+    if (std::filesystem::is_directory(path)) claims.check(key, path, {"is a directory; name a file"});
+    else claims.check(key, path, obstacle_to_opening(path));
+}
+
+void check_places(Claims& claims, const Scene& scene) {
+    constexpr const char *folder_key = "output.checkpoint.folder", *trajectory_key = "output.trajectory.file", *log_key = "output.collisions.file";
+    if (scene.trajectory) check_recording(claims, trajectory_key, scene.trajectory->file);
+    if (scene.collisions) check_recording(claims, log_key, scene.collisions->file);
+    std::error_code ignored;
+    // A folder is made only for a run that nothing else keeps from running.
+    if (scene.checkpoint && (claims.is_clear() || std::filesystem::exists(scene.checkpoint->folder, ignored)))
+        claims.check(folder_key, scene.checkpoint->folder, obstacle_to_folder(scene.checkpoint->folder));
+    if (!claims.is_clear()) return;
+    if (scene.checkpoint) claims.lock(folder_key, scene.checkpoint->folder, (std::filesystem::path(scene.checkpoint->folder) / ".carrom.lock").string());
+    if (scene.trajectory) claims.lock(trajectory_key, scene.trajectory->file, scene.trajectory->file + ".lock");
+    if (scene.collisions) claims.lock(log_key, scene.collisions->file, scene.collisions->file + ".lock");
+}
+
+} // namespace
+
+std::vector<WriteLock> claim_outputs(const Scene& scene, const std::vector<NamedFile>& sources, const std::vector<NamedFile>& others,
+                                     const Communicator& ranks) {
+    Claims claims;
+    if (ranks.is_root()) {
+        std::vector<NamedFile> destinations = others;
+        for (const NamedFile& file : recordings_of(scene)) destinations.push_back(file);
+        claims.add(problems_with(destinations, sources));
+        if (claims.is_clear()) check_places(claims, scene);
+    }
+    return claims.agreed(ranks);
+}
+
+void check_older_checkpoints(const Scene& scene, std::int64_t first_step, const Communicator& ranks) {
+    if (!scene.checkpoint) return;
+    const OlderCheckpoints older = older_checkpoints(scene, first_step + 1, scene.steps, ranks);
+    std::vector<Problem> problems;
+    const std::string place = "output.checkpoint.folder " + scene.checkpoint->folder;
+    if (ranks.is_root()) {
+        for (const auto& [path, difference] : older.of_others)
+            problems.push_back({place, 0, fmt::format("{} is another run's ({}) and would be written over; name another folder, or move it away",
+                                                      path, difference)});
+        if (older.last_own >= 0 && first_step < 0)
+            fmt::print(stderr, "{} has checkpoints of this very run up to step {}; they are written anew (--restart latest goes on from there)\n",
+                       place, older.last_own);
+    }
+    agree_on_problems(ranks, problems);
+}
+
+} // namespace carrom

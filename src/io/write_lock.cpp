@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carrom/io/write_lock.hpp"
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+namespace carrom {
+
+namespace {
+
+/// A run that was just killed may still be ending.
+constexpr std::chrono::milliseconds patience(2000), pause(50);
+
+std::string this_process() {
+    std::array<char, 256> host{};
+    ::gethostname(host.data(), host.size() - 1);
+    return fmt::format("process {} on {}", ::getpid(), host.data());
+}
+
+std::string first_bytes(int file) {
+    std::array<char, 512> text{};
+    const ssize_t n = ::pread(file, text.data(), text.size() - 1, 0);
+    return n > 0 ? std::string(text.data(), static_cast<std::size_t>(n)) : "a process that has not yet said which";
+}
+
+/// Whether the name still leads to the open file: a holder that ends removes it.
+bool is_still_there(int file, const std::string& path) {
+    struct stat open {}, named {};
+    return ::fstat(file, &open) == 0 && ::stat(path.c_str(), &named) == 0 && open.st_ino == named.st_ino && open.st_dev == named.st_dev;
+}
+
+} // namespace
+
+WriteLock::WriteLock(std::string path) : path_(std::move(path)) {
+    const auto start = std::chrono::steady_clock::now();
+    while (!try_once() && std::chrono::steady_clock::now() - start < patience) std::this_thread::sleep_for(pause);
+}
+
+WriteLock::~WriteLock() {
+    if (file_ < 0) return;
+    ::unlink(path_.c_str()); // before another can have it
+    ::close(file_);
+}
+
+WriteLock::WriteLock(WriteLock&& other) noexcept
+    : path_(std::move(other.path_)), holder_(std::move(other.holder_)), file_(std::exchange(other.file_, -1)) {}
+
+/// True where there is nothing to wait for.
+bool WriteLock::try_once() {
+    holder_.clear();
+    const int file = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (file < 0) return true; // whatever is wrong there, writing will tell
+    if (::flock(file, LOCK_EX | LOCK_NB) != 0) {
+        if (errno == EWOULDBLOCK) holder_ = first_bytes(file);
+        ::close(file);
+        return holder_.empty();
+    }
+    if (!is_still_there(file, path_)) {
+        ::close(file);
+        return false;
+    }
+    const std::string text = this_process();
+    if (::ftruncate(file, 0) == 0) [[maybe_unused]] const ssize_t n = ::pwrite(file, text.data(), text.size(), 0);
+    file_ = file;
+    return true;
+}
+
+} // namespace carrom
