@@ -25,11 +25,11 @@ class Picture:
     def __init__(self, frames, options):
         self.frames, self.options = frames, options
         self.view = options.view or (0, 0, frames.size, frames.size)
-        self.figure, self.axes = plt.subplots(figsize=(7.2, 6.2), layout="constrained")
+        self.figure, self.axes = plt.subplots(figsize=(7.2, 6.2), layout="constrained", dpi=options.dpi)
         x0, y0, x1, y1 = self.view
         self.axes.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal", xlabel="x", ylabel="y")
         self.fastest = options.fastest
-        self.discs = None
+        self.discs = self.background = None
 
     def show(self, frame):
         place = self.frames.positions(frame)
@@ -37,21 +37,39 @@ class Picture:
         r = self.frames.radius
         seen = (place[:, 0] > x0 - r) & (place[:, 0] < x1 + r) & (place[:, 1] > y0 - r) & (place[:, 1] < y1 + r)
         values = self._values(place, frame)
-        if self.discs is not None:
-            self.discs.remove()
+        is_first = self.discs is None
+        if is_first:
+            self._add_discs()
         width = np.full(np.count_nonzero(seen), 2 * r)
-        self.discs = EllipseCollection(width, width, np.zeros(len(width)), units="xy", offsets=place[seen],
-                                       offset_transform=self.axes.transData, linewidths=0, **self._colours())
-        self.discs.set_array(values[seen])
-        if self.options.colour == "speed":
-            self.discs.set_clim(0, self.fastest)
-        else:
-            self.discs.set_clim(-0.5, self.options.ranks - 0.5)
-        is_first = len(self.figure.axes) == 1
-        self.axes.add_collection(self.discs)
+        self.discs.set(widths=width, heights=width, angles=np.zeros(len(width)), offsets=place[seen], array=values[seen])
         self.axes.set_title(f"step {self.frames.steps[frame]}")
         if is_first:
-            self._add_bar()
+            self.figure.canvas.draw()  # finds the layout, which is the same for all frames and slow to find
+            self.figure.set_layout_engine("none")
+
+    def pixels(self):
+        """The frame that is shown, as an array (height, width, 3) of bytes. Only discs and title are drawn anew."""
+        canvas, title = self.figure.canvas, self.axes.title
+        if self.background is None:
+            self.discs.set_animated(True)
+            title.set_animated(True)
+            canvas.draw()
+            self.background = canvas.copy_from_bbox(self.figure.bbox)
+        canvas.restore_region(self.background)
+        self.axes.draw_artist(self.discs)
+        self.axes.draw_artist(title)
+        for spine in self.axes.spines.values():
+            self.axes.draw_artist(spine)
+        return np.asarray(canvas.buffer_rgba())[:, :, :3]
+
+    def _add_discs(self):
+        """The discs, none yet, and the bar of their colours."""
+        self.discs = EllipseCollection([], [], [], units="xy", offsets=np.empty((0, 2)), offset_transform=self.axes.transData,
+                                       linewidths=0, **self._colours())
+        is_by_speed = self.options.colour == "speed"
+        self.discs.set_clim(*((0, self.fastest) if is_by_speed else (-0.5, self.options.ranks - 0.5)))
+        self.axes.add_collection(self.discs)
+        self._add_bar()
 
     def _values(self, place, frame):
         if self.options.colour == "strip":

@@ -6,10 +6,13 @@
   docs/tools/plot_movie.py trajectory.h5 --every 2 --rate 25 --colour strip --ranks 8 -o movie.mp4
 """
 import argparse
+import itertools
 import shutil
+import subprocess
 import sys
 
-from matplotlib import animation
+import numpy as np
+from PIL import Image
 
 from drawing import Picture, add_drawing_options
 from frames import Frames
@@ -23,18 +26,38 @@ def main():
     parser.add_argument("-o", "--output", required=True)
     add_drawing_options(parser)
     options = parser.parse_args()
-    if options.output.endswith(".gif"):
-        writer = animation.PillowWriter(fps=options.rate)
-    elif shutil.which("ffmpeg"):
-        writer = animation.FFMpegWriter(fps=options.rate)
-    else:
+    is_gif = options.output.endswith(".gif")
+    if not is_gif and not shutil.which("ffmpeg"):
         sys.exit("ffmpeg is not installed; a name that ends in .gif does without")
     frames = Frames(options.file)
     picture = Picture(frames, options)
-    with writer.saving(picture.figure, options.output, options.dpi):
+
+    def images():
         for frame in range(0, len(frames.steps), options.every):
             picture.show(frame)
-            writer.grab_frame()
+            yield picture.pixels()
+
+    (write_gif if is_gif else write_with_ffmpeg)(images(), options)
+
+
+def write_gif(images, options):
+    """One palette for all frames: the first one has the colours of all, and finding one takes as long as drawing."""
+    first = Image.fromarray(next(images)).quantize(256)
+    others = (Image.fromarray(image).quantize(palette=first, dither=Image.Dither.NONE) for image in images)
+    first.save(options.output, save_all=True, append_images=others, duration=1000 / options.rate, loop=0)
+
+
+def write_with_ffmpeg(images, options):
+    first = next(images)
+    height, width = first.shape[0] & ~1, first.shape[1] & ~1  # most codecs want even numbers
+    command = ["ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}",
+               "-r", str(options.rate), "-i", "-", "-pix_fmt", "yuv420p", options.output]
+    with subprocess.Popen(command, stdin=subprocess.PIPE) as ffmpeg:
+        for image in itertools.chain([first], images):
+            ffmpeg.stdin.write(np.ascontiguousarray(image[:height, :width]).tobytes())
+        ffmpeg.stdin.close()
+        if ffmpeg.wait() != 0:
+            sys.exit("ffmpeg has failed")
 
 
 if __name__ == "__main__":

@@ -3,8 +3,10 @@
 #include "carrom/io/start_io.hpp"
 #include "carrom/parallel/mpi.hpp"
 #include "command_line.hpp"
+#include "spinning.hpp"
 
 int main(int argc, char** argv) {
+    carrom::bound_spinning(argv);
     carrom::start_io();
     const carrom::Mpi mpi(argc, argv);
     return carrom::run_on_all(carrom::Communicator::world(), [&](const carrom::Communicator& ranks) {

@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "carrom/core/errors.hpp"
+#include "carrom/core/obstacle.hpp"
 
 namespace carrom {
 

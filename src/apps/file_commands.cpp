@@ -47,15 +47,35 @@ void let_root(const Communicator& ranks, const std::function<void()>& work) {
 
 std::string line(const char* label, const std::string& text) { return fmt::format("{:<12}{}\n", label, text); }
 
+std::string frames_text(const std::vector<std::int64_t>& steps) {
+    if (steps.empty()) return "none";
+    std::string text = fmt::format("{}, of steps {} to {}", steps.size(), steps.front(), steps.back());
+    const std::int64_t every = steps.size() > 1 ? steps[1] - steps[0] : 0;
+    for (std::size_t k = 1; k < steps.size(); ++k)
+        if (steps[k] - steps[k - 1] != every) return text + ", at several distances";
+    return steps.size() > 1 ? text + fmt::format(", every {}", every) : text;
+}
+
+/// From when to when a log goes; it is in the order of time.
+std::string span_text(const FrameFile& file) {
+    const std::uint64_t n = file.summary().n_logged;
+    if (n == 0) return line("steps", "none");
+    std::vector<LoggedCollision> first, last;
+    file.read(0, 1, first);
+    file.read(n - 1, n, last);
+    return line("steps", fmt::format("{} to {}, times {:.6g} to {:.6g}", first[0].step, last[0].step, first[0].time, last[0].time));
+}
+
 std::string summary_text(const FileSummary& summary) {
     std::string text = line("kind", name_of(summary.kind)) + line("written by", "carrom " + summary.program_version);
-    if (summary.kind == FileKind::collisions) return text + line("collisions", fmt::format("{}", summary.n_logged));
+    if (summary.kind == FileKind::collisions) return text + line("collisions", fmt::format("{}", summary.n_logged)) + line("fields", "step time p q impulse");
     text += line("discs", fmt::format("{} in a box of {:g}", summary.n_discs, summary.box_size));
     if (summary.kind == FileKind::trajectory) {
+        text += line("radius", fmt::format("{:g}", summary.radius));
         text += line("fields", fmt::format("{}{}{}", summary.has_position ? "position " : "", summary.has_velocity ? "velocity " : "",
                                            summary.has_collisions ? "collisions" : ""));
-        text += line("frames", summary.steps.empty() ? "none" : fmt::format("{}, of steps {} to {}", summary.steps.size(),
-                                                                            summary.steps.front(), summary.steps.back()));
+        if (summary.has_position || summary.has_velocity) text += line("numbers", fmt::format("of {} bytes", summary.bytes_per_number));
+        text += line("frames", frames_text(summary.steps));
     }
     return text;
 }
@@ -78,14 +98,17 @@ ExitCode info(const std::string& path, const Communicator& ranks) {
     check_damage(path, ranks);
     FileSummary summary;
     int is_checkpoint = 0;
+    std::string span;
     let_root(ranks, [&] {
-        summary = FrameFile(path).summary();
+        const FrameFile file(path);
+        summary = file.summary();
+        if (summary.kind == FileKind::collisions) span = span_text(file);
         is_checkpoint = summary.kind == FileKind::checkpoint ? 1 : 0;
     });
     ranks.broadcast(is_checkpoint);
     CheckpointHeader header;
     if (is_checkpoint == 1) header = read_checkpoint_header(path, ranks);
-    if (ranks.is_root()) fmt::print("{}{}", summary_text(summary), is_checkpoint == 1 ? header_text(header) : "");
+    if (ranks.is_root()) fmt::print("{}{}", summary_text(summary), is_checkpoint == 1 ? header_text(header) : span);
     return ExitCode::success;
 }
 

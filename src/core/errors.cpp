@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "carrom/core/errors.hpp"
 
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 
 namespace carrom {
 
@@ -36,11 +34,6 @@ std::string to_string(const Problem& problem) {
 
 InputError::InputError(std::vector<Problem> problems)
     : std::runtime_error(list_of(problems)), problems_(std::move(problems)) {}
-
-Obstacle obstacle(const std::string& what, int error) {
-    const bool is_failure = error == ENOSPC || error == EDQUOT || error == EIO || error == EROFS || error == EACCES || error == EPERM;
-    return {what + ": " + std::strerror(error), is_failure};
-}
 
 void set_failure_handler(FailureHandler handler) { failure_handler = handler; }
 

@@ -73,7 +73,8 @@ FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_un
             const h5::Group run(h5::checked(H5Gopen2(file, "/carrom/run", H5P_DEFAULT), "has no /carrom/run"));
             state_->header = read_header(run.id());
             const CheckpointHeader& header = state_->header;
-            summary_ = {FileKind::checkpoint, header.program_version, header.n_discs, header.box_size, true, true, true, {header.step}, 0, header.state_hash};
+            summary_ = {FileKind::checkpoint, header.program_version, header.n_discs, header.box_size, header.radius, 8, true, true, true, {header.step}, 0,
+                        header.state_hash};
         } else if (has(file, "/carrom/collisions")) {
             summary_.kind = FileKind::collisions;
             summary_.n_logged = length_of(file, "/carrom/collisions/step");
@@ -86,6 +87,12 @@ FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_un
             for (const char* element : {"position", "velocity", "collisions"})
                 if (has(file, discs + element))
                     summary_.n_discs = h5::dimensions_of(h5::open_dataset(file, (discs + element + "/value").c_str()).id()).at(1);
+            for (const char* element : {"position", "velocity"}) {
+                if (!has(file, discs + element)) continue;
+                const h5::Type type(h5::checked(H5Dget_type(h5::open_dataset(file, (discs + element + "/value").c_str()).id()), element));
+                summary_.bytes_per_number = H5Tget_size(type.id());
+            }
+            h5::read_scalar(file, "/parameters/radius", summary_.radius);
             std::array<double, 3> edges = {};
             if (!summary_.steps.empty()) read_block(file, discs + "box/edges/value", 0, 0, 3, H5T_NATIVE_DOUBLE, edges.data());
             summary_.box_size = edges[0];

@@ -3,16 +3,7 @@
 # `carrom accuracy` writes a line for each trial, goes on where it was stopped and can be shared out; `--accuracy` settles
 # on a setting that a restart keeps.
 source "$(dirname "$0")/common.sh"
-cat >small.toml <<'END'
-[box]
-size = 46
-[discs]
-count = 200
-packing = 0.3
-speed = 0.2
-[time]
-steps = 20
-END
+gas_scene 46 200 0.3 0.2 20 >small.toml
 study=(accuracy small.toml --starts 2 --repetitions 2 --micro-steps 2 --collisions 10 --approach 5 --quiet)
 
 # All but the times.

@@ -37,7 +37,23 @@ for number in 2 ' 2' 2,1 ''; do
     if grep -q 'warning: OMP_NUM_THREADS' "$test_folder/err"; then complain "warned of OMP_NUM_THREADS='$number'"; fi
 done
 unset OMP_NUM_THREADS
-rm tiny.in
+
+# Threads that wait spin for a bounded time, unless the user has said how they shall wait.
+printf '2\n10\n1\n1000000000\nperf\n' >endless.in
+for policy in none passive; do
+    if [ "$policy" = none ]; then setting=(env -u OMP_WAIT_POLICY -u GOMP_SPINCOUNT); else setting=(env OMP_WAIT_POLICY=passive); fi
+    "${setting[@]}" "$CARROM_PROGRAM" run endless.in --quiet >/dev/null 2>&1 &
+    program=$!
+    sleep 1
+    spins=$(tr '\0' '\n' <"/proc/$program/environ" | grep -c '^GOMP_SPINCOUNT=3000$')
+    [ "$spins" -eq "$([ "$policy" = none ] && echo 1 || echo 0)" ] || complain "spinning with the policy $policy: $spins"
+    [ "$(cat "/proc/$program/comm")" = carrom ] || complain 'the process has another name'
+    kill -KILL "$program"
+    wait "$program" 2>/dev/null
+done
+"${CARROM_MPIEXEC}" -n 3 env -u OMP_WAIT_POLICY -u GOMP_SPINCOUNT "$CARROM_PROGRAM" run - --quiet --steps 1 <tiny.in >"$test_folder/out" 2>"$test_folder/err"
+[ "$(wc -l <"$test_folder/out")" -eq 4 ] || { complain 'not the lines of a run on standard input with spinning bounded'; show; }
+rm tiny.in endless.in
 
 run 3
 expect_code 2 'no subcommand'

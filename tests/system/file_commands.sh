@@ -20,6 +20,13 @@ for text in 'kind        checkpoint' '300 discs' 'step        20' "$(json_value 
     grep -qF "${text/300 discs/300 in a box}" "$test_folder/out" || complain "info does not say: $text"
 done
 
+run 1 info t.h5
+for text in 'discs       300 in a box of' 'fields      position velocity' 'numbers     of 8 bytes' 'frames      21, of steps 0 to 20, every 1'; do
+    grep -qF "$text" "$test_folder/out" || complain "info of a trajectory does not say: $text"
+done
+run 1 info c.h5
+grep -q '^steps       1 to 20, times 0[.][0-9]* to 1[89][.]' "$test_folder/out" || complain "info of a log does not tell its span: $(cat "$test_folder/out")"
+
 shown "$last" --to text
 tail -n 300 lines | cmp - "$test_folder/out" || complain 'the last lines are not those of the checkpoint'
 shown t.h5 --to text

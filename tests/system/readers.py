@@ -43,6 +43,19 @@ def read_with_h5py(lines, trajectory, checkpoint):
         assert np.array_equal(columns["vx"][:], lines[20][:, 2]) and run["step"][()] == 20
 
 
+def read_with_pyh5md(lines, trajectory, checkpoint):
+    import pyh5md
+
+    for path, steps in ((trajectory, [0, 5, 10, 15, 20]), (checkpoint, [20])):
+        with pyh5md.File(path, "r") as file:
+            discs = file.particles_group("discs")
+            for element, columns in (("position", slice(0, 2)), ("velocity", slice(2, 4))):
+                series = pyh5md.element(discs, element)
+                assert list(series.step) == steps and list(series.time) == steps
+                for frame, step in enumerate(steps):
+                    expect_same(series.value[frame][:, :2], lines[step][:, columns], f"{path} {element} {step}")
+
+
 def read_with_mdanalysis(lines, trajectory, checkpoint):
     import MDAnalysis
 
@@ -89,7 +102,8 @@ def main():
     reader, lines, *paths = sys.argv[1:]
     if reader == "pictures":
         return look_at(*paths)
-    {"h5py": read_with_h5py, "MDAnalysis": read_with_mdanalysis, "vtk": read_with_vtk}[reader](read_lines(lines), *paths)
+    read = {"h5py": read_with_h5py, "pyh5md": read_with_pyh5md, "MDAnalysis": read_with_mdanalysis, "vtk": read_with_vtk}[reader]
+    read(read_lines(lines), *paths)
 
 
 if __name__ == "__main__":

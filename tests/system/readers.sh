@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Other programs open our files and see what the run itself has written as text: h5py, MDAnalysis, VTK (through XDMF),
-# and our own tools for pictures. They come from PyPI, into a folder that is kept; each is skipped where it cannot be had.
+# Other programs open our files and see what the run itself has written as text: h5py, pyh5md, MDAnalysis, VTK (through
+# XDMF), and our own tools for pictures. They come from PyPI, into a folder that is kept; each is skipped where it cannot be had.
 # Argument: that folder.
 source "$(dirname "$0")/common.sh"
 python=$1/bin/python tests=$(dirname "$0") tools=$CARROM_SOURCE_DIR/docs/tools
@@ -30,7 +30,7 @@ run 2 run "${scene[@]}" --set output.text=every_step --output lines --set output
     --set output.trajectory.file=t.h5 --set output.trajectory.every_steps=5 --set output.collisions.file=c.h5 --report report.json
 expect_code 0 'a run'
 
-for reader in 'h5py h5py' 'MDAnalysis h5py MDAnalysis' 'vtk vtk'; do
+for reader in 'h5py h5py' 'pyh5md h5py pyh5md' 'MDAnalysis h5py MDAnalysis' 'vtk vtk'; do
     read -r module packages <<<"$reader"
     if has "$module" $packages; then
         "$python" "$tests/readers.py" "$module" lines t.h5 kept/checkpoint-000000000020.h5 || complain "$module"
@@ -50,5 +50,5 @@ if has matplotlib matplotlib && has h5py h5py; then
 else
     skip "matplotlib or h5py is not to be had: $(tail -n 1 "$test_folder/err")"
 fi
-[ "$n_skipped" -lt 4 ] || [ "$n_failures" -gt 0 ] || exit 77
+[ "$n_skipped" -lt 5 ] || [ "$n_failures" -gt 0 ] || exit 77
 finish

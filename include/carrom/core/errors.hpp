@@ -54,15 +54,6 @@ private:
     ExitCode code_;
 };
 
-/// What keeps a file from being written; `text` is empty if nothing does.
-struct Obstacle {
-    std::string text;
-    bool is_failure = false; ///< of the disk, or a lack of rights: the place could be right. Else it cannot be.
-};
-
-/// The obstacle with the system's words for `error`, an errno, after `what`.
-Obstacle obstacle(const std::string& what, int error);
-
 /// Ends the program when an invariant is broken. Also in Release: a wrong number must never look like a result.
 /// The handler prints and aborts; the parallel module installs one that aborts all ranks.
 [[noreturn]] void fail(std::string_view text, const char* file, int line);

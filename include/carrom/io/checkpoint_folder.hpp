@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "carrom/core/errors.hpp"
+#include "carrom/core/obstacle.hpp"
 
 namespace carrom {
 

@@ -23,7 +23,8 @@ struct FileSummary {
     FileKind kind = FileKind::checkpoint;
     std::string program_version;
     std::uint64_t n_discs = 0;             ///< 0 for a log of collisions
-    double box_size = 0;
+    double box_size = 0, radius = 0;       ///< radius: of a trajectory
+    std::size_t bytes_per_number = 8;      ///< of a trajectory's positions and velocities
     bool has_position = false, has_velocity = false, has_collisions = false;
     std::vector<std::int64_t> steps;       ///< of the frames
     std::uint64_t n_logged = 0;            ///< collisions in a log

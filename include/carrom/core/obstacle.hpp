@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Why something cannot be written, and whether that is the place's fault or the disk's.
+#pragma once
+
+#include <string>
+
+namespace carrom {
+
+/// What keeps a file from being written; `text` is empty if nothing does.
+struct Obstacle {
+    std::string text;
+    bool is_failure = false; ///< of the disk, or a lack of rights: the place could be right. Else it cannot be.
+};
+
+/// The obstacle with the system's words for `error`, an errno, after `what`.
+Obstacle obstacle(const std::string& what, int error);
+
+} // namespace carrom
