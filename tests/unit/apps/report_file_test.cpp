@@ -58,12 +58,13 @@ TEST_CASE("Places that cannot take a report are found out without a trace") {
 TEST_CASE("A file for data is emptied only when it is opened") {
     const ScratchFolder folder;
     const std::string path = folder.file("lines.txt");
-    CHECK(obstacle_to_opening(path).empty());
+    CHECK(obstacle_to_opening(path).text.empty());
     CHECK(folder.n_files() == 0);
     CHECK(write_whole_file(path, "old\n").empty());
-    CHECK(obstacle_to_opening(path).empty());
+    CHECK(obstacle_to_opening(path).text.empty());
     CHECK(content(path) == "old\n");
-    CHECK(obstacle_to_opening(folder.file(".")).find("cannot be written") != std::string::npos);
+    CHECK(obstacle_to_opening(folder.file(".")).text.find("cannot be written") != std::string::npos);
+    CHECK_FALSE(obstacle_to_opening(folder.file(".")).is_failure); // the place, not the disk
     DataOutput output(path);
     output.buffer().append(std::string("new\n"));
     output.flush_if_full();
