@@ -24,7 +24,7 @@ Examples:
   carrom accuracy inputs/gas.toml --set discs.count=2000 --output gas.csv
   carrom accuracy inputs/gas.toml --micro-steps 16 --arithmetic default --starts 4 --output gas.csv
   carrom accuracy inputs/gas.toml --distances --collisions 30 --output distances.csv
-  python3 docs/tools/plot_accuracy.py gas.csv -o gas)";
+  python3 docs/tools/plot_accuracy.py gas.csv --output gas)";
 
 struct AccuracyOptions {
     RunOptions run;
