@@ -18,6 +18,9 @@ die() { say "$(basename "$0"): $*"; exit 1; }
 # Python programs that open our files.
 test_packages=(slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge strace python3-venv)
 
+# What job_scripts/sanitize.sh needs.
+sanitizer_packages=(clang-14 libomp-14-dev valgrind)
+
 # missing_packages PACKAGE...: those that are not installed
 missing_packages() {
     local package
@@ -39,6 +42,13 @@ install_test_packages() {
     command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || return 0
     mapfile -t missing < <(missing_packages "${test_packages[@]}")
     [ ${#missing[@]} -eq 0 ] || install_missing "${missing[@]}" || say "some tests will be skipped, for want of ${missing[*]}"
+}
+
+install_sanitizer_packages() {
+    local missing
+    command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || return 0
+    mapfile -t missing < <(missing_packages "${sanitizer_packages[@]}")
+    [ ${#missing[@]} -eq 0 ] || install_missing "${missing[@]}" || say "packages are missing: ${missing[*]}"
 }
 
 # install_missing PACKAGE...: false, with the reason told, if that does not work.

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Test this checkout, from nothing: install what is missing, build everything, run every test.
+# Test this checkout, from nothing: install what is missing, build everything, run every test; then the short form of
+# job_scripts/sanitize.sh.
 #
 #   ./job_scripts/test_local.sh
-#   ./job_scripts/test_local.sh -L unit        (options go to ctest)
+#   ./job_scripts/test_local.sh -L unit        (options go to ctest; no sanitizers then)
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
@@ -13,4 +14,7 @@ build_target
 # Tests run more threads than most machines have cores: those that wait must not spin. Open MPI's settings are made by
 # the tests themselves (tests/functions.cmake).
 export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive}
-exec ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$(nproc)" "$@" </dev/null
+code=0
+ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$(nproc)" "$@" </dev/null || code=$?
+[ $# -gt 0 ] || bash "$top/job_scripts/sanitize.sh" --short || code=1
+exit $code

@@ -22,4 +22,10 @@ void warn_of_hard_cases(const Scene& scene, const Simulation& simulation, const 
                scene.name, speed / scene.radius, speed * rounding / scene.radius, scene.sync_every);
 }
 
+void warn_of_overlaps(const Scene& scene, const Totals& start) {
+    if (start.overlapping_pairs == 0) return;
+    fmt::print(stderr, "{}: warning: {} of discs overlap at the start; they pass through each other and collide once they have come apart\n",
+               scene.name, start.overlapping_pairs == 1 ? "1 pair" : fmt::format("{} pairs", start.overlapping_pairs));
+}
+
 } // namespace carrom

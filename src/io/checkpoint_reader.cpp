@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <vector>
 
+#include <fcntl.h>
+
 #include "carrom/core/state_hash.hpp"
 #include "carrom/io/checkpoint.hpp"
 #include "carrom/parallel/slabs.hpp"
@@ -16,7 +18,7 @@ namespace {
 /// What no writer of this program would write; a sealed file that has it was made by something else.
 void check_header(const CheckpointHeader& header) {
     if (header.micro_steps < 1 || header.sync_every < 1 || header.step < 0 || header.n_discs == 0 ||
-        header.micro_steps_done != header.step * header.micro_steps)
+        header.micro_steps_done / header.micro_steps != header.step || header.micro_steps_done % header.micro_steps != 0)
         throw FileError("its numbers contradict each other");
 }
 
@@ -27,6 +29,9 @@ CheckpointHeader header_of(const std::string& path, const Communicator& communic
         const h5::Group run(h5::checked(H5Gopen2(file.id(), "/carrom/run", H5P_DEFAULT), "has no /carrom/run"));
         header = read_header(run.id());
         check_header(header);
+        // A file that claims more discs than it has room for must not cost their memory.
+        if (header.n_discs > Descriptor(path, O_RDONLY).size() / (8 * checkpoint_columns.size()))
+            throw FileError("has not got as many discs as it says");
     });
     broadcast(header, communicator);
     return header;

@@ -23,6 +23,8 @@ namespace carrom::h5 {
 
 namespace {
 
+constexpr std::size_t longest_text = std::size_t{1} << 28; // scenes end at 2^26
+
 /// The innermost entries of the error stack say what the system has said.
 herr_t take_text(unsigned number, const H5E_error2_t* error, void* text) {
     auto& all = *static_cast<std::string*>(text);
@@ -178,6 +180,7 @@ void read_scalar(hid_t parent, const char* name, std::string& value) {
     const Dataset dataset = open_dataset(parent, name);
     const Type type(checked(H5Dget_type(dataset.id()), name));
     if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0) throw FileError(std::string(name) + " is not a text");
+    if (H5Tget_size(type.id()) > longest_text) throw FileError(std::string(name) + " is longer than any text of ours");
     value.assign(H5Tget_size(type.id()), '\0');
     read_scalar_as(parent, name, type.id(), value.data());
     value.resize(value.find_last_not_of('\0') + 1); // the padding

@@ -314,7 +314,7 @@ template <class Law> void OneEngine<Law>::sync() {
     unchanged_until_ -= time;
     refreshed_speed_ = communicator_.max(std::sqrt(fastest));
     const std::uint64_t n_kept = communicator_.sum(n_kept_ - std::exchange(n_kept_at_sync_, n_kept_));
-    hits_per_micro_step_ = 2 * static_cast<double>(n_kept) / static_cast<double>(discs_.n_total() * sync_every_);
+    hits_per_micro_step_ = 2 * static_cast<double>(n_kept) / (static_cast<double>(discs_.n_total()) * static_cast<double>(sync_every_));
     micro_ = 0;
     ++n_syncs_;
     if (tuning_.rebalance_every > 0 && n_syncs_ % tuning_.rebalance_every == 0) {

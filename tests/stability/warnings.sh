@@ -24,4 +24,11 @@ scene 10 1e9 64 one && expect_warning 'a thousand million radii a step' 'in the 
 scene 10 1 1073741824 all && expect_warning 'a sync interval of 2^30' 'in the rounding of a time'
 scene 10 1 1024 all && expect_no_warning 'a sync interval of 2^10'
 scene 1e7 1 64 all && expect_warning 'a box of 1e7 radii' 'walls lose their precision'
+
+# overlapping X: the second disc at X, two radii from the first at 5.
+overlapping() {
+    printf '[box]\nsize = 10\n[discs]\nradius = 1\nlist = [[3, 3, 0, 0], [%s, 3, 0, 0]]\n[time]\nsteps = 1\n' "$1" >scene.toml
+}
+overlapping 4.9 && expect_warning 'discs that overlap' '1 pair of discs overlap at the start'
+overlapping 5 && expect_no_warning 'discs that touch'
 finish

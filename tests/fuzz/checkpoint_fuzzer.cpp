@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// libFuzzer on the reader of checkpoints, from a whole one with bytes replaced: random bytes would end at the seal.
+//
+// Input: a first byte, then edits of 4 bytes and more: a place among those that are not empty (3 bytes), a length or what to do (1), the new bytes.
+// An odd first byte seals the file anew, so that its contents are reached. A file must end in a checkpoint that keeps its
+// promises, or in a CollectiveError of code 2; one that is not sealed anew and differs must be refused.
+// How to run it is told in docs/stability.md.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include "carrom/core/errors.hpp"
+#include "carrom/core/state_hash.hpp"
+#include "carrom/io/checkpoint.hpp"
+#include "carrom/io/start_io.hpp"
+#include "carrom/parallel/mpi.hpp"
+#include "seal.hpp"
+
+using namespace carrom;
+
+namespace {
+
+constexpr std::uint8_t cut_short = 255;
+constexpr std::size_t most_replaced = 16;
+
+void demand(bool claim) {
+    if (!claim) std::abort();
+}
+
+std::string path() { return "/dev/shm/carrom_fuzzed_" + std::to_string(::getpid()) + ".h5"; }
+
+std::vector<char> whole_checkpoint(const Communicator& world) {
+    CheckpointHeader header;
+    header.program_version = "0.1.0";
+    header.scene_name = "fuzz.toml";
+    header.scene_text = "[box]\nsize = 10\n[discs]\ncount = 12\nradius = 0.5\n[time]\nsteps = 100\n";
+    header.box_size = 10;
+    header.radius = 0.5;
+    header.collisions = "one";
+    header.sync_every = 64;
+    header.step = header.micro_steps_done = 70;
+    std::vector<Disc> discs(12);
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        discs[i].id = i;
+        discs[i].x = 1 + 0.5 * static_cast<double>(i);
+        discs[i].y = 5;
+        discs[i].vx = 0.125;
+        discs[i].tau = static_cast<double>(i % 6);
+        discs[i].pair_collisions = i / 2;
+    }
+    write_checkpoint(path(), header, discs, world);
+    std::ifstream file(path(), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Where something stands: most of a small file is the room between its datasets.
+std::vector<std::size_t> places_in(const std::vector<char>& bytes) {
+    constexpr std::size_t margin = 8;
+    std::vector<std::size_t> places;
+    std::size_t from = 0;
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        if (bytes[i] == 0) continue;
+        for (from = std::max(from, i > margin ? i - margin : 0); from < std::min(i + margin, bytes.size()); ++from) places.push_back(from);
+    }
+    return places;
+}
+
+/// The file as the input wants it.
+std::vector<char> edited(std::vector<char> bytes, const std::vector<std::size_t>& places, std::span<const std::uint8_t> input) {
+    while (input.size() >= 4) {
+        const std::size_t place = places[(input[0] | std::size_t{input[1]} << 8 | std::size_t{input[2]} << 16) % places.size()];
+        const std::uint8_t what = input[3];
+        input = input.subspan(4);
+        if (place >= bytes.size()) continue; // cut off already
+        if (what == cut_short) {
+            bytes.resize(place);
+            continue;
+        }
+        const std::size_t n = std::min({what % most_replaced + 1, input.size(), bytes.size() - place});
+        std::copy_n(input.begin(), n, bytes.begin() + static_cast<std::ptrdiff_t>(place));
+        input = input.subspan(n);
+    }
+    return bytes;
+}
+
+void check(const Checkpoint& checkpoint) {
+    const CheckpointHeader& header = checkpoint.header;
+    demand(header.n_discs == checkpoint.discs.size() && header.n_discs > 0);
+    demand(header.micro_steps >= 1 && header.sync_every >= 1 && header.micro_steps_done == header.step * header.micro_steps);
+    demand(to_string(hash_of(checkpoint.discs)) == header.state_hash);
+    for (std::size_t i = 0; i < checkpoint.discs.size(); ++i) demand(checkpoint.discs[i].id == i);
+}
+
+struct Ground {
+    Mpi mpi;
+    Communicator world = Communicator::world();
+    std::vector<char> whole = whole_checkpoint(world);
+    std::vector<std::size_t> places = places_in(whole);
+
+    Ground(int& argc, char**& argv) : mpi(argc, argv) {}
+};
+
+std::optional<Ground> ground;
+
+} // namespace
+
+extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
+    start_io();
+    ground.emplace(*argc, *argv);
+    std::atexit([] {
+        ::unlink(path().c_str());
+        ground.reset();
+    });
+    return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    if (size == 0) return 0;
+    const std::vector<char> bytes = edited(ground->whole, ground->places, std::span(data, size).subspan(1));
+    std::ofstream(path(), std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    const bool is_sealed_anew = data[0] % 2 == 1 && bytes.size() >= seal_size;
+    if (is_sealed_anew) seal(path(), ground->world);
+    try {
+        check(read_checkpoint(path(), ground->world));
+        demand(is_sealed_anew || bytes == ground->whole);
+    } catch (const CollectiveError& error) {
+        demand(error.code() == ExitCode::bad_input);
+    }
+    return 0;
+}
