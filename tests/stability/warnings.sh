@@ -23,7 +23,7 @@ scene 10 1e6 64 one && expect_no_warning 'a million radii a step'
 scene 10 1e9 64 one && expect_warning 'a thousand million radii a step' 'in the rounding of a time'
 scene 10 1 1073741824 all && expect_warning 'a sync interval of 2^30' 'in the rounding of a time'
 scene 10 1 1024 all && expect_no_warning 'a sync interval of 2^10'
-scene 1e7 1 64 all && expect_warning 'a box of 1e7 radii' 'walls lose their precision'
+scene 1e7 1 64 all && expect_warning 'a box of 1e7 radii' 'too coarse for contacts with walls'
 
 # overlapping X: the second disc at X, two radii from the first at 5.
 overlapping() {
