@@ -2,27 +2,30 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Makes the tables of docs/stability.md anew: every case, its bound, and the worst value measured.
 #
-#   tests/stability/table.sh [BUILD] [--long]
+#   tests/stability/table.sh [BUILD] [--long | --long=FAMILY]
 #
 # Runs the tests of BUILD (default: build), one rank with two threads: some 20 seconds on two idle cores. With --long also
-# the long cases, which take half an hour; without, their table stays as it is.
+# the long cases: `dense` takes half an hour, `long` some ten minutes, `property` hours. With a family its rows alone are
+# made anew. Without --long their table stays as it is.
 set -euo pipefail
 source_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 page=$source_folder/docs/stability.md
 build=$source_folder/build
-is_long=no
+is_long=no family=
 for word; do
-    case $word in --long) is_long=yes ;; *) build=$word ;; esac
+    case $word in --long) is_long=yes ;; --long=*) is_long=yes family=${word#--long=} ;; *) build=$word ;; esac
 done
 export OMP_NUM_THREADS=2 OMP_WAIT_POLICY=passive OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export CARROM_TEST_SECONDS=7200
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# table MARK: puts the measured lines between <!-- MARK --> and <!-- end of MARK --> of the page.
+# table MARK [FAMILY]: puts the measured lines between <!-- MARK --> and <!-- end of MARK --> of the page, in the place of
+# all that stand there, or of the family's.
 table() {
     {
         printf '| family | case | rule | bound | worst |\n|---|---|---|---|---|\n'
+        [ -z "${2:-}" ] || sed -n "/<!-- $1 -->/,/<!-- end of $1 -->/p" "$page" | grep '^| ' | grep -v -e '^| family |' -e "^| $2 |" || true
         awk -F '\t' '{ gsub(/\|/, "\\|"); printf "| %s | %s | %s | %s | %s |\n", $1, $2, $3, $4, $5 }' "$CARROM_STABILITY_TABLE"
     } >"$folder/table"
     awk -v mark="$1" -v table="$folder/table" '
@@ -38,5 +41,5 @@ export CARROM_STABILITY_TABLE=$folder/short
 table 'cases'
 [ $is_long = yes ] || exit 0
 export CARROM_STABILITY_TABLE=$folder/long
-"$build/tests/stability_mpi_test" '[hours]'
-table 'long cases'
+"$build/tests/stability_mpi_test" "[hours]${family:+[$family]}"
+table 'long cases' "$family"
