@@ -79,7 +79,7 @@ fuzz() {
 }
 threads() {
     local archer
-    archer=$(find /usr/lib/llvm* /usr/lib/x86_64-linux-gnu -name libarcher.so 2>/dev/null | sort | tail -n 1)
+    archer=$(find /usr/lib/llvm* /usr/lib/x86_64-linux-gnu -name libarcher.so 2>/dev/null | sort | tail -n 1) || true
     [ -n "$archer" ] || { say "threads: left out, there is no libarcher.so; ask for: apt-get install ${sanitizer_packages[*]}"; return; }
     # Without archer the sanitizer does not know what OpenMP's barriers order. MPI is not instrumented.
     local settings=(OMP_TOOL_LIBRARIES="$archer" TSAN_OPTIONS=ignore_noninstrumented_modules=1:halt_on_error=1 OMP_NUM_THREADS=2
@@ -95,7 +95,7 @@ threads() {
 memory() {
     local suppressions
     command -v valgrind >/dev/null || { say "valgrind: left out, it is not installed"; return; }
-    suppressions=$(find /usr/share/openmpi /usr/local/share/openmpi -name openmpi-valgrind.supp 2>/dev/null | head -n 1)
+    suppressions=$(find /usr/share/openmpi /usr/local/share/openmpi -name openmpi-valgrind.supp 2>/dev/null | head -n 1) || true
     build_target carrom
     try 'valgrind: a run of two ranks with a checkpoint' mpiexec -n 2 valgrind --error-exitcode=9 --errors-for-leak-kinds=none \
         ${suppressions:+--suppressions="$suppressions"} --suppressions="$top/tests/valgrind.supp" \

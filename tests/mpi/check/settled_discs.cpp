@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "settled_discs.hpp"
 
-#include <algorithm>
-
 namespace carrom::test {
 
 void SettledDiscs::sort_into_cells(double box_size, double radius) {
@@ -18,11 +16,11 @@ SettledDiscs copy_of(const Settled& settled) {
 SettledDiscs settled_by_hand(const std::vector<Disc>& discs, double time, double box_size, double radius, int rank, int n_ranks) {
     std::vector<double> cuts;
     for (int k = 1; k < n_ranks; ++k) cuts.push_back(box_size * k / n_ranks);
-    SettledDiscs settled{discs, 0, {}, Strips(cuts), time};
-    const auto halo = std::stable_partition(settled.discs.begin(), settled.discs.end(), [&](const Disc& disc) {
-        return settled.strips.owner(disc.x_at(time)) == rank;
-    });
-    settled.n_own = static_cast<std::size_t>(halo - settled.discs.begin());
+    SettledDiscs settled{{}, 0, {}, Strips(cuts), time};
+    std::vector<Disc> halo;
+    for (const Disc& disc : discs) (settled.strips.owner(disc.x_at(time)) == rank ? settled.discs : halo).push_back(disc);
+    settled.n_own = settled.discs.size();
+    settled.discs.insert(settled.discs.end(), halo.begin(), halo.end());
     settled.sort_into_cells(box_size, radius);
     return settled;
 }
