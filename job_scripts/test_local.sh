@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Test this checkout, from nothing: install what is missing, build everything, run every test; then the short form of
-# job_scripts/sanitize.sh.
+# Test this checkout, from nothing: install what is missing, build everything, run the short form of
+# job_scripts/sanitize.sh, then every test.
 #
 #   ./job_scripts/test_local.sh
 #   ./job_scripts/test_local.sh -L unit        (options go to ctest; no sanitizers then)
@@ -15,6 +15,6 @@ build_target
 # the tests themselves (tests/functions.cmake).
 export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive}
 code=0
-ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$(nproc)" "$@" </dev/null || code=$?
 [ $# -gt 0 ] || bash "$top/job_scripts/sanitize.sh" --short || code=1
+ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$(nproc)" "$@" </dev/null || code=$?
 exit $code
