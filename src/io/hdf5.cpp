@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include <mpi.h>
-
 #include "carrom/io/start_io.hpp"
+#include "carrom/parallel/native.hpp"
 #include "files.hpp"
 
 namespace carrom {
@@ -128,7 +127,7 @@ File open_file(const std::string& path, const Properties& access) {
 File open_file(const std::string& path, Access access, const Communicator& communicator) {
     be_quiet();
     const Properties list = properties(H5P_FILE_ACCESS);
-    checked(H5Pset_fapl_mpio(list.id(), MPI_Comm_f2c(communicator.fortran_handle()), MPI_INFO_NULL), "cannot choose MPI-IO");
+    checked(H5Pset_fapl_mpio(list.id(), native(communicator), MPI_INFO_NULL), "cannot choose MPI-IO");
     checked(H5Pset_all_coll_metadata_ops(list.id(), true), "cannot choose collective metadata");
     return File(checked(H5Fopen(path.c_str(), access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR, list.id()), "cannot be opened"));
 }

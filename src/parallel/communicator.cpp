@@ -6,6 +6,7 @@
 
 #include "carrom/core/errors.hpp"
 #include "carrom/core/exact_sum.hpp"
+#include "carrom/parallel/native.hpp"
 #include "handle.hpp"
 
 namespace carrom {
@@ -42,7 +43,7 @@ Communicator Communicator::world(std::size_t max_message) {
 int Communicator::rank() const { return handle_->rank; }
 int Communicator::size() const { return handle_->size; }
 Traffic Communicator::traffic() const { return handle_->traffic; }
-int Communicator::fortran_handle() const { return static_cast<int>(MPI_Comm_c2f(handle_->comm)); }
+MPI_Comm native(const Communicator& communicator) { return communicator.handle().comm; }
 
 // Adding +0 turns -0 into +0: which zero a reduction returns would depend on the ranks' order.
 double Communicator::max(double value) const { return reduce(*handle_, value, MPI_DOUBLE, MPI_MAX) + 0.0; }

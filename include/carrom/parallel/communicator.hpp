@@ -83,9 +83,6 @@ public:
 
     Traffic traffic() const;
 
-    /// The MPI communicator as MPI_Comm_c2f gives it, for libraries that need one (parallel HDF5).
-    int fortran_handle() const;
-
     struct Handle; ///< known to this module only
     Handle& handle() const { return *handle_; }
 
