@@ -72,6 +72,7 @@ template <class Law> void ExactEngine<Law>::mark_owner(LocalIndex own_index) {
 /// all blocks are to be replayed then. **Collective.**
 template <class Law> bool ExactEngine<Law>::widen_marked() {
     const int n_reach = grid_.frame().n_reach;
+    const bool has_left = communicator_.rank() > 0, has_right = communicator_.rank() + 1 < communicator_.size(); // else: a wall
     int deepest = halo_depth_;
     std::uint64_t n_widened = 0;
     for (Block& block : blocks_) {
@@ -82,8 +83,9 @@ template <class Law> bool ExactEngine<Law>::widen_marked() {
         }
         block.halo *= 2;
         ++n_widened;
-        const int to_edge = std::min(block.cells.first_column - first_own_column_, end_own_column_ - block.cells.end_column);
-        deepest = std::max(deepest, (block.halo * n_reach - to_edge + n_reach - 1) / n_reach);
+        const int to_left = block.cells.first_column - first_own_column_, to_right = end_own_column_ - block.cells.end_column;
+        if (has_left) deepest = std::max(deepest, (block.halo * n_reach - to_left + n_reach - 1) / n_reach);
+        if (has_right) deepest = std::max(deepest, (block.halo * n_reach - to_right + n_reach - 1) / n_reach);
     }
     ensure(communicator_.sum(n_widened) > 0, "blocks that have seen the whole box disagree");
     if (communicator_.size() == 1) return false;

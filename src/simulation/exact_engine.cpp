@@ -33,7 +33,7 @@ int cells_per_reach(double reach, double spacing) {
 
 double speed_of(const Disc& disc) { return std::sqrt(disc.vx * disc.vx + disc.vy * disc.vy); }
 
-int cells_along(double length, double width) { return static_cast<int>(std::clamp(std::ceil(length / width), 1.0, 1e9)); }
+int cells_along(double length, double width) { return static_cast<int>(std::clamp(std::ceil(length / width * (1 - 1e-9)), 1.0, 1e9)); }
 
 } // namespace
 
@@ -78,7 +78,7 @@ template <class Law> void ExactEngine<Law>::run_window(double target) {
     }
     migrate();
     window_ = choose(target);
-    halo_depth_ = choice_.halo;
+    halo_depth_ = first_halo_depth();
     settle();
     for (bool is_first = true;; is_first = false) {
         replay();
@@ -146,7 +146,9 @@ template <class Law> void ExactEngine<Law>::settle() {
     const double x_to = std::min(law_.box_size(), discs_.strips().high(communicator_.rank()));
     const double spacing = std::sqrt(law_.box_size() * std::max(x_to - x_from, 0.0) / static_cast<double>(discs_.n_own() + 16));
     GridFrame frame;
-    frame.set_cell_width(std::max(reach / cells_per_reach(reach, spacing), 0.7 * spacing));
+    // Own columns end where the strip does: a block's halo counts from its last column, the rank's from the strip.
+    const double least_width = std::max(reach / cells_per_reach(reach, spacing), 0.7 * spacing);
+    frame.set_cell_width(std::max(least_width, (x_to - x_from) / std::max(1.0, std::floor((x_to - x_from) / least_width))));
     frame.n_reach = static_cast<int>(std::ceil(reach / frame.cell_width * (1 - 1e-9)));
     const int n_own = cells_along(x_to - x_from, frame.cell_width);
     const int n_halo = communicator_.size() > 1 ? halo_depth_ * frame.n_reach : 0;
@@ -180,7 +182,7 @@ template <class Law> void ExactEngine<Law>::make_blocks() {
     const int n_block_columns = cells_each(n_columns, block_columns_);
     n_block_rows_ = cells_each(frame.n_rows, block_rows_);
     const auto n_blocks = static_cast<std::size_t>(n_block_columns) * static_cast<std::size_t>(n_block_rows_);
-    const bool is_new = halo_depth_ == choice_.halo || blocks_.size() != n_blocks;
+    const bool is_new = halo_depth_ == first_halo_depth() || blocks_.size() != n_blocks;
     blocks_.resize(n_blocks);
     for (int k = 0; k < n_block_columns; ++k) {
         for (int j = 0; j < n_block_rows_; ++j) {

@@ -69,6 +69,8 @@ private:
     void compare_histories(std::vector<LocalIndex>& foreign);
     void mark_owner(LocalIndex own_index);
     bool widen_marked();
+    /// With room for blocks at the strip's ends to look further: to fetch more is to replay all ranks' blocks again.
+    int first_halo_depth() const { return 2 * choice_.halo; }
     bool sees_all(const Block& block) const;
     void fail_if_endless() const;
     void commit();
