@@ -35,6 +35,8 @@ struct AccuracyOptions {
 ExitCode study(const AccuracyOptions& options, std::vector<Problem> problems, const Communicator& ranks) {
     if (ranks.size() > 1) problems.push_back({"carrom accuracy", 0, "runs on one rank; share the work out with --share instead of mpirun"});
     Loaded loaded = load(options.run, problems, ranks);
+    if (loaded.scene.effects.are_any())
+        throw InputError({{loaded.scene.name, 0, "errors are known for scenes without effects only, and this one has '[effects]'"}});
     (options.of_distances ? study_distances : study_costs)(loaded.scene, loaded.discs, options.study, ranks);
     return ExitCode::success;
 }

@@ -88,6 +88,11 @@ std::string header_text(const CheckpointHeader& header) {
     text += line("collisions", fmt::format("{} with walls, {} of pairs", header.wall_collisions, header.pair_collisions));
     text += line("state hash", header.state_hash);
     text += line("scene", header.scene_name);
+    try {
+        const Effects effects = scene_of(header, {}).effects;
+        if (effects.are_any()) text += line("effects", description(effects));
+    } catch (const InputError&) { // another version's scene; the rest is good to know all the same
+    }
     std::string overrides = header.scene_overrides;
     if (!overrides.empty()) overrides.pop_back(); // each ends its line
     std::replace(overrides.begin(), overrides.end(), '\n', ' ');

@@ -125,6 +125,7 @@ std::string summary_text(const Scene& scene, const RunResult& result) {
                                       scene.n_discs, scene.radius, scene.box_size, scene.packing()));
     text += line("rule", fmt::format("collisions = \"{}\", micro_steps = {}, sync_every = {}{}", name_of(scene.rule),
                                      scene.micro_steps, scene.sync_every, arithmetic_text(scene)));
+    if (scene.effects.are_any()) text += line("effects", description(scene.effects));
     text += line("steps", fmt::format("{} in {:.4g} s: {:.4g} steps/s, {:.4g} ns per disc-step", n_steps,
                                       result.wall_seconds, ratio(static_cast<double>(n_steps), result.wall_seconds),
                                       ns_per_disc_step(result)));
@@ -136,7 +137,7 @@ std::string summary_text(const Scene& scene, const RunResult& result) {
                                            collisions_per_disc(scene, result)));
     if (result.averages.steps > 0) {
         text += line("frequency", collision_rate_text(result.averages));
-        text += line("pressure", pressure_text(result.averages));
+        if (!scene.effects.are_any()) text += line("pressure", pressure_text(result.averages));
         text += line("speeds", speeds_text(scene, result.averages));
     }
     if (scene.rule == CollisionRule::all) text += line("windows", windows_text(result.replays));
@@ -154,7 +155,7 @@ std::string summary_text(const Scene& scene, const RunResult& result) {
 std::string report_text(const Scene& scene, const RunResult& result) {
     nlohmann::ordered_json phases = nlohmann::ordered_json::object();
     for (const auto& [name, seconds] : result.phase_seconds) phases[name] = seconds;
-    const nlohmann::ordered_json report = {
+    nlohmann::ordered_json report = {
         {"version", version()},
         {"scene", scene.name},
         {"state_hash", to_string(result.end.hash)},
@@ -191,6 +192,7 @@ std::string report_text(const Scene& scene, const RunResult& result) {
         {"phase_seconds", phases},
         {"peak_bytes_per_disc", result.peak_bytes_per_disc},
     };
+    if (scene.effects.are_any()) report["effects"] = description(scene.effects);
     // A scene's name is whatever bytes the file system allows; replaced where they are not UTF-8.
     return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }

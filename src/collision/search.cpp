@@ -86,7 +86,7 @@ template <class Law>
 void Search<Law>::predict_column(const Population& population, const CellGrid& grid, const Window& window,
                                  const Bounds& bounds, int column, SearchLists& lists) const {
     const std::span<const LocalIndex> order = grid.order();
-    lists.n_pairs = filter_column(grid, column, bounds.touching_squared, lists.pairs);
+    lists.n_pairs = Law::has_pairs ? filter_column(grid, column, bounds.touching_squared, lists.pairs) : 0;
     for_each_ahead(lists.pairs, lists.n_pairs, [&](const SlotPair& pair) {
         prefetch(population.discs, order[pair.first]);
         prefetch(population.discs, order[pair.second]);
@@ -139,7 +139,7 @@ template <class Law>
 void Search<Law>::look_around(const CellGrid& grid, const Bounds& bounds, float from, float half_reach,
                               std::span<const LocalIndex> hit, SearchLists& lists) const {
     lists.n_pairs = 0;
-    for (std::size_t k = 0; k < hit.size(); ++k) {
+    for (std::size_t k = 0; k < hit.size() && Law::has_pairs; ++k) {
         // What a disc needs is spread over a dozen cache lines: ask for the cells first, then for the flights in them.
         if (k + 2 * around_ahead < hit.size() && hit[k + 2 * around_ahead] != wall) grid.prefetch_cells(hit[k + 2 * around_ahead]);
         if (k + around_ahead < hit.size() && hit[k + around_ahead] != wall) grid.prefetch_flights(hit[k + around_ahead]);
@@ -219,5 +219,7 @@ template class Search<ContractedLaw>;
 template class Search<SingleLaw>;
 template class Search<SingleNaiveLaw>;
 template class Search<SingleContractedLaw>;
+template class Search<IdealGasLaw>;
+template class Search<InelasticLaw>;
 
 } // namespace carrom

@@ -180,6 +180,7 @@ template <class Law> void BlockReplay<Law>::Scratch::look_around(const Flight& f
 template <class Law> void BlockReplay<Law>::Scratch::predict_all() {
     queue.restart(ground.window.begin, ground.window.end, discs.size() / 2);
     for (std::uint32_t slot = 0; slot < discs.size(); ++slot) predict_walls(slot);
+    if constexpr (!Law::has_pairs) return;
     const CellTable table{cell_starts.data(), cell_rows, cells.end_column - cells.first_column, cells.end_row - cells.first_row};
     std::uint32_t slot = 0;
     for (int column = 0; column < table.n_columns; ++column) {
@@ -195,6 +196,7 @@ template <class Law> void BlockReplay<Law>::Scratch::predict_all() {
 
 template <class Law>
 void BlockReplay<Law>::Scratch::predict_pairs(std::uint32_t slot, std::uint32_t except) {
+    if constexpr (!Law::has_pairs) return;
     const Flight flight = flight_of(slot);
     look_around(flight);
     const std::size_t n_partners = filter_flights(lanes, std::span(runs).first(n_runs), flight, touching_squared, partners.data());
@@ -269,11 +271,11 @@ template <class Law> void BlockReplay<Law>::Scratch::carry_out(const Event& even
     Disc& p = discs[event.p];
     const double vx_before = p.vx, vy_before = p.vy;
     if (event.q == x_wall) {
-        Law::bounce_x_at(p, event.time);
+        law.bounce_x_at(p, event.time);
     } else if (event.q == y_wall) {
-        Law::bounce_y_at(p, event.time);
+        law.bounce_y_at(p, event.time);
     } else {
-        Law::collide_at(p, discs[event.q], event.time);
+        law.collide_at(p, discs[event.q], event.time);
         note(event.q, event.p, event);
     }
     note(event.p, event.q, event);
@@ -376,5 +378,7 @@ template class BlockReplay<ContractedLaw>;
 template class BlockReplay<SingleLaw>;
 template class BlockReplay<SingleNaiveLaw>;
 template class BlockReplay<SingleContractedLaw>;
+template class BlockReplay<IdealGasLaw>;
+template class BlockReplay<InelasticLaw>;
 
 } // namespace carrom

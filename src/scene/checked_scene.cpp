@@ -1,43 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "checked_scene.hpp"
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <numbers>
 
-#include <fmt/format.h>
-
 #include "carrom/scene/lattice.hpp"
-#include "keys.hpp"
+#include "check.hpp"
+#include "checked_effects.hpp"
 #include "limits.hpp"
-#include "number.hpp"
 
 namespace carrom {
 
 namespace {
-
-/// What every check needs: the settings, the problems so far, and the scene as far as it is known.
-struct Check {
-    Scene& scene;
-    const Settings& settings;
-    Problems& problems;
-
-    void refuse(const Setting& setting, std::string text) const { add_problem(problems, setting.place, std::move(text)); }
-    void refuse_missing(std::string_view key, std::string_view what) const {
-        if (!settings.is_mentioned(key)) add_problem(problems, {scene.name, 0}, fmt::format("'{}' is missing: {}", key, what));
-    }
-};
-
-/// A finite number, or nothing after a problem (or where the key is absent).
-std::optional<double> finite_number(const Check& check, std::string_view key) {
-    const Setting* setting = check.settings.find(key);
-    if (!setting) return std::nullopt;
-    const double number = std::get<double>(setting->value);
-    if (std::isfinite(number)) return number;
-    check.refuse(*setting, fmt::format("'{}' must be a finite number, not {}", key, number));
-    return std::nullopt;
-}
 
 /// A length, from 2^-230 to 2^250.
 std::optional<double> size_number(const Check& check, std::string_view key) {
@@ -68,25 +43,6 @@ std::optional<std::int64_t> whole_number(const Check& check, std::string_view ke
     const auto number = std::get<std::int64_t>(setting->value);
     if (number >= low && number <= high) return number;
     check.refuse(*setting, fmt::format("'{}' must be from {} to {}, not {}", key, low, high, number));
-    return std::nullopt;
-}
-
-template <class Choice, std::size_t n> using Choices = std::array<std::pair<std::string_view, Choice>, n>;
-
-/// One of a few words.
-template <class Choice, std::size_t n>
-std::optional<Choice> choice(const Check& check, std::string_view key, const Choices<Choice, n>& choices) {
-    const Setting* setting = check.settings.find(key);
-    if (!setting) return std::nullopt;
-    const std::string& word = std::get<std::string>(setting->value);
-    std::array<std::string_view, n> names;
-    std::string list;
-    for (std::size_t i = 0; i < n; ++i) {
-        if (choices[i].first == word) return choices[i].second;
-        names[i] = choices[i].first;
-        list += (i == 0 ? "" : i + 1 == n ? " or " : ", ") + fmt::format("\"{}\"", names[i]);
-    }
-    check.refuse(*setting, fmt::format("'{}' must be {}, not {}{}", key, list, quoted(word), guess(word, names, '"')));
     return std::nullopt;
 }
 
@@ -367,6 +323,7 @@ void fill_output(const Check& check) {
 void fill_scene(Scene& scene, const Settings& settings, Problems& problems) {
     const Check check{scene, settings, problems};
     fill_time(check);
+    fill_effects(check);
     fill_output(check);
     fill_generator(check);
     fill_velocities(check);

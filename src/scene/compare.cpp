@@ -53,6 +53,21 @@ public:
     std::vector<std::string> differences;
 };
 
+std::string_view name_of(ContactKind kind) {
+    switch (kind) {
+    case ContactKind::elastic: return "\"elastic\"";
+    case ContactKind::none: return "\"none\"";
+    case ContactKind::restitution: return "\"restitution\"";
+    }
+    return "";
+}
+
+void compare_effects(Comparison& c, const Effects& there, const Effects& here) {
+    c.compare("effects.contact.kind", name_of(there.contact.kind), name_of(here.contact.kind));
+    c.compare("effects.contact.restitution", there.contact.restitution, here.contact.restitution);
+    c.compare("effects.contact.contact_time", there.contact.contact_time, here.contact.contact_time);
+}
+
 } // namespace
 
 std::vector<std::string> physical_differences(const Scene& there, const Scene& here) {
@@ -78,6 +93,7 @@ std::vector<std::string> physical_differences(const Scene& there, const Scene& h
     c.compare("time.precision", name_of(there.precision), name_of(here.precision));
     c.compare("time.arithmetic", name_of(there.arithmetic), name_of(here.arithmetic));
     c.compare("time.contraction", there.contraction, here.contraction);
+    compare_effects(c, there.effects, here.effects);
     c.compare("time.accuracy", shown(there.accuracy), shown(here.accuracy));
     return c.differences;
 }

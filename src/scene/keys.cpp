@@ -28,6 +28,9 @@ constexpr std::array keys = {
     Key{"time.sync_every", ValueKind::integer},  Key{"time.accuracy", ValueKind::number},
     Key{"time.precision", ValueKind::text},      Key{"time.arithmetic", ValueKind::text},
     Key{"time.contraction", ValueKind::flag},
+    Key{"effects.contact.kind", ValueKind::text},
+    Key{"effects.contact.restitution", ValueKind::number},
+    Key{"effects.contact.contact_time", ValueKind::number},
     Key{"output.text", ValueKind::text},         Key{"output.checkpoint.folder", ValueKind::text},
     Key{"output.checkpoint.every_steps", ValueKind::integer},
     Key{"output.checkpoint.every_minutes", ValueKind::number},
@@ -41,8 +44,8 @@ constexpr std::array keys = {
     Key{"output.collisions.file", ValueKind::text},
 };
 
-constexpr std::array<std::string_view, 8> tables = {
-    "box", "discs", "time", "output", "output.checkpoint", "output.trajectory", "output.collisions", "effects"};
+constexpr std::array<std::string_view, 9> tables = {
+    "box", "discs", "time", "output", "output.checkpoint", "output.trajectory", "output.collisions", "effects", "effects.contact"};
 
 std::string_view part_after(std::string_view key, std::size_t dot) { return key.substr(dot + 1, key.find('.', dot + 1) - dot - 1); }
 
@@ -68,7 +71,7 @@ std::string what_there_is(std::string_view key) {
     for (const Key& known : keys)
         if (!table.empty() && known.name.starts_with(table + '.') && known.name.find('.', table.size() + 1) == std::string_view::npos)
             list += (list.empty() ? "" : ", ") + std::string(known.name.substr(table.size() + 1));
-    if (list.empty()) return "; keys stand in the tables [box], [discs], [time] and [output]";
+    if (list.empty()) return "; keys stand in the tables [box], [discs], [time], [effects] and [output]";
     return "; [" + table + "] has " + list;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace carrom {
@@ -157,8 +158,12 @@ Averages BlockAverages::averages(std::int64_t step, const Look& look) const {
     const double time = 1 / result.collision_frequency.value;
     result.mean_free_time = {time, whole.pairs > 0 ? time * time * result.collision_frequency.error
                                                    : std::numeric_limits<double>::quiet_NaN()};
-    result.wall_pressure = {wall_pressure(whole), error_of(wall_pressure)};
-    result.virial_pressure = {virial_pressure(whole), error_of(virial_pressure)};
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    result.wall_pressure = result.virial_pressure = {unknown, unknown};
+    if (system_.has_known_pressure) {
+        result.wall_pressure = {wall_pressure(whole), error_of(wall_pressure)};
+        result.virial_pressure = {virial_pressure(whole), error_of(virial_pressure)};
+    }
     result.mean_speed = {speed(looks), error_of(speed)};
     result.speed_kurtosis = {kurtosis(looks), error_of(kurtosis)};
     return result;

@@ -31,6 +31,7 @@ struct AveragedSystem {
     double n_discs = 0, box_size = 0, radius = 0;
     double velocity_unit = 1; ///< turns stored velocities into those per step
     std::int64_t micro_steps = 1, sync_every = 1;
+    bool has_known_pressure = true; ///< elastic discs between elastic walls; else pressures are NaN
 };
 
 class BlockAverages {

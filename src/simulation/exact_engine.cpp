@@ -40,7 +40,7 @@ int cells_along(double length, double width) { return static_cast<int>(std::clam
 template <class Law>
 ExactEngine<Law>::ExactEngine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning,
                               const ExactTuning& exact)
-    : communicator_(communicator), tuning_(tuning), exact_(exact), law_(scene.box_size, scene.radius),
+    : communicator_(communicator), tuning_(tuning), exact_(exact), law_(law_of<Law>(scene)),
       micro_steps_(scene.micro_steps), sync_every_(scene.sync_every),
       discs_(communicator, scene.box_size, std::move(state.discs)), n_micro_done_(state.micro_steps_done),
       time_(static_cast<double>(n_micro_done_ % sync_every_)) {
@@ -52,7 +52,7 @@ ExactEngine<Law>::ExactEngine(const Scene& scene, StoredState state, const Commu
     travel_speed_ = communicator_.max(largest_speed_);
     discs_.rebalance(time_, tuning_.rebalance_above);
     settle_now();
-    if (Law::parts_overlaps || n_micro_done_ == 0) // else the run itself may have come to them
+    if (Law::has_pairs && (Law::parts_overlaps || n_micro_done_ == 0)) // else the run itself may have come to them
         refuse_overlaps(discs_.population(), grid_, time_, {law_.diameter(), law_.tolerance()}, communicator_, scene.name);
 }
 
@@ -288,7 +288,8 @@ template <class Law> Settled ExactEngine<Law>::settled() {
 
 template <class Law> void ExactEngine<Law>::add_to(Totals& totals) {
     settle_now();
-    measure_overlaps(discs_.population(), grid_, time_, {law_.diameter(), law_.tolerance()}, communicator_, tuning_.threads, totals);
+    if constexpr (Law::has_pairs)
+        measure_overlaps(discs_.population(), grid_, time_, {law_.diameter(), law_.tolerance()}, communicator_, tuning_.threads, totals);
 }
 
 template class ExactEngine<PlainLaw>;
@@ -297,6 +298,8 @@ template class ExactEngine<ContractedLaw>;
 template class ExactEngine<SingleLaw>;
 template class ExactEngine<SingleNaiveLaw>;
 template class ExactEngine<SingleContractedLaw>;
+template class ExactEngine<IdealGasLaw>;
+template class ExactEngine<InelasticLaw>;
 
 std::unique_ptr<Engine> make_exact_engine(const Scene& scene, StoredState state, const Communicator& communicator,
                                           const Tuning& tuning) {

@@ -1,20 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the precision and the arithmetic that a scene asks for to the law that engines are compiled for.
+// From what a scene asks for to the law that engines are compiled for: the one place where the choice is made.
 #pragma once
 
+#include <type_traits>
+
+#include "carrom/effects/effect_law.hpp"
 #include "carrom/effects/plain_law.hpp"
 #include "carrom/scene/scene.hpp"
 
 namespace carrom {
 
 /// Calls `make.template operator()<Law>()` with the scene's law and returns what it gives, the same type for every law.
+/// Effects have the default precision and arithmetic: the reader of scenes sees to that.
 template <class Make> auto with_law_of(const Scene& scene, const Make& make) {
+    switch (scene.effects.contact.kind) {
+    case ContactKind::none: return make.template operator()<IdealGasLaw>();
+    case ContactKind::restitution: return make.template operator()<InelasticLaw>();
+    case ContactKind::elastic: break;
+    }
     const auto with = [&]<class Real>(Real) {
         if (scene.arithmetic == Arithmetic::stable) return make.template operator()<BasicPlainLaw<Real, StableContact>>();
         return scene.contraction ? make.template operator()<BasicPlainLaw<Real, NaiveContact<true>>>()
                                  : make.template operator()<BasicPlainLaw<Real, NaiveContact<false>>>();
     };
     return scene.precision == Precision::single ? with(float{}) : with(double{});
+}
+
+/// The law with the scene's numbers.
+template <class Law> Law law_of(const Scene& scene) {
+    if constexpr (std::is_constructible_v<Law, double, double, const Effects&>)
+        return Law(scene.box_size, scene.radius, per_micro_step(scene.effects, static_cast<double>(scene.micro_steps)));
+    else return Law(scene.box_size, scene.radius);
 }
 
 } // namespace carrom

@@ -31,7 +31,7 @@ double squared_speed_of(const Disc& disc) { return disc.vx * disc.vx + disc.vy *
 
 template <class Law>
 OneEngine<Law>::OneEngine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning)
-    : communicator_(communicator), tuning_(with_useful_threads(tuning, scene, communicator)), law_(scene.box_size, scene.radius), micro_steps_(scene.micro_steps),
+    : communicator_(communicator), tuning_(with_useful_threads(tuning, scene, communicator)), law_(law_of<Law>(scene)), micro_steps_(scene.micro_steps),
       sync_every_(scene.sync_every), last_micro_step_(scene.steps * scene.micro_steps), discs_(communicator, scene.box_size, std::move(state.discs)),
       n_micro_done_(state.micro_steps_done), micro_(static_cast<int>(n_micro_done_ % sync_every_)),
       search_(law_, tuning_.threads), local_(tuning_.threads), across_strips_(communicator) {
@@ -114,7 +114,8 @@ template <class Law> Settled OneEngine<Law>::settled() {
 template <class Law> void OneEngine<Law>::add_to(Totals& totals) {
     totals.rejected_candidates = communicator_.sum(n_candidates_ - n_kept_);
     settle_now();
-    measure_overlaps(population(), grid_, micro_, {law_.diameter(), law_.tolerance()}, communicator_, tuning_.threads, totals);
+    if constexpr (Law::has_pairs)
+        measure_overlaps(population(), grid_, micro_, {law_.diameter(), law_.tolerance()}, communicator_, tuning_.threads, totals);
 }
 
 template <class Law> void OneEngine<Law>::build_grid(const Window& window, double reach) {

@@ -46,7 +46,7 @@ Simulation::Simulation(const Scene& scene, StoredState state, const Communicator
     : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)),
       n_threads_(tuning.threads), engine_(engine_for(scene, std::move(state), communicator, tuning)),
       averages_(std::make_unique<BlockAverages>(AveragedSystem{static_cast<double>(engine_->n_discs()), scene.box_size, scene.radius,
-                                                               velocity_unit_, scene.micro_steps, scene.sync_every})) {}
+                                                               velocity_unit_, scene.micro_steps, scene.sync_every, !scene.effects.are_any()})) {}
 
 Simulation::~Simulation() = default;
 

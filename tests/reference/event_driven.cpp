@@ -70,6 +70,7 @@ double EventDrivenReference::wall_time(double x, double v, double tau) const {
 }
 
 void EventDrivenReference::predict_pair(DiscId p, DiscId q) {
+    if (!setting_.discs_meet()) return;
     if (p > q) std::swap(p, q);
     const Contact found = contact(discs_[p], discs_[q], 2 * setting_.radius, std::numeric_limits<double>::infinity());
     if (found.delay < 0) return;
@@ -125,11 +126,13 @@ void EventDrivenReference::happen(const Event& event) {
 
 void EventDrivenReference::carry_out(const Event& event) {
     Disc& p = discs_[event.p];
+    const auto is_recent = [&](const Disc& disc) { return event.time - disc.tau < setting_.contact_time(); };
+    const bool is_touched = is_recent(p) || (event.is_pair && is_recent(discs_[event.q]));
     advance(p, event.time);
     if (event.is_pair) {
         Disc& q = discs_[event.q];
         advance(q, event.time);
-        exchange_momentum(p, q);
+        exchange_momentum(p, q, is_touched ? 1 : setting_.restitution());
         p.pair_collisions += 1;
         q.pair_collisions += 1;
         pair_collisions_ += 1;

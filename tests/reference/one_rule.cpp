@@ -51,10 +51,10 @@ void advance(Disc& disc, double time) {
     disc.tau = time;
 }
 
-void exchange_momentum(Disc& p, Disc& q) {
+void exchange_momentum(Disc& p, Disc& q, double restitution) {
     const double ex = q.x - p.x, ey = q.y - p.y;
     const double wx = q.vx - p.vx, wy = q.vy - p.vy;
-    const double k = (wx * ex + wy * ey) / (ex * ex + ey * ey);
+    const double k = (1 + restitution) / 2 * ((wx * ex + wy * ey) / (ex * ex + ey * ey));
     p.vx += k * ex;
     p.vy += k * ey;
     q.vx -= k * ex;
@@ -114,7 +114,7 @@ void OneRuleReference::find_candidates(double m) {
     for (const Disc& p : discs_) {
         const double t = wall_time(p, m);
         if (t != never) candidates_.push_back({micro_step_, t, p.id, Collision::wall});
-        for (DiscId id = p.id + 1; id < discs_.size(); ++id) {
+        for (DiscId id = p.id + 1; id < discs_.size() && setting_.discs_meet(); ++id) {
             const Contact found = contact(p, discs_[id], sigma_, tolerance_);
             if (found.delay < 0) continue;
             const double in_step = (found.base - m) + found.delay;
@@ -136,7 +136,7 @@ void OneRuleReference::keep(const Collision& candidate, double m) {
     Disc& q = discs_[candidate.q];
     advance(p, m + candidate.t);
     advance(q, m + candidate.t);
-    exchange_momentum(p, q);
+    exchange_momentum(p, q, setting_.restitution());
     p.pair_collisions += 1;
     q.pair_collisions += 1;
     counters_.pair_collisions += 1;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "carrom/core/disc.hpp"
+#include "carrom/effects/effects.hpp"
 #include "carrom/scene/scene.hpp"
 
 namespace carrom::reference {
@@ -21,6 +22,11 @@ struct Setting {
     double radius = 0;
     std::int64_t micro_steps = 1;
     std::int64_t sync_every = 64;
+    Effects effects; ///< times in steps
+
+    bool discs_meet() const { return effects.contact.kind != ContactKind::none; }
+    double restitution() const { return effects.contact.kind == ContactKind::restitution ? effects.contact.restitution : 1; }
+    double contact_time() const { return effects.contact.contact_time * static_cast<double>(micro_steps); }
 };
 
 struct Counters {
@@ -53,9 +59,9 @@ struct Contact {
 /// The predicate of section 4. `tolerance` is the deepest overlap that still collides; infinity under the rule "all".
 Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance);
 
-/// The two states' positions at `time`, the impulse of an elastic pair of equal masses; p has the lower id.
+/// The two states' positions at `time`, the impulse of a pair of equal masses; p has the lower id.
 void advance(Disc& disc, double time);
-void exchange_momentum(Disc& p, Disc& q);
+void exchange_momentum(Disc& p, Disc& q, double restitution);
 
 /// Numbers the discs 0 .. N-1 as given (ids must be a permutation of that) and divides velocities by `micro_steps`.
 std::vector<Disc> stored_states(const Setting& setting, std::span<const InputDisc> discs);

@@ -14,6 +14,7 @@
 #include "carrom/collision/cell_grid.hpp"
 #include "carrom/collision/window.hpp"
 #include "carrom/core/disc.hpp"
+#include "carrom/effects/effect_law.hpp"
 #include "carrom/effects/plain_law.hpp"
 
 namespace carrom {
@@ -69,5 +70,7 @@ extern template class Search<ContractedLaw>;
 extern template class Search<SingleLaw>;
 extern template class Search<SingleNaiveLaw>;
 extern template class Search<SingleContractedLaw>;
+extern template class Search<IdealGasLaw>;
+extern template class Search<InelasticLaw>;
 
 } // namespace carrom

@@ -41,6 +41,8 @@ public:
     static constexpr bool is_loose = !is_double || !Formula::keeps_digits;
     /// Whether discs that overlap part when they approach; else they pass through each other.
     static constexpr bool parts_overlaps = Formula::parts_overlaps;
+    /// Whether discs meet each other at all.
+    static constexpr bool has_pairs = true;
     /// Under the rule "all": more than some thousand collisions of a disc in so many micro-steps are without end. Where discs
     /// have no room, loose laws move them on by a rounding of time now and then, which is not at one time and has no end either.
     static constexpr double one_time = is_loose ? 0x1p-3 : 0x1p-40;
@@ -138,19 +140,7 @@ public:
     }
 
     /// Collide the pair; `p` has the lower id.
-    static void collide_at(Disc& p, Disc& q, double time) {
-        advance(p, time);
-        advance(q, time);
-        const Real ex = real(q.x) - real(p.x), ey = real(q.y) - real(p.y);
-        const Real wx = real(q.vx) - real(p.vx), wy = real(q.vy) - real(p.vy);
-        const Real k = (wx * ex + wy * ey) / (ex * ex + ey * ey);
-        p.vx = real(p.vx) + k * ex;
-        p.vy = real(p.vy) + k * ey;
-        q.vx = real(q.vx) - k * ex;
-        q.vy = real(q.vy) - k * ey;
-        p.pair_collisions += 1;
-        q.pair_collisions += 1;
-    }
+    static void collide_at(Disc& p, Disc& q, double time) { collide_with(p, q, time, 1); }
 
     static void advance(Disc& disc, double time) {
         const RoundedState<Real> flight(disc);
@@ -159,7 +149,22 @@ public:
         disc.tau = real(time);
     }
 
-private:
+protected:
+    /// `impulse` in units of that of an elastic contact; multiplying by 1 leaves every bit, and no instruction.
+    static void collide_with(Disc& p, Disc& q, double time, Real impulse) {
+        advance(p, time);
+        advance(q, time);
+        const Real ex = real(q.x) - real(p.x), ey = real(q.y) - real(p.y);
+        const Real wx = real(q.vx) - real(p.vx), wy = real(q.vy) - real(p.vy);
+        const Real k = impulse * ((wx * ex + wy * ey) / (ex * ex + ey * ey));
+        p.vx = real(p.vx) + k * ex;
+        p.vy = real(p.vy) + k * ey;
+        q.vx = real(q.vx) - k * ex;
+        q.vy = real(q.vy) - k * ey;
+        p.pair_collisions += 1;
+        q.pair_collisions += 1;
+    }
+
     static constexpr double time_rounding = is_double ? 0x1p-50 : 0x1p-21;
 
     /// How far from touching, in diameters, a formula that loses digits finds contacts. At a distance of d diameters rounding

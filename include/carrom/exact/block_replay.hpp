@@ -15,6 +15,7 @@
 
 #include "carrom/collision/cell_grid.hpp"
 #include "carrom/core/disc.hpp"
+#include "carrom/effects/effect_law.hpp"
 #include "carrom/effects/plain_law.hpp"
 
 namespace carrom {
@@ -126,5 +127,7 @@ extern template class BlockReplay<ContractedLaw>;
 extern template class BlockReplay<SingleLaw>;
 extern template class BlockReplay<SingleNaiveLaw>;
 extern template class BlockReplay<SingleContractedLaw>;
+extern template class BlockReplay<IdealGasLaw>;
+extern template class BlockReplay<InelasticLaw>;
 
 } // namespace carrom

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "carrom/core/disc.hpp"
+#include "carrom/effects/effects.hpp"
 
 namespace carrom {
 
@@ -88,6 +89,8 @@ struct Scene {
     Arithmetic arithmetic = Arithmetic::stable;
     bool contraction = false;           ///< of the naive formula's products and sums
     std::optional<double> accuracy;
+
+    Effects effects;        ///< times in steps
 
     TextOutput text_output = TextOutput::none;
     std::optional<CheckpointOutput> checkpoint;

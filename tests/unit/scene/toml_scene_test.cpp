@@ -298,7 +298,7 @@ TEST_CASE("Where no known key is near none is guessed: those that there are get 
         CHECK(problems.size() == 1);
         CHECK_FALSE(mentions(problems, "did you mean"));
     }
-    CHECK(mentions(problems_in(good, {"foo=1"}), "the tables [box], [discs], [time] and [output]"));
+    CHECK(mentions(problems_in(good, {"foo=1"}), "the tables [box], [discs], [time], [effects] and [output]"));
     CHECK(mentions(problems_in(good, {"box.sidelength=1"}), "[box] has size"));
     CHECK(mentions(problems_in(good, {"output.trajectory.colour=1"}), "[output.trajectory] has file, every_steps, fields"));
     CHECK_FALSE(mentions(problems_in(good, {"time.collisions=everything"}), "did you mean"));
@@ -366,4 +366,26 @@ TEST_CASE("Streams need a region and a finite velocity") {
         CHECK(mentions(several, text));
     CHECK(problems_in(with_line(5, "radius = 1\nstreams = 3")).size() == 1);
     CHECK(problems_in(with_line(5, "radius = 1\nstreams = [3]")).size() == 1);
+}
+
+TEST_CASE("Effects are read, parameters of others are refused by name") {
+    const Scene scene = read_scene(good + "[effects.contact]\nkind = 'restitution'\nrestitution = 0.9\ncontact_time = 0.01\n", "s.toml");
+    CHECK(scene.effects.contact == ContactEffect{ContactKind::restitution, 0.9, 0.01});
+    CHECK_FALSE(read_scene(good, "s.toml").effects.are_any());
+    CHECK(read_scene(good, "s.toml", {"effects.contact.kind=none"}).effects.contact.kind == ContactKind::none);
+
+    const auto first_text = [](const Texts& overrides) {
+        const auto problems = problems_in(good, overrides);
+        return problems.empty() ? std::string() : problems.front().text;
+    };
+    const auto has = [](const std::string& text, const char* part) { INFO(text); return text.find(part) != std::string::npos; };
+    CHECK(has(first_text({"effects.contact.restitution=0.5"}), "no meaning without effects.contact.kind = \"restitution\""));
+    CHECK(has(first_text({"effects.contact.kind=none", "effects.contact.contact_time=0.1"}), "no meaning without"));
+    CHECK(has(first_text({"effects.contact.kind=restitution"}), "'effects.contact.restitution' is missing"));
+    CHECK(has(first_text({"effects.contact.kind=restitution", "effects.contact.restitution=1.5"}), "from 0 to 1, not 1.5"));
+    CHECK(has(first_text({"effects.contact.kind=restitution", "effects.contact.restitution=0.5", "effects.contact.contact_time=17"}), "at most 16 steps"));
+    CHECK(has(first_text({"effects.contact.kind=bouncy"}), "\"elastic\", \"none\" or \"restitution\""));
+    CHECK(has(first_text({"effects.contact.restitutoin=0.5"}), "did you mean 'effects.contact.restitution'?"));
+    CHECK(has(first_text({"effects.contact.kind=none", "time.precision=single"}), "for scenes without effects"));
+    CHECK(has(first_text({"effects.contact.kind=none", "time.accuracy=0.1"}), "for scenes without effects"));
 }

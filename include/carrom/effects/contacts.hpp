@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What two discs that touch do to each other: the policies that a law is put together from. A contact says how long the
+// impulse is, along the line of centres, in units of that of an elastic contact.
+#pragma once
+
+#include "carrom/core/disc.hpp"
+#include "carrom/effects/effects.hpp"
+
+namespace carrom {
+
+/// Discs pass through each other: an ideal gas.
+class NoContact {
+public:
+    static constexpr bool has_pairs = false;
+
+    explicit NoContact(const ContactEffect&) {}
+    double impulse() const { return 0; }
+    double impulse_at(const Disc&, const Disc&, double) const { return 0; }
+};
+
+/// The share `restitution` of the normal relative velocity is left.
+///
+/// Under the rule "all" a heap of such discs would come to infinitely many collisions in a finite time (inelastic
+/// collapse: McNamara and Young 1992). So dissipation takes time, as in the TC model of Luding and McNamara, Granular Matter 1,
+/// 113 (1998): if one of the two has been touched within the contact time before, they part elastically. A state's own
+/// time is that of its last collision or sync: the sync counts as a touch, so the guard holds across it.
+class InelasticContact {
+public:
+    static constexpr bool has_pairs = true;
+
+    explicit InelasticContact(const ContactEffect& effect)
+        : impulse_((1 + effect.restitution) / 2), contact_time_(effect.contact_time) {}
+
+    /// Under the rule "one", where a disc collides once in a micro-step at most.
+    double impulse() const { return impulse_; }
+    /// Under the rule "all"; `p` and `q` as they are stored before the contact at `time`.
+    double impulse_at(const Disc& p, const Disc& q, double time) const {
+        return time - p.tau < contact_time_ || time - q.tau < contact_time_ ? 1 : impulse_;
+    }
+
+private:
+    double impulse_, contact_time_;
+};
+
+} // namespace carrom

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How settings are looked at when a scene is checked: a value that is right, or nothing and one more problem.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "carrom/scene/scene.hpp"
+#include "keys.hpp"
+#include "number.hpp"
+#include "settings.hpp"
+
+namespace carrom {
+
+/// What every check needs: the settings, the problems so far, and the scene as far as it is known.
+struct Check {
+    Scene& scene;
+    const Settings& settings;
+    Problems& problems;
+
+    void refuse(const Setting& setting, std::string text) const { add_problem(problems, setting.place, std::move(text)); }
+    void refuse_missing(std::string_view key, std::string_view what) const {
+        if (!settings.is_mentioned(key)) add_problem(problems, {scene.name, 0}, fmt::format("'{}' is missing: {}", key, what));
+    }
+};
+
+/// A finite number, or nothing after a problem (or where the key is absent).
+inline std::optional<double> finite_number(const Check& check, std::string_view key) {
+    const Setting* setting = check.settings.find(key);
+    if (!setting) return std::nullopt;
+    const double number = std::get<double>(setting->value);
+    if (std::isfinite(number)) return number;
+    check.refuse(*setting, fmt::format("'{}' must be a finite number, not {}", key, number));
+    return std::nullopt;
+}
+
+template <class Choice, std::size_t n> using Choices = std::array<std::pair<std::string_view, Choice>, n>;
+
+/// One of a few words.
+template <class Choice, std::size_t n>
+std::optional<Choice> choice(const Check& check, std::string_view key, const Choices<Choice, n>& choices) {
+    const Setting* setting = check.settings.find(key);
+    if (!setting) return std::nullopt;
+    const std::string& word = std::get<std::string>(setting->value);
+    std::array<std::string_view, n> names;
+    std::string list;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (choices[i].first == word) return choices[i].second;
+        names[i] = choices[i].first;
+        list += (i == 0 ? "" : i + 1 == n ? " or " : ", ") + fmt::format("\"{}\"", names[i]);
+    }
+    check.refuse(*setting, fmt::format("'{}' must be {}, not {}{}", key, list, quoted(word), guess(word, names, '"')));
+    return std::nullopt;
+}
+
+} // namespace carrom

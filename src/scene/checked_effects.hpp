@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The effects that a scene names, checked: a parameter of an effect that is not there is a problem, which names the effect.
+#pragma once
+
+#include "check.hpp"
+
+namespace carrom {
+
+/// Fills in `scene.effects`; rule, times and arithmetic must be known by then.
+void fill_effects(const Check& check);
+
+} // namespace carrom

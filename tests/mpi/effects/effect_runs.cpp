@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effect_runs.hpp"
+
+#include <algorithm>
+#include <random>
+#include <utility>
+
+#include <omp.h>
+
+namespace carrom::test {
+
+namespace {
+
+std::vector<InputDisc> share_of(const TestScene& scene, const Communicator& world) {
+    std::mt19937 random(5);
+    std::vector<InputDisc> mine;
+    for (const InputDisc& disc : scene.discs) {
+        if (static_cast<int>(random() % static_cast<unsigned>(world.size())) == world.rank()) mine.push_back(disc);
+    }
+    std::shuffle(mine.begin(), mine.end(), random);
+    return mine;
+}
+
+} // namespace
+
+Simulation simulation_of(const TestScene& scene, CollisionRule rule, const Communicator& world, const Tuning& tuning) {
+    Scene all = scene_of(scene);
+    all.rule = rule;
+    Tuning threaded = tuning;
+    threaded.threads = omp_get_max_threads();
+    threaded.discs_per_thread = 1;
+    return {all, share_of(scene, world), world, threaded};
+}
+
+void advance_to(Simulation& simulation, std::int64_t step) {
+    while (simulation.step() < step) simulation.advance_towards(step);
+}
+
+Totals run(const TestScene& scene, CollisionRule rule, const Communicator& world, const Tuning& tuning) {
+    Simulation simulation = simulation_of(scene, rule, world, tuning);
+    advance_to(simulation, scene.steps);
+    return simulation.totals();
+}
+
+} // namespace carrom::test
