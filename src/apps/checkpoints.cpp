@@ -19,8 +19,8 @@ constexpr double longest_stretch = 1e15; // steps
 } // namespace
 
 Checkpoints::Checkpoints(const Scene& scene, std::int64_t first_step, bool is_restart, const StopSignals& signals,
-                         const Communicator& ranks)
-    : ranks_(ranks), scene_(scene), signals_(signals), last_looked_(first_step) {
+                         const Communicator& ranks, int n_threads)
+    : ranks_(ranks), scene_(scene), signals_(signals), n_threads_(n_threads), last_looked_(first_step) {
     if (!scene_.checkpoint || !is_restart) return;
     last_written_ = first_step;
     kept_ = earlier_checkpoints(scene_, first_step, ranks_);
@@ -71,7 +71,7 @@ void Checkpoints::write(const Simulation& simulation, Recordings& recordings) {
     header.step = simulation.step();
     header.micro_steps_done = simulation.micro_steps_done();
     const std::string path = checkpoint_path(scene_.checkpoint->folder, header.step);
-    write_checkpoint(path, header, simulation.discs(), ranks_);
+    write_checkpoint(path, header, simulation.discs(), ranks_, n_threads_);
     last_written_ = header.step;
     std::erase(kept_, path);
     kept_.push_back(path);

@@ -23,7 +23,8 @@ class Checkpoints {
 public:
     /// `first_step` is where the run begins; `is_restart` if it has a checkpoint of that step. References must outlive
     /// this.
-    Checkpoints(const Scene& scene, std::int64_t first_step, bool is_restart, const StopSignals& signals, const Communicator& ranks);
+    Checkpoints(const Scene& scene, std::int64_t first_step, bool is_restart, const StopSignals& signals, const Communicator& ranks,
+                int n_threads);
 
     /// Up to which step to go before looking up again.
     std::int64_t next_look(std::int64_t step) const;
@@ -44,6 +45,7 @@ private:
     const Communicator& ranks_;
     const Scene& scene_;
     const StopSignals& signals_;
+    int n_threads_;
     std::int64_t last_looked_, last_written_ = -1;
     std::int64_t stretch_ = 1;             ///< steps until the next look, as rank 0 has measured
     Stopwatch stretch_watch_;

@@ -38,9 +38,9 @@ void fill_times(RunResult& result, const PhaseSeconds& mine, const Communicator&
 }
 
 /// **Collective.**
-void fill_machine(RunResult& result, int threads, const Communicator& ranks) {
+void fill_machine(RunResult& result, const Communicator& ranks) {
     result.ranks = ranks.size();
-    result.threads = static_cast<int>(ranks.max(std::int64_t{threads}));
+    result.threads = static_cast<int>(ranks.max(std::int64_t{result.threads}));
     const std::uint64_t bytes = ranks.sum(peak_resident_bytes());
     result.peak_bytes_per_disc = static_cast<double>(bytes) / static_cast<double>(result.end.n_discs);
 }
@@ -68,7 +68,7 @@ bool step_to_end(Simulation& simulation, RunResult& result, double& output_secon
         lines.write(simulation);
     };
     if (!is_restart || simulation.step() == scene.steps) write_if_due();
-    Checkpoints checkpoints(scene, simulation.step(), is_restart, signals, ranks);
+    Checkpoints checkpoints(scene, simulation.step(), is_restart, signals, ranks, result.threads);
     Recordings recordings(scene, simulation, is_restart, ranks);
     bool must_stop = checkpoints.look_up(simulation, recordings);
     output_seconds += watch.lap();
@@ -117,6 +117,7 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     warn_of_hard_cases(scene, simulation, ranks);
     if (options.check) check_every_step(simulation, scene);
     RunResult result;
+    result.threads = tuning.threads;
     result.first_step = simulation.step();
     result.start = simulation.totals();
     if (ranks.is_root() && result.first_step == 0) warn_of_overlaps(scene, result.start);
@@ -132,7 +133,7 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     phases.emplace_back("set-up", setup_seconds);
     phases.emplace_back("output", output_seconds);
     fill_times(result, phases, ranks);
-    fill_machine(result, tuning.threads, ranks);
+    fill_machine(result, ranks);
     tell(options, scene, result, ranks);
     if (!is_done && ranks.is_root())
         fmt::print(stderr, "stopped on request at step {} of {}; {}\n", result.last_step, scene.steps,

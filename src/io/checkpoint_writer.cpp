@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rank 0 makes the file with all its structure and takes its room on disk; then the ranks fill in the columns. So what
-// is written side by side is numbers alone, at places that no longer move.
+// is written side by side is numbers alone, at places that no longer move: plain writes, without HDF5 or MPI-IO, which
+// leave nobody waiting where one rank's fail. A rank's pieces begin at pages of their own, so that nodes whose caches
+// know nothing of each other do not share any.
 #include <algorithm>
 #include <array>
-#include <cstring>
-#include <functional>
+#include <future>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "carrom/core/state_hash.hpp"
 #include "carrom/io/checkpoint.hpp"
-#include "carrom/parallel/slabs.hpp"
-#include "checkpoint_fields.hpp"
+#include "carrom/parallel/pieces.hpp"
+#include "checkpoint_structure.hpp"
 #include "files.hpp"
-#include "h5md.hpp"
 #include "seal.hpp"
 
 namespace carrom {
 
 namespace {
 
-constexpr std::uint64_t bytes_per_disc = sizeof(std::uint64_t) * checkpoint_columns.size() + 6 * sizeof(float);
 constexpr std::uint64_t bytes_of_structure = 1 << 20;
+static_assert(Pieces::least_rows % rows_per_block == 0, "pieces are made of whole blocks");
 
 /// The file beside its place; gone again unless it was renamed, so that half a file takes no room on a full disk.
 class PartialFile {
@@ -41,179 +42,154 @@ private:
     bool is_mine_;
 };
 
-void create_column(hid_t parent, const char* name, std::span<const hsize_t> dimensions, hid_t type) {
-    const h5::Properties creation = h5::dataset_creation();
-    h5::checked(H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY), name);
-    h5::checked(H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER), name);
-    const h5::Dataset dataset(
-        h5::checked(H5Dcreate2(parent, name, type, h5::space(dimensions).id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT), name));
-}
-
-/// A group of one frame: its step and time here, its `value` is the caller's.
-h5::Group create_frame(hid_t parent, const char* name, const CheckpointHeader& header) {
-    h5::Group group = h5::create_group(parent, name);
-    const std::array<hsize_t, 1> one = {1};
-    const auto time = static_cast<double>(header.step);
-    h5::write_whole(group.id(), "step", one, H5T_NATIVE_INT64, &header.step);
-    h5::write_whole(group.id(), "time", one, H5T_NATIVE_DOUBLE, &time);
-    return group;
-}
-
-void create_structure(const std::string& path, const CheckpointHeader& header) {
-    h5::File file = h5::create_file(path, seal_size);
-    h5md::write_metadata(file.id(), header.program_version);
-    {
-        const h5::Group particles = h5::create_group(file.id(), "particles");
-        const h5::Group discs = h5::create_group(particles.id(), "discs");
-        const h5::Group box = h5md::create_box(discs.id());
-        const std::array<double, 3> edges = {header.box_size, header.box_size, 1};
-        h5::write_whole(create_frame(box.id(), "edges", header).id(), "value", std::array<hsize_t, 2>{1, 3}, H5T_NATIVE_DOUBLE, edges.data());
-        const std::array<hsize_t, 3> vectors = {1, header.n_discs, 3};
-        for (const char* name : {"position", "velocity"})
-            create_column(create_frame(discs.id(), name, header).id(), "value", vectors, H5T_NATIVE_FLOAT);
-
-        const h5::Group carrom = h5::create_group(file.id(), "carrom");
-        write_header(h5::create_group(carrom.id(), "run").id(), header);
-        const h5::Group columns = h5::create_group(carrom.id(), "discs");
-        for (const Column& column : checkpoint_columns)
-            create_column(columns.id(), column.name, std::array<hsize_t, 1>{header.n_discs}, type_of(column));
-    }
-    file.close("cannot be written");
-}
-
-/// A dataset to be filled, and how a disc becomes its bytes.
-struct Target {
-    std::string path;
-    hid_t type;
-    std::size_t bytes_per_disc;
-    std::function<void(std::span<const Disc>, std::byte*)> put;
-    h5::Dataset dataset;
-};
-
-/// What `number_of` makes of each disc, one after the other.
-template <class NumberOf> void put_each(std::span<const Disc> discs, std::byte* out, const NumberOf& number_of) {
-    for (const Disc& disc : discs) {
-        const auto number = number_of(disc);
-        std::memcpy(out, &number, sizeof number);
-        out += sizeof number;
-    }
-}
-
-std::vector<Target> targets_of(const CheckpointHeader& header) {
-    std::vector<Target> targets;
-    for (const Column& column : checkpoint_columns)
-        targets.push_back({std::string("/carrom/discs/") + column.name, type_of(column), sizeof(std::uint64_t),
-                           [&column](std::span<const Disc> discs, std::byte* out) {
-                               std::visit([&](auto field) { put_each(discs, out, [=](const Disc& disc) { return disc.*field; }); }, column.field);
-                           }, {}});
-    const double clock = header.clock(), k = static_cast<double>(header.micro_steps);
-    const auto vector_of = [](double x, double y) { return std::array<float, 3>{static_cast<float>(x), static_cast<float>(y), 0}; };
-    targets.push_back({"/particles/discs/position/value", H5T_NATIVE_FLOAT, 3 * sizeof(float),
-                       [=](std::span<const Disc> discs, std::byte* out) {
-                           put_each(discs, out, [=](const Disc& disc) { return vector_of(disc.x_at(clock), disc.y_at(clock)); });
-                       }, {}});
-    targets.push_back({"/particles/discs/velocity/value", H5T_NATIVE_FLOAT, 3 * sizeof(float),
-                       [=](std::span<const Disc> discs, std::byte* out) {
-                           put_each(discs, out, [=](const Disc& disc) { return vector_of(disc.vx * k, disc.vy * k); });
-                       }, {}});
-    return targets;
-}
-
-/// The ranks' shares of all datasets, each written by its rank in pieces that stay in cache while they are taken apart.
-class ColumnWriter {
+/// Writes packed pieces in the background, one at a time; knows of the first failure and writes nothing after it.
+class PieceWriter {
 public:
-    ColumnWriter(const std::string& path, const CheckpointHeader& header, const Slab<Disc>& slab, const Communicator& communicator)
-        : path_(path), slab_(slab), communicator_(communicator),
-          first_(slab_begin(communicator.rank(), header.n_discs, communicator.size())), targets_(targets_of(header)) {}
+    PieceWriter(const std::string& path, const std::vector<DiscTarget>& targets) : file_(path, O_WRONLY), targets_(targets) {}
+    ~PieceWriter() { if (under_way_.valid()) under_way_.wait(); }
 
-    /// A file that could not be written is not closed: closing writes again, and where that fails it does not come back.
-    ~ColumnWriter() {
-        for (Target& target : targets_) target.dataset.abandon();
-        file_.abandon();
+    /// One buffer for each target; good until the call after the next one.
+    using Buffers = std::vector<std::vector<std::byte>>;
+
+    /// Waits for the piece before, then lets `buffers` be written as rows from `first` on.
+    void write(std::uint64_t first, const Buffers& buffers) {
+        if (!wait()) return;
+        const bool starts_sync = ++n_pieces_ % pieces_between_syncs == 0;
+        under_way_ = std::async(std::launch::async | std::launch::deferred, [this, first, &buffers, starts_sync] {
+            for (std::size_t k = 0; k < targets_.size(); ++k)
+                file_.write(buffers[k], targets_[k].part.begin + first * targets_[k].part.bytes_per_row);
+            if (starts_sync) file_.start_sync();
+        });
     }
-    ColumnWriter(const ColumnWriter&) = delete;
-    ColumnWriter& operator=(const ColumnWriter&) = delete;
 
-    void write() {
-        on_ranks([&] {
-            const Deadline deadline(path_);
-            file_ = h5::open_file(path_, h5::Access::write, communicator_);
-        });
-        on_ranks([&] {
-            const Deadline deadline(path_);
-            for (Target& target : targets_) target.dataset = h5::open_dataset(file_.id(), target.path.c_str());
-        });
-        // Each rank brings to disk what it has written: on several nodes it is in caches of their own.
-        on_ranks([&] {
-            const Descriptor disk(path_, O_WRONLY);
-            for (std::uint64_t row = 0; row < slab_.size(); row += rows_per_piece) {
-                write_piece(row, std::min<std::uint64_t>(row + rows_per_piece, slab_.size()));
-                if (row % (64 * rows_per_piece) == 0) disk.start_sync();
-            }
-            disk.sync();
-        });
-        on_ranks([&] {
-            const Deadline deadline(path_);
-            for (Target& target : targets_) target.dataset.close("cannot be closed");
-        });
-        on_ranks([&] {
-            const Deadline deadline(path_);
-            file_.close("cannot be closed");
-        });
+    /// Waits for what is under way and brings all to disk: on several nodes it is in caches of their own. Throws FileError.
+    void finish() {
+        if (!wait()) throw FileError(failure_);
+        file_.sync();
     }
 
 private:
-    template <class Act> void on_ranks(const Act& act) const { on_all(communicator_, path_, ExitCode::output_failure, act); }
+    static constexpr std::uint64_t pieces_between_syncs = 8;
 
-    void write_piece(std::uint64_t begin, std::uint64_t end) {
-        piece_.clear();
-        for (std::uint64_t row = begin; row < end; ++row) piece_.push_back(slab_[row]);
-        for (const Target& target : targets_) {
-            bytes_.resize((end - begin) * target.bytes_per_disc);
-            target.put(piece_, bytes_.data());
-            h5::write_rows(target.dataset.id(), {first_ + begin, first_ + end}, target.type, bytes_.data());
+    bool wait() {
+        try {
+            if (under_way_.valid()) under_way_.get();
+        } catch (const FileError& error) {
+            failure_ = error.what();
         }
+        return failure_.empty();
     }
 
-    const std::string& path_;
-    const Slab<Disc>& slab_;
-    const Communicator& communicator_;
-    std::uint64_t first_; ///< the id of the slab's first disc
-    std::vector<Target> targets_;
-    h5::File file_;
-    std::vector<Disc> piece_;
-    std::vector<std::byte> bytes_;
+    Descriptor file_;
+    const std::vector<DiscTarget>& targets_;
+    std::future<void> under_way_;
+    std::string failure_;
+    std::uint64_t n_pieces_ = 0;
 };
 
-void fill_sums(CheckpointHeader& header, std::span<const Disc> discs, const Communicator& communicator) {
-    const StateHash hash = hash_of(discs);
-    std::array<std::uint64_t, 4> sums = {0, 0, hash.low, hash.high};
-    for (const Disc& disc : discs) {
-        sums[0] += disc.wall_collisions;
-        sums[1] += disc.pair_collisions;
+/// What is summed over discs while they are at hand; words, so that threads and ranks may add up.
+class Sums {
+public:
+    explicit Sums(std::size_t n_targets) : words_(4 + 2 * n_targets, 0) {}
+
+    void add(std::span<const Disc> discs) {
+        for (const Disc& disc : discs) {
+            words_[0] += disc.wall_collisions;
+            words_[1] += disc.pair_collisions;
+        }
+        add(2, hash_of(discs));
     }
-    communicator.sum(sums);
-    header.wall_collisions = sums[0];
-    header.pair_collisions = sums[1] / 2;
-    header.state_hash = to_string(StateHash{sums[2], sums[3]});
+    void add_checksum(std::size_t target, const StateHash& checksum) { add(4 + 2 * target, checksum); }
+    void add(const Sums& other) {
+        for (std::size_t k = 0; k < words_.size(); ++k) words_[k] += other.words_[k];
+    }
+    void add_over(const Communicator& communicator) { communicator.sum(words_); }
+
+    StateSums state() const { return {words_[0], words_[1], {words_[2], words_[3]}}; }
+    StateHash checksum(std::size_t target) const { return {words_[4 + 2 * target], words_[5 + 2 * target]}; }
+
+private:
+    void add(std::size_t k, const StateHash& hash) {
+        words_[k] += hash.low;
+        words_[k + 1] += hash.high;
+    }
+
+    std::vector<std::uint64_t> words_;
+};
+
+/// Takes a piece apart into the targets' bytes, block by block; threads share the blocks.
+void pack(std::span<const Disc> piece, std::uint64_t first, const std::vector<DiscTarget>& targets, PieceWriter::Buffers& buffers,
+          Sums& sums, int n_threads) {
+    for (std::size_t k = 0; k < targets.size(); ++k) buffers[k].resize(piece.size() * targets[k].part.bytes_per_row);
+    const std::size_t n_blocks = (piece.size() + rows_per_block - 1) / rows_per_block;
+#pragma omp parallel num_threads(n_threads)
+    {
+        Sums mine(targets.size());
+#pragma omp for schedule(static)
+        for (std::size_t block = 0; block < n_blocks; ++block) {
+            const std::size_t row = block * rows_per_block;
+            const std::span<const Disc> discs = piece.subspan(row, std::min<std::size_t>(rows_per_block, piece.size() - row));
+            mine.add(discs);
+            for (std::size_t k = 0; k < targets.size(); ++k) {
+                const std::size_t width = targets[k].part.bytes_per_row;
+                const std::span<std::byte> bytes = std::span(buffers[k]).subspan(row * width, discs.size() * width);
+                targets[k].put(discs, bytes.data());
+                mine.add_checksum(k, checksum_of_block(bytes, first / rows_per_block + block));
+            }
+        }
+#pragma omp critical(sums_of_a_piece)
+        sums.add(mine);
+    }
+}
+
+/// Fills the columns: the ranks' pieces, each written while the next one is taken apart. **Collective.**
+Sums write_discs(const std::string& path, const std::vector<DiscTarget>& targets, std::span<const Disc> discs, std::uint64_t n_discs,
+                 int n_threads, const Communicator& communicator) {
+    std::optional<PieceWriter> writer;
+    on_all(communicator, path, ExitCode::output_failure, [&] { writer.emplace(path, targets); });
+    PieceStream stream(communicator, discs, n_discs, [](const Disc& disc) { return disc.id; });
+    Sums sums(targets.size());
+    std::array<PieceWriter::Buffers, 2> buffers;
+    buffers.fill(PieceWriter::Buffers(targets.size()));
+    for (std::uint64_t round = 0; round < stream.pieces().n_rounds(); ++round) {
+        const std::span<const Disc> piece = stream.next();
+        if (piece.empty()) continue;
+        pack(piece, stream.begin(), targets, buffers[round % 2], sums, n_threads);
+        writer->write(stream.begin(), buffers[round % 2]);
+    }
+    on_all(communicator, path, ExitCode::output_failure, [&] { writer->finish(); });
+    sums.add_over(communicator);
+    return sums;
 }
 
 } // namespace
 
-void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs,
-                      const Communicator& communicator) {
+void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs, const Communicator& communicator,
+                      int n_threads) {
     header.n_discs = communicator.sum(std::uint64_t{discs.size()});
-    fill_sums(header, discs, communicator);
-    const Slab<Disc> slab = to_slabs(communicator, discs, header.n_discs, [](const Disc& disc) { return disc.id; });
+    std::vector<DiscTarget> targets = disc_targets(header);
     const PartialFile partial(path + ".partial", communicator);
+    HeaderPlaces places;
     on_root(communicator, path, ExitCode::output_failure, [&] {
-        check_room(folder_of(path), header.n_discs * bytes_per_disc + bytes_of_structure);
-        create_structure(partial.path(), header);
+        std::uint64_t bytes = bytes_of_structure;
+        for (const DiscTarget& target : targets) bytes += target.part.rows * target.part.bytes_per_row;
+        check_room(folder_of(path), bytes);
+        places = create_structure(partial.path(), header, targets);
         reserve(partial.path());
     });
-    ColumnWriter(partial.path(), header, slab, communicator).write();
-    seal(partial.path(), communicator);
-    on_root(communicator, path, ExitCode::output_failure, [&] { rename_durably(partial.path(), path); });
+    for (DiscTarget& target : targets) communicator.broadcast(target.part.begin);
+    const Sums sums = write_discs(partial.path(), targets, discs, header.n_discs, n_threads, communicator);
+    on_root(communicator, path, ExitCode::output_failure, [&] {
+        fill_in(partial.path(), places, sums.state());
+        std::vector<SealedPart> parts;
+        for (std::size_t k = 0; k < targets.size(); ++k) {
+            parts.push_back(targets[k].part);
+            parts.back().checksum = sums.checksum(k);
+        }
+        std::sort(parts.begin(), parts.end(), [](const SealedPart& a, const SealedPart& b) { return a.begin < b.begin; });
+        seal(partial.path(), parts);
+        rename_durably(partial.path(), path);
+    });
 }
 
 } // namespace carrom

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "files.hpp"
 
-#include <array>
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -61,30 +59,6 @@ void Descriptor::sync() const {
 
 void Descriptor::start_sync() const {
     ::sync_file_range(number_, 0, 0, SYNC_FILE_RANGE_WRITE); // a hint: failures show in `sync`
-}
-
-namespace {
-
-std::array<char, 512> deadline_text{}; // what the handler may use: no allocation, no locks
-
-void end_process(int) {
-    [[maybe_unused]] const ssize_t n = ::write(STDERR_FILENO, deadline_text.data(), std::strlen(deadline_text.data()));
-    ::_exit(static_cast<int>(ExitCode::output_failure));
-}
-
-} // namespace
-
-Deadline::Deadline(const std::string& path, unsigned seconds) {
-    std::snprintf(deadline_text.data(), deadline_text.size(), "carrom: %s: HDF5 does not come back; has a write failed on some rank?\n",
-                  path.c_str());
-    old_handler_ = std::signal(SIGALRM, end_process);
-    old_seconds_ = ::alarm(seconds);
-}
-
-Deadline::~Deadline() {
-    ::alarm(0);
-    std::signal(SIGALRM, old_handler_);
-    ::alarm(old_seconds_);
 }
 
 void check_room(const std::string& folder, std::uint64_t bytes) {

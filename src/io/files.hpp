@@ -47,21 +47,6 @@ private:
     int number_;
 };
 
-/// Ends this process with exit code 4, and with it the run, if it is alive for too long: around collective calls of HDF5
-/// that only touch metadata. Where one rank's write fails in them, HDF5 1.10 leaves all ranks waiting for ever. They take
-/// milliseconds otherwise; data must be on disk before a close, since closing may bring it there.
-class Deadline {
-public:
-    explicit Deadline(const std::string& path, unsigned seconds = 40);
-    ~Deadline();
-    Deadline(const Deadline&) = delete;
-    Deadline& operator=(const Deadline&) = delete;
-
-private:
-    void (*old_handler_)(int);
-    unsigned old_seconds_; ///< of an alarm that somebody else has set
-};
-
 /// Throws where the file system says that it has less room than that.
 void check_room(const std::string& folder, std::uint64_t bytes);
 /// Takes the blocks of a file now, so that a full disk shows now; does nothing where that is not to be had.

@@ -196,12 +196,6 @@ std::vector<hsize_t> dimensions_of(hid_t dataset) {
     return dimensions;
 }
 
-void write_rows(hid_t dataset, const Rows& rows, hid_t type, const void* numbers) {
-    const Selection selection = select_rows(dataset, rows);
-    checked(H5Dwrite(dataset, type, selection.memory.id(), selection.file.id(), H5P_DEFAULT, numbers),
-            "cannot be written");
-}
-
 void read_rows(hid_t dataset, const Rows& rows, hid_t type, void* numbers) {
     const Selection selection = select_rows(dataset, rows);
     checked(H5Dread(dataset, type, selection.memory.id(), selection.file.id(), H5P_DEFAULT, numbers), "cannot be read");

@@ -101,9 +101,7 @@ struct Rows {
 };
 
 /// This rank's rows of a dataset that all ranks have open: of its only axis, or of the second one where the first counts
-/// frames. Not collective: a rank's rows are one large piece of the file, so there is nothing for MPI-IO to gather, and
-/// a rank whose write fails leaves no other waiting (HDF5 1.10 does after a failed collective one).
-void write_rows(hid_t dataset, const Rows& rows, hid_t type, const void* numbers);
+/// frames. Not collective: a rank's rows are one large piece of the file, so there is nothing for MPI-IO to gather.
 void read_rows(hid_t dataset, const Rows& rows, hid_t type, void* numbers);
 
 } // namespace carrom::h5

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -12,80 +12,124 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include "carrom/core/state_hash.hpp"
 #include "carrom/parallel/slabs.hpp"
 #include "files.hpp"
+#include "seal_text.hpp"
 
 namespace carrom {
 
 namespace {
 
-constexpr std::uint64_t chunk_size = 1 << 20;
-constexpr std::string_view title = "carrom checkpoint, format 1\n";
-constexpr std::string_view family = "carrom checkpoint, format ";
+constexpr std::uint64_t bytes_at_a_time = 1 << 20;
 
-using Block = std::array<char, seal_size>;
+StateHash as_state_hash(const XXH128_hash_t& hash) { return {hash.low64, hash.high64}; }
 
-/// This rank's part of the sum over the bytes behind the seal.
-StateHash share_of_checksum(const Descriptor& file, std::uint64_t size, const Communicator& communicator) {
-    const std::uint64_t n_chunks = (size - seal_size + chunk_size - 1) / chunk_size;
+void read_all(const Descriptor& file, std::span<std::byte> bytes, std::uint64_t begin) {
+    if (file.read(bytes, begin) < bytes.size()) throw FileError("ends while it is being read");
+}
+
+/// This rank's share of the sum over the bytes behind a seal of format 1.
+StateHash share_of_whole(const Descriptor& file, std::uint64_t size, const Communicator& communicator) {
+    const std::uint64_t n_chunks = (size - seal_size + bytes_at_a_time - 1) / bytes_at_a_time;
     const std::uint64_t first = slab_begin(communicator.rank(), n_chunks, communicator.size());
     const std::uint64_t last = slab_begin(communicator.rank() + 1, n_chunks, communicator.size());
-    std::vector<std::byte> bytes(chunk_size);
+    std::vector<std::byte> bytes(bytes_at_a_time);
     StateHash sum;
     for (std::uint64_t chunk = first; chunk < last; ++chunk) {
-        const std::uint64_t begin = seal_size + chunk * chunk_size;
-        const auto wanted = std::span(bytes).first(std::min(chunk_size, size - begin));
-        if (file.read(wanted, begin) < wanted.size()) throw FileError("ends while it is being read");
-        const XXH128_hash_t hash = XXH3_128bits_withSeed(wanted.data(), wanted.size(), chunk);
-        sum += {hash.low64, hash.high64};
+        const std::uint64_t begin = seal_size + chunk * bytes_at_a_time;
+        const auto wanted = std::span(bytes).first(std::min(bytes_at_a_time, size - begin));
+        read_all(file, wanted, begin);
+        sum += as_state_hash(XXH3_128bits_withSeed(wanted.data(), wanted.size(), chunk));
     }
     return sum;
 }
 
-StateHash total(StateHash share, const Communicator& communicator) {
-    std::array<std::uint64_t, 2> words = {share.low, share.high}; // summed word by word, like the shares
-    communicator.sum(words);
-    return {words[0], words[1]};
+/// This rank's share of the sum over a data set.
+StateHash share_of_part(const Descriptor& file, const SealedPart& part, const Communicator& communicator) {
+    const std::uint64_t n_blocks = (part.rows + rows_per_block - 1) / rows_per_block;
+    const std::uint64_t last = slab_begin(communicator.rank() + 1, n_blocks, communicator.size());
+    const std::uint64_t block_size = rows_per_block * part.bytes_per_row;
+    const std::uint64_t blocks_at_a_time = std::max<std::uint64_t>(1, bytes_at_a_time / block_size);
+    std::vector<std::byte> bytes(blocks_at_a_time * block_size);
+    StateHash sum;
+    for (std::uint64_t block = slab_begin(communicator.rank(), n_blocks, communicator.size()); block < last;) {
+        const std::uint64_t begin = part.begin + block * block_size;
+        const std::uint64_t end = std::min(part.begin + std::min(last, block + blocks_at_a_time) * block_size, part.end());
+        read_all(file, std::span(bytes).first(end - begin), begin);
+        for (std::uint64_t place = begin; place < end; place += block_size, ++block)
+            sum += checksum_of_block(std::span(bytes).subspan(place - begin, std::min(block_size, end - place)), block);
+    }
+    return sum;
 }
 
-Block seal_text(std::uint64_t size, const StateHash& checksum) {
-    const std::string text = fmt::format("{}bytes {}\nchecksum {}\n", title, size, to_string(checksum));
-    Block block{};
-    std::copy(text.begin(), text.end(), block.begin());
+/// Of all bytes behind the seal that are in no part, as if they stood side by side.
+StateHash checksum_of_rest(const Descriptor& file, std::uint64_t size, const std::vector<SealedPart>& parts) {
+    const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(), XXH3_freeState);
+    ensure(state != nullptr && XXH3_128bits_reset(state.get()) == XXH_OK, "no memory for a checksum");
+    std::vector<std::byte> bytes(bytes_at_a_time);
+    std::uint64_t place = seal_size;
+    const auto hash_up_to = [&](std::uint64_t end) {
+        for (; place < end; place += std::min(bytes_at_a_time, end - place)) {
+            const auto wanted = std::span(bytes).first(std::min(bytes_at_a_time, end - place));
+            read_all(file, wanted, place);
+            XXH3_128bits_update(state.get(), wanted.data(), wanted.size());
+        }
+    };
+    for (const SealedPart& part : parts) {
+        hash_up_to(part.begin);
+        place = part.end();
+    }
+    hash_up_to(size);
+    return as_state_hash(XXH3_128bits_digest(state.get()));
+}
+
+SealBlock read_block(const Descriptor& file) {
+    SealBlock block{};
+    file.read(std::as_writable_bytes(std::span(block)), 0);
     return block;
 }
 
-/// The size that the seal speaks of; throws where there is no seal.
-std::uint64_t sealed_size(const Block& block) {
-    const std::string_view text(block.data(), block.size());
-    if (!text.starts_with(family)) throw FileError("is no checkpoint of carrom, or was never finished");
-    if (!text.starts_with(title)) throw FileError("is a checkpoint of another format than this version reads");
-    const std::string_view word = "bytes ";
-    std::uint64_t size = 0;
-    const char* const begin = text.data() + title.size() + word.size();
-    if (!text.substr(title.size()).starts_with(word) || std::from_chars(begin, text.data() + text.size(), size).ec != std::errc{})
-        throw FileError("is damaged in its first lines");
-    return size;
+/// The seal of a file on every rank, once its size is right. **Collective.**
+Seal shared_seal(const std::string& path, const Communicator& communicator) {
+    std::string text;
+    on_root(communicator, path, ExitCode::bad_input, [&] {
+        const Descriptor file(path, O_RDONLY);
+        const SealBlock block = read_block(file);
+        const std::uint64_t wanted = sealed_size(block), size = file.size();
+        if (size != wanted) throw FileError(fmt::format("has {} bytes instead of {}", size, wanted));
+        if (size < seal_size) throw FileError("is cut short");
+        static_cast<void>(parsed(block));
+        text.assign(block.data(), block.size());
+    });
+    communicator.broadcast(text);
+    SealBlock block{};
+    std::copy(text.begin(), text.end(), block.begin());
+    return parsed(block);
+}
+
+/// What rank 0 finds: the names of the data sets that are not as they were, and whether anything else is not.
+std::string damage(const Descriptor& file, const Seal& seal, std::span<const std::uint64_t> sums) {
+    if (seal.format == 1)
+        return StateHash{sums[0], sums[1]} == seal.rest ? "" : "its bytes do not have the checksum they had when it was written";
+    std::string names;
+    for (std::size_t k = 0; k < seal.parts.size(); ++k)
+        if (StateHash{sums[2 * k], sums[2 * k + 1]} != seal.parts[k].checksum) names += (names.empty() ? "" : ", ") + seal.parts[k].name;
+    if (checksum_of_rest(file, seal.size, seal.parts) != seal.rest) names += (names.empty() ? "" : ", ") + std::string("what stands between the data sets");
+    return names.empty() ? "" : "these bytes do not have the checksum they had when it was written: " + names;
 }
 
 } // namespace
 
-void seal(const std::string& path, const Communicator& communicator) {
-    StateHash share;
-    std::uint64_t size = 0;
-    on_all(communicator, path, ExitCode::output_failure, [&] {
-        const Descriptor file(path, O_RDONLY);
-        size = file.size();
-        share = share_of_checksum(file, size, communicator);
-    });
-    const StateHash checksum = total(share, communicator);
-    on_root(communicator, path, ExitCode::output_failure, [&] {
-        const Descriptor file(path, O_WRONLY);
-        const Block block = seal_text(size, checksum);
-        file.write(std::as_bytes(std::span(block)), 0);
-        file.sync();
-    });
+StateHash checksum_of_block(std::span<const std::byte> bytes, std::uint64_t block) {
+    return as_state_hash(XXH3_128bits_withSeed(bytes.data(), bytes.size(), block));
+}
+
+void seal(const std::string& path, const std::vector<SealedPart>& parts) {
+    const Descriptor file(path, O_RDWR);
+    const std::uint64_t size = file.size();
+    const SealBlock block = block_of({2, size, checksum_of_rest(file, size, parts), parts});
+    file.write(std::as_bytes(std::span(block)), 0);
+    file.sync();
 }
 
 bool is_sealed(const std::string& path) {
@@ -93,27 +137,24 @@ bool is_sealed(const std::string& path) {
     std::array<char, seal_size + signature.size()> bytes{};
     Descriptor(path, O_RDONLY).read(std::as_writable_bytes(std::span(bytes)), 0);
     const std::string_view text(bytes.data(), bytes.size());
-    return text.starts_with(family) || text.substr(seal_size) == signature;
+    return text.starts_with(seal_family) || text.substr(seal_size) == signature;
 }
 
+std::vector<SealedPart> sealed_parts(const std::string& path) { return parsed(read_block(Descriptor(path, O_RDONLY))).parts; }
+
 void check_seal(const std::string& path, const Communicator& communicator) {
-    Block block{};
-    std::uint64_t size = 0;
-    on_root(communicator, path, ExitCode::bad_input, [&] {
+    const Seal seal = shared_seal(path, communicator);
+    std::vector<std::uint64_t> sums; // summed word by word, like the shares
+    on_all(communicator, path, ExitCode::bad_input, [&] {
         const Descriptor file(path, O_RDONLY);
-        file.read(std::as_writable_bytes(std::span(block)), 0);
-        size = file.size();
-        const std::uint64_t wanted = sealed_size(block);
-        if (size != wanted) throw FileError(fmt::format("has {} bytes instead of {}", size, wanted));
-        if (size < seal_size) throw FileError("is cut short");
+        const auto add = [&sums](const StateHash& share) { sums.insert(sums.end(), {share.low, share.high}); };
+        if (seal.format == 1) add(share_of_whole(file, seal.size, communicator));
+        for (const SealedPart& part : seal.parts) add(share_of_part(file, part, communicator));
     });
-    communicator.broadcast(size);
-    StateHash share;
-    on_all(communicator, path, ExitCode::bad_input,
-           [&] { share = share_of_checksum(Descriptor(path, O_RDONLY), size, communicator); });
-    const StateHash checksum = total(share, communicator);
+    communicator.sum(sums);
     on_root(communicator, path, ExitCode::bad_input, [&] {
-        if (block != seal_text(size, checksum)) throw FileError("is damaged: its bytes do not have the checksum they had when it was written");
+        const std::string found = damage(Descriptor(path, O_RDONLY), seal, sums);
+        if (!found.empty()) throw FileError("is damaged: " + found);
     });
 }
 

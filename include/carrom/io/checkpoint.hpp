@@ -4,10 +4,10 @@
 // Discs stand in the order of their ids, so the file does not show which ranks wrote it. /carrom/discs holds the stored
 // state, column by column, to the bit; /carrom/run what the run is; /particles/discs the same discs as tools for
 // trajectories expect them (H5MD; positions at the time of the step, in single precision). A seal over all bytes tells
-// a whole file from a damaged one (docs/formats.md).
+// a whole file from a damaged one (src/io/seal.hpp).
 //
-// Each rank writes and reads its share of the ids through MPI-IO. Price of writing: 80 bytes a disc to disk, the file
-// once more from memory for the seal, every disc sent once, memory for two and a half copies of the discs.
+// Each rank writes its share of the ids to where rank 0 has made room for it, and reads its share through MPI-IO. Price
+// of writing: 80 bytes a disc to disk, a disc sent once if it is another rank's, 8 bytes a disc of memory and some megabytes.
 #pragma once
 
 #include <cstdint>
@@ -41,10 +41,10 @@ struct CheckpointHeader {
 };
 
 /// Writes `discs`, spread over the ranks in any way, as a whole file or not at all: beside its place first, brought to
-/// disk, then renamed. The header's last four numbers and its hash are filled in here. If it fails on any rank every
+/// disk, then renamed; with `n_threads` threads a rank, and one that writes. The header's last four numbers and its hash are filled in here. If it fails on any rank every
 /// rank throws CollectiveError, code 4, and an older file of that name is as it was. **Collective.**
-void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs,
-                      const Communicator& communicator);
+void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs, const Communicator& communicator,
+                      int n_threads = 1);
 
 struct Checkpoint {
     CheckpointHeader header;

@@ -22,6 +22,7 @@
 #include "carrom/core/errors.hpp"
 #include "carrom/core/state_hash.hpp"
 #include "carrom/parallel/slabs.hpp"
+#include "seal.hpp"
 
 using namespace carrom;
 
@@ -177,11 +178,13 @@ TEST_CASE("the header comes back whole") {
 TEST_CASE("the file does not depend on who holds which disc, and nothing else is left") {
     const Communicator world = Communicator::world();
     const TestFolder folder(world);
-    write_checkpoint(folder.file("a.h5"), some_header(), share(777, world, 0), world);
-    std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // nor on the time of day
-    write_checkpoint(folder.file("b.h5"), some_header(), share(777, world, 1), world);
-    const bool same_bytes = bytes_of(folder.file("a.h5")) == bytes_of(folder.file("b.h5")); // not told byte by byte
-    CHECK(same_bytes);
+    for (const std::uint64_t n : {777u, 9000u}) {
+        write_checkpoint(folder.file("a.h5"), some_header(), share(n, world, 0), world);
+        if (n == 777) std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // nor on the time of day
+        write_checkpoint(folder.file("b.h5"), some_header(), share(n, world, 1), world, 3); // nor on the threads
+        const bool same_bytes = bytes_of(folder.file("a.h5")) == bytes_of(folder.file("b.h5")); // not told byte by byte
+        CHECK(same_bytes);
+    }
     CHECK(!std::filesystem::exists(folder.file("a.h5.partial")));
 }
 
@@ -212,6 +215,32 @@ TEST_CASE("a damaged file is refused on every rank, with the reason") {
     }
     CHECK(problem_of(whole, world).empty());
     CHECK(problem_of(folder.file("none.h5"), world).find("No such file") != std::string::npos);
+}
+
+TEST_CASE("damage is told by the data set that it is in") {
+    const Communicator world = Communicator::world();
+    const TestFolder folder(world);
+    const std::string path = folder.file("a.h5");
+    write_checkpoint(path, some_header(), share(5000, world, 0), world);
+    const std::string good = bytes_of(path);
+    const std::vector<SealedPart> parts = sealed_parts(path);
+    CHECK(parts.size() == 9);
+    const auto told = [&](std::vector<std::size_t> places) {
+        world.barrier();
+        if (world.is_root()) {
+            std::string bytes = good;
+            for (const std::size_t place : places) bytes[place] = static_cast<char>(bytes[place] ^ 16);
+            std::ofstream(path, std::ios::binary) << bytes;
+        }
+        world.barrier();
+        const std::string problem = problem_of(path, world);
+        return problem.substr(std::min(problem.size(), problem.rfind(": ") + 2));
+    };
+    for (const SealedPart& part : parts)
+        for (const std::size_t place : {part.begin, part.begin + 2500 * part.bytes_per_row, part.end() - 1}) CHECK(told({place}) == part.name);
+    CHECK(told({parts[2].begin + 100, parts[5].end() - 9}) == "/carrom/discs/x, /carrom/discs/vy");
+    CHECK(told({seal_size + 20}) == "what stands between the data sets");
+    CHECK(told({200}) == "is damaged in its first lines");
 }
 
 namespace {

@@ -29,11 +29,6 @@ std::vector<int> items_of(int rank, int count) {
     return items;
 }
 
-struct Record {
-    std::uint64_t id;
-    double value;
-};
-
 } // namespace
 
 TEST_CASE("items sent to their owners arrive grouped by sender") {
@@ -104,26 +99,4 @@ TEST_CASE("slabs share ids out evenly, in order") {
     const std::uint64_t huge = ~std::uint64_t{0};
     CHECK(carrom::slab_of(huge - 1, huge, 1000) == 999);
     CHECK(carrom::slab_begin(1000, huge, 1000) == huge);
-}
-
-TEST_CASE("records in any place come to their slab in order") {
-    const Communicator world = Communicator::world();
-    const auto id_of = [](const Record& record) { return record.id; };
-    for (const std::uint64_t n : {0u, 1u, 2u, 5u, 1000u}) {
-        std::vector<std::uint64_t> ids;
-        for (std::uint64_t id = 0; id < n; ++id) ids.push_back(id);
-        std::mt19937 random(static_cast<unsigned>(n)); // the same on all ranks
-        std::shuffle(ids.begin(), ids.end(), random);
-        std::vector<Record> mine;
-        for (const std::uint64_t id : ids)
-            if (static_cast<int>(random() % static_cast<unsigned>(world.size() * world.size())) / world.size() == world.rank())
-                mine.push_back({id, 0.5 * static_cast<double>(id)});
-        const carrom::Slab<Record> slab = carrom::to_slabs(world, std::span<const Record>(mine), n, id_of);
-        const std::uint64_t first = carrom::slab_begin(world.rank(), n, world.size());
-        CHECK(slab.size() == carrom::slab_begin(world.rank() + 1, n, world.size()) - first);
-        for (std::size_t k = 0; k < slab.size(); ++k) {
-            CHECK(slab[k].id == first + k);
-            CHECK(slab[k].value == 0.5 * static_cast<double>(first + k));
-        }
-    }
 }

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Records with ids 0 .. n-1 that lie in any order on any ranks, brought into order piece by piece.
+//
+// The ids are cut into pieces of a power of two; each rank owns a run of whole pieces. A counting sort says which
+// records are of which piece; then, round after round, each rank is given its next piece in order. So the whole is never
+// held twice, and a piece is in cache when its rank takes it apart. Price: 4 bytes a record, each record read three
+// times on its rank and sent once if it is another's.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "carrom/core/errors.hpp"
+#include "carrom/parallel/communicator.hpp"
+#include "carrom/parallel/exchange.hpp"
+#include "carrom/parallel/slabs.hpp"
+
+namespace carrom {
+
+/// Which ids make up a piece, and which pieces are a rank's: runs as equal as pieces allow, longer ones first.
+class Pieces {
+public:
+    static constexpr std::uint64_t least_rows = 1 << 10, most_rows = 1 << 15;
+
+    Pieces(std::uint64_t n, int n_ranks)
+        : n_(n), n_ranks_(n_ranks),
+          rows_(std::clamp(std::bit_floor(n / (8 * static_cast<std::uint64_t>(n_ranks)) + 1), least_rows, most_rows)) {}
+
+    std::uint64_t count() const { return (n_ + rows_ - 1) / rows_; }
+    std::uint64_t rows() const { return rows_; }
+    std::uint64_t of(std::uint64_t id) const { return id / rows_; }
+    /// The first id of a piece; that of piece count() is n.
+    std::uint64_t begin(std::uint64_t piece) const { return std::min(piece * rows_, n_); }
+    /// The first piece of a rank; that of rank `n_ranks` is count().
+    std::uint64_t first_of(int rank) const { return slab_begin(rank, count(), n_ranks_); }
+    /// The most pieces that a rank has.
+    std::uint64_t n_rounds() const { return first_of(1); }
+
+private:
+    std::uint64_t n_;
+    int n_ranks_;
+    std::uint64_t rows_;
+};
+
+/// Hands each rank its pieces, one a round.
+template <Message T, class IdOf> class PieceStream {
+public:
+    /// `id_of(record)` gives the id; each of 0 .. n-1 must occur once over all ranks (checked as pieces come).
+    /// `records` must stay as they are as long as this is used.
+    PieceStream(const Communicator& communicator, std::span<const T> records, std::uint64_t n, const IdOf& id_of)
+        : communicator_(communicator), records_(records), id_of_(id_of), n_(n), pieces_(n, communicator.size()),
+          out_(static_cast<std::size_t>(communicator.size())) {
+        ensure(records.size() < std::numeric_limits<std::uint32_t>::max(), "too many records on a rank");
+        sort_by_piece();
+    }
+
+    const Pieces& pieces() const { return pieces_; }
+
+    /// Goes on to this rank's piece of the next round and returns it in order, empty if this rank has no more: its
+    /// first id is `begin()`. Good until the next call. Must be called n_rounds() times by every rank. **Collective.**
+    std::span<const T> next() {
+        const int me = communicator_.rank();
+        const std::uint64_t mine = pieces_.first_of(me) + round_;
+        const bool has_more = mine < pieces_.first_of(me + 1);
+        begin_ = pieces_.begin(has_more ? mine : pieces_.count());
+        piece_.resize(has_more ? pieces_.begin(mine + 1) - begin_ : 0);
+        is_placed_.assign(piece_.size(), 0);
+        std::size_t n_placed = 0;
+        if (has_more) {
+            for_each_of(mine, [&](const T& record) { place(record); });
+            n_placed = n_in(mine);
+        }
+        if (communicator_.size() > 1) n_placed += exchange();
+        ++round_;
+        ensure(n_placed == piece_.size(), "a piece has missing or surplus records");
+        return piece_;
+    }
+    std::uint64_t begin() const { return begin_; }
+
+private:
+    static constexpr std::size_t records_ahead = 16; ///< asked for early: they lie anywhere in memory
+
+    void sort_by_piece() {
+        first_in_order_.assign(pieces_.count() + 1, 0);
+        std::vector<std::uint32_t> piece_of(records_.size());
+        for (std::size_t i = 0; i < records_.size(); ++i) {
+            const std::uint64_t id = id_of_(records_[i]);
+            ensure(id < n_, "a record's id is beyond the number of records");
+            piece_of[i] = static_cast<std::uint32_t>(pieces_.of(id));
+            ++first_in_order_[piece_of[i] + 1];
+        }
+        for (std::size_t k = 1; k < first_in_order_.size(); ++k) first_in_order_[k] += first_in_order_[k - 1];
+        std::vector<std::uint32_t> next(first_in_order_.begin(), first_in_order_.end() - 1);
+        order_.resize(records_.size());
+        for (std::size_t i = 0; i < records_.size(); ++i) order_[next[piece_of[i]]++] = static_cast<std::uint32_t>(i);
+    }
+
+    std::size_t n_in(std::uint64_t piece) const { return first_in_order_[piece + 1] - first_in_order_[piece]; }
+
+    template <class Act> void for_each_of(std::uint64_t piece, const Act& act) const {
+        for (std::size_t k = first_in_order_[piece]; k < first_in_order_[piece + 1]; ++k) {
+            __builtin_prefetch(&records_[order_[std::min(k + records_ahead, order_.size() - 1)]]);
+            act(records_[order_[k]]);
+        }
+    }
+
+    void place(const T& record) {
+        const std::uint64_t i = id_of_(record) - begin_;
+        ensure(i < piece_.size(), "a record has come to another piece than its own");
+        ensure(is_placed_[i] == 0, "two records have the same id");
+        is_placed_[i] = 1;
+        piece_[i] = record;
+    }
+
+    /// Sends what is of the others' pieces of this round, and places what comes: returns how many.
+    std::size_t exchange() {
+        for (int rank = 0; rank < communicator_.size(); ++rank) {
+            std::vector<T>& out = out_[static_cast<std::size_t>(rank)];
+            out.clear();
+            const std::uint64_t piece = pieces_.first_of(rank) + round_;
+            if (rank != communicator_.rank() && piece < pieces_.first_of(rank + 1))
+                for_each_of(piece, [&](const T& record) { out.push_back(record); });
+        }
+        const Received<T> in = send_to_owners(communicator_, out_);
+        for (const T& record : in.items) place(record);
+        return in.items.size();
+    }
+
+    const Communicator& communicator_;
+    std::span<const T> records_;
+    IdOf id_of_;
+    std::uint64_t n_;
+    Pieces pieces_;
+    std::vector<std::uint32_t> order_;          ///< this rank's records, piece after piece
+    std::vector<std::uint32_t> first_in_order_; ///< of each piece, and the end
+    std::uint64_t round_ = 0, begin_ = 0;
+    std::vector<T> piece_;
+    std::vector<std::uint8_t> is_placed_;
+    std::vector<std::vector<T>> out_;
+};
+
+} // namespace carrom

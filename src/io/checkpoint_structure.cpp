@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "checkpoint_structure.hpp"
+
+#include <cstring>
+
+#include <fcntl.h>
+
+#include "checkpoint_fields.hpp"
+#include "files.hpp"
+#include "h5md.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// What `number_of` makes of each disc, one after the other.
+template <class NumberOf> void put_each(std::span<const Disc> discs, std::byte* out, const NumberOf& number_of) {
+    for (const Disc& disc : discs) {
+        const auto number = number_of(disc);
+        std::memcpy(out, &number, sizeof number);
+        out += sizeof number;
+    }
+}
+
+void create_column(hid_t parent, const char* name, std::span<const hsize_t> dimensions, hid_t type) {
+    const h5::Properties creation = h5::dataset_creation();
+    h5::checked(H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY), name);
+    h5::checked(H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER), name);
+    const h5::Dataset dataset(
+        h5::checked(H5Dcreate2(parent, name, type, h5::space(dimensions).id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT), name));
+}
+
+/// A group of one frame: its step and time here, its `value` is the caller's.
+h5::Group create_frame(hid_t parent, const char* name, const CheckpointHeader& header) {
+    h5::Group group = h5::create_group(parent, name);
+    const std::array<hsize_t, 1> one = {1};
+    const auto time = static_cast<double>(header.step);
+    h5::write_whole(group.id(), "step", one, H5T_NATIVE_INT64, &header.step);
+    h5::write_whole(group.id(), "time", one, H5T_NATIVE_DOUBLE, &time);
+    return group;
+}
+
+void create_groups(hid_t file, const CheckpointHeader& header) {
+    h5md::write_metadata(file, header.program_version);
+    const h5::Group particles = h5::create_group(file, "particles");
+    const h5::Group discs = h5::create_group(particles.id(), "discs");
+    const h5::Group box = h5md::create_box(discs.id());
+    const std::array<double, 3> edges = {header.box_size, header.box_size, 1};
+    h5::write_whole(create_frame(box.id(), "edges", header).id(), "value", std::array<hsize_t, 2>{1, 3}, H5T_NATIVE_DOUBLE, edges.data());
+    const std::array<hsize_t, 3> vectors = {1, header.n_discs, 3};
+    for (const char* name : {"position", "velocity"})
+        create_column(create_frame(discs.id(), name, header).id(), "value", vectors, H5T_NATIVE_FLOAT);
+
+    const h5::Group carrom = h5::create_group(file, "carrom");
+    write_header(h5::create_group(carrom.id(), "run").id(), header);
+    const h5::Group columns = h5::create_group(carrom.id(), "discs");
+    for (const Column& column : checkpoint_columns)
+        create_column(columns.id(), column.name, std::array<hsize_t, 1>{header.n_discs}, type_of(column));
+}
+
+/// Where a contiguous data set's numbers begin, counted from the front of the file.
+std::uint64_t place_of(hid_t file, const std::string& name) {
+    const haddr_t place = H5Dget_offset(h5::open_dataset(file, name.c_str()).id());
+    if (place == HADDR_UNDEF) h5::fail(name + " has no place in the file");
+    return place;
+}
+
+} // namespace
+
+std::vector<DiscTarget> disc_targets(const CheckpointHeader& header) {
+    std::vector<DiscTarget> targets;
+    const double clock = header.clock(), k = static_cast<double>(header.micro_steps);
+    const auto vector_of = [](double x, double y) { return std::array<float, 3>{static_cast<float>(x), static_cast<float>(y), 0}; };
+    const auto add = [&](std::string name, std::uint64_t bytes_per_row, std::function<void(std::span<const Disc>, std::byte*)> put) {
+        targets.push_back({{std::move(name), 0, header.n_discs, bytes_per_row, {}}, std::move(put)});
+    };
+    add("/particles/discs/position/value", 3 * sizeof(float), [=](std::span<const Disc> discs, std::byte* out) {
+        put_each(discs, out, [=](const Disc& disc) { return vector_of(disc.x_at(clock), disc.y_at(clock)); });
+    });
+    add("/particles/discs/velocity/value", 3 * sizeof(float), [=](std::span<const Disc> discs, std::byte* out) {
+        put_each(discs, out, [=](const Disc& disc) { return vector_of(disc.vx * k, disc.vy * k); });
+    });
+    for (const Column& column : checkpoint_columns)
+        add(std::string("/carrom/discs/") + column.name, sizeof(std::uint64_t), [&column](std::span<const Disc> discs, std::byte* out) {
+            std::visit([&](auto field) { put_each(discs, out, [=](const Disc& disc) { return disc.*field; }); }, column.field);
+        });
+    return targets;
+}
+
+HeaderPlaces create_structure(const std::string& path, CheckpointHeader header, std::vector<DiscTarget>& targets) {
+    header.wall_collisions = header.pair_collisions = 0;
+    header.state_hash = to_string(StateHash{});
+    h5::File file = h5::create_file(path, seal_size);
+    create_groups(file.id(), header);
+    for (DiscTarget& target : targets) target.part.begin = place_of(file.id(), target.part.name);
+    const HeaderPlaces places = {place_of(file.id(), "/carrom/run/wall_collisions"), place_of(file.id(), "/carrom/run/pair_collisions"),
+                                 place_of(file.id(), "/carrom/run/state_hash")};
+    file.close("cannot be written");
+    return places;
+}
+
+void fill_in(const std::string& path, const HeaderPlaces& places, const StateSums& sums) {
+    const Descriptor file(path, O_WRONLY);
+    const std::uint64_t pairs = sums.pair_collisions / 2;
+    const std::string hash = to_string(sums.hash);
+    file.write(std::as_bytes(std::span(&sums.wall_collisions, 1)), places.wall_collisions);
+    file.write(std::as_bytes(std::span(&pairs, 1)), places.pair_collisions);
+    file.write(std::as_bytes(std::span(hash)), places.state_hash);
+}
+
+} // namespace carrom

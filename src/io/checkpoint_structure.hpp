@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A checkpoint's HDF5 file with all its structure and none of its numbers, and where those belong.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "carrom/core/disc.hpp"
+#include "carrom/core/state_hash.hpp"
+#include "carrom/io/checkpoint.hpp"
+#include "seal.hpp"
+
+namespace carrom {
+
+/// A data set with one row for each disc, and how discs become its bytes. Its part's `begin` is known once the file is there.
+struct DiscTarget {
+    SealedPart part;
+    std::function<void(std::span<const Disc>, std::byte*)> put;
+};
+
+/// The data sets of discs that a checkpoint has, in the order in which they stand in the file.
+std::vector<DiscTarget> disc_targets(const CheckpointHeader& header);
+
+/// What is known of a state only once all its discs have been seen.
+struct StateSums {
+    std::uint64_t wall_collisions = 0, pair_collisions = 0; ///< of discs: a pair counts twice
+    StateHash hash;
+};
+
+/// Where single values of /carrom/run stand in the file.
+struct HeaderPlaces {
+    std::uint64_t wall_collisions = 0, pair_collisions = 0, state_hash = 0;
+};
+
+/// Makes the file and fills in where each target's rows begin. The header's counters and hash stay open. Of one rank; throws FileError.
+HeaderPlaces create_structure(const std::string& path, CheckpointHeader header, std::vector<DiscTarget>& targets);
+
+/// Writes the values that were left open. Of one rank; throws FileError.
+void fill_in(const std::string& path, const HeaderPlaces& places, const StateSums& sums);
+
+} // namespace carrom
