@@ -45,6 +45,12 @@ if has matplotlib matplotlib && has h5py h5py; then
     "$python" "$tools/plot_frame.py" t.h5 --step 11 -o no.png 2>"$test_folder/err" && complain 'plot_frame.py of no frame'
     expect_told 'no frame of step 11; there are 5, of steps 0 to 20' 'plot_frame.py'
     "$python" "$tools/plot_movie.py" t.h5 --dpi 40 -o movie.gif || complain 'plot_movie.py'
+    if command -v ffmpeg >/dev/null || "$python" -c 'import imageio_ffmpeg' 2>/dev/null; then
+        "$python" "$tools/plot_movie.py" t.h5 --dpi 41 -o movie.mp4 || complain 'plot_movie.py to MP4'
+        head -c 12 movie.mp4 | grep -q ftyp || complain 'no MP4'
+        "$python" "$tools/plot_movie.py" t.h5 -o none/movie.mp4 2>"$test_folder/err" && complain 'plot_movie.py to nowhere'
+        expect_told 'ffmpeg has failed' 'plot_movie.py to nowhere'
+    fi
     "$python" "$tools/plot_history.py" --trajectory t.h5 --collisions c.h5 -o history.png || complain 'plot_history.py'
     "$python" "$tests/readers.py" pictures lines speed.png strip.png movie.gif history.png || complain 'pictures'
 else
