@@ -83,7 +83,7 @@ public:
     std::uint64_t begin() const { return begin_; }
 
 private:
-    static constexpr std::size_t records_ahead = 16; ///< asked for early: they lie anywhere in memory
+    static constexpr std::size_t records_ahead = 64; ///< asked for early: they lie anywhere in memory
 
     void sort_by_piece() {
         first_in_order_.assign(pieces_.count() + 1, 0);
@@ -104,7 +104,7 @@ private:
 
     template <class Act> void for_each_of(std::uint64_t piece, const Act& act) const {
         for (std::size_t k = first_in_order_[piece]; k < first_in_order_[piece + 1]; ++k) {
-            __builtin_prefetch(&records_[order_[std::min(k + records_ahead, order_.size() - 1)]]);
+            __builtin_prefetch(&records_[order_[std::min(k + records_ahead, order_.size() - 1)]], 0, 2);
             act(records_[order_[k]]);
         }
     }
