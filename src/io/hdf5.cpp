@@ -62,26 +62,6 @@ void read_scalar_as(hid_t parent, const char* name, hid_t type, void* value) {
     checked(H5Dread(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value), name);
 }
 
-struct Selection {
-    Space memory, file;
-};
-
-Selection select_rows(hid_t dataset, const Rows& rows) {
-    std::vector<hsize_t> count = dimensions_of(dataset), start(count.size(), 0);
-    const std::size_t axis = count.size() == 1 ? 0 : 1;
-    start[axis] = rows.begin;
-    count[axis] = rows.end - rows.begin;
-    Selection selection{space(count), Space(checked(H5Dget_space(dataset), "cannot look at a dataset"))};
-    if (rows.begin == rows.end) {
-        checked(H5Sselect_none(selection.memory.id()), "cannot select nothing");
-        checked(H5Sselect_none(selection.file.id()), "cannot select nothing");
-    } else {
-        checked(H5Sselect_hyperslab(selection.file.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
-                "cannot select rows");
-    }
-    return selection;
-}
-
 } // namespace
 
 void fail(const std::string& what) {
@@ -197,8 +177,10 @@ std::vector<hsize_t> dimensions_of(hid_t dataset) {
 }
 
 void read_rows(hid_t dataset, const Rows& rows, hid_t type, void* numbers) {
-    const Selection selection = select_rows(dataset, rows);
-    checked(H5Dread(dataset, type, selection.memory.id(), selection.file.id(), H5P_DEFAULT, numbers), "cannot be read");
+    const hsize_t start = rows.begin, count = rows.end - rows.begin;
+    const Space memory = space({&count, 1}), file(checked(H5Dget_space(dataset), "cannot look at a dataset"));
+    checked(H5Sselect_hyperslab(file.id(), H5S_SELECT_SET, &start, nullptr, &count, nullptr), "cannot select rows");
+    checked(H5Dread(dataset, type, memory.id(), file.id(), H5P_DEFAULT, numbers), "cannot be read");
 }
 
 } // namespace carrom::h5

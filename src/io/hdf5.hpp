@@ -100,8 +100,8 @@ struct Rows {
     std::uint64_t begin = 0, end = 0;
 };
 
-/// This rank's rows of a dataset that all ranks have open: of its only axis, or of the second one where the first counts
-/// frames. Not collective: a rank's rows are one large piece of the file, so there is nothing for MPI-IO to gather.
+/// This rank's rows, at least one, of a dataset of one axis that all ranks have open. Not collective: a rank's rows are one
+/// large piece of the file, so there is nothing for MPI-IO to gather.
 void read_rows(hid_t dataset, const Rows& rows, hid_t type, void* numbers);
 
 } // namespace carrom::h5
