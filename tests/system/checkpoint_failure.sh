@@ -57,10 +57,10 @@ if strace -o /dev/null true 2>/dev/null; then
     fault 0 pwrite64:error=EIO:when=1   # the structure of the file, on its first and its last write
     fault 0 pwrite64:error=ENOSPC:when=20+
     fault 0 pwrite64:error=EIO:when=37+ # then, on this thread, the sums
-    fault 0 pwrite64:error=EIO:when=40  # the seal
     fault 2 pwrite64:error=EIO:when=1+  # the discs
     fault 1 pwrite64:error=ENOSPC:when=3
     fault 0 fsync:error=EIO:when=1
+    fault 0 fsync:error=EIO:when=2      # the seal
     fault 2 fsync:error=EIO:when=1
     fault 0 fallocate:error=ENOSPC:when=1
     fault 0 pread64:error=EIO:when=1+
