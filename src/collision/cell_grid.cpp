@@ -54,6 +54,8 @@ void CellGrid::build(std::span<const Disc> discs, const GridFrame& frame, double
     frame_ = frame;
     time_ = time;
     duration_ = duration;
+    apart_.clear();
+    longest_flight_ = 0;
     n_rows_inverse_ = rows() == 1 ? 0 : ~std::uint64_t{0} / rows() + 1;
     const std::size_t n = discs.size();
     order_.resize(n);
@@ -175,6 +177,30 @@ void CellGrid::place(std::uint32_t slot, const Disc& disc) {
     lane[3 * lane_length_] = static_cast<float>(disc.vy * duration_ * cells);
 }
 
+void CellGrid::set_apart(double speed) {
+    const double flight = speed * duration_ * frame_.cells_per_length();
+    const auto longest = static_cast<float>(flight * flight);
+    float *x = lanes_.data(), *y = x + lane_length_, *vx = y + lane_length_, *vy = vx + lane_length_;
+    std::vector<float> kept; // four numbers a disc
+    float longest_squared = 0;
+    for (std::size_t slot = 0; slot < order_.size(); ++slot) {
+        const float squared = vx[slot] * vx[slot] + vy[slot] * vy[slot];
+        if (!(squared > longest)) continue;
+        longest_squared = std::max(longest_squared, squared);
+        apart_.push_back(order_[slot]);
+        kept.insert(kept.end(), {x[slot], y[slot], vx[slot], vy[slot]});
+        // Far from everybody and from each other, and flying away: the filter keeps pairs without relative velocity.
+        x[slot] = y[slot] = 1e6f * static_cast<float>(apart_.size());
+        vx[slot] = vy[slot] = 1e3f * static_cast<float>(apart_.size());
+    }
+    longest_flight_ = std::sqrt(static_cast<double>(longest_squared));
+    apart_length_ = apart_.size() + filter_padding;
+    apart_lanes_.assign(4 * apart_length_, 0.0f);
+    for (std::size_t k = 0; k < apart_.size(); ++k) {
+        for (std::size_t lane = 0; lane < 4; ++lane) apart_lanes_[lane * apart_length_ + k] = kept[4 * k + lane];
+    }
+}
+
 void CellGrid::reorder(std::span<Disc> discs, std::size_t n_own, int n_threads) {
     ensure(order_.size() >= n_own && discs.size() >= n_own, "discs are brought into the order of a grid that holds them");
     std::size_t n_placed = 0; // slot_of_ becomes the list of own discs by slot
@@ -207,7 +233,7 @@ void CellGrid::update_flight(LocalIndex index, const Disc& disc) { place(slot_of
 
 float CellGrid::touching_squared(double diameter) const {
     // Positions and velocities carry an error of 2^-24 of the frame's size; the filter allows for its own rounding.
-    const double extent = std::max(frame_.n_columns, frame_.n_rows) + 4.0 * frame_.n_reach;
+    const double extent = std::max(frame_.n_columns, frame_.n_rows) + 4.0 * std::max<double>(frame_.n_reach, longest_flight_);
     const double touching = diameter / frame_.cell_width * (1 + 0x1p-18) + 0x1p-21 * extent;
     return static_cast<float>(touching * touching);
 }

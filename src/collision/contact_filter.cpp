@@ -95,29 +95,70 @@ std::size_t FilterColumn(const CellGrid& grid, int column, float touching_square
     return n_pairs;
 }
 
+/// A flight between two times, as cells.
+struct Path {
+    float x_begin, x_end, y_begin, y_end;
+
+    Path(const FlightLanes& lanes, std::uint32_t slot, float from)
+        : x_begin(lanes.x[slot] + from * lanes.vx[slot]), x_end(lanes.x[slot] + lanes.vx[slot]),
+          y_begin(lanes.y[slot] + from * lanes.vy[slot]), y_end(lanes.y[slot] + lanes.vy[slot]) {}
+};
+
+/// Calls visit(run) for the runs of slots within `half_reach` of a path.
+template <class Visit> HWY_INLINE void for_each_run(const CellGrid& grid, const Path& path, float half_reach, const Visit& visit) {
+    const int first_column = grid.clamped_column(HWY_MIN(path.x_begin, path.x_end) - half_reach);
+    const int last_column = grid.clamped_column(HWY_MAX(path.x_begin, path.x_end) + half_reach);
+    const int first_row = grid.clamped_row(HWY_MIN(path.y_begin, path.y_end) - half_reach);
+    const int last_row = grid.clamped_row(HWY_MAX(path.y_begin, path.y_end) + half_reach);
+    for (int column = first_column; column <= last_column; ++column) visit(grid.run(column, first_row, last_row));
+}
+
 std::size_t FilterAround(const CellGrid& grid, LocalIndex index, float from, float half_reach, float touching_squared,
                          std::vector<SlotPair>& pairs, std::size_t n_pairs) {
     const hn::ScalableTag<float> d;
     const auto n_lanes = static_cast<std::uint32_t>(hn::Lanes(d));
     const FlightLanes lanes = grid.lanes();
     const std::uint32_t slot = grid.slot_of(index);
-    const float x_end = lanes.x[slot] + lanes.vx[slot], x_begin = lanes.x[slot] + from * lanes.vx[slot];
-    const float y_end = lanes.y[slot] + lanes.vy[slot], y_begin = lanes.y[slot] + from * lanes.vy[slot];
-    const int first_column = grid.clamped_column(HWY_MIN(x_begin, x_end) - half_reach);
-    const int last_column = grid.clamped_column(HWY_MAX(x_begin, x_end) + half_reach);
-    const int first_row = grid.clamped_row(HWY_MIN(y_begin, y_end) - half_reach);
-    const int last_row = grid.clamped_row(HWY_MAX(y_begin, y_end) + half_reach);
     const Broadcast flight(d, lanes, slot, touching_squared);
-    for (int column = first_column; column <= last_column; ++column) {
-        const SlotRange run = grid.run(column, first_row, last_row);
+    for_each_run(grid, Path(lanes, slot, from), half_reach, [&](const SlotRange run) {
         SlotPair* out = room(pairs, n_pairs, run.end - run.begin);
         for (std::uint32_t other = run.begin; other < run.end; other += n_lanes) {
             std::uint64_t bits = lanes_that_touch(d, lanes, other, run.end - other, flight);
             if (slot - other < n_lanes) bits &= ~(std::uint64_t{1} << (slot - other)); // not with itself
             for (; bits != 0; bits &= bits - 1) out[n_pairs++] = {slot, other + static_cast<std::uint32_t>(std::countr_zero(bits))};
         }
+    });
+    return n_pairs;
+}
+
+/// Writes (first, second) for each slot `second` of `run` in `lanes` that might touch `flight`.
+template <class D>
+std::size_t FilterRun(D d, const Broadcast<D>& flight, std::uint32_t first, const FlightLanes& lanes, SlotRange run,
+                      std::vector<SlotPair>& pairs, std::size_t n_pairs) {
+    SlotPair* out = room(pairs, n_pairs, run.end - run.begin);
+    const auto n_lanes = static_cast<std::uint32_t>(hn::Lanes(d));
+    for (std::uint32_t other = run.begin; other < run.end; other += n_lanes) {
+        std::uint64_t bits = lanes_that_touch(d, lanes, other, run.end - other, flight);
+        for (; bits != 0; bits &= bits - 1) out[n_pairs++] = {first, other + static_cast<std::uint32_t>(std::countr_zero(bits))};
     }
     return n_pairs;
+}
+
+std::size_t FilterApart(const CellGrid& grid, std::uint32_t k, float half_reach, float touching_squared,
+                        std::vector<SlotPair>& pairs, std::size_t n_pairs) {
+    const hn::ScalableTag<float> d;
+    const FlightLanes apart = grid.apart_lanes(), lanes = grid.lanes();
+    const Broadcast flight(d, apart, k, touching_squared);
+    for_each_run(grid, Path(apart, k, 0), half_reach, [&](const SlotRange run) { n_pairs = FilterRun(d, flight, k, lanes, run, pairs, n_pairs); });
+    return n_pairs;
+}
+
+std::size_t FilterApartPairs(const CellGrid& grid, std::uint32_t k, float touching_squared, std::vector<SlotPair>& pairs,
+                             std::size_t n_pairs) {
+    const hn::ScalableTag<float> d;
+    const FlightLanes apart = grid.apart_lanes();
+    const SlotRange later{k + 1, static_cast<std::uint32_t>(grid.apart().size())};
+    return FilterRun(d, Broadcast(d, apart, k, touching_squared), k, apart, later, pairs, n_pairs);
 }
 
 const char* FilterTarget() { return hwy::TargetName(HWY_TARGET); }
@@ -130,6 +171,8 @@ namespace carrom {
 
 HWY_EXPORT(FilterColumn);
 HWY_EXPORT(FilterAround);
+HWY_EXPORT(FilterApart);
+HWY_EXPORT(FilterApartPairs);
 HWY_EXPORT(FilterTarget);
 
 std::size_t filter_column(const CellGrid& grid, int column, float touching_squared, std::vector<SlotPair>& pairs) {
@@ -139,6 +182,16 @@ std::size_t filter_column(const CellGrid& grid, int column, float touching_squar
 std::size_t filter_around(const CellGrid& grid, LocalIndex index, float from, float half_reach, float touching_squared,
                           std::vector<SlotPair>& pairs, std::size_t n_pairs) {
     return HWY_DYNAMIC_DISPATCH(FilterAround)(grid, index, from, half_reach, touching_squared, pairs, n_pairs);
+}
+
+std::size_t filter_apart(const CellGrid& grid, std::uint32_t k, float half_reach, float touching_squared,
+                         std::vector<SlotPair>& pairs, std::size_t n_pairs) {
+    return HWY_DYNAMIC_DISPATCH(FilterApart)(grid, k, half_reach, touching_squared, pairs, n_pairs);
+}
+
+std::size_t filter_apart_pairs(const CellGrid& grid, std::uint32_t k, float touching_squared, std::vector<SlotPair>& pairs,
+                               std::size_t n_pairs) {
+    return HWY_DYNAMIC_DISPATCH(FilterApartPairs)(grid, k, touching_squared, pairs, n_pairs);
 }
 
 const char* filter_target() { return HWY_DYNAMIC_DISPATCH(FilterTarget)(); }

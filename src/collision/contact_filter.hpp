@@ -23,6 +23,13 @@ std::size_t filter_column(const CellGrid& grid, int column, float touching_squar
 std::size_t filter_around(const CellGrid& grid, LocalIndex index, float from, float half_reach, float touching_squared,
                           std::vector<SlotPair>& pairs, std::size_t n_pairs);
 
+/// The same for disc k of those that the grid has set apart, for all of the window: `first` is k; `second` is a slot, or
+/// with filter_apart_pairs another place among those set apart, after k.
+std::size_t filter_apart(const CellGrid& grid, std::uint32_t k, float half_reach, float touching_squared,
+                         std::vector<SlotPair>& pairs, std::size_t n_pairs);
+std::size_t filter_apart_pairs(const CellGrid& grid, std::uint32_t k, float touching_squared, std::vector<SlotPair>& pairs,
+                               std::size_t n_pairs);
+
 /// The instruction set in use, as in "AVX3".
 const char* filter_target();
 

@@ -66,10 +66,11 @@ Search<Law>::Search(const Law& law, int n_threads)
     : law_(law), n_threads_(n_threads), lists_(static_cast<std::size_t>(n_threads)) {}
 
 template <class Law>
-void Search<Law>::predict_all(const Population& population, const CellGrid& grid, const Window& window) {
+void Search<Law>::predict_all(const Population& population, const CellGrid& grid, const Window& window, double reach) {
     const Bounds bounds(law_, grid);
     const int n_columns = grid.frame().n_columns;
     const int chunk = std::max(1, n_columns / (16 * n_threads_));
+    const auto n_apart = static_cast<std::int64_t>(grid.apart().size());
 #pragma omp parallel num_threads(n_threads_)
     {
         SearchLists& lists = lists_[static_cast<std::size_t>(omp_get_thread_num())];
@@ -78,6 +79,10 @@ void Search<Law>::predict_all(const Population& population, const CellGrid& grid
 #pragma omp for schedule(dynamic, chunk)
         for (int column = 0; column < n_columns; ++column) {
             predict_column(population, grid, window, bounds, column, lists);
+        }
+#pragma omp for schedule(dynamic, 8)
+        for (std::int64_t k = 0; k < n_apart; ++k) {
+            predict_apart(population, grid, window, bounds, reach, static_cast<std::uint32_t>(k), lists);
         }
     }
 }
@@ -101,12 +106,29 @@ void Search<Law>::predict_column(const Population& population, const CellGrid& g
     }
 }
 
+/// How far from a disc's path the cell of one that it touches can be: they are a diameter apart then, and the other one
+/// is half a reach less a radius from its cell.
+template <class Law> float Search<Law>::half_reach(const CellGrid& grid, double reach) const {
+    return grid.cells_of(reach / 2 + law_.radius() + law_.slack());
+}
+
+/// Disc k of those set apart, with all others that come after it.
+template <class Law>
+void Search<Law>::predict_apart(const Population& population, const CellGrid& grid, const Window& window, const Bounds& bounds,
+                                double reach, std::uint32_t k, SearchLists& lists) const {
+    const std::span<const LocalIndex> order = grid.order(), apart = grid.apart();
+    const std::size_t n_slots = filter_apart(grid, k, half_reach(grid, reach), bounds.touching_squared, lists.pairs, 0);
+    lists.n_pairs = filter_apart_pairs(grid, k, bounds.touching_squared, lists.pairs, n_slots);
+    for (std::size_t i = 0; i < lists.n_pairs; ++i) {
+        const std::uint32_t other = lists.pairs[i].second;
+        predict_pair(population, window, window.first_micro, {}, apart[k], i < n_slots ? order[other] : apart[other], lists);
+    }
+}
+
 template <class Law>
 void Search<Law>::predict_again(const Population& population, const CellGrid& grid, const Window& window, int from,
                                 double reach, std::span<const LocalIndex> hit, std::span<const WindowState> states) {
     const Bounds bounds(law_, grid);
-    // Two discs that touch are a diameter apart, and the other one is half a reach less a radius from its cell.
-    const float half_reach = grid.cells_of(reach / 2 + law_.radius() + law_.slack());
     const auto begin = static_cast<float>((from - window.begin()) / window.duration());
     const std::span<const LocalIndex> order = grid.order();
     const auto n_batches = static_cast<std::int64_t>((hit.size() + hits_per_batch - 1) / hits_per_batch);
@@ -118,7 +140,7 @@ void Search<Law>::predict_again(const Population& population, const CellGrid& gr
         for (std::int64_t k = 0; k < n_batches; ++k) {
             const std::size_t first = static_cast<std::size_t>(k) * hits_per_batch;
             const std::span<const LocalIndex> batch = hit.subspan(first, std::min(hits_per_batch, hit.size() - first));
-            look_around(grid, bounds, begin, half_reach, batch, lists);
+            look_around(grid, bounds, begin, half_reach(grid, reach), batch, lists);
             for_each_ahead(lists.pairs, lists.n_pairs, [&](const SlotPair& pair) {
                 prefetch(population.discs, order[pair.second]);
             }, [&](const SlotPair& pair) {

@@ -64,7 +64,7 @@ template <class Law> void OneEngine<Law>::run_window(int n_left) {
     const Window window = settle(n_left);
     {
         const PhaseClock::Scope scope(clock_, Phase::search);
-        search_.predict_all(population(), grid_, window);
+        search_.predict_all(population(), grid_, window, reach_of(window_needs(), window.duration(), usual_speed_));
     }
     int m = window.first_micro;
     while (m < window.end_micro() && run_micro_step(window, m)) ++m;
@@ -84,12 +84,15 @@ template <class Law> void OneEngine<Law>::run_window(int n_left) {
 template <class Law> Window OneEngine<Law>::settle(int n_left) {
     const PhaseClock::Scope scope(clock_, Phase::settle);
     if (part_ == 0 && n_windows_ % windows_per_reorder == 0 && n_windows_ > 0) reorder();
-    if (part_ == 0) agree_on_speed();
+    if (part_ == 0) {
+        agree_on_speed();
+        if (n_windows_ == 0 || n_parts_ > 1) survey_speeds();
+    }
     const Window window = choose(n_left);
     migrate(window.anchor());
     const double reach = reach_of(window_needs(), window.duration());
     fetch_halo(window.anchor(), reach);
-    build_grid(window, reach);
+    build_grid(window, reach, reach_of(window_needs(), window.duration(), usual_speed_));
     return window;
 }
 
@@ -103,7 +106,7 @@ template <class Law> void OneEngine<Law>::settle_now() {
     Window now;
     now.first_micro = micro_;
     now.part_end = 0;
-    build_grid(now, reach);
+    build_grid(now, reach, reach);
 }
 
 template <class Law> Settled OneEngine<Law>::settled() {
@@ -118,12 +121,14 @@ template <class Law> void OneEngine<Law>::add_to(Totals& totals) {
         measure_overlaps(population(), grid_, micro_, {law_.diameter(), law_.tolerance()}, communicator_, tuning_.threads, totals);
 }
 
-template <class Law> void OneEngine<Law>::build_grid(const Window& window, double reach) {
+/// Halo discs come from within `reach`. Cells are made for `usual_reach`; discs that are too fast for it are set apart.
+template <class Law> void OneEngine<Law>::build_grid(const Window& window, double reach, double usual_reach) {
     const double x_low = std::max(0.0, discs_.strips().low(communicator_.rank()) - reach);
     const double x_high = std::min(law_.box_size(), discs_.strips().high(communicator_.rank()) + reach);
     const std::span<const Disc> all = population().discs;
-    const GridFrame frame = make_frame(x_low, x_high, 0, law_.box_size(), reach, all.size(), tuning_.cell_width.value_or(0));
+    const GridFrame frame = make_frame(x_low, x_high, 0, law_.box_size(), usual_reach, all.size(), tuning_.cell_width.value_or(0));
     grid_.build(all, frame, window.anchor(), window.begin(), std::max(window.duration(), 1e-6), tuning_.threads);
+    if (usual_reach < reach) grid_.set_apart(usual_speed_ * (1 - 1e-6));
     states_.assign(all.size(), 0);
 }
 
@@ -137,6 +142,7 @@ template <class Law> Window OneEngine<Law>::choose(int n_left) {
         window.n_micro = choice.n_micro;
         n_parts_ = choice.n_parts;
         in_parts_ = n_parts_ > 1;
+        usual_speed_ = in_parts_ && tuning_.usual_speed ? *tuning_.usual_speed * window_speed_ : choice.usual_speed;
         if (in_parts_) outcomes_ = discs_.all();
     }
     if (n_parts_ > 1) {
@@ -148,7 +154,7 @@ template <class Law> Window OneEngine<Law>::choose(int n_left) {
 
 template <class Law> WindowNeeds OneEngine<Law>::window_needs() const {
     return {law_.box_size(), law_.radius() + law_.slack(), static_cast<double>(discs_.n_total()), window_speed_, hits_per_micro_step_,
-            static_cast<double>(discs_.n_total()) / communicator_.size()};
+            static_cast<double>(discs_.n_total()) / communicator_.size(), spread_.largest > 0 ? &spread_ : nullptr};
 }
 
 template <class Law> void OneEngine<Law>::agree_on_speed() {
@@ -294,6 +300,18 @@ template <class Law> void OneEngine<Law>::hear_of_hits(const Window& window, int
         grid_.update_flight(index, discs_.all()[index]);
         hits_.push_back(index);
     }
+}
+
+/// Counts how many discs are how fast, all ranks having agreed on the largest speed. **Collective.**
+template <class Law> void OneEngine<Law>::survey_speeds() {
+    if (!(largest_speed_ > 0)) return;
+    SpeedSpread::Counts counts{};
+    for (const Disc& disc : own()) {
+        const double part = std::sqrt(squared_speed_of(disc)) / largest_speed_ * SpeedSpread::n_parts;
+        counts[std::min(static_cast<std::size_t>(part), SpeedSpread::n_parts - 1)] += 1;
+    }
+    communicator_.sum(counts);
+    spread_ = SpeedSpread(counts, largest_speed_);
 }
 
 template <class Law> void OneEngine<Law>::sync() {

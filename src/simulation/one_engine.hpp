@@ -60,7 +60,8 @@ private:
     void note_velocities(std::span<const Disc> results);
     void log_collisions(std::span<const Disc> results, int m);
     void sync();
-    void build_grid(const Window& window, double reach);
+    void build_grid(const Window& window, double reach, double usual_reach);
+    void survey_speeds();
 
     Communicator communicator_;
     Tuning tuning_;
@@ -78,6 +79,8 @@ private:
     double refreshed_speed_ = 0; ///< what becomes of it then, if a sync has looked at all discs
     double hits_per_micro_step_ = 0; ///< per disc, over the last sync interval
     double window_speed_ = 0;    ///< what the window's reach allows for
+    double usual_speed_ = 0;     ///< what its cells allow for
+    SpeedSpread spread_;         ///< when the last micro-step began that was cut
     bool speed_exceeded_ = false;
 
     double settled_time_ = 0;    ///< whose places the discs were last settled by

@@ -3,10 +3,25 @@
 // on numbers that all ranks know, so all choose the same; the choice costs or saves time and has no say in the bits.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
 namespace carrom {
+
+/// How many discs are how fast: where few are much faster than the rest, cells need not allow for those.
+struct SpeedSpread {
+    static constexpr std::size_t n_parts = 16;
+    using Counts = std::array<std::uint64_t, n_parts>;
+
+    double largest = 0; ///< no disc was faster when they were counted
+    std::array<double, n_parts> share_above{}; ///< the share of discs faster than k parts of that
+
+    SpeedSpread() = default;
+    /// `counts`: discs whose speed is between k and k + 1 parts of `largest`, of all ranks.
+    SpeedSpread(const Counts& counts, double largest_speed);
+    double speed_of(std::size_t part) const { return largest * static_cast<double>(part) / n_parts; }
+};
 
 /// What the choice depends on: lengths in the scene's unit, speed in lengths per micro-step.
 struct WindowNeeds {
@@ -15,15 +30,19 @@ struct WindowNeeds {
     double largest_speed = 0;
     double hits_per_micro_step = 0; ///< how often a disc is taken, as far as is known
     double discs_per_rank = 0;
+    const SpeedSpread* spread = nullptr; ///< if it is known
 };
 
-/// How far two discs that meet inside a window of this duration can be apart at its anchor.
+/// How far two discs that meet inside a window of this duration can be apart at its anchor; the second: if neither is
+/// faster than `speed`.
 double reach_of(const WindowNeeds& needs, double duration);
+double reach_of(const WindowNeeds& needs, double duration, double speed);
 
 /// Micro-steps in the next window, 1 .. n_left, or fewer than none: how many parts to cut the next micro-step into.
 struct WindowChoice {
     int n_micro = 1;
     int n_parts = 1;
+    double usual_speed = 0; ///< what cells allow for; the few discs that are faster have to look around themselves
 };
 WindowChoice choose_window(const WindowNeeds& needs, int n_left, std::optional<double> wanted);
 

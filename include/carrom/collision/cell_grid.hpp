@@ -71,6 +71,15 @@ public:
     /// and makes the grid unusable until it is built again. Neighbours in space become neighbours in memory.
     void reorder(std::span<Disc> discs, std::size_t n_own, int n_threads);
 
+    /// Takes the flights of discs that are faster than `speed`, in lengths per unit of time, out of the lanes: no disc that
+    /// looks at their slots will find them there. They are listed in `apart()` until the grid is built again.
+    void set_apart(double speed);
+    std::span<const LocalIndex> apart() const { return apart_; }
+    FlightLanes apart_lanes() const {
+        const float* x = apart_lanes_.data();
+        return {x, x + apart_length_, x + 2 * apart_length_, x + 3 * apart_length_};
+    }
+
     /// Takes over a disc's new free flight. Its cell stays what it was.
     void update_flight(LocalIndex index, const Disc& disc);
 
@@ -154,6 +163,10 @@ private:
     std::vector<std::uint32_t> cell_of_, slot_of_; ///< by disc
     std::size_t lane_length_ = 0;            ///< slots and padding for whole vectors
     std::vector<float> lanes_;               ///< x, y, vx, vy by slot, one after the other
+    std::vector<LocalIndex> apart_;
+    std::size_t apart_length_ = 0;
+    std::vector<float> apart_lanes_;         ///< the same by place in `apart_`
+    double longest_flight_ = 0;              ///< of those, in cells
 };
 
 } // namespace carrom

@@ -36,8 +36,8 @@ template <class Law> class Search {
 public:
     Search(const Law& law, int n_threads);
 
-    /// Predicts everything in `window`. The grid must have been built for it.
-    void predict_all(const Population& population, const CellGrid& grid, const Window& window);
+    /// Predicts everything in `window`. The grid must have been built for it; `reach` is that of discs that it has not set apart.
+    void predict_all(const Population& population, const CellGrid& grid, const Window& window, double reach);
 
     /// Predicts the discs `hit` (own or halo; `wall` stands for none) by micro-step `from` - 1, for the window's micro-steps
     /// from `from` on. The grid and `states`, by disc, must know of it; `reach` is the window's.
@@ -54,8 +54,10 @@ private:
     using States = std::span<const WindowState>; ///< by disc; empty while all discs are as they came
 
     void predict_column(const Population&, const CellGrid&, const Window&, const Bounds&, int column, SearchLists&) const;
+    void predict_apart(const Population&, const CellGrid&, const Window&, const Bounds&, double reach, std::uint32_t k, SearchLists&) const;
     void look_around(const CellGrid&, const Bounds&, float from, float half_reach, std::span<const LocalIndex> hit,
                      SearchLists&) const;
+    float half_reach(const CellGrid&, double reach) const;
     void predict_pair(const Population&, const Window&, int from, States, LocalIndex a, LocalIndex b, SearchLists&) const;
     void predict_wall(const Population&, const Window&, int from, States, LocalIndex index, SearchLists&) const;
 

@@ -56,6 +56,7 @@ std::vector<Tuning> tunings(std::size_t scene_number, std::size_t count, const C
     const std::optional<double> windows[] = {std::nullopt, 1.0, 4.0, 64.0, 0.5, 0.09};
     const std::optional<double> cells[] = {std::nullopt, 1.0, 0.5, 0.26, 2.0};
     const double limits[] = {1.05, 0.0, 1e9};
+    const std::optional<double> usual_speeds[] = {0.5, std::nullopt, 0.9, 0.05};
     std::vector<Tuning> list;
     for (std::size_t k = 0; k < count; ++k) {
         const auto shape = static_cast<std::size_t>(3 * world.size() + omp_get_max_threads());
@@ -65,6 +66,7 @@ std::vector<Tuning> tunings(std::size_t scene_number, std::size_t count, const C
         tuning.discs_per_thread = 1;
         tuning.window = windows[n % 6];
         tuning.cell_width = cells[n % 5];
+        tuning.usual_speed = usual_speeds[(n / 6) % 4];
         tuning.rebalance_above = limits[(n / 2) % 3];
         list.push_back(tuning);
     }
@@ -78,7 +80,7 @@ void check_against_reference(const std::vector<test::TestScene>& scenes, std::si
         const Expected expected = expected_of(scene, world);
         for (const Tuning& tuning : tunings(s, n_tunings, world)) {
             INFO(scene.name << ", N = " << scene.discs.size() << ", window " << tuning.window.value_or(0) << ", cells "
-                            << tuning.cell_width.value_or(0) << ", rebalance above " << tuning.rebalance_above);
+                            << tuning.cell_width.value_or(0) << ", usual speed " << tuning.usual_speed.value_or(0) << ", rebalance above " << tuning.rebalance_above);
             const Totals totals = run(scene, tuning, world, static_cast<unsigned>(s));
             CHECK(totals.wall_collisions == expected.counters.wall_collisions);
             CHECK(totals.pair_collisions == expected.counters.pair_collisions);
