@@ -39,8 +39,11 @@ TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int 
     plan.leaving.resize(plan.partners.size());
     if (strips.size() == 1) return plan;
     const PartnerPlaces places(plan.partners);
+    const double low = strips.low(rank), high = strips.high(rank);
     for (std::size_t i = 0; i < own.size(); ++i) {
-        const int owner = strips.owner(own[i].x_at(time));
+        const double x = own[i].x_at(time);
+        if (x >= low && x < high) continue; // nearly all
+        const int owner = strips.owner(x);
         if (owner != rank) plan.leaving[places[owner]].push_back(static_cast<LocalIndex>(i));
     }
     return plan;
@@ -52,8 +55,10 @@ TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own
     plan.leaving.resize(plan.partners.size());
     if (plan.partners.empty()) return plan;
     const PartnerPlaces places(plan.partners);
+    const double low = strips.low(rank), high = strips.high(rank);
     for (std::size_t i = 0; i < own.size(); ++i) {
         const double x = own[i].x_at(time);
+        if (x - reach >= low && x + reach < high) continue; // nearly all
         const auto [first, last] = strips.ranks_touching(x - reach, x + reach);
         for (int other = first; other <= last; ++other) {
             if (other == rank || strips.is_empty(other)) continue;
