@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <future>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ public:
     /// this.
     Checkpoints(const Scene& scene, std::int64_t first_step, bool is_restart, const StopSignals& signals, const Communicator& ranks,
                 int n_threads);
+    ~Checkpoints() { if (removal_.valid()) removal_.wait(); }
+    Checkpoints(const Checkpoints&) = delete;
+    Checkpoints& operator=(const Checkpoints&) = delete;
 
     /// Up to which step to go before looking up again.
     std::int64_t next_look(std::int64_t step) const;
@@ -51,6 +55,7 @@ private:
     Stopwatch stretch_watch_;
     double seconds_since_written_ = 0;     ///< on rank 0's clock
     std::vector<std::string> kept_;        ///< paths, oldest first
+    std::future<void> removal_;            ///< of older ones, by rank 0
 };
 
 } // namespace carrom
