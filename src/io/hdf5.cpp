@@ -2,6 +2,7 @@
 #include "hdf5.hpp"
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 
 #include "carrom/io/start_io.hpp"
@@ -11,6 +12,7 @@
 namespace carrom {
 
 void start_io() {
+    std::signal(SIGXFSZ, SIG_IGN);
     setenv("HDF5_USE_FILE_LOCKING", "BEST_EFFORT", 0);
     H5dont_atexit();
     H5open(); // started before MPI it does not hook into MPI's end either
