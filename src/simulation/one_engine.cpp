@@ -46,6 +46,7 @@ OneEngine<Law>::OneEngine(const Scene& scene, StoredState state, const Communica
 
 template <class Law> void OneEngine<Law>::advance_towards(std::int64_t last_step) {
     if (n_windows_ == 0) { // discs come in any order
+        const PhaseClock::Scope scope(clock_, Phase::settle);
         settle_now();
         reorder();
     }
@@ -182,17 +183,11 @@ template <class Law> void OneEngine<Law>::fetch_halo(double time, double reach) 
 
 /// Decides and applies micro-step m. False, with nothing done, if discs have become faster than the window allows for.
 template <class Law> bool OneEngine<Law>::run_micro_step(const Window& window, int m) {
-    {
-        const PhaseClock::Scope scope(clock_, Phase::resolve);
-        search_.collect(window, m, states_, live_);
-    }
-    std::uint64_t n_candidates = 0;
-    for (const Candidate& candidate : live_) n_candidates += candidate.p < discs_.n_own();
+    const PhaseClock::Scope resolving(clock_, Phase::resolve);
+    search_.collect(window, m, states_, live_);
+    const std::uint64_t n_candidates = count_ours(live_);
     if (in_parts_) strike_taken(live_);
-    {
-        const PhaseClock::Scope scope(clock_, Phase::resolve);
-        local_.resolve(population(), live_, verdicts_);
-    }
+    local_.resolve(population(), live_, verdicts_);
     // Within a micro-step no disc flies on after its collision, so only later ones have to worry about its speed.
     std::uint64_t news[2] = {verdicts_.undecided.size(), speed_exceeded_ && m > window.first_micro ? 1u : 0u};
     if (communicator_.size() > 1) {
@@ -205,9 +200,17 @@ template <class Law> bool OneEngine<Law>::run_micro_step(const Window& window, i
         across_strips_.decide(population(), verdicts_.undecided, news[0], verdicts_.kept);
     }
     n_candidates_ += n_candidates;
-    for (const Candidate& candidate : verdicts_.kept) n_kept_ += candidate.p < discs_.n_own();
+    n_kept_ += count_ours(verdicts_.kept);
     apply(window, m);
     return true;
+}
+
+/// Two ranks may know of a candidate; it is ours if its first disc is.
+template <class Law> std::uint64_t OneEngine<Law>::count_ours(std::span<const Candidate> candidates) const {
+    if (communicator_.size() == 1) return candidates.size();
+    std::uint64_t n = 0;
+    for (const Candidate& candidate : candidates) n += candidate.p < discs_.n_own();
+    return n;
 }
 
 /// Candidates with a disc that an earlier part of this micro-step has taken are lost, but they were candidates.

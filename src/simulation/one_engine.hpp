@@ -54,6 +54,7 @@ private:
     void migrate(double time);
     void fetch_halo(double time, double reach);
     bool run_micro_step(const Window& window, int m);
+    std::uint64_t count_ours(std::span<const Candidate> candidates) const;
     void strike_taken(std::vector<Candidate>& live) const;
     void apply(const Window& window, int m);
     void hear_of_hits(const Window& window, int m);
