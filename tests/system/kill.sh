@@ -62,7 +62,7 @@ patience=300
 run 3 run "${scene[@]}" --steps "$steps" --restart latest --report report.json
 expect_code 0 'the last stretch'
 killed=$(json_value report.json state_hash)
-run 2 run "${scene[@]}" --steps "$steps" --set output.checkpoint.folder=whole --report report.json
+run 2 run "${scene[@]}" --steps "$steps" --set output.checkpoint.folder=whole --set output.checkpoint.every_steps="$endless" --report report.json
 expect_code 0 'uninterrupted'
 [ "$(json_value report.json state_hash)" = "$killed" ] || complain "another state hash after $n_kills kills"
 [ "$(find kept -name '*.h5' | wc -l)" -ge 1 ] || complain 'no checkpoint is left'
