@@ -71,6 +71,7 @@ void Checkpoints::write(const Simulation& simulation, Recordings& recordings) {
     CheckpointHeader header = header_of(scene_);
     header.step = simulation.step();
     header.micro_steps_done = simulation.micro_steps_done();
+    header.frame = simulation.frame();
     const std::string path = checkpoint_path(scene_.checkpoint->folder, header.step);
     write_checkpoint(path, header, simulation.discs(), ranks_, n_threads_);
     last_written_ = header.step;

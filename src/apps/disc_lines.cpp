@@ -89,7 +89,7 @@ bool DiscLines::is_due(std::int64_t step) const {
 }
 
 void DiscLines::write(const Simulation& simulation) {
-    const std::span<const Disc> discs = simulation.discs();
+    const std::span<const Disc> discs = simulation.shown();
     const double clock = simulation.clock(), velocity_unit = simulation.velocity_unit();
     const std::vector<LocalIndex> order = order_by_id(discs);
     auto next = order.begin();

@@ -118,14 +118,17 @@ ExitCode info(const std::string& path, const Communicator& ranks) {
 }
 
 /// What no state of a run can be; empty if all is well.
-std::string flaw_of(const Disc& disc, const CheckpointHeader& header) {
-    const double clock = header.clock(), x = disc.x_at(clock), y = disc.y_at(clock);
+std::string flaw_of(const Disc& disc, const CheckpointHeader& header, const Extent& box) {
+    const double clock = header.clock();
+    const Disc shown = header.frame.in_box(disc, clock);
+    const double x = shown.x, y = shown.y;
     // A disc may stand a little beyond its wall for the rest of a micro-step, or by the rounding of L - r.
     const double slack = 1e-6 * header.radius + 0x1p-50 * header.box_size;
-    const double low = header.radius - slack, high = header.box_size - header.radius + slack;
+    const double margin = header.radius - slack;
     if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(disc.vx) || !std::isfinite(disc.vy))
         return fmt::format("disc {} has a number that is not finite", disc.id);
-    if (x < low || x > high || y < low || y > high) return fmt::format("disc {} is outside the box, at ({}, {})", disc.id, x, y);
+    if (x < box.x_low + margin || x > box.x_high - margin || y < box.y_low + margin || y > box.y_high - margin)
+        return fmt::format("disc {} is outside the box, at ({}, {})", disc.id, x, y);
     if (!(disc.tau >= 0 && disc.tau <= clock)) return fmt::format("disc {} has the time {}, and it is {} now", disc.id, disc.tau, clock);
     return {};
 }
@@ -133,10 +136,12 @@ std::string flaw_of(const Disc& disc, const CheckpointHeader& header) {
 /// Bytes and hash are checked by reading; then the discs themselves. **Collective.**
 void verify_checkpoint(const std::string& path, const Communicator& ranks) {
     const Checkpoint checkpoint = read_checkpoint(path, ranks);
+    const Effects effects = scene_of(checkpoint.header, {}).effects; // a scene that cannot be read is no use either
+    const Extent box = extent_at(effects, checkpoint.header.box_size, static_cast<double>(checkpoint.header.step));
     std::string flaw;
     std::uint64_t sums[] = {0, 0};
     for (const Disc& disc : checkpoint.discs) {
-        if (flaw.empty()) flaw = flaw_of(disc, checkpoint.header);
+        if (flaw.empty()) flaw = flaw_of(disc, checkpoint.header, box);
         sums[0] += disc.wall_collisions;
         sums[1] += disc.pair_collisions;
     }
@@ -144,7 +149,6 @@ void verify_checkpoint(const std::string& path, const Communicator& ranks) {
     if (flaw.empty() && (sums[0] != checkpoint.header.wall_collisions || sums[1] != 2 * checkpoint.header.pair_collisions))
         flaw = "the discs' collisions do not add up";
     agree(ranks, flaw.empty(), path + ": " + flaw, ExitCode::bad_input);
-    static_cast<void>(scene_of(checkpoint.header, {})); // a scene that cannot be read is no use either
 }
 
 void refuse(const std::string& path, const std::string& text) { throw InputError({{path, 0, text}}); }

@@ -21,7 +21,8 @@ TrajectoryLayout layout_of(const Scene& scene) {
     TrajectoryLayout layout;
     layout.program_version = version();
     layout.n_discs = scene.n_discs;
-    layout.box_size = scene.box_size;
+    const Extent end = extent_at(scene.effects, scene.box_size, static_cast<double>(scene.steps));
+    layout.box_size = std::max({scene.box_size, end.x_high, end.y_high}); // walls may move
     layout.radius = scene.radius;
     layout.velocity_unit = static_cast<double>(scene.micro_steps);
     layout.has_position = wanted.has_position;
@@ -78,7 +79,7 @@ void Recordings::record(const Simulation& simulation) {
     const std::int64_t step = simulation.step();
     if (log_) record_collisions();
     if (trajectory_ && step % scene_.trajectory->every_steps == 0)
-        trajectory_->append(step, simulation.discs(), simulation.clock());
+        trajectory_->append(step, simulation.shown(), simulation.clock());
     if (!scene_.checkpoint) commit_now_and_then();
 }
 

@@ -101,7 +101,8 @@ std::string plural(int count, const char* what) { return fmt::format("{} {}{}", 
 double ns_per_disc_step(const RunResult& result) { return ratio(1e9 * result.wall_seconds, disc_steps(result)); }
 
 double energy_drift(const RunResult& result) {
-    return ratio(result.end.kinetic_energy - result.start.kinetic_energy, result.start.kinetic_energy);
+    const auto all = [](const Totals& totals) { return totals.kinetic_energy + totals.potential_energy; };
+    return ratio(all(result.end) - all(result.start), all(result.start));
 }
 
 double collisions_per_disc(const Scene& scene, const RunResult& result) {
@@ -146,7 +147,8 @@ std::string summary_text(const Scene& scene, const RunResult& result) {
     text += line("overlapping", fmt::format("{} pairs at the end, {:.3g} per disc, by up to {:.2g} diameters; {} at the start",
                                             result.end.overlapping_pairs, overlapping_pairs_per_disc(result),
                                             deepest_overlap(scene, result), result.start.overlapping_pairs));
-    text += line("energy", fmt::format("{:.17g}, changed by {:.2g} of itself", result.end.kinetic_energy, energy_drift(result)));
+    const std::string height = scene.effects.gravity.is_any() ? fmt::format(" of motion, {:.17g} of height; the sum has", result.end.potential_energy) : ",";
+    text += line("energy", fmt::format("{:.17g}{} changed by {:.2g} of itself", result.end.kinetic_energy, height, energy_drift(result)));
     text += line("momentum", fmt::format("{:.17g} {:.17g}", result.end.momentum_x, result.end.momentum_y));
     text += line("state hash", to_string(result.end.hash));
     return text;
@@ -192,6 +194,7 @@ std::string report_text(const Scene& scene, const RunResult& result) {
         {"phase_seconds", phases},
         {"peak_bytes_per_disc", result.peak_bytes_per_disc},
     };
+    if (scene.effects.gravity.is_any()) report["potential_energy"] = result.end.potential_energy;
     if (scene.effects.are_any()) report["effects"] = description(scene.effects);
     // A scene's name is whatever bytes the file system allows; replaced where they are not UTF-8.
     return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';

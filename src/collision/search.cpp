@@ -241,6 +241,7 @@ template class Search<ContractedLaw>;
 template class Search<SingleLaw>;
 template class Search<SingleNaiveLaw>;
 template class Search<SingleContractedLaw>;
+template class Search<ElasticLaw>;
 template class Search<IdealGasLaw>;
 template class Search<InelasticLaw>;
 

@@ -1,24 +1,63 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "carrom/effects/effects.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace carrom {
 
+namespace {
+
+std::string description(const ContactEffect& contact) {
+    switch (contact.kind) {
+    case ContactKind::elastic: return {};
+    case ContactKind::none: return "discs pass through each other";
+    case ContactKind::restitution: return fmt::format("restitution {:g} of pairs", contact.restitution);
+    }
+    return {};
+}
+
+std::string description(const Side& side, const char* name) {
+    const std::string loss = side.restitution < 1 ? fmt::format(" of restitution {:g}", side.restitution) : "";
+    switch (side.kind) {
+    case SideKind::fixed: return fmt::format("{} wall{}", name, loss);
+    case SideKind::thermal: return fmt::format("{} wall of temperature {:g}", name, side.temperature);
+    case SideKind::moving: return fmt::format("{} wall{} moving at {:g}", name, loss, side.speed);
+    }
+    return {};
+}
+
+} // namespace
+
+bool Effects::have_plain_sides() const {
+    return std::all_of(sides.begin(), sides.end(), [](const Side& side) { return side.is_plain(); });
+}
+
 Effects per_micro_step(const Effects& effects, double micro_steps) {
     Effects scaled = effects;
     scaled.contact.contact_time *= micro_steps;
+    for (Side& side : scaled.sides) {
+        side.temperature /= micro_steps * micro_steps;
+        side.speed /= micro_steps;
+    }
+    scaled.gravity.x /= micro_steps * micro_steps;
+    scaled.gravity.y /= micro_steps * micro_steps;
     return scaled;
 }
 
 std::string description(const Effects& effects) {
-    switch (effects.contact.kind) {
-    case ContactKind::elastic: return {};
-    case ContactKind::none: return "discs pass through each other";
-    case ContactKind::restitution:
-        return fmt::format("restitution {:g} of pairs, contact time {:g}", effects.contact.restitution, effects.contact.contact_time);
-    }
-    return {};
+    std::string text = description(effects.contact);
+    const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
+    for (std::size_t k = 0; k < effects.sides.size(); ++k)
+        if (!effects.sides[k].is_plain()) add(description(effects.sides[k], side_names[k]));
+    if (effects.gravity.is_any()) add(fmt::format("gravity ({:g}, {:g})", effects.gravity.x, effects.gravity.y));
+    return text;
+}
+
+Extent extent_at(const Effects& effects, double box_size, double time) {
+    const auto& sides = effects.sides;
+    return {sides[0].speed * time, box_size + sides[1].speed * time, sides[2].speed * time, box_size + sides[3].speed * time};
 }
 
 } // namespace carrom

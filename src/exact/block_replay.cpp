@@ -29,6 +29,7 @@ double exact_reach(const ReplayWindow& window, double diameter, double box_size)
 }
 
 template <class Law> BlockReplay<Law>::BlockReplay(const Law& law) : scratch_(std::make_unique<Scratch>(law)) {}
+template <class Law> void BlockReplay<Law>::change_law(const Law& law) { scratch_->law = law; }
 template <class Law> BlockReplay<Law>::~BlockReplay() = default;
 template <class Law> BlockReplay<Law>::BlockReplay(BlockReplay&&) noexcept = default;
 
@@ -104,10 +105,11 @@ void BlockReplay<Law>::Scratch::gather(const ReplayGround& of_rank, const CellBl
     touching_squared = static_cast<float>(touching * touching);
     farthest = static_cast<float>((reach + sigma) / 2 + 0x1p-18 * extent + 1e-6);
     const double inner = law.radius() + law.slack() + 1e-3 * frame.cell_width + 0x1p-18 * extent * frame.cell_width;
-    x_inner_low = static_cast<float>((inner - x_corner) * cells_per_length);
-    y_inner_low = static_cast<float>((inner - y_corner) * cells_per_length);
-    x_inner_high = static_cast<float>((law.box_size() - inner - x_corner) * cells_per_length);
-    y_inner_high = static_cast<float>((law.box_size() - inner - y_corner) * cells_per_length);
+    const Extent walls = law.walls_between(window.begin, window.end);
+    x_inner_low = static_cast<float>((walls.x_low + inner - x_corner) * cells_per_length);
+    y_inner_low = static_cast<float>((walls.y_low + inner - y_corner) * cells_per_length);
+    x_inner_high = static_cast<float>((walls.x_high - inner - x_corner) * cells_per_length);
+    y_inner_high = static_cast<float>((walls.y_high - inner - y_corner) * cells_per_length);
     for (std::size_t slot = 0; slot < n; ++slot) {
         if (slot + 16 < n) __builtin_prefetch(&ground.discs[indices[slot + 16]]);
         discs[slot] = ground.discs[indices[slot]];
@@ -252,8 +254,9 @@ template <class Law> void BlockReplay<Law>::Scratch::happen(const Event& event) 
     }
     if (++crowd > endless_count + endless_count_per_disc * discs.size()) give_up(event);
     const bool is_corner = event.q == x_wall && law.y_wall_time(discs[event.p]) == event.time;
+    const double vy_before = discs[event.p].vy; // a thermal wall changes it, and so what comes next
     carry_out(event);
-    if (is_corner) { // nothing may come between its two sides: x and y are alike
+    if (is_corner && discs[event.p].vy == vy_before) { // nothing may come between its two sides: x and y are alike
         Event other_side = event;
         other_side.q = y_wall;
         other_side.generation += 1;
@@ -378,6 +381,7 @@ template class BlockReplay<ContractedLaw>;
 template class BlockReplay<SingleLaw>;
 template class BlockReplay<SingleNaiveLaw>;
 template class BlockReplay<SingleContractedLaw>;
+template class BlockReplay<ElasticLaw>;
 template class BlockReplay<IdealGasLaw>;
 template class BlockReplay<InelasticLaw>;
 

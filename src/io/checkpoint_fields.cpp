@@ -17,18 +17,24 @@ hid_t type_of(const Column& column) {
 void write_header(hid_t group, const CheckpointHeader& header) {
     for (const HeaderField& entry : checkpoint_header)
         std::visit([&](auto field) { h5::write_scalar(group, entry.name, header.*field); }, entry.field);
+    if (!header.frame.is_moving) return;
+    for (const FrameField& entry : checkpoint_frame) h5::write_scalar(group, entry.name, header.frame.*entry.field);
 }
 
 CheckpointHeader read_header(hid_t group) {
     CheckpointHeader header;
     for (const HeaderField& entry : checkpoint_header)
         std::visit([&](auto field) { h5::read_scalar(group, entry.name, header.*field); }, entry.field);
+    header.frame.is_moving = H5Lexists(group, checkpoint_frame[0].name, H5P_DEFAULT) > 0;
+    if (header.frame.is_moving)
+        for (const FrameField& entry : checkpoint_frame) h5::read_scalar(group, entry.name, header.frame.*entry.field);
     return header;
 }
 
 void broadcast(CheckpointHeader& header, const Communicator& communicator) {
     for (const HeaderField& entry : checkpoint_header)
         std::visit([&](auto field) { communicator.broadcast(header.*field); }, entry.field);
+    communicator.broadcast(header.frame);
 }
 
 } // namespace carrom

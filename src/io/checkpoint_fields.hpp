@@ -55,6 +55,14 @@ inline constexpr std::array<HeaderField, 17> checkpoint_header = {
      {"pair_collisions", &H::pair_collisions},
      {"state_hash", &H::state_hash}}};
 
+/// The same for a frame that moves.
+struct FrameField {
+    const char* name;
+    double Frame::*field;
+};
+inline constexpr std::array<FrameField, 4> checkpoint_frame = {
+    {{"frame_x", &Frame::x}, {"frame_y", &Frame::y}, {"frame_vx", &Frame::vx}, {"frame_vy", &Frame::vy}}};
+
 /// Sets the column's number of a disc by its 8 bytes.
 void set_bits(const Column& column, Disc& disc, std::uint64_t bits);
 hid_t type_of(const Column& column);

@@ -69,16 +69,23 @@ std::uint64_t place_of(hid_t file, const std::string& name) {
 
 std::vector<DiscTarget> disc_targets(const CheckpointHeader& header) {
     std::vector<DiscTarget> targets;
+    const Frame frame = header.frame;
     const double clock = header.clock(), k = static_cast<double>(header.micro_steps);
     const auto vector_of = [](double x, double y) { return std::array<float, 3>{static_cast<float>(x), static_cast<float>(y), 0}; };
     const auto add = [&](std::string name, std::uint64_t bytes_per_row, std::function<void(std::span<const Disc>, std::byte*)> put) {
         targets.push_back({{std::move(name), 0, header.n_discs, bytes_per_row, {}}, std::move(put)});
     };
     add("/particles/discs/position/value", 3 * sizeof(float), [=](std::span<const Disc> discs, std::byte* out) {
-        put_each(discs, out, [=](const Disc& disc) { return vector_of(disc.x_at(clock), disc.y_at(clock)); });
+        put_each(discs, out, [=](const Disc& disc) {
+            const Disc shown = frame.in_box(disc, clock);
+            return vector_of(shown.x, shown.y);
+        });
     });
     add("/particles/discs/velocity/value", 3 * sizeof(float), [=](std::span<const Disc> discs, std::byte* out) {
-        put_each(discs, out, [=](const Disc& disc) { return vector_of(disc.vx * k, disc.vy * k); });
+        put_each(discs, out, [=](const Disc& disc) {
+            const Disc shown = frame.in_box(disc, clock);
+            return vector_of(shown.vx * k, shown.vy * k);
+        });
     });
     for (const Column& column : checkpoint_columns)
         add(std::string("/carrom/discs/") + column.name, sizeof(std::uint64_t), [&column](std::span<const Disc> discs, std::byte* out) {

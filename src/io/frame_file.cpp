@@ -119,9 +119,10 @@ void FrameFile::read(std::size_t frame, std::uint64_t begin, std::uint64_t end, 
                 for (std::uint64_t i = 0; i < n; ++i) set_bits(column, discs[i], numbers[i]);
             }
             const double clock = state_->header.clock(), k = static_cast<double>(state_->header.micro_steps);
-            for (std::uint64_t i = 0; i < n; ++i)
-                rows[i] = {discs[i].x_at(clock) + 0.0, discs[i].y_at(clock) + 0.0, discs[i].vx * k + 0.0,
-                           discs[i].vy * k + 0.0, discs[i].wall_collisions, discs[i].pair_collisions};
+            for (std::uint64_t i = 0; i < n; ++i) {
+                const Disc disc = state_->header.frame.in_box(discs[i], clock);
+                rows[i] = {disc.x + 0.0, disc.y + 0.0, disc.vx * k + 0.0, disc.vy * k + 0.0, disc.wall_collisions, disc.pair_collisions};
+            }
             return;
         }
         const std::string discs = discs_path;

@@ -41,6 +41,26 @@ inline std::optional<double> finite_number(const Check& check, std::string_view 
     return std::nullopt;
 }
 
+/// A whole number from `low` to `high`; 1e5 counts as whole.
+inline std::optional<std::int64_t> whole_number(const Check& check, std::string_view key, std::int64_t low, std::int64_t high) {
+    const Setting* setting = check.settings.find(key);
+    if (!setting) return std::nullopt;
+    if (const auto* real = std::get_if<double>(&setting->value)) {
+        if (!std::isfinite(*real) || *real != std::floor(*real)) {
+            check.refuse(*setting, fmt::format("'{}' must be a whole number, not {}", key, *real));
+        } else if (*real < static_cast<double>(low) || *real > static_cast<double>(high)) {
+            check.refuse(*setting, fmt::format("'{}' must be from {} to {}, not {}", key, low, high, *real));
+        } else if (std::fabs(*real) < 0x1p63) {
+            return static_cast<std::int64_t>(*real);
+        }
+        return std::nullopt;
+    }
+    const auto number = std::get<std::int64_t>(setting->value);
+    if (number >= low && number <= high) return number;
+    check.refuse(*setting, fmt::format("'{}' must be from {} to {}, not {}", key, low, high, number));
+    return std::nullopt;
+}
+
 template <class Choice, std::size_t n> using Choices = std::array<std::pair<std::string_view, Choice>, n>;
 
 /// One of a few words.

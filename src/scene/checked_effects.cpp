@@ -2,6 +2,10 @@
 #include "checked_effects.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "limits.hpp"
 
 namespace carrom {
 
@@ -41,27 +45,113 @@ void fill_contact(const Check& check) {
     ContactEffect& contact = check.scene.effects.contact;
     if (const auto kind = choice(check, "effects.contact.kind", kinds)) contact.kind = *kind;
     if (contact.kind != ContactKind::restitution) {
-        constexpr std::string_view needed = "effects.contact.kind = \"restitution\"";
-        refuse_without(check, "effects.contact.restitution", needed);
-        refuse_without(check, "effects.contact.contact_time", needed);
+        refuse_without(check, "effects.contact.restitution", "effects.contact.kind = \"restitution\"");
         return;
     }
     check.refuse_missing("effects.contact.restitution", "what is left of the normal relative velocity of two discs, from 0 to 1");
     if (const auto restitution = number_within(check, "effects.contact.restitution", 0, 1)) contact.restitution = *restitution;
-    fill_contact_time(check);
+}
+
+void fill_side(const Check& check, std::size_t number) {
+    static constexpr Choices<SideKind, 3> kinds = {{{"wall", SideKind::fixed}, {"thermal", SideKind::thermal}, {"moving", SideKind::moving}}};
+    Side& side = check.scene.effects.sides[number];
+    const std::string table = std::string("box.") + side_names[number];
+    if (const auto kind = choice(check, table + ".kind", kinds)) side.kind = *kind;
+    const bool is_thermal = side.kind == SideKind::thermal, is_moving = side.kind == SideKind::moving;
+    if (is_thermal) refuse_without(check, table + ".restitution", table + ".kind = \"wall\" or \"moving\": what leaves a thermal wall has forgotten how it came");
+    else if (const auto restitution = number_within(check, table + ".restitution", 0, 1)) side.restitution = *restitution;
+
+    if (!is_thermal) refuse_without(check, table + ".temperature", table + ".kind = \"thermal\"");
+    else check.refuse_missing(table + ".temperature", "kT of the wall, a velocity per step squared");
+    if (const auto temperature = finite_number(check, table + ".temperature"); temperature && is_thermal) {
+        side.temperature = *temperature;
+        if (!(*temperature > 0x1p-200 && *temperature < 0x1p200))
+            check.refuse(*check.settings.find(table + ".temperature"), fmt::format("'{}.temperature' must be greater than 0, not {}", table, *temperature));
+    }
+    if (!is_moving) refuse_without(check, table + ".speed", table + ".kind = \"moving\"");
+    else check.refuse_missing(table + ".speed", "of the wall along +x or +y, per step");
+    if (const auto speed = finite_number(check, table + ".speed"); speed && is_moving) side.speed = *speed;
+    if (is_moving && check.scene.rule == CollisionRule::one)
+        check.refuse(*check.settings.find(table + ".kind"), "a moving wall needs time.collisions = \"all\": the rule \"one\" has walls at rest");
+}
+
+void fill_gravity(const Check& check) {
+    Gravity& gravity = check.scene.effects.gravity;
+    if (const auto x = finite_number(check, "effects.gravity.x")) gravity.x = *x;
+    if (const auto y = finite_number(check, "effects.gravity.y")) gravity.y = *y;
+    if (!gravity.is_any() || check.scene.rule == CollisionRule::all) return;
+    const Setting* setting = check.settings.find(gravity.y != 0 ? "effects.gravity.y" : "effects.gravity.x");
+    check.refuse(*setting, "gravity needs time.collisions = \"all\": under the rule \"one\" discs fly straight");
+}
+
+void fill_thermal(const Check& check) {
+    Effects& effects = check.scene.effects;
+    const bool is_any = std::any_of(effects.sides.begin(), effects.sides.end(), [](const Side& side) { return side.kind == SideKind::thermal; });
+    if (!is_any) refuse_without(check, "effects.thermal.seed", "a side of kind = \"thermal\"");
+    if (const auto seed = whole_number(check, "effects.thermal.seed", 0, INT64_MAX)) effects.thermal_seed = static_cast<std::uint64_t>(*seed);
+}
+
+bool lose_energy_or_fall(const Effects& effects) {
+    const bool is_lossy = std::any_of(effects.sides.begin(), effects.sides.end(), [](const Side& side) { return side.restitution < 1; });
+    return is_lossy || effects.contact.kind == ContactKind::restitution || effects.gravity.is_any();
+}
+
+/// The falling frame must not leave the box far behind: its coordinates would be coarser than the box's.
+void check_fall(const Check& check) {
+    const Scene& scene = check.scene;
+    const auto time = static_cast<double>(scene.sync_every) / static_cast<double>(scene.micro_steps);
+    for (const auto& [key, g] : {std::pair("effects.gravity.x", scene.effects.gravity.x), {"effects.gravity.y", scene.effects.gravity.y}}) {
+        if (0.5 * std::fabs(g) * time * time <= 0.5 * scene.box_size) continue;
+        const double longest = std::floor(std::sqrt(scene.box_size / std::fabs(g)) * static_cast<double>(scene.micro_steps));
+        check.refuse(*check.settings.find(key),
+                     fmt::format("'{}' = {} makes discs fall further than half the box from sync to sync; {}", key, g,
+                                 longest >= 1 ? fmt::format("time.sync_every = {} or less will do", longest) : "take more time.micro_steps"));
+    }
+}
+
+void check_moving_walls(const Check& check) {
+    const Scene& scene = check.scene;
+    const auto& sides = scene.effects.sides;
+    const auto refuse = [&check](std::size_t side, const std::string& text) {
+        check.refuse(*check.settings.find(std::string("box.") + side_names[side] + ".speed"), text);
+    };
+    for (const std::size_t low : {0u, 2u})
+        if (sides[low].speed < 0) refuse(low, fmt::format("the {} wall would leave the box; let the {} one move out", side_names[low], side_names[low + 1]));
+    const Extent end = extent_at(scene.effects, scene.box_size, static_cast<double>(scene.steps));
+    const double width = end.x_high - end.x_low, height = end.y_high - end.y_low;
+    const double largest = std::max(end.x_high, end.y_high), covered = static_cast<double>(scene.n_discs) * std::numbers::pi * scene.radius * scene.radius;
+    const bool is_full = scene.effects.contact.kind != ContactKind::none && covered > largest_packing * width * height;
+    for (std::size_t side = 0; side < sides.size(); ++side) {
+        if (sides[side].speed == 0) continue;
+        if (std::min(width, height) < 2 * scene.radius * (1 + 1e-6) || is_full)
+            refuse(side, fmt::format("after {} steps the box would be {} by {}: too small for its discs", scene.steps, width, height));
+        else if (largest > 2 * scene.box_size) refuse(side, fmt::format("after {} steps the box would be more than twice as long as at the start", scene.steps));
+        break;
+    }
 }
 
 } // namespace
 
 void fill_effects(const Check& check) {
     fill_contact(check);
-    if (!check.scene.effects.are_any()) return;
+    for (std::size_t side = 0; side < 4; ++side) fill_side(check, side);
+    fill_gravity(check);
+    fill_thermal(check);
+    const Effects& effects = check.scene.effects;
+    if (lose_energy_or_fall(effects)) fill_contact_time(check);
+    else refuse_without(check, "effects.contact.contact_time", "discs or walls of restitution, or gravity");
+    if (!effects.are_any()) return;
     for (const std::string_view key : {"time.precision", "time.arithmetic", "time.accuracy"}) {
         const Setting* setting = check.settings.find(key);
         const bool is_default = setting && std::holds_alternative<std::string>(setting->value) &&
                                 check.scene.precision == Precision::double_ && check.scene.arithmetic == Arithmetic::stable;
-        if (setting && !is_default) check.refuse(*setting, fmt::format("'{}' is for scenes without effects, and this one has '[effects]'", key));
+        if (setting && !is_default) check.refuse(*setting, fmt::format("'{}' is for scenes without effects, and this one has some", key));
     }
+}
+
+void check_room_for_effects(const Check& check) {
+    check_fall(check);
+    check_moving_walls(check);
 }
 
 } // namespace carrom

@@ -9,4 +9,7 @@ namespace carrom {
 /// Fills in `scene.effects`; rule, times and arithmetic must be known by then.
 void fill_effects(const Check& check);
 
+/// What can be judged only when box and discs are known.
+void check_room_for_effects(const Check& check);
+
 } // namespace carrom

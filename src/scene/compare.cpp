@@ -62,10 +62,30 @@ std::string_view name_of(ContactKind kind) {
     return "";
 }
 
+std::string_view name_of(SideKind kind) {
+    switch (kind) {
+    case SideKind::fixed: return "\"wall\"";
+    case SideKind::thermal: return "\"thermal\"";
+    case SideKind::moving: return "\"moving\"";
+    }
+    return "";
+}
+
 void compare_effects(Comparison& c, const Effects& there, const Effects& here) {
     c.compare("effects.contact.kind", name_of(there.contact.kind), name_of(here.contact.kind));
     c.compare("effects.contact.restitution", there.contact.restitution, here.contact.restitution);
     c.compare("effects.contact.contact_time", there.contact.contact_time, here.contact.contact_time);
+    for (std::size_t k = 0; k < side_names.size(); ++k) {
+        const Side &a = there.sides[k], &b = here.sides[k];
+        const std::string table = std::string("box.") + side_names[k];
+        c.compare(table + ".kind", name_of(a.kind), name_of(b.kind));
+        c.compare(table + ".restitution", a.restitution, b.restitution);
+        c.compare(table + ".temperature", a.temperature, b.temperature);
+        c.compare(table + ".speed", a.speed, b.speed);
+    }
+    c.compare("effects.gravity.x", there.gravity.x, here.gravity.x);
+    c.compare("effects.gravity.y", there.gravity.y, here.gravity.y);
+    c.compare("effects.thermal.seed", there.thermal_seed, here.thermal_seed);
 }
 
 } // namespace

@@ -28,6 +28,16 @@ constexpr std::array keys = {
     Key{"time.sync_every", ValueKind::integer},  Key{"time.accuracy", ValueKind::number},
     Key{"time.precision", ValueKind::text},      Key{"time.arithmetic", ValueKind::text},
     Key{"time.contraction", ValueKind::flag},
+    Key{"box.left.kind", ValueKind::text},       Key{"box.left.restitution", ValueKind::number},
+    Key{"box.left.temperature", ValueKind::number}, Key{"box.left.speed", ValueKind::number},
+    Key{"box.right.kind", ValueKind::text},      Key{"box.right.restitution", ValueKind::number},
+    Key{"box.right.temperature", ValueKind::number}, Key{"box.right.speed", ValueKind::number},
+    Key{"box.bottom.kind", ValueKind::text},     Key{"box.bottom.restitution", ValueKind::number},
+    Key{"box.bottom.temperature", ValueKind::number}, Key{"box.bottom.speed", ValueKind::number},
+    Key{"box.top.kind", ValueKind::text},        Key{"box.top.restitution", ValueKind::number},
+    Key{"box.top.temperature", ValueKind::number}, Key{"box.top.speed", ValueKind::number},
+    Key{"effects.gravity.x", ValueKind::number}, Key{"effects.gravity.y", ValueKind::number},
+    Key{"effects.thermal.seed", ValueKind::integer},
     Key{"effects.contact.kind", ValueKind::text},
     Key{"effects.contact.restitution", ValueKind::number},
     Key{"effects.contact.contact_time", ValueKind::number},
@@ -44,8 +54,9 @@ constexpr std::array keys = {
     Key{"output.collisions.file", ValueKind::text},
 };
 
-constexpr std::array<std::string_view, 9> tables = {
-    "box", "discs", "time", "output", "output.checkpoint", "output.trajectory", "output.collisions", "effects", "effects.contact"};
+constexpr std::array<std::string_view, 15> tables = {
+    "box", "discs", "time", "output", "output.checkpoint", "output.trajectory", "output.collisions", "effects", "effects.contact",
+    "effects.gravity", "effects.thermal", "box.left", "box.right", "box.bottom", "box.top"};
 
 std::string_view part_after(std::string_view key, std::size_t dot) { return key.substr(dot + 1, key.find('.', dot + 1) - dot - 1); }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "carrom/scene/random_numbers.hpp"
+#include "carrom/core/random_numbers.hpp"
 
 namespace carrom {
 

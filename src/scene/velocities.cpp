@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "carrom/scene/random_numbers.hpp"
+#include "carrom/core/random_numbers.hpp"
 
 namespace carrom {
 

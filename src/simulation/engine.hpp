@@ -9,6 +9,7 @@
 #include "carrom/collision/cell_grid.hpp"
 #include "carrom/collision/search.hpp"
 #include "carrom/core/disc.hpp"
+#include "carrom/core/frame.hpp"
 #include "carrom/domain/strips.hpp"
 #include "carrom/simulation/simulation.hpp"
 
@@ -42,6 +43,7 @@ public:
     virtual std::int64_t micro_steps_done() const = 0; ///< since the scene's start
     virtual std::span<const Disc> own() const = 0;
     virtual double clock() const = 0;
+    virtual Frame frame() const { return {}; } ///< of the own discs' coordinates, at `clock()`
     virtual std::uint64_t n_discs() const = 0; ///< over all ranks
     virtual PhaseSeconds phase_seconds() const = 0;
 

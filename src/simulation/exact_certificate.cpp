@@ -132,6 +132,7 @@ template class ExactEngine<ContractedLaw>;
 template class ExactEngine<SingleLaw>;
 template class ExactEngine<SingleNaiveLaw>;
 template class ExactEngine<SingleContractedLaw>;
+template class ExactEngine<ElasticLaw>;
 template class ExactEngine<IdealGasLaw>;
 template class ExactEngine<InelasticLaw>;
 

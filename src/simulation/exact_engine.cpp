@@ -45,6 +45,7 @@ ExactEngine<Law>::ExactEngine(const Scene& scene, StoredState state, const Commu
       discs_(communicator, scene.box_size, std::move(state.discs)), n_micro_done_(state.micro_steps_done),
       time_(static_cast<double>(n_micro_done_ % sync_every_)) {
     for (int thread = 0; thread < tuning_.threads; ++thread) replays_.emplace_back(law_);
+    begin_interval();
     if constexpr (!Law::is_double) {
         for (Disc& disc : discs_.all()) Law::round(disc);
     }
@@ -97,9 +98,10 @@ template <class Law> void ExactEngine<Law>::run_window(double target) {
 
 template <class Law> void ExactEngine<Law>::migrate() {
     const PhaseClock::Scope scope(clock_, Phase::exchange);
-    const double farthest = travel_speed_ * (time_ - settled_time_) * (1 + 1e-6) + 64 * 0x1p-53 * law_.box_size() + law_.slack();
+    const double farthest = travel_speed_ * (time_ - settled_time_) * (1 + 1e-6) + 64 * 0x1p-53 * law_.box_size() + law_.slack() + jumped_;
     discs_.migrate(time_, farthest, nullptr);
     settled_time_ = time_;
+    jumped_ = 0;
 }
 
 template <class Law> ReplayWindow ExactEngine<Law>::choose(double target) {
@@ -142,8 +144,9 @@ template <class Law> void ExactEngine<Law>::settle() {
         discs_.forget_halo();
         discs_.fetch_halo(time_, halo_depth_ * reach, nullptr);
     }
-    const double x_from = std::max(0.0, discs_.strips().low(communicator_.rank()));
-    const double x_to = std::min(law_.box_size(), discs_.strips().high(communicator_.rank()));
+    const Extent box = extent();
+    const double x_from = std::max(box.x_low, discs_.strips().low(communicator_.rank()));
+    const double x_to = std::min(box.x_high, discs_.strips().high(communicator_.rank()));
     const double spacing = std::sqrt(law_.box_size() * std::max(x_to - x_from, 0.0) / static_cast<double>(discs_.n_own() + 16));
     GridFrame frame;
     // Own columns end where the strip does: a block's halo counts from its last column, the rank's from the strip.
@@ -152,12 +155,12 @@ template <class Law> void ExactEngine<Law>::settle() {
     frame.n_reach = static_cast<int>(std::ceil(reach / frame.cell_width * (1 - 1e-9)));
     const int n_own = cells_along(x_to - x_from, frame.cell_width);
     const int n_halo = communicator_.size() > 1 ? halo_depth_ * frame.n_reach : 0;
-    const int n_left = std::min(n_halo, cells_along(x_from, frame.cell_width));
-    const int n_right = std::min(n_halo, cells_along(law_.box_size() - x_to, frame.cell_width));
+    const int n_left = std::min(n_halo, cells_along(x_from - box.x_low, frame.cell_width));
+    const int n_right = std::min(n_halo, cells_along(box.x_high - x_to, frame.cell_width));
     frame.n_columns = n_left + n_own + n_right;
-    frame.n_rows = cells_along(law_.box_size(), frame.cell_width);
+    frame.n_rows = cells_along(box.y_high - box.y_low, frame.cell_width);
     frame.x_low = x_from - n_left * frame.cell_width;
-    frame.y_low = 0;
+    frame.y_low = box.y_low;
     first_own_column_ = n_left;
     end_own_column_ = n_left + n_own;
     grid_.build(discs_.all(), frame, time_, time_, window_.duration(), tuning_.threads);
@@ -254,7 +257,13 @@ template <class Law> void ExactEngine<Law>::sync() {
     for (std::int64_t i = 0; i < n; ++i) {
         Disc& disc = discs[static_cast<std::size_t>(i)];
         Law::advance(disc, time_);
+        if constexpr (!Law::has_plain_walls) law_.sides().restart_frame(disc, time_);
         disc.tau = 0;
+    }
+    if constexpr (!Law::has_plain_walls) {
+        jumped_ += law_.sides().jump_at(time_);
+        largest_speed_ += law_.sides().speed_gained_at(time_);
+        begin_interval();
     }
     settled_time_ -= time_;
     time_ = 0;
@@ -264,13 +273,33 @@ template <class Law> void ExactEngine<Law>::sync() {
     }
 }
 
+/// Tells the law where its walls are from here, the last sync, on.
+template <class Law> void ExactEngine<Law>::begin_interval() {
+    if constexpr (!Law::has_plain_walls) {
+        law_.begin_interval(n_micro_done_ / sync_every_ * sync_every_);
+        for (BlockReplay<Law>& replay : replays_) replay.change_law(law_);
+    }
+}
+
+/// The walls in the coordinates of states, now.
+template <class Law> Extent ExactEngine<Law>::extent() const {
+    if constexpr (!Law::has_plain_walls) return law_.sides().extent_at(time_);
+    return {0, law_.box_size(), 0, law_.box_size()};
+}
+
+template <class Law> Frame ExactEngine<Law>::frame() const {
+    if constexpr (!Law::has_plain_walls) return law_.sides().frame_at(time_);
+    return {};
+}
+
 template <class Law> void ExactEngine<Law>::settle_now() {
     migrate();
     const double reach = reach_of({law_.box_size(), law_.radius() + law_.slack(), static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
     discs_.fetch_halo(time_, reach, nullptr);
-    const double x_low = std::max(0.0, discs_.strips().low(communicator_.rank()) - reach);
-    const double x_high = std::min(law_.box_size(), discs_.strips().high(communicator_.rank()) + reach);
-    const GridFrame frame = make_frame(x_low, x_high, 0, law_.box_size(), reach, discs_.all().size(), 0);
+    const Extent box = extent();
+    const double x_low = std::max(box.x_low, discs_.strips().low(communicator_.rank()) - reach);
+    const double x_high = std::min(box.x_high, discs_.strips().high(communicator_.rank()) + reach);
+    const GridFrame frame = make_frame(x_low, x_high, box.y_low, box.y_high, reach, discs_.all().size(), 0);
     grid_.build(discs_.all(), frame, time_, time_, 1, tuning_.threads);
 }
 
@@ -298,6 +327,7 @@ template class ExactEngine<ContractedLaw>;
 template class ExactEngine<SingleLaw>;
 template class ExactEngine<SingleNaiveLaw>;
 template class ExactEngine<SingleContractedLaw>;
+template class ExactEngine<ElasticLaw>;
 template class ExactEngine<IdealGasLaw>;
 template class ExactEngine<InelasticLaw>;
 

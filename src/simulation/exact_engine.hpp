@@ -45,6 +45,7 @@ public:
     std::int64_t micro_steps_done() const override { return n_micro_done_; }
     std::span<const Disc> own() const override { return discs_.own(); }
     double clock() const override { return time_; }
+    Frame frame() const override;
     std::uint64_t n_discs() const override { return discs_.n_total(); }
     PhaseSeconds phase_seconds() const override { return clock_.seconds(); }
 
@@ -76,6 +77,8 @@ private:
     void commit();
     void log_events(const BlockOutcome& outcome);
     void sync();
+    void begin_interval();
+    Extent extent() const;
     void settle_now();
 
     Communicator communicator_;
@@ -88,6 +91,7 @@ private:
     std::int64_t n_micro_done_ = 0, n_syncs_ = 0, n_windows_ = 0;
     double time_ = 0;             ///< since the last sync
     double settled_time_ = 0;
+    double jumped_ = 0;           ///< how far the frame has moved under the discs since the last settling, in x
     double travel_speed_ = 0;     ///< bounds the motion since the last settling; the same on all ranks
     double largest_speed_ = 0;    ///< of the own discs now
     double collision_rate_ = 0;   ///< per disc and time, of the last window, on all ranks

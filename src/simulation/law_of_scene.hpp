@@ -16,7 +16,8 @@ template <class Make> auto with_law_of(const Scene& scene, const Make& make) {
     switch (scene.effects.contact.kind) {
     case ContactKind::none: return make.template operator()<IdealGasLaw>();
     case ContactKind::restitution: return make.template operator()<InelasticLaw>();
-    case ContactKind::elastic: break;
+    case ContactKind::elastic:
+        if (scene.effects.are_any()) return make.template operator()<ElasticLaw>();
     }
     const auto with = [&]<class Real>(Real) {
         if (scene.arithmetic == Arithmetic::stable) return make.template operator()<BasicPlainLaw<Real, StableContact>>();

@@ -40,6 +40,15 @@ void measure_motion(std::span<const Disc> own, double velocity_unit, const Commu
     totals.momentum_y = momentum_y.value();
 }
 
+void measure_height(std::span<const Disc> own, const Gravity& gravity, double box_size, const Communicator& communicator, Totals& totals) {
+    const auto height = [box_size](double place, double pull) { return pull < 0 ? place : box_size - place; };
+    const double gx = std::fabs(gravity.x), gy = std::fabs(gravity.y);
+    ExactSum energy(2 * static_cast<double>(totals.n_discs) * (gx + gy) * box_size);
+    for (const Disc& disc : own) energy.add(gx * height(disc.x, gravity.x) + gy * height(disc.y, gravity.y));
+    communicator.sum(energy);
+    totals.potential_energy = energy.value();
+}
+
 void measure_overlaps(const Population& population, const CellGrid& grid, double time, const Touching& touching,
                       const Communicator& communicator, int n_threads, Totals& totals) {
     const auto pair_is_mine = [&](LocalIndex a, LocalIndex b) { // the rank of the lower id counts the pair

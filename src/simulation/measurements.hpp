@@ -18,6 +18,9 @@ void measure_collisions(std::span<const Disc> own, const Communicator& communica
 /// Fills in energy and momentum; `velocity_unit` turns stored velocities into those per step. **Collective.**
 void measure_motion(std::span<const Disc> own, double velocity_unit, const Communicator& communicator, Totals& totals);
 
+/// Fills in the potential energy of discs as the box sees them. **Collective.**
+void measure_height(std::span<const Disc> own, const Gravity& gravity, double box_size, const Communicator& communicator, Totals& totals);
+
 /// When two discs count as overlapping: closer than the diameter by more than the tolerance.
 struct Touching {
     double diameter = 0, tolerance = 0;

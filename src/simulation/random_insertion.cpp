@@ -11,7 +11,7 @@
 #include "carrom/parallel/exchange.hpp"
 #include "carrom/parallel/slabs.hpp"
 #include "carrom/scene/lattice.hpp"
-#include "carrom/scene/random_numbers.hpp"
+#include "carrom/core/random_numbers.hpp"
 #include "point_grid.hpp"
 
 namespace carrom {

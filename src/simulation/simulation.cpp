@@ -43,7 +43,7 @@ Simulation::Simulation(const Scene& scene, std::vector<InputDisc> discs, const C
     : Simulation(scene, first_state(scene, std::move(discs)), communicator, tuning) {}
 
 Simulation::Simulation(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning)
-    : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)),
+    : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)), effects_(scene.effects), box_size_(scene.box_size),
       n_threads_(tuning.threads), engine_(engine_for(scene, std::move(state), communicator, tuning)),
       averages_(std::make_unique<BlockAverages>(AveragedSystem{static_cast<double>(engine_->n_discs()), scene.box_size, scene.radius,
                                                                velocity_unit_, scene.micro_steps, scene.sync_every, !scene.effects.are_any()})) {}
@@ -54,7 +54,7 @@ void Simulation::advance_towards(std::int64_t last_step) {
     if (!averages_->has_begun()) average_anew();
     if (check_ && step() < last_step) advance_checked();
     else engine_->advance_towards(last_step); // never beyond the first step after a sync, where blocks may end
-    if (averages_->ends_block(step())) averages_->end_block(step(), look_at(discs(), engine_->n_discs(), n_threads_, communicator_));
+    if (averages_->ends_block(step())) averages_->end_block(step(), look_at(shown(), engine_->n_discs(), n_threads_, communicator_));
 }
 
 void Simulation::check_every_step(const Scene& scene) {
@@ -70,11 +70,11 @@ void Simulation::advance_checked() {
     if (log_) log_->insert(log_->end(), collisions.begin(), collisions.end());
 }
 
-void Simulation::average_anew() { averages_->begin(step(), look_at(discs(), engine_->n_discs(), n_threads_, communicator_)); }
+void Simulation::average_anew() { averages_->begin(step(), look_at(shown(), engine_->n_discs(), n_threads_, communicator_)); }
 
 Averages Simulation::averages() const {
     if (!averages_->has_begun()) return {};
-    return averages_->averages(step(), look_at(discs(), engine_->n_discs(), n_threads_, communicator_));
+    return averages_->averages(step(), look_at(shown(), engine_->n_discs(), n_threads_, communicator_));
 }
 
 std::int64_t Simulation::step() const { return micro_steps_done() / static_cast<std::int64_t>(velocity_unit_); }
@@ -82,6 +82,16 @@ std::int64_t Simulation::step() const { return micro_steps_done() / static_cast<
 std::int64_t Simulation::micro_steps_done() const { return engine_->micro_steps_done(); }
 
 std::span<const Disc> Simulation::discs() const { return engine_->own(); }
+
+Frame Simulation::frame() const { return engine_->frame(); }
+
+std::span<const Disc> Simulation::shown() const {
+    const Frame now = frame();
+    if (!now.is_moving) return discs();
+    shown_.clear();
+    for (const Disc& disc : discs()) shown_.push_back(now.in_box(disc, clock()));
+    return shown_;
+}
 
 double Simulation::clock() const { return engine_->clock(); }
 
@@ -94,7 +104,8 @@ Totals Simulation::totals() const {
     Totals totals;
     totals.n_discs = engine_->n_discs();
     measure_collisions(engine_->own(), communicator_, totals);
-    measure_motion(engine_->own(), velocity_unit_, communicator_, totals);
+    measure_motion(shown(), velocity_unit_, communicator_, totals);
+    if (effects_.gravity.is_any()) measure_height(shown(), effects_.gravity, box_size_, communicator_, totals);
     engine_->add_to(totals);
     return totals;
 }

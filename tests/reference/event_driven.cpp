@@ -2,6 +2,7 @@
 #include "event_driven.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <tuple>
@@ -24,6 +25,7 @@ void EventDrivenReference::run_micro_steps(std::int64_t count) {
         if (until < next_sync) continue;
         for (Disc& disc : discs_) {
             advance(disc, static_cast<double>(setting_.sync_every));
+            restart_frame(disc, disc.tau);
             disc.tau = 0;
         }
         predict_all();
@@ -58,15 +60,75 @@ void EventDrivenReference::predict_all() {
 
 void EventDrivenReference::predict_walls(DiscId p) {
     const Disc& disc = discs_[p];
-    if (disc.vx != 0) push({wall_time(disc.x, disc.vx, disc.tau), 0, p, false, Event::wall_x, 0});
-    if (disc.vy != 0) push({wall_time(disc.y, disc.vy, disc.tau), 0, p, false, Event::wall_y, 0});
+    for (const DiscId axis : {Event::wall_x, Event::wall_y}) push({meeting(disc, axis).time, 0, p, false, axis, 0});
 }
 
-double EventDrivenReference::wall_time(double x, double v, double tau) const {
-    if (v == 0) return std::numeric_limits<double>::infinity();
-    const double wall = v < 0 ? setting_.radius : setting_.box_size - setting_.radius;
-    const double delay = (wall - x) / v;
-    return tau + (delay > 0 ? delay : 0);
+/// Where the low or the high wall of an axis is for a disc's centre, and how fast, in the frame that falls since the sync.
+EventDrivenReference::Wall EventDrivenReference::wall_at(DiscId axis, bool is_high, double time) const {
+    const double k = static_cast<double>(setting_.micro_steps), g = gravity(axis);
+    const double speed = setting_.effects.sides[2 * axis + (is_high ? 1 : 0)].speed / k;
+    const double start = is_high ? setting_.box_size - setting_.radius : setting_.radius;
+    const double at_sync = start + speed * static_cast<double>(micro_step_ / setting_.sync_every * setting_.sync_every);
+    return {(at_sync + speed * time) - (0.5 * g * time) * time, speed - g * time};
+}
+
+double EventDrivenReference::gravity(DiscId axis) const {
+    const double k = static_cast<double>(setting_.micro_steps);
+    return (axis == Event::wall_x ? setting_.effects.gravity.x : setting_.effects.gravity.y) / (k * k);
+}
+
+/// The first time at which the disc is at one of the two walls, or beyond, and comes nearer.
+EventDrivenReference::Meeting EventDrivenReference::meeting(const Disc& disc, DiscId axis) const {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    Meeting first{never, false};
+    for (const bool is_high : {false, true}) {
+        const Wall wall = wall_at(axis, is_high, disc.tau);
+        const double x = axis == Event::wall_x ? disc.x : disc.y, v = axis == Event::wall_x ? disc.vx : disc.vy;
+        const double gap = is_high ? wall.place - x : x - wall.place;
+        const double rate = is_high ? wall.speed - v : v - wall.speed;
+        const double pull = is_high ? -gravity(axis) : gravity(axis);
+        double delay = never;
+        if (rate < 0 && gap <= 0) {
+            delay = 0;
+        } else if (rate < 0 && pull == 0) {
+            delay = gap / -rate;
+        } else if (rate < 0) {
+            const double square = rate * rate - 2 * pull * gap;
+            if (square > 0) delay = 2 * gap / (std::sqrt(square) - rate);
+        } else if (pull < 0) {
+            const double square = rate * rate - 2 * pull * gap;
+            delay = (rate + std::sqrt(square > 0 ? square : 0)) / -pull;
+        }
+        if (disc.tau + delay < first.time) first = {disc.tau + delay, is_high};
+    }
+    return first;
+}
+
+/// Turns the velocity round at the wall that it has come to; `disc` is there, and was `is_touched` a short time ago.
+void EventDrivenReference::rebound(Disc& disc, DiscId axis, bool is_high, double time, bool is_touched) const {
+    double& v = axis == Event::wall_x ? disc.vx : disc.vy;
+    const Wall wall = wall_at(axis, is_high, time);
+    const double restitution = is_touched ? 1 : setting_.effects.sides[2 * axis + (is_high ? 1 : 0)].restitution;
+    double away = restitution * std::fabs(v - wall.speed);
+    const std::size_t number = 2 * axis + (is_high ? 1 : 0);
+    if (setting_.effects.sides[number].kind == SideKind::thermal) {
+        const auto [fast, sideways] = setting_.leaving(disc, number);
+        away = fast;
+        (axis == Event::wall_x ? disc.vy : disc.vx) = sideways - gravity(1 - axis) * time;
+    }
+    const double pull_back = is_high ? gravity(axis) : -gravity(axis);
+    if (pull_back > 0) away = std::max(away, 0.5 * pull_back * setting_.contact_time());
+    v = is_high ? wall.speed - away : wall.speed + away;
+}
+
+/// A frame that is at rest in the box begins to fall.
+void EventDrivenReference::restart_frame(Disc& disc, double time) const {
+    const double gx = gravity(Event::wall_x), gy = gravity(Event::wall_y);
+    if (gx == 0 && gy == 0) return;
+    disc.x = disc.x + (0.5 * gx * time) * time;
+    disc.y = disc.y + (0.5 * gy * time) * time;
+    disc.vx = disc.vx + gx * time;
+    disc.vy = disc.vy + gy * time;
 }
 
 void EventDrivenReference::predict_pair(DiscId p, DiscId q) {
@@ -108,9 +170,10 @@ bool EventDrivenReference::is_valid(const Prediction& prediction) const {
 void EventDrivenReference::happen(const Event& event) {
     if (log_.size() == most_events_) throw std::runtime_error("more collisions than a test should have");
     const Disc& first = discs_[event.p];
-    const bool is_corner = !event.is_pair && event.q == Event::wall_x && wall_time(first.y, first.vy, first.tau) == event.time;
+    const bool is_corner = !event.is_pair && event.q == Event::wall_x && meeting(first, Event::wall_y).time == event.time;
+    const double vy_before = first.vy;
     carry_out(event);
-    if (is_corner) {
+    if (is_corner && first.vy == vy_before) {
         Event other_side = event;
         other_side.q = Event::wall_y;
         other_side.generation += 1;
@@ -128,6 +191,7 @@ void EventDrivenReference::carry_out(const Event& event) {
     Disc& p = discs_[event.p];
     const auto is_recent = [&](const Disc& disc) { return event.time - disc.tau < setting_.contact_time(); };
     const bool is_touched = is_recent(p) || (event.is_pair && is_recent(discs_[event.q]));
+    const bool is_high = !event.is_pair && meeting(p, event.q).is_high;
     advance(p, event.time);
     if (event.is_pair) {
         Disc& q = discs_[event.q];
@@ -138,8 +202,7 @@ void EventDrivenReference::carry_out(const Event& event) {
         pair_collisions_ += 1;
         note(event.q, event.p, event);
     } else {
-        double& velocity = event.q == Event::wall_x ? p.vx : p.vy;
-        velocity = -velocity;
+        rebound(p, event.q, is_high, event.time, is_touched);
         p.wall_collisions += 1;
         wall_collisions_ += 1;
     }

@@ -61,11 +61,23 @@ private:
         std::uint64_t version = 0;
     };
 
+    struct Wall {
+        double place = 0, speed = 0;
+    };
+    struct Meeting {
+        double time = 0;
+        bool is_high = false;
+    };
+
     static bool comes_later(const Prediction& a, const Prediction& b);
     void run_until(double time);
     void predict_all();
     void predict_walls(DiscId p);
-    double wall_time(double x, double v, double tau) const;
+    Wall wall_at(DiscId axis, bool is_high, double time) const;
+    double gravity(DiscId axis) const;
+    Meeting meeting(const Disc& disc, DiscId axis) const;
+    void rebound(Disc& disc, DiscId axis, bool is_high, double time, bool is_touched) const;
+    void restart_frame(Disc& disc, double time) const;
     void predict_pair(DiscId p, DiscId q);
     void push(Event event);
     bool is_valid(const Prediction& prediction) const;

@@ -61,6 +61,12 @@ void exchange_momentum(Disc& p, Disc& q, double restitution) {
     q.vy -= k * ey;
 }
 
+std::array<double, 2> Setting::leaving(const Disc& disc, std::size_t number) const {
+    Side side = effects.sides[number];
+    side.temperature /= static_cast<double>(micro_steps) * static_cast<double>(micro_steps);
+    return thermal_draw(side, disc.id, disc.wall_collisions, number);
+}
+
 std::vector<Disc> stored_states(const Setting& setting, std::span<const InputDisc> discs) {
     const double micro_steps = static_cast<double>(setting.micro_steps);
     std::vector<Disc> states(discs.size());
@@ -179,8 +185,19 @@ void OneRuleReference::bounce(Disc& disc, double m, double t) const {
     };
     const bool x_reverses = x_is_due || is_at_wall(disc.x, disc.vx);
     const bool y_reverses = y_is_due || is_at_wall(disc.y, disc.vy);
-    if (x_reverses) disc.vx = -disc.vx;
-    if (y_reverses) disc.vy = -disc.vy;
+    const auto& sides = setting_.effects.sides;
+    const auto reverse = [&](std::size_t number, double& normal, double& along) {
+        const double away = number % 2 == 0 ? 1 : -1;
+        if (sides[number].kind == SideKind::thermal) {
+            const auto [fast, sideways] = setting_.leaving(disc, number);
+            normal = away * fast;
+            along = sideways;
+        } else normal = -(sides[number].restitution * normal);
+    };
+    const double vy = disc.vy;
+    if (x_reverses) reverse(disc.vx < 0 ? 0 : 1, disc.vx, disc.vy);
+    const bool still_comes = vy < 0 ? disc.vy < 0 : disc.vy > 0; // unless the first wall has changed that
+    if (y_reverses && still_comes) reverse(disc.vy < 0 ? 2 : 3, disc.vy, disc.vx);
 }
 
 double OneRuleReference::stop_time(double x, double v, double t) const {

@@ -6,7 +6,9 @@
 // Price: N^2/2 predicates a micro-step, some 5 ns each.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -22,8 +24,12 @@ struct Setting {
     double radius = 0;
     std::int64_t micro_steps = 1;
     std::int64_t sync_every = 64;
-    Effects effects; ///< times in steps
+    Effects effects{}; ///< times in steps
+    /// What leaves a thermal wall: the velocity away from it and along it, in the unit of the side's temperature.
+    std::function<std::array<double, 2>(const Side& side, DiscId id, std::uint64_t wall_collisions, std::size_t number)> thermal_draw{};
 
+    /// The same in micro-steps for a disc at the wall `number`.
+    std::array<double, 2> leaving(const Disc& disc, std::size_t number) const;
     bool discs_meet() const { return effects.contact.kind != ContactKind::none; }
     double restitution() const { return effects.contact.kind == ContactKind::restitution ? effects.contact.restitution : 1; }
     double contact_time() const { return effects.contact.contact_time * static_cast<double>(micro_steps); }

@@ -72,6 +72,7 @@ extern template class Search<ContractedLaw>;
 extern template class Search<SingleLaw>;
 extern template class Search<SingleNaiveLaw>;
 extern template class Search<SingleContractedLaw>;
+extern template class Search<ElasticLaw>;
 extern template class Search<IdealGasLaw>;
 extern template class Search<InelasticLaw>;
 

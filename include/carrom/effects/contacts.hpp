@@ -18,6 +18,16 @@ public:
     double impulse_at(const Disc&, const Disc&, double) const { return 0; }
 };
 
+/// As in a plain scene, beside other effects.
+class ElasticContact {
+public:
+    static constexpr bool has_pairs = true;
+
+    explicit ElasticContact(const ContactEffect&) {}
+    double impulse() const { return 1; }
+    double impulse_at(const Disc&, const Disc&, double) const { return 1; }
+};
+
 /// The share `restitution` of the normal relative velocity is left.
 ///
 /// Under the rule "all" a heap of such discs would come to infinitely many collisions in a finite time (inelastic

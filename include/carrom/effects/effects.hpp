@@ -3,6 +3,9 @@
 // it is done (effect_law.hpp and its policies).
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace carrom {
@@ -18,18 +21,52 @@ struct ContactEffect {
     friend bool operator==(const ContactEffect&, const ContactEffect&) = default;
 };
 
+/// What a side of the box is.
+enum class SideKind { fixed, thermal, moving };
+
+struct Side {
+    SideKind kind = SideKind::fixed;
+    double restitution = 1; ///< of walls, moving ones as well
+    double temperature = 0; ///< of thermal ones: kT, a velocity squared, for masses of 1
+    double speed = 0;       ///< of moving ones, along +x or +y
+
+    bool is_plain() const { return kind == SideKind::fixed && restitution == 1; }
+    friend bool operator==(const Side&, const Side&) = default;
+};
+
+/// The order of Effects::sides: the low and the high side of x, then of y.
+inline constexpr std::array<const char*, 4> side_names = {"left", "right", "bottom", "top"};
+
+/// Uniform gravity: an acceleration.
+struct Gravity {
+    double x = 0, y = 0;
+
+    bool is_any() const { return x != 0 || y != 0; }
+    friend bool operator==(const Gravity&, const Gravity&) = default;
+};
+
 /// Times in steps in a scene, in micro-steps in a law.
 struct Effects {
     ContactEffect contact;
+    std::array<Side, 4> sides;
+    Gravity gravity;
+    std::uint64_t thermal_seed = 3210;
 
-    bool are_any() const { return contact.kind != ContactKind::elastic; }
+    bool have_plain_sides() const;
+    bool are_any() const { return contact.kind != ContactKind::elastic || !have_plain_sides() || gravity.is_any(); }
     friend bool operator==(const Effects&, const Effects&) = default;
 };
 
 /// The same effects with the micro-step, 1/K of a step, as the unit of time.
 Effects per_micro_step(const Effects& effects, double micro_steps);
 
-/// One line for a summary, as in "contact restitution 0.9"; empty where there are none.
+/// One line for a summary, as in "restitution 0.9 of pairs; gravity (0, -0.001)"; empty where there are none.
 std::string description(const Effects& effects);
+
+/// Where the walls are at `time` since the scene's start, in a box that was [0, size]^2 then.
+struct Extent {
+    double x_low = 0, x_high = 0, y_low = 0, y_high = 0;
+};
+Extent extent_at(const Effects& effects, double box_size, double time);
 
 } // namespace carrom

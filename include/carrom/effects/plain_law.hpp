@@ -17,6 +17,7 @@
 #include <type_traits>
 
 #include "carrom/core/disc.hpp"
+#include "carrom/effects/effects.hpp"
 #include "carrom/geometry/naive_contact.hpp"
 #include "carrom/geometry/pair_contact.hpp"
 
@@ -43,6 +44,8 @@ public:
     static constexpr bool parts_overlaps = Formula::parts_overlaps;
     /// Whether discs meet each other at all.
     static constexpr bool has_pairs = true;
+    /// Whether walls are elastic and at rest, and the frame of coordinates the box's.
+    static constexpr bool has_plain_walls = true;
     /// Under the rule "all": more than some thousand collisions of a disc in so many micro-steps are without end. Where discs
     /// have no room, loose laws move them on by a rounding of time now and then, which is not at one time and has no end either.
     static constexpr double one_time = is_loose ? 0x1p-3 : 0x1p-40;
@@ -128,6 +131,9 @@ public:
         return !(x > inner_low && x < inner_high && y > inner_low && y < inner_high);
     }
 
+    /// A disc that is inside at some time in [begin, end], and within these walls at the end, has met none in between.
+    Extent walls_between(double /*begin*/, double /*end*/) const { return {0, box_size(), 0, box_size()}; }
+
     static void bounce_x_at(Disc& disc, double time) {
         advance(disc, time);
         disc.vx = -disc.vx;
@@ -151,7 +157,7 @@ public:
 
 protected:
     /// `impulse` in units of that of an elastic contact; multiplying by 1 leaves every bit, and no instruction.
-    static void collide_with(Disc& p, Disc& q, double time, Real impulse) {
+    [[gnu::always_inline]] static void collide_with(Disc& p, Disc& q, double time, Real impulse) {
         advance(p, time);
         advance(q, time);
         const Real ex = real(q.x) - real(p.x), ey = real(q.y) - real(p.y);
@@ -210,7 +216,7 @@ protected:
     }
 
     /// A disc that would leave the box before the micro-step ends waits at the wall; it bounces in the next one.
-    void stop_at_wall(Disc& disc, double m, double t) const {
+    [[gnu::always_inline]] void stop_at_wall(Disc& disc, double m, double t) const {
         const Real rest = 1 - real(t);
         const Real stop = std::min(axis_stop(disc.x, disc.vx, rest), axis_stop(disc.y, disc.vy, rest));
         if (stop == real(never)) return;
@@ -219,7 +225,7 @@ protected:
         disc.tau = m + 1;
     }
 
-    Real axis_stop(double x, double v, Real rest) const {
+    [[gnu::always_inline]] Real axis_stop(double x, double v, Real rest) const {
         const Real at_end = real(x) + real(v) * rest;
         if (v < 0 && at_end < low()) return std::max((low() - real(x)) / real(v), Real{0});
         if (v > 0 && at_end > high()) return std::max((high() - real(x)) / real(v), Real{0});

@@ -114,6 +114,9 @@ public:
     void run(const ReplayGround& ground, const CellBlock& block, int halo, std::span<std::uint64_t> histories,
              BlockOutcome& outcome);
 
+    /// Another one of the same kind from now on: walls that move are elsewhere after a sync.
+    void change_law(const Law& law);
+
     std::size_t bytes() const;
 
 private:
@@ -127,6 +130,7 @@ extern template class BlockReplay<ContractedLaw>;
 extern template class BlockReplay<SingleLaw>;
 extern template class BlockReplay<SingleNaiveLaw>;
 extern template class BlockReplay<SingleContractedLaw>;
+extern template class BlockReplay<ElasticLaw>;
 extern template class BlockReplay<IdealGasLaw>;
 extern template class BlockReplay<InelasticLaw>;
 

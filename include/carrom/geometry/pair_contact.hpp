@@ -58,8 +58,9 @@ struct StableContact {
 };
 
 /// The contact of discs `p` and `q` (any order) from their stored states alone: the same bits whoever asks, and when.
+/// Inlined wherever it is called: other laws that are compiled beside the plain one shall not change its code.
 template <class Real, class AnyDisc, class Formula = StableContact>
-PairContact<Real> pair_contact(const AnyDisc& p, const AnyDisc& q, Real sigma, Real deepest_overlap, Formula = {}) {
+[[gnu::always_inline]] inline PairContact<Real> pair_contact(const AnyDisc& p, const AnyDisc& q, Real sigma, Real deepest_overlap, Formula = {}) {
     const Real base = std::max(p.tau, q.tau);
     const Real dx = q.x_at(base) - p.x_at(base);
     const Real dy = q.y_at(base) - p.y_at(base);

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "carrom/core/disc.hpp"
+#include "carrom/core/frame.hpp"
 #include "carrom/parallel/communicator.hpp"
 
 namespace carrom {
@@ -35,6 +36,7 @@ struct CheckpointHeader {
     std::uint64_t n_discs = 0;
     std::uint64_t wall_collisions = 0, pair_collisions = 0; ///< sums of the discs' counters; a pair counts once
     std::string state_hash;
+    Frame frame; ///< that the discs' coordinates are in; in the file only where it moves
 
     /// Micro-steps since the last sync: what the discs' times are relative to.
     double clock() const { return static_cast<double>(micro_steps_done % sync_every); }

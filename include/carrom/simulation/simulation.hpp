@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "carrom/core/disc.hpp"
+#include "carrom/core/frame.hpp"
 #include "carrom/core/state_hash.hpp"
 #include "carrom/parallel/communicator.hpp"
 #include "carrom/scene/scene.hpp"
@@ -38,6 +39,7 @@ struct Totals {
     std::uint64_t overlapping_pairs = 0;    ///< now, deeper than the tolerance
     double deepest_overlap = 0;             ///< of these; 2 r where two discs are in one place
     double kinetic_energy = 0;
+    double potential_energy = 0;            ///< under gravity, above the walls that it pulls to at the start
     double momentum_x = 0, momentum_y = 0;
     StateHash hash;
 };
@@ -93,6 +95,10 @@ public:
     std::span<const Disc> discs() const;
     /// The present time in micro-steps since the last sync, to evaluate Disc::x_at with.
     double clock() const;
+    /// What the coordinates of `discs()` are in at `clock()`; the box's own unless there is gravity.
+    Frame frame() const;
+    /// The own discs as the box sees them at `clock()`: `discs()` itself unless there is gravity, else good until the next call.
+    std::span<const Disc> shown() const;
     /// What velocities are multiplied by to be per step.
     double velocity_unit() const { return velocity_unit_; }
 
@@ -119,10 +125,13 @@ private:
 
     Communicator communicator_;
     double velocity_unit_;
+    Effects effects_;                 ///< times in steps
+    double box_size_;
     int n_threads_;
     std::unique_ptr<Engine> engine_;
     std::unique_ptr<BlockAverages> averages_;
     std::unique_ptr<StateCheck> check_;
+    mutable std::vector<Disc> shown_; ///< under gravity
     std::vector<Collision>* log_ = nullptr; ///< the user's, while the check has a log of its own
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scenes with effects have the bits of the plain statements of both rules, for windows and strips of several kinds, and
 // the plain law's bits where an effect's parameters make it none.
+#include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -8,6 +10,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "carrom/core/random_numbers.hpp"
 #include "effect_runs.hpp"
 #include "event_driven.hpp"
 #include "one_rule.hpp"
@@ -68,6 +71,69 @@ TEST_CASE("effects: discs that do not meet, and discs that lose energy, have the
                                                       {ContactKind::restitution, 0.05, 0.01}, {ContactKind::restitution, 0.0, 0.2}}) {
             contact = {kind, restitution, time};
             for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
+        }
+    }
+}
+
+// Every pair of contact, sides and gravity is met in some scene.
+TEST_CASE("effects: sides and gravity have the references' bits, alone and together") {
+    const Side lossy{SideKind::fixed, 0.7, 0, 0}, piston{SideKind::moving, 1, 0, -0.03}, rising{SideKind::moving, 0.9, 0, 0.02};
+    const ContactEffect elastic, none{ContactKind::none, 1, 0.001}, inelastic{ContactKind::restitution, 0.85, 0.002};
+    struct Case {
+        ContactEffect contact;
+        std::array<Side, 4> sides;
+        Gravity gravity;
+    };
+    const std::array<Side, 4> plain{}, all_lossy{lossy, lossy, lossy, lossy}, pistons{Side{}, piston, rising, piston}, floor{Side{}, Side{}, lossy, rising};
+    const std::vector<Case> cases{{elastic, all_lossy, {}}, {elastic, pistons, {}},        {elastic, plain, {0, -0.05}},
+                                  {none, floor, {0.03, 0.04}}, {inelastic, pistons, {0, -0.03}}, {inelastic, all_lossy, {-0.02, -0.01}}};
+    for (TestScene scene : base_scenes()) {
+        for (const Case& c : cases) {
+            scene.setting.effects = {c.contact, c.sides, c.gravity};
+            check_bits(scene, CollisionRule::all);
+        }
+        for (const ContactEffect& contact : {elastic, none, inelastic}) {
+            scene.setting.effects = {contact, all_lossy, {}};
+            check_bits(scene, CollisionRule::one);
+        }
+    }
+}
+
+TEST_CASE("effects: thermal walls have the references' bits") {
+    const Side warm{SideKind::thermal, 1, 0.3, 0}, cold{SideKind::thermal, 1, 0.01, 0};
+    for (TestScene scene : base_scenes()) {
+        scene.steps = 24;
+        scene.setting.thermal_draw = [](const Side& side, DiscId id, std::uint64_t count, std::size_t number) {
+            DiscRandom random(77, Purpose::thermal_wall, id, 4 * count + number);
+            const double away = std::sqrt(2 * side.temperature * random_exponential(random));
+            const double speed = std::sqrt(2 * side.temperature * random_exponential(random));
+            return std::array{away, speed * random_direction(random).x};
+        };
+        Effects& effects = scene.setting.effects;
+        effects.thermal_seed = 77;
+        effects.sides = {cold, warm, warm, cold};
+        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
+        effects.sides = {Side{}, Side{}, warm, Side{SideKind::fixed, 0.5, 0, 0}};
+        effects.contact = {ContactKind::restitution, 0.9, 0.002};
+        check_bits(scene, CollisionRule::one);
+        effects.gravity = {0.01, -0.02};
+        check_bits(scene, CollisionRule::all);
+    }
+}
+
+TEST_CASE("effects: walls that are elastic and at rest, and no gravity, are the plain law to the bit") {
+    const Communicator world = Communicator::world();
+    std::vector<TestScene> scenes = base_scenes();
+    for (const TestScene& scene : wall_scenes()) {
+        if (!scene.is_endless_under_all && scene.discs.size() < 100) scenes.push_back(scene);
+    }
+    for (TestScene& scene : scenes) {
+        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+            INFO(scene.name);
+            scene.setting.effects = {};
+            const Totals plain = run(scene, rule, world);
+            scene.setting.effects.sides[1] = {SideKind::moving, 1, 0, 0};
+            CHECK(to_string(run(scene, rule, world).hash) == to_string(plain.hash));
         }
     }
 }

@@ -18,7 +18,7 @@
 #include "carrom/parallel/communicator.hpp"
 #include "carrom/parallel/exchange.hpp"
 #include "carrom/scene/lattice.hpp"
-#include "carrom/scene/random_numbers.hpp"
+#include "carrom/core/random_numbers.hpp"
 #include "carrom/scene/read_scene.hpp"
 #include "carrom/scene/velocities.hpp"
 #include "carrom/simulation/initial_state.hpp"

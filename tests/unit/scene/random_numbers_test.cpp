@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "carrom/scene/random_numbers.hpp"
+#include "carrom/core/random_numbers.hpp"
 #include "statistics.hpp"
 
 using namespace carrom;

@@ -225,7 +225,7 @@ TEST_CASE("What is missing is named") {
 TEST_CASE("All problems of a scene come at once, in the order of lines, those of overrides last") {
     const std::string text = "[box]\nsise = 10\nsize = nan\n[discs]\ncount = 0\npacking = 1.5\nradius = -1\nlist = [[1, 2, 3],\n"
                              "  [1, 2, 3, 'a']]\n[[discs.streams]]\nregion = [1, 2, 3]\nvelocity = [1, 2]\n[[discs.streams]]\n"
-                             "regio = [1, 2, 3, 4]\nvelocity = [1, 2]\n[time]\nsteps = 'ten'\n[effects.gravity]\ng = 1\n"
+                             "regio = [1, 2, 3, 4]\nvelocity = [1, 2]\n[time]\nsteps = 'ten'\n[effects.charge]\ne = 1\n"
                              "[output.movie]\nevery = 1\n[foo]\n";
     const auto problems = problems_in(text, {"box.sise=1", "time.steps=1.5", "nonsense", "effects.drag.gamma=1", "box.size=abc"});
     for (const Problem& problem : problems) UNSCOPED_INFO(to_string(problem));
@@ -235,7 +235,7 @@ TEST_CASE("All problems of a scene come at once, in the order of lines, those of
                 "--set nonsense", "--set effects.drag.gamma", "--set box.size", "--set time.steps"});
     CHECK(mentions(problems, "did you mean 'box.size'?"));
     CHECK(mentions(problems, "did you mean 'region'?"));
-    CHECK(mentions(problems, "no effect 'gravity'"));
+    CHECK(mentions(problems, "no effect 'charge'"));
     CHECK(mentions(problems, "no effect 'drag'"));
     CHECK(mentions(problems, "no output 'movie'"));
 }
@@ -366,26 +366,4 @@ TEST_CASE("Streams need a region and a finite velocity") {
         CHECK(mentions(several, text));
     CHECK(problems_in(with_line(5, "radius = 1\nstreams = 3")).size() == 1);
     CHECK(problems_in(with_line(5, "radius = 1\nstreams = [3]")).size() == 1);
-}
-
-TEST_CASE("Effects are read, parameters of others are refused by name") {
-    const Scene scene = read_scene(good + "[effects.contact]\nkind = 'restitution'\nrestitution = 0.9\ncontact_time = 0.01\n", "s.toml");
-    CHECK(scene.effects.contact == ContactEffect{ContactKind::restitution, 0.9, 0.01});
-    CHECK_FALSE(read_scene(good, "s.toml").effects.are_any());
-    CHECK(read_scene(good, "s.toml", {"effects.contact.kind=none"}).effects.contact.kind == ContactKind::none);
-
-    const auto first_text = [](const Texts& overrides) {
-        const auto problems = problems_in(good, overrides);
-        return problems.empty() ? std::string() : problems.front().text;
-    };
-    const auto has = [](const std::string& text, const char* part) { INFO(text); return text.find(part) != std::string::npos; };
-    CHECK(has(first_text({"effects.contact.restitution=0.5"}), "no meaning without effects.contact.kind = \"restitution\""));
-    CHECK(has(first_text({"effects.contact.kind=none", "effects.contact.contact_time=0.1"}), "no meaning without"));
-    CHECK(has(first_text({"effects.contact.kind=restitution"}), "'effects.contact.restitution' is missing"));
-    CHECK(has(first_text({"effects.contact.kind=restitution", "effects.contact.restitution=1.5"}), "from 0 to 1, not 1.5"));
-    CHECK(has(first_text({"effects.contact.kind=restitution", "effects.contact.restitution=0.5", "effects.contact.contact_time=17"}), "at most 16 steps"));
-    CHECK(has(first_text({"effects.contact.kind=bouncy"}), "\"elastic\", \"none\" or \"restitution\""));
-    CHECK(has(first_text({"effects.contact.restitutoin=0.5"}), "did you mean 'effects.contact.restitution'?"));
-    CHECK(has(first_text({"effects.contact.kind=none", "time.precision=single"}), "for scenes without effects"));
-    CHECK(has(first_text({"effects.contact.kind=none", "time.accuracy=0.1"}), "for scenes without effects"));
 }

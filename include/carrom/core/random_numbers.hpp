@@ -13,7 +13,7 @@
 namespace carrom {
 
 /// What numbers are for. The values are part of the promise that a seed always gives the same discs.
-enum class Purpose : std::uint64_t { position = 1, shake = 2, velocity = 3 };
+enum class Purpose : std::uint64_t { position = 1, shake = 2, velocity = 3, thermal_wall = 4 };
 
 /// Four random words for this counter.
 std::array<std::uint64_t, 4> random_words(std::uint64_t seed, Purpose purpose, DiscId id, std::uint64_t attempt,
@@ -25,7 +25,9 @@ inline double unit_number(std::uint64_t word) { return static_cast<double>(word 
 /// One disc's own endless row of numbers for one purpose.
 class DiscRandom {
 public:
-    DiscRandom(std::uint64_t seed, Purpose purpose, DiscId id) : seed_(seed), purpose_(purpose), id_(id) {}
+    /// `occasion`: another row of the same disc's for each.
+    DiscRandom(std::uint64_t seed, Purpose purpose, DiscId id, std::uint64_t occasion = 0)
+        : seed_(seed), purpose_(purpose), id_(id), occasion_(occasion) {}
 
     double uniform(); ///< in [0, 1)
 
@@ -33,6 +35,7 @@ private:
     std::uint64_t seed_;
     Purpose purpose_;
     DiscId id_;
+    std::uint64_t occasion_;
     std::uint64_t block_ = 0;
     unsigned used_ = 4;
     std::array<std::uint64_t, 4> words_{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/scene/random_numbers.hpp"
+#include "carrom/core/random_numbers.hpp"
 
 #include <cmath>
 
@@ -17,7 +17,7 @@ std::array<std::uint64_t, 4> random_words(std::uint64_t seed, Purpose purpose, D
 
 double DiscRandom::uniform() {
     if (used_ == words_.size()) {
-        words_ = random_words(seed_, purpose_, id_, 0, block_++);
+        words_ = random_words(seed_, purpose_, id_, occasion_, block_++);
         used_ = 0;
     }
     return unit_number(words_[used_++]);

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the coordinates are that states are stored in, as seen from the box.
+//
+// Under gravity states are stored in a frame that falls freely from each sync on: there discs fly straight, and all
+// that looks at pairs need not know of gravity. Without it the frame is the box's, and nothing is computed.
+#pragma once
+
+#include "carrom/core/disc.hpp"
+
+namespace carrom {
+
+struct Frame {
+    bool is_moving = false;
+    double x = 0, y = 0;   ///< its origin in the box
+    double vx = 0, vy = 0; ///< its velocity, per micro-step
+
+    /// The disc at `time`, which is the frame's, as the box sees it.
+    Disc in_box(const Disc& stored, double time) const {
+        Disc disc = stored;
+        disc.x = stored.x_at(time);
+        disc.y = stored.y_at(time);
+        disc.tau = time;
+        if (!is_moving) return disc;
+        disc.x += x;
+        disc.y += y;
+        disc.vx += vx;
+        disc.vy += vy;
+        return disc;
+    }
+};
+
+} // namespace carrom

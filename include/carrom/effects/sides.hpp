@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The four sides of a box where a scene asks for more than elastic walls at rest, or for gravity.
+//
+// Times count from the last sync, at which the falling frame (frame.hpp) is at rest in the box. In it discs fly straight and
+// a wall at w0 that moves with u is at w(t) = (w0 + u t) - (g/2 t) t with the velocity u - g t: its distance to a disc
+// is a quadratic, solved without subtracting like numbers. For g = 0 and u = 0 the plain law's formulas are left, bit for bit.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "carrom/core/disc.hpp"
+#include "carrom/core/frame.hpp"
+#include "carrom/effects/effects.hpp"
+
+namespace carrom {
+
+enum class Axis : std::size_t { x = 0, y = 1 };
+
+class Sides {
+public:
+    static constexpr double never = std::numeric_limits<double>::infinity();
+
+    /// `effects` per micro-step.
+    Sides(double box_size, double radius, const Effects& effects);
+
+    /// From now on times count from micro-step `n` of the scene.
+    void begin_interval(std::int64_t n);
+    /// Of a state advanced to `time`: what it is in a frame that starts there, at rest in the box.
+    void restart_frame(Disc& disc, double time) const;
+    Frame frame_at(double time) const;
+    /// The walls themselves in the frame's coordinates.
+    Extent extent_at(double time) const;
+    /// See PlainLaw: at both ends inside, and by as much as the walls' paths are bent in between.
+    Extent walls_between(double begin, double end) const;
+    /// By how much the frame jumps at a sync at `time`, in x.
+    double jump_at(double time) const { return std::fabs(0.5 * gravity_[0] * time * time); }
+    double speed_gained_at(double time) const { return (std::fabs(gravity_[0]) + std::fabs(gravity_[1])) * time; }
+
+    /// When the disc meets a side of this axis, or `never`.
+    double wall_time(const Disc& disc, Axis axis) const { return meeting(disc, axis).time; }
+    /// Carries out the collision of `time` = wall_time(disc, axis), the rule "all".
+    void bounce_at(Disc& disc, Axis axis, double time) const;
+    /// False only if no wall is met by `time`, with room to spare for a rounding `margin`.
+    bool may_meet(const Disc& disc, double time, double margin) const;
+
+    /// The rule "one", walls at rest: reverses the velocity on `axis`, the disc being where it touches.
+    void reverse(Disc& disc, Axis axis) const;
+
+private:
+    struct Meeting {
+        double time = never;
+        std::size_t side = 0;
+    };
+    /// Distance into the box, its rate and its acceleration, at the disc's own time.
+    struct Approach {
+        double distance, rate, pull;
+    };
+
+    static double place_of(const Disc& disc, std::size_t axis) { return axis == 0 ? disc.x : disc.y; }
+    static double velocity_of(const Disc& disc, std::size_t axis) { return axis == 0 ? disc.vx : disc.vy; }
+    static double sign_of(std::size_t side) { return side % 2 == 0 ? 1 : -1; }
+
+    double wall_at(std::size_t side, double time) const {
+        return (places_[side] + speeds_[side] * time) - (0.5 * gravity_[side / 2] * time) * time;
+    }
+    double wall_velocity(std::size_t side, double time) const { return speeds_[side] - gravity_[side / 2] * time; }
+    Approach approach(const Disc& disc, std::size_t side) const {
+        const double sign = sign_of(side);
+        return {sign * (place_of(disc, side / 2) - wall_at(side, disc.tau)),
+                sign * (velocity_of(disc, side / 2) - wall_velocity(side, disc.tau)), sign * gravity_[side / 2]};
+    }
+    static double delay_of(const Approach& approach);
+    Meeting meeting(const Disc& disc, Axis axis) const;
+    void rebound(Disc& disc, std::size_t side, double restitution, double time) const;
+
+    Effects effects_;
+    double radius_;
+    std::array<double, 4> starts_, places_, speeds_; ///< of the centre of a disc that touches: at the scene's start, at the last sync
+    std::array<double, 2> gravity_;
+};
+
+} // namespace carrom

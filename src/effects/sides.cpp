@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carrom/effects/sides.hpp"
+
+#include <algorithm>
+
+#include "carrom/core/random_numbers.hpp"
+
+namespace carrom {
+
+Sides::Sides(double box_size, double radius, const Effects& effects)
+    : effects_(effects), radius_(radius), starts_{radius, box_size - radius, radius, box_size - radius}, places_(starts_),
+      gravity_{effects.gravity.x, effects.gravity.y} {
+    for (std::size_t side = 0; side < 4; ++side) speeds_[side] = effects.sides[side].speed;
+}
+
+void Sides::begin_interval(std::int64_t n) {
+    for (std::size_t side = 0; side < 4; ++side) places_[side] = starts_[side] + speeds_[side] * static_cast<double>(n);
+}
+
+Frame Sides::frame_at(double time) const {
+    const auto fallen = [time](double g) { return (0.5 * g * time) * time; };
+    return {gravity_[0] != 0 || gravity_[1] != 0, fallen(gravity_[0]), fallen(gravity_[1]), gravity_[0] * time, gravity_[1] * time};
+}
+
+void Sides::restart_frame(Disc& disc, double time) const { disc = frame_at(time).in_box(disc, time); }
+
+Extent Sides::extent_at(double time) const {
+    return {wall_at(0, time) - radius_, wall_at(1, time) + radius_, wall_at(2, time) - radius_, wall_at(3, time) + radius_};
+}
+
+Extent Sides::walls_between(double begin, double end) const {
+    const Extent first = extent_at(begin), last = extent_at(end);
+    const double eighth = (end - begin) * (end - begin) / 8; // a chord is no further than that times the acceleration from its parabola
+    const double x_bend = std::fabs(gravity_[0]) * eighth, y_bend = std::fabs(gravity_[1]) * eighth;
+    return {std::max(first.x_low, last.x_low) + x_bend, std::min(first.x_high, last.x_high) - x_bend,
+            std::max(first.y_low, last.y_low) + y_bend, std::min(first.y_high, last.y_high) - y_bend};
+}
+
+/// The first time at which the distance is not positive and falls. Touching counts while it falls, not while it grows.
+double Sides::delay_of(const Approach& approach) {
+    const auto& [distance, rate, pull] = approach;
+    if (rate < 0) {
+        if (!(distance > 0)) return 0;
+        if (pull == 0) return distance / -rate;
+        const double square = rate * rate - 2 * pull * distance;
+        return square > 0 ? 2 * distance / (-rate + std::sqrt(square)) : never; // pulled away before it gets there
+    }
+    if (!(pull < 0)) return never;
+    // It comes back. A disc that rounding has left beyond the wall comes up to it first, or else turns round where it is.
+    return (rate + std::sqrt(std::max(rate * rate - 2 * pull * distance, 0.0))) / -pull;
+}
+
+Sides::Meeting Sides::meeting(const Disc& disc, Axis axis) const {
+    const std::size_t low = 2 * static_cast<std::size_t>(axis);
+    const double to_low = delay_of(approach(disc, low)), to_high = delay_of(approach(disc, low + 1));
+    if (to_low <= to_high) return {disc.tau + to_low, low};
+    return {disc.tau + to_high, low + 1};
+}
+
+/// Straight flight and a pull towards the wall alone: what pulls away from it is left out, to be on the safe side.
+bool Sides::may_meet(const Disc& disc, double time, double margin) const {
+    const double rest = time - disc.tau;
+    for (std::size_t side = 0; side < 4; ++side) {
+        const auto [distance, rate, pull] = approach(disc, side);
+        const double towards = std::min(pull, 0.0);
+        if (!(distance + (rate + 0.5 * towards * rest) * rest > margin) && (rate < 0 || towards < 0)) return true;
+    }
+    return false;
+}
+
+void Sides::bounce_at(Disc& disc, Axis axis, double time) const {
+    const std::size_t side = meeting(disc, axis).side;
+    const double restitution = time - disc.tau < effects_.contact.contact_time ? 1 : effects_.sides[side].restitution;
+    disc.x = disc.x_at(time);
+    disc.y = disc.y_at(time);
+    disc.tau = time;
+    rebound(disc, side, restitution, time);
+    disc.wall_collisions += 1;
+}
+
+void Sides::reverse(Disc& disc, Axis axis) const {
+    const std::size_t low = 2 * static_cast<std::size_t>(axis);
+    const std::size_t side = velocity_of(disc, low / 2) < 0 ? low : low + 1;
+    rebound(disc, side, effects_.sides[side].restitution, 0);
+}
+
+void Sides::rebound(Disc& disc, std::size_t side, double restitution, double time) const {
+    double& normal = side / 2 == 0 ? disc.vx : disc.vy;
+    double& along = side / 2 == 0 ? disc.vy : disc.vx;
+    const double sign = sign_of(side), wall = wall_velocity(side, time);
+    double away = restitution * std::fabs(normal - wall);
+    if (effects_.sides[side].kind == SideKind::thermal) {
+        // What leaves a wall of temperature T: v_n with the density v_n / T exp(-v_n^2 / 2 T), the other part Maxwell's.
+        DiscRandom random(effects_.thermal_seed, Purpose::thermal_wall, disc.id, 4 * disc.wall_collisions + side);
+        const double temperature = effects_.sides[side].temperature;
+        away = std::sqrt(2 * temperature * random_exponential(random));
+        const double speed = std::sqrt(2 * temperature * random_exponential(random));
+        along = speed * random_direction(random).x - gravity_[1 - side / 2] * time;
+    }
+    // A disc that is pulled back stays away for the contact time at least: else one at rest would bounce without end.
+    const double pull = -sign * gravity_[side / 2];
+    if (pull > 0) away = std::max(away, 0.5 * pull * effects_.contact.contact_time);
+    normal = wall + sign * away;
+}
+
+} // namespace carrom

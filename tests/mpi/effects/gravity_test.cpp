@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is known of discs that fall.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "carrom/parallel/exchange.hpp"
+#include "effect_runs.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+constexpr double g = 0.01;
+
+/// One disc of radius 1 that is let go at a height above the floor.
+TestScene ball(double height, double restitution) {
+    TestScene scene = empty_scene("ball", 128, 1, 1);
+    add_disc(scene, 64, 1 + height, 0.0625, 0);
+    scene.setting.effects.gravity = {0, -g};
+    scene.setting.effects.sides[2].restitution = restitution;
+    return scene;
+}
+
+/// Times of all collisions with walls, ascending. **Collective.**
+std::vector<double> wall_times(TestScene scene, std::int64_t steps, const Communicator& world) {
+    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    std::vector<Collision> log, all;
+    simulation.log_to(&log);
+    advance_to(simulation, steps);
+    stream_to_root(world, std::span<const Collision>(log), [&](std::span<const Collision> some) { all.insert(all.end(), some.begin(), some.end()); }, 1000);
+    world.broadcast(all);
+    std::vector<double> times;
+    for (const Collision& c : all) times.push_back(static_cast<double>(c.micro_step) + c.time);
+    std::sort(times.begin(), times.end());
+    return times;
+}
+
+} // namespace
+
+TEST_CASE("effects: a ball bounces when Galileo says") {
+    const Communicator world = Communicator::world();
+    for (const double restitution : {1.0, 0.8}) {
+        TestScene scene = ball(50, restitution);
+        scene.discs[0].vx = 0;
+        const std::vector<double> times = wall_times(scene, 1000, world);
+        const long double first = std::sqrt(100.0L / static_cast<long double>(g));
+        long double expected = first, flight = 2 * first;
+        double worst = 0;
+        std::size_t n = 0;
+        for (; n < times.size() && flight > 1; ++n) {
+            worst = std::max(worst, static_cast<double>(std::fabs(times[n] - expected)));
+            flight *= restitution;
+            expected += flight;
+        }
+        CHECK(n >= (restitution == 1 ? 5u : 23u));
+        CHECK(worst < 1e-9); // places are rounded to 2^-46, speeds at impact are some 1: errors of a few 1e-14 grow with each bounce
+    }
+}
+
+TEST_CASE("effects: an elastic ball comes back to its height after ten thousand bounces; a lossy one comes to rest in bounded time") {
+    const Communicator world = Communicator::world();
+    const Totals start = run(ball(0.5, 1), CollisionRule::all, world);
+    TestScene scene = ball(0.5, 1);
+    scene.steps = 200000;
+    const Totals end = run(scene, CollisionRule::all, world);
+    CHECK(end.wall_collisions > 9000);
+    CHECK(end.kinetic_energy + end.potential_energy == Approx(start.kinetic_energy + start.potential_energy).epsilon(1e-10));
+
+    scene = ball(5, 0.5);
+    scene.steps = 400;
+    scene.discs[0].vx = 0;
+    scene.setting.effects.contact.contact_time = 0.01;
+    const Totals rest = run(scene, CollisionRule::all, world);
+    CHECK(static_cast<double>(rest.wall_collisions) < 400 / 0.01);
+    CHECK(rest.wall_collisions > 100);
+    CHECK(rest.kinetic_energy + rest.potential_energy - g < 0.05 * 0.02 * g); // no higher than the contact time takes it
+}
+
+TEST_CASE("effects: a gas that falls keeps its energy") {
+    const Communicator world = Communicator::world();
+    TestScene scene = gas(400, 0.2, 0.5, 603);
+    scene.setting.effects.gravity = {0.004, -0.01};
+    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    const Totals start = simulation.totals();
+    for (const std::int64_t step : {37, 100, 203}) { // between syncs, too
+        advance_to(simulation, step);
+        const Totals now = simulation.totals();
+        CHECK(now.kinetic_energy + now.potential_energy == Approx(start.kinetic_energy + start.potential_energy).epsilon(1e-12));
+        CHECK(now.overlapping_pairs == 0);
+    }
+    CHECK(simulation.totals().pair_collisions > 400);
+}
+
+// Over a floor of temperature T an ideal gas has the density exp(-g y / T), whatever the disc's size.
+TEST_CASE("effects: the barometric formula over a thermal floor") {
+    const Communicator world = Communicator::world();
+    TestScene scene = gas(2000, 0.02, 0.4, 604);
+    const double temperature = 0.2;
+    Effects& effects = scene.setting.effects;
+    effects.contact.kind = ContactKind::none;
+    effects.gravity = {0, -g};
+    effects.sides[2] = {SideKind::thermal, 1, temperature, 0};
+    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    advance_to(simulation, 3001); // twenty flights; the box is some 28 times T / g high
+    std::vector<double> heights, all;
+    for (const Disc& disc : simulation.shown()) heights.push_back(disc.y - scene.setting.radius);
+    stream_to_root(world, std::span<const double>(heights), [&](std::span<const double> some) { all.insert(all.end(), some.begin(), some.end()); }, 1000);
+    world.broadcast(all);
+    std::sort(all.begin(), all.end());
+    const double n = static_cast<double>(all.size());
+    double largest = 0;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const double known = 1 - std::exp(-g * all[k] / temperature);
+        largest = std::max({largest, known - static_cast<double>(k) / n, static_cast<double>(k + 1) / n - known});
+    }
+    CHECK(all.size() == scene.discs.size());
+    CHECK(largest * std::sqrt(n) < 1.95); // passed by one sample in a thousand (Kolmogorov)
+}

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is known of walls that take energy, give it, or move.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "effect_runs.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+/// Kinetic energy per disc, averaged over `n_looks` looks, `apart` steps from each other.
+double mean_energy(Simulation& simulation, int n_looks, std::int64_t apart) {
+    double sum = 0;
+    for (int k = 0; k < n_looks; ++k) {
+        advance_to(simulation, simulation.step() + apart);
+        const Totals totals = simulation.totals();
+        sum += totals.kinetic_energy / static_cast<double>(totals.n_discs);
+    }
+    return sum / n_looks;
+}
+
+} // namespace
+
+TEST_CASE("effects: walls of one temperature give it to a gas, under both rules") {
+    const Communicator world = Communicator::world();
+    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+        TestScene scene = gas(400, 0.1, 0.2, 605);
+        scene.steps = 1000000;
+        for (Side& side : scene.setting.effects.sides) side = {SideKind::thermal, 1, 0.5, 0};
+        Simulation simulation = simulation_of(scene, rule, world);
+        advance_to(simulation, 1500);
+        // E / N is T with the variance T^2 / N: 30 looks that are hardly correlated leave 1 % or so.
+        CHECK(mean_energy(simulation, 30, 150) == Approx(0.5).epsilon(0.04));
+    }
+}
+
+// Without collisions discs from a wall of temperature T_k fill the box with a density ~ 1 / sqrt(T_k): <v^2> / 2 = sqrt(T_1 T_2)
+// (Knudsen's gas between two plates).
+TEST_CASE("effects: an ideal gas between walls of two temperatures has their geometric mean") {
+    const Communicator world = Communicator::world();
+    TestScene scene = gas(1000, 0.02, 0.5, 606);
+    Effects& effects = scene.setting.effects;
+    effects.contact.kind = ContactKind::none;
+    effects.sides[0] = {SideKind::thermal, 1, 1, 0};
+    effects.sides[1] = {SideKind::thermal, 1, 9, 0};
+    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    advance_to(simulation, 4000);
+    // Slow discs stay long, so looks hang together; single energies scatter by a few times 3.
+    CHECK(mean_energy(simulation, 20, 400) == Approx(3).epsilon(0.06));
+}
+
+TEST_CASE("effects: walls take what their restitution says") {
+    const Communicator world = Communicator::world();
+    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+        TestScene scene = empty_scene("one disc", 16, 1, 14 * 4);
+        add_disc(scene, 8, 8, 1, 0);
+        scene.setting.effects.sides[0].restitution = 0.5;
+        scene.setting.effects.sides[1].restitution = 0.25;
+        scene.steps = 40; // right at 7, then 14 / 0.25 = 56 steps back
+        CHECK(run(scene, rule, world).kinetic_energy == 0.5 * 0.0625);
+        scene.steps = 70;
+        CHECK(run(scene, rule, world).kinetic_energy == 0.5 * 0.0625 * 0.25);
+    }
+}
+
+TEST_CASE("effects: a disc before a piston is where arithmetic says") {
+    const Communicator world = Communicator::world();
+    TestScene scene = empty_scene("piston", 102, 1, 300);
+    add_disc(scene, 40, 50, 0.7, 0);
+    const double u = 0.2;
+    scene.setting.effects.sides[1] = {SideKind::moving, 1, 0, -u};
+    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    advance_to(simulation, scene.steps);
+    long double x = 40, v = 0.7, t = 0;
+    int n = 0;
+    for (;; ++n) { // between the wall at 1 and the piston at 101 - u t
+        const long double speed = -static_cast<long double>(u);
+        const long double to_piston = (101 + speed * t - x) / (v - speed), to_wall = v < 0 ? (1 - x) / v : 1e9L;
+        const long double delay = v < 0 ? to_wall : to_piston;
+        if (t + delay > 300) break;
+        t += delay;
+        x += v * delay;
+        v = v < 0 ? -v : 2 * speed - v;
+    }
+    x += v * (300 - t);
+    CHECK(n >= 4);
+    for (const Disc& disc : simulation.discs()) {
+        CHECK(disc.x_at(simulation.clock()) == Approx(static_cast<double>(x)).epsilon(1e-13));
+        CHECK(disc.vx == Approx(static_cast<double>(v)).epsilon(1e-13));
+    }
+}
+
+// All four walls move in: each component of a velocity times its length is an adiabatic invariant, so E L^2 (p V^2, V = L^2)
+// stays; and every impulse J of a wall with the speed u does the work J u.
+TEST_CASE("effects: an ideal gas is compressed adiabatically, and its energy is the work done") {
+    const Communicator world = Communicator::world();
+    TestScene scene = gas(1500, 0.01, 1, 607);
+    const double u = 0.004;
+    Effects& effects = scene.setting.effects;
+    effects.contact.kind = ContactKind::none;
+    for (std::size_t k = 0; k < 4; ++k) effects.sides[k] = {SideKind::moving, 1, 0, k % 2 == 0 ? u : -u};
+    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    std::vector<Collision> log;
+    simulation.log_to(&log);
+    const double length = scene.setting.box_size - 2 * scene.setting.radius;
+    const double start = simulation.totals().kinetic_energy;
+    const auto steps = static_cast<std::int64_t>(length / (8 * u)); // L falls by a quarter
+    advance_to(simulation, steps);
+    const double end = simulation.totals().kinetic_energy, now = length - 2 * u * static_cast<double>(steps);
+    double impulse = 0;
+    for (const Collision& collision : log) impulse += collision.impulse;
+    std::vector<double> impulses = world.all_gather(impulse);
+    double work = 0;
+    for (const double part : impulses) work += part * u;
+    CHECK(end - start == Approx(work).epsilon(1e-11));
+    CHECK(end * now * now == Approx(start * length * length).epsilon(0.01));
+    CHECK(end > 1.7 * start);
+}

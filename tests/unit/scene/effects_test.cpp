@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Effects in a scene: what is read, and what is refused for which reason.
+#include <catch2/catch.hpp>
+
+#include <string>
+#include <vector>
+
+#include "carrom/scene/compare.hpp"
+#include "carrom/scene/read_scene.hpp"
+#include "problems_of.hpp"
+
+using namespace carrom;
+using test::problems_of;
+
+namespace {
+
+using Texts = std::vector<std::string>;
+
+const std::string good = "[box]\nsize = 100\n[discs]\ncount = 50\nradius = 1\n[time]\nsteps = 10\n";
+
+/// The texts of all problems, one a line.
+std::string problems_with(const Texts& overrides) {
+    std::string text;
+    for (const Problem& problem : problems_of([&] { read_scene(good, "s.toml", overrides); })) text += problem.text + '\n';
+    return text;
+}
+
+bool has(const std::string& text, const char* part) {
+    UNSCOPED_INFO(text);
+    return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("Effects are read, parameters of others are refused by name") {
+    const Scene scene = read_scene(good + "[effects.contact]\nkind = 'restitution'\nrestitution = 0.9\ncontact_time = 0.01\n", "s.toml");
+    CHECK(scene.effects.contact == ContactEffect{ContactKind::restitution, 0.9, 0.01});
+    CHECK_FALSE(read_scene(good, "s.toml").effects.are_any());
+    CHECK(read_scene(good, "s.toml", {"effects.contact.kind=none"}).effects.contact.kind == ContactKind::none);
+
+    CHECK(has(problems_with({"effects.contact.restitution=0.5"}), "no meaning without effects.contact.kind = \"restitution\""));
+    CHECK(has(problems_with({"effects.contact.kind=none", "effects.contact.contact_time=0.1"}), "no meaning without"));
+    CHECK(has(problems_with({"effects.contact.kind=restitution"}), "'effects.contact.restitution' is missing"));
+    CHECK(has(problems_with({"effects.contact.kind=restitution", "effects.contact.restitution=1.5"}), "from 0 to 1, not 1.5"));
+    CHECK(has(problems_with({"effects.contact.kind=restitution", "effects.contact.restitution=0.5", "effects.contact.contact_time=17"}), "at most 16 steps"));
+    CHECK(has(problems_with({"effects.contact.kind=bouncy"}), "\"elastic\", \"none\" or \"restitution\""));
+    CHECK(has(problems_with({"effects.contact.restitutoin=0.5"}), "did you mean 'effects.contact.restitution'?"));
+    CHECK(has(problems_with({"effects.contact.kind=none", "time.precision=single"}), "for scenes without effects"));
+    CHECK(has(problems_with({"effects.contact.kind=none", "time.accuracy=0.1"}), "for scenes without effects"));
+}
+
+TEST_CASE("Sides are read, and contradictions explained") {
+    const Scene scene = read_scene(good, "s.toml", {"box.left.kind=thermal", "box.left.temperature=2", "box.right.kind=moving", "box.right.speed=-0.5",
+                                                    "box.top.restitution=0.5", "effects.thermal.seed=7", "time.collisions=all"});
+    CHECK(scene.effects.sides[0] == Side{SideKind::thermal, 1, 2, 0});
+    CHECK(scene.effects.sides[1] == Side{SideKind::moving, 1, 0, -0.5});
+    CHECK(scene.effects.sides[2] == Side{});
+    CHECK(scene.effects.sides[3] == Side{SideKind::fixed, 0.5, 0, 0});
+    CHECK(scene.effects.thermal_seed == 7);
+    CHECK(has(problems_with({"box.left.temperature=2"}), "no meaning without box.left.kind = \"thermal\""));
+    CHECK(has(problems_with({"box.left.kind=thermal"}), "'box.left.temperature' is missing"));
+    CHECK(has(problems_with({"box.left.kind=thermal", "box.left.temperature=1", "box.left.restitution=0.5"}), "has forgotten how it came"));
+    CHECK(has(problems_with({"box.top.speed=1"}), "no meaning without box.top.kind = \"moving\""));
+    CHECK(has(problems_with({"box.top.kind=moving", "box.top.speed=1"}), "needs time.collisions = \"all\""));
+    const std::string all = "time.collisions=all";
+    CHECK(has(problems_with({"box.right.kind=moving", "box.right.speed=-9.9", all}), "too small for its discs"));
+    CHECK(has(problems_with({"box.right.kind=moving", "box.right.speed=11", all}), "more than twice as long"));
+    CHECK(has(problems_with({"box.left.kind=moving", "box.left.speed=-0.1", all}), "let the right one move out"));
+    CHECK(has(problems_with({"effects.thermal.seed=1"}), "no meaning without a side of kind = \"thermal\""));
+    CHECK(has(problems_with({"effects.contact.contact_time=0.1"}), "no meaning without discs or walls of restitution, or gravity"));
+    CHECK(has(problems_with({"box.middle.kind=wall"}), "no such key"));
+}
+
+TEST_CASE("Gravity is read, and refused where the falling frame would leave the box") {
+    CHECK(read_scene(good, "s.toml", {"effects.gravity.y=-0.02", "time.collisions=all"}).effects.gravity == Gravity{0, -0.02});
+    CHECK(has(problems_with({"effects.gravity.y=-0.02"}), "gravity needs time.collisions = \"all\""));
+    CHECK(has(problems_with({"effects.gravity.x=1", "time.collisions=all"}), "time.sync_every = 10 or less will do"));
+    CHECK(problems_with({"effects.gravity.x=1", "time.collisions=all", "time.sync_every=10"}).empty());
+}
+
+TEST_CASE("A restart cannot change effects") {
+    const Texts there{"effects.gravity.y=-0.02", "time.collisions=all", "box.top.restitution=0.5"};
+    const Texts here{"effects.gravity.y=-0.01", "time.collisions=all", "box.top.kind=thermal", "box.top.temperature=1"};
+    const std::vector<std::string> differences = physical_differences(read_scene(good, "s.toml", there), read_scene(good, "s.toml", here));
+    CHECK(differences.size() == 4); // gravity, and the side's kind, restitution and temperature
+    CHECK(physical_differences(read_scene(good, "s.toml", there), read_scene(good, "s.toml", there)).empty());
+}
