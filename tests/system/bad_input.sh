@@ -99,7 +99,7 @@ refuse_toml 'not a number' "${good/size = 10/size = nan}" 'bad.toml:2: '
 refuse_toml 'infinity' "${good/radius = 1/radius = inf}" 'bad.toml:5: '
 refuse_toml 'no discs at all' "${good/count = 2/count = 0}" 'bad.toml:4: '
 refuse_toml 'more discs than fit' "${good/count = 2/count = 200}" 'cannot fit into a box of side 10'
-refuse_toml 'an effect of a later version' "$good"$'\n[effects.gravity]\ng = 1' 'bad.toml:8: '
+refuse_toml 'an effect of a later version' "$good"$'\n[effects.charge]\ne = 1' 'bad.toml:8: '
 refuse_toml 'discs from no file' "${good/radius = 1/radius = 1$'\n'generator = \"file\"}" 'bad.toml:6: '
 refuse_toml 'discs from a file that is not there' \
     "${good/radius = 1/radius = 1$'\n'generator = \"file\"$'\n'file = \"nowhere.txt\"}" 'nowhere.txt: cannot be opened'
