@@ -72,8 +72,9 @@ std::string summary_text(const FileSummary& summary) {
     text += line("discs", fmt::format("{} in a box of {:g}", summary.n_discs, summary.box_size));
     if (summary.kind == FileKind::trajectory) {
         text += line("radius", fmt::format("{:g}", summary.radius));
-        text += line("fields", fmt::format("{}{}{}", summary.has_position ? "position " : "", summary.has_velocity ? "velocity " : "",
-                                           summary.has_collisions ? "collisions" : ""));
+        const std::string fields = fmt::format("{}{}{}", summary.has_position ? " position" : "", summary.has_velocity ? " velocity" : "",
+                                               summary.has_collisions ? " collisions" : "");
+        text += line("fields", fields.substr(std::min<std::size_t>(1, fields.size())));
         if (summary.has_position || summary.has_velocity) text += line("numbers", fmt::format("of {} bytes", summary.bytes_per_number));
         text += line("frames", frames_text(summary.steps));
     }
