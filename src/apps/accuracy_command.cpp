@@ -9,7 +9,6 @@
 
 #include "accuracy_study.hpp"
 #include "load.hpp"
-#include "stop_signals.hpp"
 
 namespace carrom {
 
@@ -50,12 +49,12 @@ struct AccuracyWords {
 
 /// A number of at least `least` where the word is given.
 template <class Number>
-void take(Number& number, const char* option, const std::string& word, Number least, std::vector<Problem>& problems) {
+void take(Number& number, const char* option, const std::string& word, Number least, std::vector<Problem>& problems, Number most = 1000000) {
     if (word.empty()) return;
     Number value{};
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error == std::errc{} && end == word.data() + word.size() && value >= least && value <= static_cast<Number>(1000000)) number = value;
-    else problems.push_back({option, 0, fmt::format("must be a number from {} to 1000000, not \"{}\"", least, word)});
+    if (error == std::errc{} && end == word.data() + word.size() && value >= least && value <= most) number = value;
+    else problems.push_back({option, 0, fmt::format("must be a number from {} to {}, not \"{}\"", least, most, word)});
 }
 
 AccuracyOptions checked(const AccuracyWords& words, std::vector<Problem>& problems) {
@@ -70,7 +69,7 @@ AccuracyOptions checked(const AccuracyWords& words, std::vector<Problem>& proble
     take(study.collisions, "--collisions", words.collisions, 1e-3, problems);
     take(study.approach, "--approach", words.approach, 1e-3, problems);
     take(study.most_micro_steps, "--micro-steps", words.micro_steps, std::int64_t{1}, problems);
-    take(study.threads, "--threads", words.threads, 1, problems);
+    take(study.threads, "--threads", words.threads, 1, problems, 1024);
     if (words.arithmetic == "default") study.formulas = Formulas::usual;
     else if (words.arithmetic == "stable") study.formulas = Formulas::stable;
     else if (words.arithmetic != "all")

@@ -165,14 +165,17 @@ void study_costs(const Scene& scene, const std::vector<InputDisc>& discs, const 
             exact = run_trial(scene, settings[0], start, {length.early_step, length.early_step, 1}, ranks, tuning).early;
             exact_start = item.start;
         }
+        std::string failure;
+        Trial trial;
         try {
-            const Trial trial = run_trial(scene, item.setting, start, length, ranks, tuning);
-            table.add(scene, start, key, trial, distance_between(trial.early, exact, 2 * scene.radius), options.threads);
+            trial = run_trial(scene, item.setting, start, length, ranks, tuning);
         } catch (const InputError& error) {
-            table.add_failure(scene, start, key, error.problems().front().text, options.threads);
+            failure = error.problems().front().text;
         } catch (const CollectiveError& error) { // collisions without end
-            table.add_failure(scene, start, key, error.what(), options.threads);
+            failure = error.what();
         }
+        if (failure.empty()) table.add(scene, start, key, trial, distance_between(trial.early, exact, 2 * scene.radius), options.threads);
+        else table.add_failure(scene, start, key, failure, options.threads);
         return true;
     });
 }

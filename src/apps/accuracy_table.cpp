@@ -2,6 +2,7 @@
 #include "accuracy_table.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <string_view>
 
@@ -53,7 +54,12 @@ std::string build_fields() {
 } // namespace
 
 AccuracyTable::AccuracyTable(const std::string& path)
-    : table_(path, fmt::format("{},{},threads,failure,{}", trial_columns(), number_columns, build_columns), n_columns(trial_columns())) {}
+    : table_(path, {fmt::format("{},{},threads,failure,{}", trial_columns(), number_columns, build_columns), n_columns(trial_columns()),
+                    n_columns(build_columns), build_fields()}) {
+    if (table_.n_foreign() > 0)
+        fmt::print(stderr, "{}: warning: {} of its lines are of another version, compiler or machine: costs of one setting and another are then not "
+                           "comparable\n", path, table_.n_foreign());
+}
 
 bool AccuracyTable::has(const Scene& scene, const TrialStart& start, const TrialKey& key) const {
     return table_.has(trial_fields(scene, start, key));
@@ -80,12 +86,12 @@ void AccuracyTable::add_failure(const Scene& scene, const TrialStart& start, con
 
 void AccuracyTable::append(const std::string& key, const std::vector<std::string>& fields, const std::string& failure,
                            int threads) {
-    table_.append(fmt::format("{},{},{},{},{}", key, fmt::join(fields, ","), threads, plain_field(failure), build_fields()));
+    table_.append(key, fmt::format("{},{},{}", fmt::join(fields, ","), threads, plain_field(failure)));
 }
 
 DistanceTable::DistanceTable(const std::string& path)
-    : table_(path, fmt::format("{},collisions_per_disc,distance_rms,distance_median,{}", distance_columns(), build_columns),
-             n_columns(distance_columns())) {}
+    : table_(path, {fmt::format("{},collisions_per_disc,distance_rms,distance_median,{}", distance_columns(), build_columns),
+                    n_columns(distance_columns()), n_columns(build_columns), build_fields()}) {}
 
 bool DistanceTable::has(const Scene& scene, const TrialStart& start, const TrialKey& key, std::int64_t step) const {
     return table_.has(distance_fields(scene, start, key, step));
@@ -93,8 +99,8 @@ bool DistanceTable::has(const Scene& scene, const TrialStart& start, const Trial
 
 void DistanceTable::add(const Scene& scene, const TrialStart& start, const TrialKey& key, std::int64_t step, double collisions,
                         const Distance& distance) {
-    table_.append(fmt::format("{},{:.6g},{:.6g},{:.6g},{}", distance_fields(scene, start, key, step), collisions,
-                              distance.root_mean_square, distance.median, build_fields()));
+    table_.append(distance_fields(scene, start, key, step),
+                  fmt::format("{:.6g},{:.6g},{:.6g}", collisions, distance.root_mean_square, distance.median));
 }
 
 } // namespace carrom

@@ -25,11 +25,11 @@ struct Distance {
 
 class AccuracyTable {
 public:
-    /// Throws InputError as CsvTable does.
+    /// Throws as CsvTable does; warns of lines from elsewhere.
     explicit AccuracyTable(const std::string& path);
 
     bool has(const Scene& scene, const TrialStart& start, const TrialKey& key) const;
-    /// Adds a line; `distance` is that to the exact run at the early step. Throws InputError where that fails.
+    /// Adds a line; `distance` is that to the exact run at the early step. Throws where that fails.
     void add(const Scene& scene, const TrialStart& start, const TrialKey& key, const Trial& trial, const Distance& distance,
              int threads);
     /// A trial that could not be run: the line holds the reason, and no numbers.
@@ -44,7 +44,7 @@ private:
 /// Distances of one trial to the exact run, look by look.
 class DistanceTable {
 public:
-    /// Throws InputError as CsvTable does.
+    /// Throws as CsvTable does.
     explicit DistanceTable(const std::string& path);
 
     /// Whether a trial has its line at that step; the last one says that it is done.

@@ -58,9 +58,11 @@ void tell_of_unfinished(const std::string& folder) {
 Checkpoint read_matching(const std::string& path, const RunOptions& options, Scene& scene, const Communicator& ranks) {
     Checkpoint checkpoint = read_checkpoint(path, ranks);
     const Scene there = scene_of(checkpoint.header, {});
-    Scene here = options.input.empty() ? scene_of(checkpoint.header, options.overrides) : scene;
-    if (here.accuracy) {
-        settle_on(here, {there.rule, there.micro_steps});
+    std::vector<std::string> overrides = options.overrides;
+    const bool asks_again = std::erase_if(overrides, [](const std::string& text) { return text.starts_with("time.accuracy="); }) > 0;
+    Scene here = options.input.empty() ? scene_of(checkpoint.header, overrides) : scene;
+    if (here.accuracy || asks_again) {
+        if (here.accuracy) settle_on(here, {there.rule, there.micro_steps});
         if (ranks.is_root() && !options.quiet) fmt::print(stderr, "time.accuracy chooses at a run's start: going on with the checkpoint's setting\n");
     }
     std::vector<Problem> problems;

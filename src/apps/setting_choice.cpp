@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
+
+#include "carrom/core/errors.hpp"
 
 namespace carrom {
 
@@ -16,8 +18,10 @@ constexpr double approach = 10;           ///< collisions of a disc before anyth
 constexpr double certainty = 2;           ///< standard errors that are added to a measured error
 constexpr double most_collisions = 4e6;   ///< of pairs, per trial
 constexpr double least_accuracy = 4 * certainty / 2000; ///< what so many can tell, four times: 2000^2 = 4e6
-constexpr double fewest_collisions = 2e4; ///< of pairs, and so many times the discs: less is too short to be timed
+constexpr double fewest_collisions = 2e4; ///< of pairs, and so many times the discs: less is too short to be timed ...
 constexpr double fewest_per_disc = 2;
+constexpr double long_enough = 2e4;       ///< ... but so many steps, or of discs so many, are not, however few discs meet
+constexpr double long_enough_steps = 1e3;
 constexpr std::int64_t most_micro_steps = 1 << 20;
 
 struct Choice {
@@ -33,30 +37,49 @@ std::string shares_text(const TrialError& error) {
                        100 * error.error);
 }
 
-Choice choose(const Scene& scene, double accuracy, const TrialStart& start, const Communicator& communicator, const Tuning& tuning) {
+/// Enough to see an error of `accuracy`, and to be timed.
+std::int64_t trial_steps(double n_discs, double pairs_per_step, double accuracy) {
+    const double to_be_timed = std::max(fewest_collisions, fewest_per_disc * n_discs) / pairs_per_step;
+    return static_cast<std::int64_t>(std::ceil(std::max(collisions_needed(accuracy) / pairs_per_step,
+                                                        std::min(to_be_timed, std::max(long_enough / n_discs, long_enough_steps)))));
+}
+
+Choice choose(const Scene& scene, double accuracy, const TrialStart& start, bool quiet, const Communicator& communicator, const Tuning& tuning) {
     const RunSetting all{CollisionRule::all};
-    if (accuracy < least_accuracy)
-        return {all, fmt::format("collisions = \"all\": an error of {:g} is less than a pilot can see, and this rule makes none", accuracy)};
-    const double pairs_per_step = start.frequency * static_cast<double>(scene.n_discs) / 2;
+    const auto n_discs = static_cast<double>(scene.n_discs);
     TrialLength length;
-    const double pairs = std::max({collisions_needed(accuracy), fewest_collisions, fewest_per_disc * static_cast<double>(scene.n_discs)});
-    length.steps = static_cast<std::int64_t>(std::ceil(pairs / pairs_per_step));
+    length.steps = trial_steps(n_discs, start.frequency * n_discs / 2, accuracy);
     length.n_looks = 1;
+    if (communicator.is_root() && !quiet) fmt::print(stderr, "accuracy {:g}: a pilot tries settings, {} steps of each\n", accuracy, length.steps);
     const Trial exact = run_trial(scene, all, start, length, communicator, tuning);
     const double exact_seconds = exact.wall_seconds / static_cast<double>(length.steps);
+    bool was_dearer = false; // a number of micro-steps may be dearer than twice as many are
     for (std::int64_t k = 1; k <= most_micro_steps; k *= 2) {
         const RunSetting setting{CollisionRule::one, k};
         const Trial trial = run_trial(scene, setting, start, length, communicator, tuning);
         const double seconds = trial.wall_seconds / static_cast<double>(length.steps);
         const TrialError error = error_of(trial, exact);
-        if (seconds >= exact_seconds)
+        const bool is_dearer = seconds >= exact_seconds;
+        if (is_dearer && was_dearer)
             return {all, fmt::format("collisions = \"all\": exact, and no dearer than \"one\" with micro_steps = {} ({:.3g} and {:.3g} s per step), which "
                                      "would make errors of {}", k, exact_seconds, seconds, shares_text(error))};
-        if (error.largest() + certainty * error.error <= accuracy)
+        was_dearer = is_dearer;
+        if (!is_dearer && error.largest() + certainty * error.error <= accuracy)
             return {setting, fmt::format("collisions = \"one\", micro_steps = {}: expect {}; {:.3g} s per step, the exact rule {:.3g}", k,
                                          shares_text(error), seconds, exact_seconds)};
     }
     return {all, "collisions = \"all\": no number of micro-steps is good enough"};
+}
+
+/// Throws InputError, with a way out.
+TrialStart start_of_pilot(const Scene& scene, const std::vector<InputDisc>& discs, const Communicator& communicator, const Tuning& tuning) {
+    try {
+        return bring_to_equilibrium(scene, discs, approach, communicator, tuning);
+    } catch (const InputError& error) {
+        std::vector<Problem> problems = error.problems();
+        problems.push_back({scene.name, 0, "so no pilot can measure what 'time.accuracy' is to choose by: give time.collisions and time.micro_steps in its place"});
+        throw InputError(std::move(problems));
+    }
 }
 
 } // namespace
@@ -81,8 +104,13 @@ void settle_on(Scene& scene, const RunSetting& setting) {
 
 void choose_setting(Scene& scene, const std::vector<InputDisc>& discs, bool quiet, const Communicator& communicator,
                     const Tuning& tuning) {
-    const TrialStart start = bring_to_equilibrium(scene, discs, approach, communicator, tuning);
-    Choice choice = choose(scene, *scene.accuracy, start, communicator, tuning); // all ranks know the same seconds
+    Choice choice;
+    if (*scene.accuracy < least_accuracy) {
+        choice = {{CollisionRule::all}, "collisions = \"all\": so small an error is less than a pilot can see, and this rule makes none"};
+    } else {
+        const TrialStart start = start_of_pilot(scene, discs, communicator, tuning);
+        choice = choose(scene, *scene.accuracy, start, quiet, communicator, tuning); // all ranks know the same seconds
+    }
     if (communicator.is_root() && !quiet)
         fmt::print(stderr, "accuracy {:g}: {}\n", *scene.accuracy, choice.reason);
     settle_on(scene, choice.setting);

@@ -2,8 +2,8 @@
 // `time.accuracy = x`: the cheapest setting whose collision rate and pressure are within a share x of the truth.
 //
 // A pilot brings the scene's discs to equilibrium, runs them under the exact rule, and then under the rule "one" with
-// K = 1, 2, 4, ... micro-steps, until one is good enough or as dear as the exact rule. Cost grows with K, so the first good
-// one is the cheapest. Single precision and the naive formula are not tried: they save no time (docs/accuracy.md).
+// K = 1, 2, 4, ... micro-steps, until one is good enough or two in succession are as dear as the exact rule. Cost grows with
+// K but for small ups and downs, so the first good one is the cheapest. Single precision and the naive formula are not tried: they save no time (docs/accuracy.md).
 #pragma once
 
 #include <vector>

@@ -30,6 +30,29 @@ cp stopped.csv finished.csv
 run 1 "${study[@]}" --output stopped.csv
 expect_same stopped.csv finished.csv 'a finished study was run again'
 
+# What is no table, or a damaged one, is refused and left as it is; so are places that have no end to go on from.
+printf 'no table, and no newline' >foreign.csv
+(sed -n 1,2p whole.csv; sed -n 3p whole.csv | cut -d, -f1-20; sed -n 4p whole.csv) >damaged.csv
+cp damaged.csv damaged.before
+run 1 "${study[@]}" --output foreign.csv
+expect_code 2 'a table in a file of another kind'
+[ "$(cat foreign.csv)" = 'no table, and no newline' ] || complain 'a file of another kind was changed'
+run 1 "${study[@]}" --output damaged.csv
+expect_code 2 'a damaged table'
+expect_told 'damaged.csv:3: has 20 fields' 'the damaged line'
+expect_same damaged.csv damaged.before 'a damaged table was changed'
+run 1 "${study[@]}" --output /dev/full
+expect_code 2 'a table in a device'
+sed 's/,GNU /,Other /; s/,Clang /,Other /' whole.csv >other.csv
+run 1 "${study[@]}" --output other.csv
+expect_told 'not comparable' 'lines of another compiler'
+(
+    exec 9>held.csv.lock
+    flock 9
+    run 1 "${study[@]}" --output held.csv 9>&-
+    [ "$code" -eq 2 ] && [ ! -e held.csv ]
+) || complain 'two studies with one table'
+
 for k in 1 2 3; do
     run 1 "${study[@]}" --share "$k/3" --output "share$k.csv"
     expect_code 0 "share $k of 3"
@@ -68,6 +91,9 @@ done
 run 1 run small.toml --accuracy 1e-6 --steps 30 --set output.checkpoint.folder=kept1 --restart latest
 expect_code 0 'going on from a run with an accuracy'
 expect_told 'going on with the checkpoint' 'a restart does not choose again'
+run 1 run --restart kept1 --steps 40 --accuracy 0.2
+expect_code 0 'going on without the scene, asking again'
+expect_told "going on with the checkpoint's setting" 'a restart does not choose again'
 run 1 run --restart kept2 --steps 30 --report report.json --quiet
 expect_code 0 'going on without the scene'
 [ "$(json_value report.json rule)" = all ] || complain 'the choice is not in the checkpoint'

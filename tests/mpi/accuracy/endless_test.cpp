@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Collisions without end under precisions and formulas that do not always tell when discs move.
+#include <catch2/catch.hpp>
+
+#include <string>
+
+#include "carrom/core/errors.hpp"
+#include "carrom/scene/read_scene.hpp"
+#include "trial.hpp"
+
+using namespace carrom;
+
+namespace {
+
+/// A disc that flies to and fro between two walls, 2^20 times in a step. All its numbers are sums of few powers of two, in single
+/// precision too, so that the number of its collisions is known.
+constexpr double room = 0x1p-20;
+constexpr std::uint64_t n_bounces = 1 << 20;
+
+Scene narrow_room() {
+    Scene scene = read_scene("[box]\nsize = 3\n[discs]\nradius = 1\nlist = [[1, 1, 1, 0]]\n[time]\nsteps = 1\n", "narrow.toml");
+    scene.box_size = 2 + room;
+    return scene;
+}
+
+/// What ends the run; empty if nothing does.
+std::string end_of(const RunSetting& setting, const Communicator& world, Totals& totals) {
+    const Scene scene = with_setting(narrow_room(), setting);
+    try {
+        Simulation simulation(scene, scene.listed_discs, world, {});
+        advance_to(simulation, 1);
+        totals = simulation.totals();
+    } catch (const CollectiveError& error) {
+        CHECK(error.code() == ExitCode::collective_failure);
+        return error.what();
+    }
+    return {};
+}
+
+} // namespace
+
+TEST_CASE("Collisions at a rounding of time from each other have no end where settings cannot tell, and are told of") {
+    const Communicator world = Communicator::world();
+    Totals totals;
+    CHECK(end_of({CollisionRule::all}, world, totals) == "");
+    CHECK(totals.wall_collisions == n_bounces);
+    for (const Precision precision : {Precision::double_, Precision::single}) {
+        for (const Arithmetic arithmetic : {Arithmetic::stable, Arithmetic::naive}) {
+            if (precision == Precision::double_ && arithmetic == Arithmetic::stable) continue;
+            const std::string text = end_of({CollisionRule::all, 1, precision, arithmetic}, world, totals);
+            INFO(text);
+            CHECK(text.starts_with("disc 0 collides without end at step 0."));
+            CHECK(text.find("the scene's precision and arithmetic do not tell when it moves") != std::string::npos);
+        }
+    }
+    // The rule "one" has an end always: a collision a step.
+    CHECK(end_of({CollisionRule::one, 1, Precision::single, Arithmetic::naive}, world, totals) == "");
+    CHECK(totals.wall_collisions == 1);
+}
