@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "carrom/parallel/agreement.hpp"
+#include "carrom/scene/disc_reader.hpp"
 #include "carrom/scene/read_scene.hpp"
 #include "carrom/simulation/initial_state.hpp"
 #include "data_output.hpp"
@@ -24,6 +25,8 @@ namespace {
 
 using Problems = std::vector<Problem>;
 
+void append(Problems& problems, const Problems& more) { problems.insert(problems.end(), more.begin(), more.end()); }
+
 /// Runs `read` and adds the problems of an InputError to `problems`; true if there was none. One rank may find problems
 /// that the others do not know of yet, so they must not fly as an exception before all ranks have agreed.
 template <class Read> bool collect(Problems& problems, const Read& read) {
@@ -31,7 +34,7 @@ template <class Read> bool collect(Problems& problems, const Read& read) {
         read();
         return true;
     } catch (const InputError& error) {
-        problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+        append(problems, error.problems());
         return false;
     }
 }
@@ -73,7 +76,22 @@ void check_destinations(const RunOptions& options, Problems& problems) {
     if (!options.output.empty()) check("--output", options.output, obstacle_to_opening(options.output).text);
     Problems found = problems_with(named_by(options), read_by(options));
     if (!options.report.empty() && found.empty()) check("--report", options.report, obstacle_to_writing(options.report));
-    problems.insert(problems.end(), found.begin(), found.end());
+    append(problems, found);
+}
+
+/// What is wrong with the lines of discs of a run that will not begin, so that all is told at once. They follow a header
+/// in `stream`, or have a file of their own.
+Problems problems_of_disc_lines(const Scene& scene, std::istream& stream) {
+    Problems problems;
+    collect(problems, [&] {
+        if (!scene.reads_disc_lines()) return;
+        if (scene.discs_file.empty()) {
+            if (scene.discs_follow) problems = disc_line_problems(stream, scene);
+        } else {
+            problems = disc_line_problems(*open(discs_path(scene)), scene);
+        }
+    });
+    return problems;
 }
 
 /// The scene; `stream`, on rank 0, is left at the first line of discs. **Collective.**
@@ -96,8 +114,9 @@ Scene load_scene(const RunOptions& options, const Problems& problems_so_far, con
     if (ranks.all(is_readable)) {
         broadcast(text, ranks);
         Problems same_everywhere;
-        collect(same_everywhere, [&] { scene = read_scene(text, options.overrides); });
-        if (ranks.is_root()) problems.insert(problems.end(), same_everywhere.begin(), same_everywhere.end());
+        scene = read_scene(text, options.overrides, same_everywhere);
+        if (ranks.is_root()) append(problems, same_everywhere);
+        if (!problems.empty() && options.restart.empty()) append(problems, problems_of_disc_lines(scene, *stream));
     }
     agree_on_problems(ranks, problems);
     return scene;
@@ -150,9 +169,16 @@ Loaded load(const RunOptions& options, const Problems& problems, const Communica
     else check_without_scene(options, problems, ranks);
     if (!options.restart.empty()) load_restart(options, loaded, ranks);
     const Scene& scene = loaded.scene;
-    if (!loaded.stored) check_memory(scene, ranks);
-    loaded.locks = claim_outputs(scene, read_for(options, scene), named_by(options), ranks);
-    check_older_checkpoints(scene, loaded.stored ? loaded.stored->micro_steps_done / scene.micro_steps : -1, ranks);
+    try {
+        if (!loaded.stored) check_memory(scene, ranks);
+        loaded.locks = claim_outputs(scene, read_for(options, scene), named_by(options), ranks);
+        check_older_checkpoints(scene, loaded.stored ? loaded.stored->micro_steps_done / scene.micro_steps : -1, ranks);
+    } catch (const InputError& error) { // on every rank
+        Problems all;
+        if (ranks.is_root()) all = error.problems();
+        if (ranks.is_root() && !loaded.stored) append(all, problems_of_disc_lines(scene, *stream));
+        agree_on_problems(ranks, all);
+    }
     if (!loaded.stored) loaded.discs = load_discs(scene, stream, ranks);
     if (ranks.is_root())
         for (const std::string& warning : scene.warnings) fmt::print(stderr, "{}: warning: {}\n", scene.name, warning);

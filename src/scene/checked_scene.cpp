@@ -56,6 +56,7 @@ void fill_generator(const Check& check) {
     const Setting* file = check.settings.find("discs.file");
     const Setting* list = check.settings.find("discs.list");
     const Setting* generator = check.settings.find("discs.generator");
+    if (file) check.scene.discs_file = std::get<std::string>(file->value);
     if (file && list) check.refuse(*list, "'discs.list' and 'discs.file' exclude each other");
     check.scene.generator = file || list ? Generator::file : Generator::random;
     if (generator) {
@@ -75,7 +76,6 @@ void fill_generator(const Check& check) {
     if (name == "file" && !is_ancestor_text && !check.settings.is_mentioned("discs.file") &&
         !check.settings.is_mentioned("discs.list"))
         check.refuse(*generator, "discs.generator is \"file\", but there is no 'discs.file' and no 'discs.list'");
-    if (file) check.scene.discs_file = std::get<std::string>(file->value);
     if (file && check.scene.discs_file.empty()) check.refuse(*file, "'discs.file' is empty");
 }
 
@@ -314,6 +314,8 @@ void fill_scene(Scene& scene, const Settings& settings, Problems& problems) {
         check_listed_discs(check);
         check_generator(check);
         check_room_for_effects(check);
+    } else {
+        scene.box_size = scene.radius = 0; // unknown
     }
 }
 

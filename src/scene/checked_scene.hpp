@@ -8,7 +8,8 @@
 
 namespace carrom {
 
-/// Fills in all but the name and the text.
+/// Fills in all but the name and the text. Without a right `discs.count` the number of discs is 0; where box and radius
+/// are not right together both are 0.
 void fill_scene(Scene& scene, const Settings& settings, Problems& problems);
 
 } // namespace carrom

@@ -78,13 +78,15 @@ bool DiscReader::note_id(std::string_view word, DiscId& id) {
     const auto integer = parse_integer(word);
     if (!number && !integer) {
         refuse(fmt::format("{} is not the id of a disc", quoted(word)));
-    } else if (!number || *number >= scene_.n_discs) {
-        refuse(fmt::format("disc {} is out of range: ids are 0 to {}", word, scene_.n_discs - 1));
+    } else if (!number || *number >= most_discs()) {
+        refuse(fmt::format("disc {} is out of range: ids are 0 to {}", word, most_discs() - 1));
     } else if (has_seen(*number)) {
         refuse(fmt::format("disc {} is listed twice", *number));
     } else {
-        if (*number >= seen_.size()) seen_.resize(std::min(scene_.n_discs, 2 * *number + 64)); // N may be a mistake
-        seen_[*number] = true;
+        constexpr std::uint64_t most_without_n = std::uint64_t{1} << 27;
+        const std::uint64_t most_seen = scene_.n_discs > 0 ? scene_.n_discs : most_without_n;
+        if (*number >= seen_.size()) seen_.resize(std::min(most_seen, 2 * *number + 64)); // N may be a mistake
+        if (*number < seen_.size()) seen_[*number] = true;
         n_seen_ += 1;
         id = *number;
         return true;
@@ -96,6 +98,8 @@ void DiscReader::refuse(std::string text) {
     n_problems_ += 1;
     if (problems_.size() < most_problems) problems_.push_back({place_, lines_->line_number(), std::move(text)});
 }
+
+std::uint64_t DiscReader::most_discs() const { return scene_.n_discs > 0 ? scene_.n_discs : largest_count; }
 
 std::string DiscReader::missing_ids() const {
     constexpr std::size_t most_ranges = 10;
@@ -110,6 +114,14 @@ std::string DiscReader::missing_ids() const {
         else list += fmt::format("{}{}", list.empty() ? "" : ", ", first == id ? fmt::format("{}", id) : fmt::format("{}-{}", first, id));
     }
     return fmt::format("{} of {} discs are missing: {}", scene_.n_discs - n_seen_, scene_.n_discs, list);
+}
+
+std::vector<Problem> disc_line_problems(std::istream& stream, const Scene& scene) {
+    constexpr std::size_t chunk_size = 4096;
+    DiscReader reader(stream, scene);
+    std::vector<InputDisc> chunk;
+    while (reader.read(chunk, chunk_size)) {}
+    return reader.problems();
 }
 
 } // namespace carrom

@@ -29,7 +29,8 @@ std::string disc_problem(const InputDisc& disc, const Scene& scene) {
         is_finite = is_finite && std::isfinite(centre);
         is_inside = is_inside && centre >= low && centre <= high;
     }
-    if (is_finite && !is_inside)
+    const bool is_box_known = scene.box_size > 0;
+    if (is_finite && !is_inside && is_box_known)
         add(fmt::format("disc {} at ({}, {}) is not inside the box: centres lie between r = {} and L - r = {}", disc.id,
                         disc.x, disc.y, scene.radius, scene.box_size - scene.radius));
     for (const double component : {disc.vx, disc.vy}) add(velocity_problem(component));

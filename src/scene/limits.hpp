@@ -25,7 +25,7 @@ inline constexpr double largest_box_in_radii = 1e6;   ///< beyond, the wall band
 std::string velocity_problem(double component);
 
 /// All that is wrong with a disc that an input lists, or empty: a centre outside [r, L-r] (by more than the rounding of L),
-/// or a velocity out of range.
+/// or a velocity out of range. Any centre will do where the scene has no right box.
 std::string disc_problem(const InputDisc& disc, const Scene& scene);
 
 } // namespace carrom

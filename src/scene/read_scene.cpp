@@ -103,6 +103,13 @@ SceneText read_scene_text(std::istream& stream, const std::string& name) {
 }
 
 Scene read_scene(const SceneText& input, const std::vector<std::string>& overrides) {
+    Problems problems;
+    Scene scene = read_scene(input, overrides, problems);
+    if (!problems.empty()) throw InputError(std::move(problems));
+    return scene;
+}
+
+Scene read_scene(const SceneText& input, const std::vector<std::string>& overrides, Problems& all_problems) {
     Settings settings;
     Problems problems;
     bool is_parsed = true;
@@ -116,12 +123,10 @@ Scene read_scene(const SceneText& input, const std::vector<std::string>& overrid
     scene.discs_follow = input.discs_follow;
     scene.overrides = overrides;
     if (is_parsed) fill_scene(scene, settings, problems);
-    if (!problems.empty()) {
-        const auto line_of = [](const Problem& p) { return p.line > 0 ? p.line : std::numeric_limits<std::int64_t>::max(); };
-        std::stable_sort(problems.begin(), problems.end(),
-                         [&](const Problem& a, const Problem& b) { return line_of(a) < line_of(b); });
-        throw InputError(std::move(problems));
-    }
+    const auto line_of = [](const Problem& p) { return p.line > 0 ? p.line : std::numeric_limits<std::int64_t>::max(); };
+    std::stable_sort(problems.begin(), problems.end(),
+                     [&](const Problem& a, const Problem& b) { return line_of(a) < line_of(b); });
+    all_problems.insert(all_problems.end(), problems.begin(), problems.end());
     return scene;
 }
 

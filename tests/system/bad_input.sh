@@ -107,6 +107,18 @@ printf '%s\n' "$good" >good.toml
 for device in /dev/zero /dev/full; do
     refuse "discs from $device" "$device: is not a plain file" run good.toml --set discs.file="$device"
 done
+# Lines of discs are looked at even where something else is wrong already.
+printf '0 3 3 1\n1 99 7 0 0\n1 4 4 4 4\n' >discs.txt
+with_file=${good/radius = 1/radius = 1$'\n'file = \"discs.txt\"}
+lines=$'discs.txt:1: expected\ndiscs.txt:3: disc 1 is listed twice'
+refuse_toml 'a wrong scene and wrong discs' "${with_file/steps = 5/steps = -5}" $'bad.toml:8: \ndiscs.txt:2: disc 1 at (99, 7)\n'"$lines"
+refuse_toml 'a wrong number of discs and wrong discs' "${with_file/count = 2/count = 0}" $'bad.toml:4: \n'"$lines"
+refuse_toml 'a wrong box and wrong discs' "${with_file/size = 10/size = 1}" $'L < 2 r\n'"$lines"
+printf '%s\n' "$with_file" >file.toml
+refuse 'a wrong option and wrong discs' $'--threads: must be\n'"$lines" run file.toml --threads none
+refuse 'a wrong place for output and wrong discs' $'output.trajectory.file .: is a directory\n'"$lines" run file.toml --set output.trajectory.file=.
+rm discs.txt file.toml
+refuse_text 'a wrong header and wrong discs' "${header/2/-2}0 3 3 1\n0 7 7 0 0\n" $'bad.in:1: \nbad.in:6: expected\nbad.in:7: disc 0 is listed twice'
 refuse 'a window too short to end' '--window: must be a number from 1e-05 on' run good.toml --window 1e-300
 refuse 'an override without a key' "--set =3: '=3' is not of the form key=value" run good.toml --set =3
 refuse 'a wrong override' '--set time.stps' run good.toml --set time.stps=3

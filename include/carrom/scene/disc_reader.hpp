@@ -41,6 +41,7 @@ private:
     bool note_id(std::string_view word, DiscId& id);
     void refuse(std::string text);
     std::string missing_ids() const;
+    std::uint64_t most_discs() const; ///< N, or what it can be at most where the scene has no right one
 
     const Scene& scene_;
     std::string place_;
@@ -51,5 +52,9 @@ private:
     std::vector<Problem> problems_;
     std::uint64_t n_problems_ = 0;
 };
+
+/// Everything wrong with the lines of `stream`, as DiscReader has it, and keeps no disc. The scene may have problems of
+/// its own: without a number of discs (0) none is missing, without a box (0) none is outside.
+std::vector<Problem> disc_line_problems(std::istream& stream, const Scene& scene);
 
 } // namespace carrom

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "carrom/core/errors.hpp"
 #include "carrom/scene/scene.hpp"
 
 namespace carrom {
@@ -35,6 +36,10 @@ SceneText read_scene_text(std::istream& stream, const std::string& name);
 /// The scene of that text with `overrides`, "key=value" each, on top. Problems of an override have the place
 /// "--set KEY". Pure: same arguments, same scene or same InputError.
 Scene read_scene(const SceneText& input, const std::vector<std::string>& overrides = {});
+
+/// The same, but appends the problems to `problems`, in the order of lines. Where there are some the scene is good for
+/// nothing but `disc_line_problems`: what is wrong in it is 0 or its default.
+Scene read_scene(const SceneText& input, const std::vector<std::string>& overrides, std::vector<Problem>& problems);
 
 /// The same for a whole text, discs included.
 Scene read_scene(std::string_view text, const std::string& name, const std::vector<std::string>& overrides = {});

@@ -199,3 +199,18 @@ TEST_CASE("The line reader agrees with getline on any lengths of lines") {
     CHECK(all_equal);
     CHECK_FALSE(reader.next(line));
 }
+
+TEST_CASE("Lines of a scene that is wrong itself are looked at as far as it is known") {
+    const auto places = [](const std::string& text, const Scene& scene) {
+        std::istringstream stream(text);
+        return places_of(disc_line_problems(stream, scene));
+    };
+    const std::string text = "0 3 3 1\n1 99 7 0 0\n1 4 4 4 4\n7 4 4 0 0\n4294967293 4 4 0 0\n4294967294 4 4 0 0\nx 1 1 1 1\n3 nan 4 0 0\n";
+    Scene scene = scene_of(5);
+    CHECK(places(text, scene) == Texts{"t.in:6", "t.in:7", "t.in:8", "t.in:9", "t.in:10", "t.in:11", "t.in:12", "t.in:13", "t.in"});
+    scene.n_discs = 0; // ids are all that fit, none is missing
+    CHECK(places(text, scene) == Texts{"t.in:6", "t.in:7", "t.in:8", "t.in:11", "t.in:12", "t.in:13"});
+    scene.box_size = scene.radius = 0; // any finite place
+    CHECK(places(text, scene) == Texts{"t.in:6", "t.in:8", "t.in:11", "t.in:12", "t.in:13"});
+    CHECK(places("1 4 4 0 0\n0 3 3 0 0\n", scene).empty());
+}

@@ -367,3 +367,18 @@ TEST_CASE("Streams need a region and a finite velocity") {
     CHECK(problems_in(with_line(5, "radius = 1\nstreams = 3")).size() == 1);
     CHECK(problems_in(with_line(5, "radius = 1\nstreams = [3]")).size() == 1);
 }
+
+TEST_CASE("A wrong scene keeps what its lines of discs can be held to") {
+    const auto partly = [](const std::string& more) {
+        std::vector<Problem> problems;
+        const Scene scene = read_scene({"s.toml", "[time]\nsteps = -1\n[discs]\nfile = \"d\"\n" + more, 0, false}, {}, problems);
+        CHECK(problems.size() >= 1);
+        CHECK(scene.reads_disc_lines());
+        CHECK(scene.discs_file == "d");
+        return std::vector<double>{static_cast<double>(scene.n_discs), scene.box_size, scene.radius};
+    };
+    CHECK(partly("count = 2\nradius = 1\n[box]\nsize = 10") == std::vector<double>{2, 10, 1});
+    CHECK(partly("count = 0\nradius = 1\n[box]\nsize = 10") == std::vector<double>{0, 0, 0});
+    CHECK(partly("count = 2\nradius = 8\n[box]\nsize = 10") == std::vector<double>{2, 0, 0});
+    CHECK(partly("count = 2\nradius = 1\n[box]\nsize = nan") == std::vector<double>{2, 0, 0});
+}
