@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Predicted collisions of one replay in their total order: time, generation, id of P, wall before pair, id of Q.
 //
-// Predictions are not taken back: one whose discs have collided since is known by their versions and passed over.
+// Predictions are not taken back: one whose discs have collided since is known by their versions and passed over. Where
+// discs without room collide millions of times in a window such predictions pile up, so they are swept out whenever
+// there are twice as many as there were good ones.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "carrom/core/disc.hpp"
@@ -64,6 +67,7 @@ public:
         buckets_per_time_ = static_cast<double>(heads_.size()) / (end - begin);
         current_ = 0;
         now_.clear();
+        most_waiting_ = most_now_ = std::max<std::size_t>(least_to_sweep, 16 * n_expected);
     }
 
     void push(const Event& event, const EventOrder& before) {
@@ -84,6 +88,7 @@ public:
 
     /// Takes out the first event for which `is_current(event)` holds and forgets those before it; false if there is none.
     template <class IsCurrent> bool pop(Event& first, const EventOrder& before, const IsCurrent& is_current) {
+        if (is_crowded()) [[unlikely]] sweep(before, is_current);
         for (;;) {
             while (!now_.empty()) {
                 if (now_.size() > 1) std::pop_heap(now_.begin(), now_.end(), after(before));
@@ -105,6 +110,29 @@ public:
 
 private:
     static constexpr std::uint32_t none = 0xffffffff;
+    static constexpr std::size_t least_to_sweep = 4096;
+
+    bool is_crowded() const { return now_.size() > most_now_ || (first_free_ == none && pool_.size() > most_waiting_); }
+
+    /// Forgets all events that are not current. Costs a look at each, for at least as many pushes before the next sweep.
+    template <class IsCurrent> void sweep(const EventOrder& before, const IsCurrent& is_current) {
+        std::erase_if(now_, [&is_current](const Event& event) { return !is_current(event); });
+        std::make_heap(now_.begin(), now_.end(), after(before));
+        most_now_ = std::max(most_now_, 2 * now_.size());
+        std::size_t n_kept = 0;
+        for (std::size_t bucket = current_ + 1; bucket < heads_.size(); ++bucket) {
+            std::uint32_t entry = heads_[bucket];
+            heads_[bucket] = none;
+            while (entry != none) {
+                Event& event = pool_[entry];
+                const bool is_kept = is_current(event);
+                std::uint32_t& head = is_kept ? heads_[bucket] : first_free_;
+                n_kept += is_kept;
+                entry = std::exchange(event.next, std::exchange(head, entry));
+            }
+        }
+        most_waiting_ = std::max(most_waiting_, 2 * n_kept);
+    }
 
     void push_now(const Event& event, const EventOrder& before) {
         now_.push_back(event);
@@ -128,6 +156,7 @@ private:
     std::vector<std::uint32_t> heads_;
     std::vector<Event> pool_;
     std::uint32_t first_free_ = none;
+    std::size_t most_now_ = least_to_sweep, most_waiting_ = least_to_sweep; ///< sizes of `now_` and `pool_` that ask for a sweep
 };
 
 } // namespace carrom
