@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# A scene with most effects at once: the same bits and lines on other ranks and after a restart in the middle of a sync
+# interval, where coordinates are those of the falling frame; and what tells of effects does.
+source "$CARROM_SOURCE_DIR/tests/system/common.sh"
+
+cat >fall.toml <<'SCENE'
+[box]
+size = 100
+bottom = { restitution = 0.9 }
+left = { kind = "thermal", temperature = 0.05 }
+right = { kind = "moving", speed = -0.05 }
+[discs]
+count = 400
+packing = 0.15
+speed = 0.3
+[time]
+steps = 150
+collisions = "all"
+[effects.contact]
+kind = "restitution"
+restitution = 0.95
+[effects.gravity]
+y = -0.005
+SCENE
+
+run 2 run fall.toml --quiet --report whole.json --set output.text=ends --set output.trajectory.file=t.h5 --set output.trajectory.every_steps=30
+expect_code 0 'uninterrupted'
+tail -n 400 "$test_folder/out" >"$test_folder/end"
+run 1 verify t.h5
+expect_code 0 'the trajectory'
+
+run 1 run fall.toml --threads 2 --steps 100 --set output.checkpoint.folder=kept
+expect_code 0 'the first stretch'
+expect_told 'right wall moving at -0.05' 'the summary'
+run 1 verify kept/checkpoint-000000000100.h5
+expect_code 0 'the checkpoint'
+run 1 info kept/checkpoint-000000000100.h5
+grep -q 'gravity (0, -0.005)' "$test_folder/out" || complain 'no effects in info'
+run 1 convert kept/checkpoint-000000000100.h5 --to text
+cp "$test_folder/out" "$test_folder/converted"
+run 1 run fall.toml --steps 100 --quiet --set output.text=ends
+tail -n 400 "$test_folder/out" | cut -d ' ' -f 2-6 | cmp - <(cut -d ' ' -f 2-6 "$test_folder/converted") || complain 'the checkpoint shows other discs than the run'
+
+run 3 run --restart kept --steps 150 --quiet --report rest.json --set output.text=ends
+expect_code 0 'the second stretch'
+[ "$(json_value rest.json state_hash)" = "$(json_value whole.json state_hash)" ] || complain 'another state hash after a restart'
+tail -n 400 "$test_folder/out" | cmp - "$test_folder/end" || complain 'other lines after a restart'
+
+run 1 run fall.toml --restart kept --set effects.gravity.y=-0.01
+expect_code 2 'another gravity'
+expect_told "'effects.gravity.y' is -0.005 there and -0.01 here" 'another gravity'
+run 3 run fall.toml --check
+expect_code 2 'a checked run with effects'
+run 1 accuracy fall.toml
+expect_code 2 'a study with effects'
+finish
