@@ -41,6 +41,7 @@ Effects per_micro_step(const Effects& effects, double micro_steps) {
         side.temperature /= micro_steps * micro_steps;
         side.speed /= micro_steps;
     }
+    scaled.drag /= micro_steps;
     scaled.gravity.x /= micro_steps * micro_steps;
     scaled.gravity.y /= micro_steps * micro_steps;
     return scaled;
@@ -52,6 +53,7 @@ std::string description(const Effects& effects) {
     for (std::size_t k = 0; k < effects.sides.size(); ++k)
         if (!effects.sides[k].is_plain()) add(description(effects.sides[k], side_names[k]));
     if (effects.gravity.is_any()) add(fmt::format("gravity ({:g}, {:g})", effects.gravity.x, effects.gravity.y));
+    if (effects.drag != 0) add(fmt::format("drag {:g}", effects.drag));
     return text;
 }
 

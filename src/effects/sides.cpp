@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "carrom/core/random_numbers.hpp"
+#include "carrom/effects/drag.hpp"
 
 namespace carrom {
 
@@ -19,8 +20,13 @@ void Sides::begin_interval(std::int64_t n) {
 
 Frame Sides::frame_at(double time) const {
     const auto fallen = [time](double g) { return (0.5 * g * time) * time; };
-    return {gravity_[0] != 0 || gravity_[1] != 0, fallen(gravity_[0]), fallen(gravity_[1]), gravity_[0] * time, gravity_[1] * time};
+    return {gravity_[0] != 0 || gravity_[1] != 0 || effects_.drag != 0, fallen(gravity_[0]), fallen(gravity_[1]), gravity_[0] * time,
+            gravity_[1] * time, slowing_at(time), time};
 }
+
+double Sides::clock_at(double micro_steps) const { return effects_.drag == 0 ? micro_steps : drag_clock(effects_.drag, micro_steps); }
+
+double Sides::micro_steps_at(double clock) const { return time_of_drag_clock(effects_.drag, clock); }
 
 void Sides::restart_frame(Disc& disc, double time) const { disc = frame_at(time).in_box(disc, time); }
 
@@ -93,8 +99,8 @@ void Sides::rebound(Disc& disc, std::size_t side, double restitution, double tim
         // What leaves a wall of temperature T: v_n with the density v_n / T exp(-v_n^2 / 2 T), the other part Maxwell's.
         DiscRandom random(effects_.thermal_seed, Purpose::thermal_wall, disc.id, 4 * disc.wall_collisions + side);
         const double temperature = effects_.sides[side].temperature;
-        away = std::sqrt(2 * temperature * random_exponential(random));
-        const double speed = std::sqrt(2 * temperature * random_exponential(random));
+        away = std::sqrt(2 * temperature * random_exponential(random)) / slowing_at(time);
+        const double speed = std::sqrt(2 * temperature * random_exponential(random)) / slowing_at(time);
         along = speed * random_direction(random).x - gravity_[1 - side / 2] * time;
     }
     // A disc that is pulled back stays away for the contact time at least: else one at rest would bounce without end.

@@ -60,8 +60,12 @@ struct FrameField {
     const char* name;
     double Frame::*field;
 };
-inline constexpr std::array<FrameField, 4> checkpoint_frame = {
-    {{"frame_x", &Frame::x}, {"frame_y", &Frame::y}, {"frame_vx", &Frame::vx}, {"frame_vy", &Frame::vy}}};
+inline constexpr std::array<FrameField, 6> checkpoint_frame = {{{"frame_x", &Frame::x},
+                                                                {"frame_y", &Frame::y},
+                                                                {"frame_vx", &Frame::vx},
+                                                                {"frame_vy", &Frame::vy},
+                                                                {"frame_slowing", &Frame::slowing},
+                                                                {"frame_clock", &Frame::clock}}};
 
 /// Sets the column's number of a disc by its 8 bytes.
 void set_bits(const Column& column, Disc& disc, std::uint64_t bits);

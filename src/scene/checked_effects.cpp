@@ -84,6 +84,24 @@ void fill_gravity(const Check& check) {
     check.refuse(*setting, "gravity needs time.collisions = \"all\": under the rule \"one\" discs fly straight");
 }
 
+void fill_drag(const Check& check) {
+    constexpr std::string_view key = "effects.drag.rate";
+    Effects& effects = check.scene.effects;
+    const auto rate = finite_number(check, key);
+    if (!rate) return;
+    const Setting& setting = *check.settings.find(key);
+    const double interval = static_cast<double>(check.scene.sync_every) / static_cast<double>(check.scene.micro_steps);
+    if (*rate < 0) check.refuse(setting, fmt::format("'{}' must not be negative", key));
+    else effects.drag = *rate;
+    if (effects.drag == 0) return;
+    if (check.scene.rule == CollisionRule::one) check.refuse(setting, "drag needs time.collisions = \"all\": under the rule \"one\" discs keep their speed");
+    if (effects.drag * interval > 4)
+        check.refuse(setting, fmt::format("'{}' = {} leaves less than a fiftieth of a velocity from sync to sync; take a smaller time.sync_every", key, *rate));
+    if (effects.gravity.is_any()) check.refuse(setting, "this version has no drag together with gravity");
+    for (const Side& side : effects.sides)
+        if (side.kind == SideKind::moving) check.refuse(setting, "this version has no drag together with moving walls");
+}
+
 void fill_thermal(const Check& check) {
     Effects& effects = check.scene.effects;
     const bool is_any = std::any_of(effects.sides.begin(), effects.sides.end(), [](const Side& side) { return side.kind == SideKind::thermal; });
@@ -136,6 +154,7 @@ void fill_effects(const Check& check) {
     fill_contact(check);
     for (std::size_t side = 0; side < 4; ++side) fill_side(check, side);
     fill_gravity(check);
+    fill_drag(check);
     fill_thermal(check);
     const Effects& effects = check.scene.effects;
     if (lose_energy_or_fall(effects)) fill_contact_time(check);

@@ -85,6 +85,7 @@ void compare_effects(Comparison& c, const Effects& there, const Effects& here) {
     }
     c.compare("effects.gravity.x", there.gravity.x, here.gravity.x);
     c.compare("effects.gravity.y", there.gravity.y, here.gravity.y);
+    c.compare("effects.drag.rate", there.drag, here.drag);
     c.compare("effects.thermal.seed", there.thermal_seed, here.thermal_seed);
 }
 

@@ -37,6 +37,7 @@ constexpr std::array keys = {
     Key{"box.top.kind", ValueKind::text},        Key{"box.top.restitution", ValueKind::number},
     Key{"box.top.temperature", ValueKind::number}, Key{"box.top.speed", ValueKind::number},
     Key{"effects.gravity.x", ValueKind::number}, Key{"effects.gravity.y", ValueKind::number},
+    Key{"effects.drag.rate", ValueKind::number},
     Key{"effects.thermal.seed", ValueKind::integer},
     Key{"effects.contact.kind", ValueKind::text},
     Key{"effects.contact.restitution", ValueKind::number},
@@ -54,9 +55,9 @@ constexpr std::array keys = {
     Key{"output.collisions.file", ValueKind::text},
 };
 
-constexpr std::array<std::string_view, 15> tables = {
+constexpr std::array<std::string_view, 16> tables = {
     "box", "discs", "time", "output", "output.checkpoint", "output.trajectory", "output.collisions", "effects", "effects.contact",
-    "effects.gravity", "effects.thermal", "box.left", "box.right", "box.bottom", "box.top"};
+    "effects.gravity", "effects.drag", "effects.thermal", "box.left", "box.right", "box.bottom", "box.top"};
 
 std::string_view part_after(std::string_view key, std::size_t dot) { return key.substr(dot + 1, key.find('.', dot + 1) - dot - 1); }
 

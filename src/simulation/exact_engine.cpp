@@ -46,6 +46,7 @@ ExactEngine<Law>::ExactEngine(const Scene& scene, StoredState state, const Commu
       time_(static_cast<double>(n_micro_done_ % sync_every_)) {
     for (int thread = 0; thread < tuning_.threads; ++thread) replays_.emplace_back(law_);
     begin_interval();
+    time_ = clock_at(n_micro_done_ % sync_every_);
     if constexpr (!Law::is_double) {
         for (Disc& disc : discs_.all()) Law::round(disc);
     }
@@ -64,7 +65,7 @@ template <class Law> void ExactEngine<Law>::advance_towards(std::int64_t last_st
     while (n_micro_done_ < stop) {
         const std::int64_t sync_at = (n_micro_done_ / sync_every_ + 1) * sync_every_;
         const std::int64_t target = std::min(stop, sync_at);
-        const auto target_time = static_cast<double>(target - (sync_at - sync_every_));
+        const double target_time = clock_at(target - (sync_at - sync_every_));
         while (time_ < target_time) run_window(target_time);
         n_micro_done_ = target;
         if (target == sync_at) sync();
@@ -245,8 +246,13 @@ template <class Law> void ExactEngine<Law>::commit() {
 template <class Law> void ExactEngine<Law>::log_events(const BlockOutcome& outcome) {
     const std::int64_t last_sync = n_micro_done_ / sync_every_ * sync_every_;
     for (const LoggedEvent& event : outcome.log) {
-        log_->push_back({last_sync, event.time, event.generation, event.p, event.is_wall ? Collision::wall : event.q,
-                         event.impulse * static_cast<double>(micro_steps_)});
+        double time = event.time, slowing = 1;
+        if constexpr (!Law::has_plain_walls) {
+            time = law_.sides().micro_steps_at(event.time);
+            slowing = law_.sides().frame_at(event.time).slowing;
+        }
+        log_->push_back({last_sync, time, event.generation, event.p, event.is_wall ? Collision::wall : event.q,
+                         event.impulse * slowing * static_cast<double>(micro_steps_)});
     }
 }
 
@@ -281,6 +287,12 @@ template <class Law> void ExactEngine<Law>::begin_interval() {
         law_.begin_interval(n_micro_done_ / sync_every_ * sync_every_);
         for (BlockReplay<Law>& replay : replays_) replay.change_law(law_);
     }
+}
+
+/// What the clock shows so many micro-steps after a sync.
+template <class Law> double ExactEngine<Law>::clock_at(std::int64_t micro_steps) const {
+    if constexpr (!Law::has_plain_walls) return law_.sides().clock_at(static_cast<double>(micro_steps));
+    return static_cast<double>(micro_steps);
 }
 
 /// The walls in the coordinates of states, now.

@@ -78,6 +78,7 @@ private:
     void log_events(const BlockOutcome& outcome);
     void sync();
     void begin_interval();
+    double clock_at(std::int64_t micro_steps) const;
     Extent extent() const;
     void settle_now();
 

@@ -20,11 +20,15 @@ void EventDrivenReference::run_micro_steps(std::int64_t count) {
     while (micro_step_ < last) {
         const std::int64_t next_sync = (micro_step_ / setting_.sync_every + 1) * setting_.sync_every;
         const std::int64_t until = std::min(last, next_sync);
-        run_until(static_cast<double>(until - (next_sync - setting_.sync_every)));
+        run_until(setting_.clock_at(until - (next_sync - setting_.sync_every)));
         micro_step_ = until;
         if (until < next_sync) continue;
         for (Disc& disc : discs_) {
-            advance(disc, static_cast<double>(setting_.sync_every));
+            advance(disc, setting_.clock_at(setting_.sync_every));
+            if (setting_.drag_clock) {
+                disc.vx *= 1 - setting_.effects.drag / static_cast<double>(setting_.micro_steps) * disc.tau;
+                disc.vy *= 1 - setting_.effects.drag / static_cast<double>(setting_.micro_steps) * disc.tau;
+            }
             restart_frame(disc, disc.tau);
             disc.tau = 0;
         }

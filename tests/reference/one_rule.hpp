@@ -28,6 +28,13 @@ struct Setting {
     /// What leaves a thermal wall: the velocity away from it and along it, in the unit of the side's temperature.
     std::function<std::array<double, 2>(const Side& side, DiscId id, std::uint64_t wall_collisions, std::size_t number)> thermal_draw{};
 
+    /// Under drag: what its clock shows so many micro-steps after a sync.
+    std::function<double(double micro_steps)> drag_clock{};
+    double clock_at(std::int64_t count) const {
+        const auto time = static_cast<double>(count);
+        return drag_clock ? drag_clock(time) : time;
+    }
+
     /// The same in micro-steps for a disc at the wall `number`.
     std::array<double, 2> leaving(const Disc& disc, std::size_t number) const;
     bool discs_meet() const { return effects.contact.kind != ContactKind::none; }

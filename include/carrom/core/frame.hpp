@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where the coordinates are that states are stored in, as seen from the box.
 //
-// Under gravity states are stored in a frame that falls freely from each sync on: there discs fly straight, and all
-// that looks at pairs need not know of gravity. Without it the frame is the box's, and nothing is computed.
+// Under gravity states are stored in a frame that falls freely from each sync on, under drag in a clock that slows down
+// as discs do: there they fly straight and evenly, and what looks at pairs need not know of either. Without them the frame
+// is the box's, and nothing is computed.
 #pragma once
 
 #include "carrom/core/disc.hpp"
@@ -10,9 +11,11 @@
 namespace carrom {
 
 struct Frame {
-    bool is_moving = false;
-    double x = 0, y = 0;   ///< its origin in the box
-    double vx = 0, vy = 0; ///< its velocity, per micro-step
+    bool is_moving = false; ///< or its clock is another one
+    double x = 0, y = 0;    ///< its origin in the box
+    double vx = 0, vy = 0;  ///< its velocity, per micro-step
+    double slowing = 1;     ///< how fast its clock goes
+    double clock = 0;       ///< its time
 
     /// The disc at `time`, which is the frame's, as the box sees it.
     Disc in_box(const Disc& stored, double time) const {
@@ -23,8 +26,8 @@ struct Frame {
         if (!is_moving) return disc;
         disc.x += x;
         disc.y += y;
-        disc.vx += vx;
-        disc.vy += vy;
+        disc.vx = disc.vx * slowing + vx;
+        disc.vy = disc.vy * slowing + vy;
         return disc;
     }
 };

@@ -50,10 +50,11 @@ struct Effects {
     ContactEffect contact;
     std::array<Side, 4> sides;
     Gravity gravity;
+    double drag = 0; ///< the rate at which discs lose their velocity, dv/dt = -drag v
     std::uint64_t thermal_seed = 3210;
 
     bool have_plain_sides() const;
-    bool are_any() const { return contact.kind != ContactKind::elastic || !have_plain_sides() || gravity.is_any(); }
+    bool are_any() const { return contact.kind != ContactKind::elastic || !have_plain_sides() || gravity.is_any() || drag != 0; }
     friend bool operator==(const Effects&, const Effects&) = default;
 };
 

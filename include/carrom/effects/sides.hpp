@@ -29,8 +29,12 @@ public:
 
     /// From now on times count from micro-step `n` of the scene.
     void begin_interval(std::int64_t n);
+    /// What the clock shows `micro_steps` after a sync, and the other way round.
+    double clock_at(double micro_steps) const;
+    double micro_steps_at(double clock) const;
     /// Of a state advanced to `time`: what it is in a frame that starts there, at rest in the box.
     void restart_frame(Disc& disc, double time) const;
+    /// `time` is that of the clock, as everywhere.
     Frame frame_at(double time) const;
     /// The walls themselves in the frame's coordinates.
     Extent extent_at(double time) const;
@@ -67,6 +71,8 @@ private:
     double wall_at(std::size_t side, double time) const {
         return (places_[side] + speeds_[side] * time) - (0.5 * gravity_[side / 2] * time) * time;
     }
+    /// Of the clock: exp(-c t) = 1 - c s.
+    double slowing_at(double time) const { return 1 - effects_.drag * time; }
     double wall_velocity(std::size_t side, double time) const { return speeds_[side] - gravity_[side / 2] * time; }
     Approach approach(const Disc& disc, std::size_t side) const {
         const double sign = sign_of(side);

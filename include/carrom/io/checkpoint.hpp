@@ -38,8 +38,8 @@ struct CheckpointHeader {
     std::string state_hash;
     Frame frame; ///< that the discs' coordinates are in; in the file only where it moves
 
-    /// Micro-steps since the last sync: what the discs' times are relative to.
-    double clock() const { return static_cast<double>(micro_steps_done % sync_every); }
+    /// Micro-steps since the last sync, or what the frame's clock makes of them: the time that the discs' own times belong to.
+    double clock() const { return frame.is_moving ? frame.clock : static_cast<double>(micro_steps_done % sync_every); }
 };
 
 /// Writes `discs`, spread over the ranks in any way, as a whole file or not at all: beside its place first, brought to

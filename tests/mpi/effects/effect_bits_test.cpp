@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include "carrom/core/random_numbers.hpp"
+#include "carrom/effects/drag.hpp"
 #include "effect_runs.hpp"
 #include "event_driven.hpp"
 #include "one_rule.hpp"
@@ -96,6 +97,18 @@ TEST_CASE("effects: sides and gravity have the references' bits, alone and toget
             scene.setting.effects = {contact, all_lossy, {}};
             check_bits(scene, CollisionRule::one);
         }
+    }
+}
+
+TEST_CASE("effects: drag has the reference's bits") {
+    for (TestScene scene : base_scenes()) {
+        const double rate = 0.2, per_micro_step = rate / static_cast<double>(scene.setting.micro_steps);
+        scene.setting.effects.drag = rate;
+        scene.setting.drag_clock = [per_micro_step](double n) { return drag_clock(per_micro_step, n); };
+        check_bits(scene, CollisionRule::all);
+        scene.setting.effects.contact = {ContactKind::restitution, 0.9, 0.002};
+        scene.setting.effects.sides[3].restitution = 0.8;
+        check_bits(scene, CollisionRule::all);
     }
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of discs that fall.
+// What is known of discs that fall, and of discs that are slowed down.
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
+#include "carrom/effects/drag.hpp"
 #include "carrom/parallel/exchange.hpp"
 #include "effect_runs.hpp"
 
@@ -119,4 +120,40 @@ TEST_CASE("effects: the barometric formula over a thermal floor") {
     }
     CHECK(all.size() == scene.discs.size());
     CHECK(largest * std::sqrt(n) < 1.95); // passed by one sample in a thousand (Kolmogorov)
+}
+
+TEST_CASE("effects: drag's clock is right to some ulp") {
+    double worst = 0;
+    for (const double rate : {1e-12, 1e-3, 0.02, 0.0625}) {
+        for (int n = 1; n <= 64; ++n) {
+            const long double z = static_cast<long double>(rate) * n;
+            worst = std::max({worst, std::fabs(static_cast<double>(drag_clock(rate, n) / (-std::expm1(-z) / static_cast<long double>(rate)) - 1)),
+                              std::fabs(static_cast<double>(drag_slowing(rate, n) / std::exp(-z) - 1))});
+            CHECK(time_of_drag_clock(rate, drag_clock(rate, n)) == Approx(n).epsilon(1e-13));
+        }
+    }
+    CHECK(worst < 32 * 0x1p-53); // a rounding of the exponent and some of each halving
+}
+
+TEST_CASE("effects: drag leaves exp(-2 c t) of a gas's energy, and takes a disc where the formula says") {
+    const Communicator world = Communicator::world();
+    TestScene scene = gas(300, 0.3, 0.5, 605);
+    const double rate = 0.01;
+    scene.setting.effects.drag = rate;
+    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    const double start = simulation.totals().kinetic_energy;
+    for (const std::int64_t step : {37, 100, 203}) { // between syncs, too
+        advance_to(simulation, step);
+        const Totals now = simulation.totals();
+        CHECK(now.kinetic_energy == Approx(start * std::exp(-2 * rate * static_cast<double>(step))).epsilon(1e-12));
+        CHECK(now.overlapping_pairs == 0);
+    }
+    CHECK(simulation.totals().pair_collisions > 100);
+
+    TestScene alone = empty_scene("one disc", 100, 1, 300);
+    add_disc(alone, 5, 50, 0.5, 0);
+    alone.setting.effects.drag = rate;
+    Simulation flight = simulation_of(alone, CollisionRule::all, world);
+    advance_to(flight, 300);
+    for (const Disc& disc : flight.shown()) CHECK(disc.x == Approx(5 + 0.5 * -std::expm1(-3.0) / rate).epsilon(1e-13));
 }

@@ -78,6 +78,16 @@ TEST_CASE("Gravity is read, and refused where the falling frame would leave the 
     CHECK(problems_with({"effects.gravity.x=1", "time.collisions=all", "time.sync_every=10"}).empty());
 }
 
+TEST_CASE("Drag is read, and refused beside what it does not go with yet") {
+    const std::string all = "time.collisions=all";
+    CHECK(read_scene(good, "s.toml", {"effects.drag.rate=0.02", all}).effects.drag == 0.02);
+    CHECK(has(problems_with({"effects.drag.rate=0.02"}), "drag needs time.collisions = \"all\""));
+    CHECK(has(problems_with({"effects.drag.rate=-1", all}), "must not be negative"));
+    CHECK(has(problems_with({"effects.drag.rate=0.1", all}), "a smaller time.sync_every"));
+    CHECK(has(problems_with({"effects.drag.rate=0.02", "effects.gravity.y=-0.01", all}), "no drag together with gravity"));
+    CHECK(has(problems_with({"effects.drag.rate=0.02", "box.right.kind=moving", "box.right.speed=1", all}), "no drag together with moving walls"));
+}
+
 TEST_CASE("A restart cannot change effects") {
     const Texts there{"effects.gravity.y=-0.02", "time.collisions=all", "box.top.restitution=0.5"};
     const Texts here{"effects.gravity.y=-0.01", "time.collisions=all", "box.top.kind=thermal", "box.top.temperature=1"};

@@ -227,16 +227,16 @@ TEST_CASE("All problems of a scene come at once, in the order of lines, those of
                              "  [1, 2, 3, 'a']]\n[[discs.streams]]\nregion = [1, 2, 3]\nvelocity = [1, 2]\n[[discs.streams]]\n"
                              "regio = [1, 2, 3, 4]\nvelocity = [1, 2]\n[time]\nsteps = 'ten'\n[effects.charge]\ne = 1\n"
                              "[output.movie]\nevery = 1\n[foo]\n";
-    const auto problems = problems_in(text, {"box.sise=1", "time.steps=1.5", "nonsense", "effects.drag.gamma=1", "box.size=abc"});
+    const auto problems = problems_in(text, {"box.sise=1", "time.steps=1.5", "nonsense", "effects.wind.speed=1", "box.size=abc"});
     for (const Problem& problem : problems) UNSCOPED_INFO(to_string(problem));
     CHECK(places_of(problems) ==
           Texts{"s.toml:2", "s.toml:3", "s.toml:5", "s.toml:6", "s.toml:6", "s.toml:7", "s.toml:8", "s.toml:9", "s.toml:10",
                 "s.toml:11", "s.toml:13", "s.toml:14", "s.toml:17", "s.toml:18", "s.toml:20", "s.toml:22", "--set box.sise",
-                "--set nonsense", "--set effects.drag.gamma", "--set box.size", "--set time.steps"});
+                "--set nonsense", "--set effects.wind.speed", "--set box.size", "--set time.steps"});
     CHECK(mentions(problems, "did you mean 'box.size'?"));
     CHECK(mentions(problems, "did you mean 'region'?"));
     CHECK(mentions(problems, "no effect 'charge'"));
-    CHECK(mentions(problems, "no effect 'drag'"));
+    CHECK(mentions(problems, "no effect 'wind'"));
     CHECK(mentions(problems, "no output 'movie'"));
 }
 
