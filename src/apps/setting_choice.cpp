@@ -2,6 +2,7 @@
 #include "setting_choice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -18,10 +19,14 @@ constexpr double approach = 10;           ///< collisions of a disc before anyth
 constexpr double certainty = 2;           ///< standard errors that are added to a measured error
 constexpr double most_collisions = 4e6;   ///< of pairs, per trial
 constexpr double least_accuracy = 4 * certainty / 2000; ///< what so many can tell, four times: 2000^2 = 4e6
-constexpr double fewest_collisions = 2e4; ///< of pairs, and so many times the discs: less is too short to be timed ...
-constexpr double fewest_per_disc = 2;
+constexpr double per_disc = 100;          ///< collisions of a disc per trial, at least: dense gases take as long to show their errors
+constexpr double fewest_collisions = 2e4; ///< of pairs: less is too short to be timed ...
 constexpr double long_enough = 2e4;       ///< ... but so many steps, or of discs so many, are not, however few discs meet
 constexpr double long_enough_steps = 1e3;
+constexpr double long_look = 0.02;        ///< seconds after which a setting may be dropped before its trial's end ...
+constexpr double timed_enough = 0.2;      ///< ... and after which it may then be called dear: starting takes its time
+constexpr double steady = 1.2;            ///< overlaps that grow by more from a stretch to the next have not come to an end
+constexpr std::array<int, 5> stretches = {1, 1, 2, 4, 8}; ///< that a trial is cut into, in sixteenths
 constexpr std::int64_t most_micro_steps = 1 << 20;
 
 struct Choice {
@@ -37,36 +42,88 @@ std::string shares_text(const TrialError& error) {
                        100 * error.error);
 }
 
-/// Enough to see an error of `accuracy`, and to be timed.
-std::int64_t trial_steps(double n_discs, double pairs_per_step, double accuracy) {
-    const double to_be_timed = std::max(fewest_collisions, fewest_per_disc * n_discs) / pairs_per_step;
-    return static_cast<std::int64_t>(std::ceil(std::max(collisions_needed(accuracy) / pairs_per_step,
-                                                        std::min(to_be_timed, std::max(long_enough / n_discs, long_enough_steps)))));
+/// Of a sixteenth of a trial: its last half is to be enough to see an error of `accuracy`, and the whole to be timed.
+std::int64_t sixteenth_of_trial(double n_discs, double pairs_per_step, double accuracy) {
+    const double to_be_timed = std::min(fewest_collisions / pairs_per_step, std::max(long_enough / n_discs, long_enough_steps));
+    const double to_be_seen = std::max(per_disc * n_discs / 2, 2 * collisions_needed(accuracy)) / pairs_per_step;
+    return static_cast<std::int64_t>(std::ceil(std::max(to_be_timed, to_be_seen) / 16));
 }
 
-Choice choose(const Scene& scene, double accuracy, const TrialStart& start, bool quiet, const Communicator& communicator, const Tuning& tuning) {
-    const RunSetting all{CollisionRule::all};
-    const auto n_discs = static_cast<double>(scene.n_discs);
+/// What all trials have in common.
+struct Pilot {
+    const Scene& scene;
+    const TrialStart& start;
+    std::int64_t sixteenth; ///< of a trial, in steps
+    const Communicator& communicator;
+    const Tuning& tuning;
+};
+
+/// A trial's next stretch, from `at`, which goes on to its end.
+Trial run_stretch(const Pilot& pilot, const RunSetting& setting, std::size_t stretch, TrialStart& at) {
     TrialLength length;
-    length.steps = trial_steps(n_discs, start.frequency * n_discs / 2, accuracy);
-    length.n_looks = 1;
-    if (communicator.is_root() && !quiet) fmt::print(stderr, "accuracy {:g}: a pilot tries settings, {} steps of each\n", accuracy, length.steps);
-    const Trial exact = run_trial(scene, all, start, length, communicator, tuning);
-    const double exact_seconds = exact.wall_seconds / static_cast<double>(length.steps);
+    length.steps = length.early_step = pilot.sixteenth * stretches[stretch];
+    length.n_looks = 4;
+    Trial trial = run_trial(pilot.scene, setting, at, length, pilot.communicator, pilot.tuning);
+    at.discs = std::move(trial.early);
+    return trial;
+}
+
+std::vector<Trial> run_exact(const Pilot& pilot) {
+    TrialStart at = pilot.start;
+    std::vector<Trial> trials;
+    for (std::size_t k = 0; k < stretches.size(); ++k) trials.push_back(run_stretch(pilot, {CollisionRule::all}, k, at));
+    return trials;
+}
+
+/// What is known of a setting.
+struct Experience {
+    TrialError error;                      ///< in its last stretch
+    double seconds = 0, exact_seconds = 0; ///< until then, and those of the exact rule
+    bool is_whole = false;                 ///< else the error was too large before the end
+    bool grows = false;                    ///< overlaps become more and more, and errors with them
+};
+
+/// Whether overlaps become more by more than chance would have it.
+bool are_growing(const Trial& before, const Trial& after) {
+    const auto n_pairs = [](const Trial& trial) { return trial.overlapping_pairs_per_disc * static_cast<double>(trial.totals.n_discs) / 2; };
+    return n_pairs(after) > steady * n_pairs(before) + 3 * std::sqrt(n_pairs(before) + 1);
+}
+
+Experience try_setting(const Pilot& pilot, const RunSetting& setting, const std::vector<Trial>& exact, double accuracy) {
+    Experience found;
+    TrialStart at = pilot.start;
+    Trial before;
+    for (std::size_t k = 0; k < stretches.size(); ++k) {
+        const Trial trial = run_stretch(pilot, setting, k, at);
+        found.seconds += trial.wall_seconds; // all ranks know the same
+        found.exact_seconds += exact[k].wall_seconds;
+        found.error = error_of(trial, exact[k]);
+        found.grows = k > 0 && are_growing(before, trial);
+        found.is_whole = k + 1 == stretches.size();
+        if (found.seconds > long_look && found.error.largest() - certainty * found.error.error > accuracy) break;
+        before = trial;
+        before.early.clear();
+    }
+    return found;
+}
+
+Choice choose(const Pilot& pilot, double accuracy) {
+    const RunSetting all{CollisionRule::all};
+    const std::vector<Trial> exact = run_exact(pilot);
+    double steps = 0;
+    for (const Trial& trial : exact) steps += static_cast<double>(trial.steps);
     bool was_dearer = false; // a number of micro-steps may be dearer than twice as many are
     for (std::int64_t k = 1; k <= most_micro_steps; k *= 2) {
         const RunSetting setting{CollisionRule::one, k};
-        const Trial trial = run_trial(scene, setting, start, length, communicator, tuning);
-        const double seconds = trial.wall_seconds / static_cast<double>(length.steps);
-        const TrialError error = error_of(trial, exact);
-        const bool is_dearer = seconds >= exact_seconds;
+        const Experience found = try_setting(pilot, setting, exact, accuracy);
+        const bool is_dearer = found.seconds >= found.exact_seconds && (found.is_whole || found.seconds > timed_enough);
         if (is_dearer && was_dearer)
-            return {all, fmt::format("collisions = \"all\": exact, and no dearer than \"one\" with micro_steps = {} ({:.3g} and {:.3g} s per step), which "
-                                     "would make errors of {}", k, exact_seconds, seconds, shares_text(error))};
+            return {all, fmt::format("collisions = \"all\": exact, and no dearer than \"one\" with micro_steps = {} ({:.2g} times its cost), which would make "
+                                     "errors of {}{}", k, found.seconds / found.exact_seconds, shares_text(found.error), found.grows ? " and growing" : "")};
         was_dearer = is_dearer;
-        if (!is_dearer && error.largest() + certainty * error.error <= accuracy)
+        if (!is_dearer && found.is_whole && !found.grows && found.error.largest() + certainty * found.error.error <= accuracy)
             return {setting, fmt::format("collisions = \"one\", micro_steps = {}: expect {}; {:.3g} s per step, the exact rule {:.3g}", k,
-                                         shares_text(error), seconds, exact_seconds)};
+                                         shares_text(found.error), found.seconds / steps, found.exact_seconds / steps)};
     }
     return {all, "collisions = \"all\": no number of micro-steps is good enough"};
 }
@@ -109,7 +166,11 @@ void choose_setting(Scene& scene, const std::vector<InputDisc>& discs, bool quie
         choice = {{CollisionRule::all}, "collisions = \"all\": so small an error is less than a pilot can see, and this rule makes none"};
     } else {
         const TrialStart start = start_of_pilot(scene, discs, communicator, tuning);
-        choice = choose(scene, *scene.accuracy, start, quiet, communicator, tuning); // all ranks know the same seconds
+        const auto n_discs = static_cast<double>(scene.n_discs);
+        const Pilot pilot{scene, start, sixteenth_of_trial(n_discs, start.frequency * n_discs / 2, *scene.accuracy), communicator, tuning};
+        if (communicator.is_root() && !quiet)
+            fmt::print(stderr, "accuracy {:g}: a pilot tries settings, each for up to {} steps\n", *scene.accuracy, 16 * pilot.sixteenth);
+        choice = choose(pilot, *scene.accuracy);
     }
     if (communicator.is_root() && !quiet)
         fmt::print(stderr, "accuracy {:g}: {}\n", *scene.accuracy, choice.reason);
