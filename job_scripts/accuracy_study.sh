@@ -34,6 +34,15 @@ study error 1024 0.1 1.236 --arithmetic default --starts 8 --collisions 100
 study error 1024 0.3 2.063 --arithmetic default --starts 8 --collisions 100
 study error 1024 0.5 4.10 --arithmetic default --starts 8 --collisions 100
 study error 1024 0.7 10.31 --arithmetic default --starts 8 --collisions 100
+# And for a gas in which a micro-step costs little more than its discs do.
+study large 16384 0.1 1.236 --arithmetic default --starts 3 --collisions 100 --repetitions 1
+study large 16384 0.3 2.063 --arithmetic default --starts 3 --collisions 100 --repetitions 1
+study large 16384 0.5 4.10 --arithmetic default --starts 3 --collisions 100 --repetitions 1
+study large 16384 0.7 10.31 --arithmetic default --starts 3 --collisions 100 --repetitions 1
+# Longer runs: in dense gases errors grow with time.
+study long 1024 0.3 2.063 --arithmetic default --starts 4 --collisions 400 --repetitions 1
+study long 1024 0.5 4.10 --arithmetic default --starts 4 --collisions 400 --repetitions 1
+study long 1024 0.7 10.31 --arithmetic default --starts 4 --collisions 400 --repetitions 1
 # Everything: K, both rules, both precisions, all formulas.
 study arithmetic 1024 0.3 2.063 --starts 4 --collisions 50 --repetitions 2
 study arithmetic 1024 0.7 10.31 --starts 4 --collisions 50 --repetitions 2
@@ -49,5 +58,5 @@ study distances 256 0.3 2.063 --distances --arithmetic stable --starts 4 --colli
 study distances 256 0.5 4.10 --distances --arithmetic stable --starts 4 --collisions 75
 
 [ "$share" = 1/1 ] || exit 0
-"${PYTHON:-python3}" "$here/docs/tools/plot_accuracy.py" "$folder"/error*.csv "$folder"/arithmetic*.csv "$folder"/size*.csv "$folder"/thin*.csv --output "$folder"
+"${PYTHON:-python3}" "$here/docs/tools/plot_accuracy.py" "$folder"/error*.csv "$folder"/large*.csv "$folder"/long*.csv "$folder"/arithmetic*.csv "$folder"/size*.csv "$folder"/thin*.csv --output "$folder"
 "${PYTHON:-python3}" "$here/docs/tools/plot_distances.py" "$folder"/distances*.csv --output "$folder"

@@ -55,6 +55,7 @@ class Point:
         self.overlaps = self.mean([float(a["overlapping_pairs_per_disc"]) for a, _ in pairs])
         self.deepest = max([float(a["deepest_overlap"]) for a, _ in pairs], default=0)
         self.distance = self.mean([float(a["distance_rms"]) for a, _ in pairs])
+        self.collisions = self.mean([int(a["steps"]) * float(b["collision_frequency"]) for a, b in pairs])[0]
         self.nu_dt = self.mean([float(b["collision_frequency"]) / int(a["micro_steps"]) for a, b in pairs])[0]
         self.runs = {(a["start"], a["repetition"]): 1e6 * float(a["core_seconds"]) / (int(a["n_discs"]) * int(a["steps"]) * float(b["collision_frequency"]))
                      for a, b in everything}
@@ -141,7 +142,7 @@ def slope_one(axes, x, y, factor, rising):
 
 
 def crossover(points):
-    """The error and K at which the rule "one" costs as much as the exact rule; None where it does so from K = 1 on."""
+    """The error and K at which the rule "one" costs as much as the exact rule; None where no K or every K is dearer."""
     curve, exact = default_curve(points), exact_point(points)
     if exact is None or not curve or curve[0][1].cost >= exact.cost:
         return None
@@ -265,11 +266,13 @@ def table_of_errors(errors):
     for (packing, _), points in errors.items():
         crossing, first, exact = crossover(points), default_curve(points)[0][1], exact_point(points)
         lines.append(f"| {packing:.3g} | {exact.cost:.3f} ({exact.costs[0]:.3f} to {exact.costs[2]:.3f}) | {first.cost:.3f}, wrong by {100 * abs(first.rate[0]):.0f} % | " +
-                     (f"K = {crossing[1]} to {crossing[2]} | {100 * crossing[0]:.2g} % |" if crossing else "every K | never cheaper |"))
+                     (f"K = {crossing[1]} to {crossing[2]} | {100 * crossing[0]:.2g} % |" if crossing else
+                      "no K: always dearer | |" if first.cost >= exact.cost else "no K of these: always cheaper | |"))
     lines += ["", "The exact rule's two pressures, which must agree: " + "; ".join(
         f"packing {packing:.3g}: {percent(exact_point(points).identity)} %" for (packing, _), points in errors.items()) + "."]
-    spreads = [p.spread() for points in errors.values() for p in points.values()]
-    lines += ["", f"The same trial, timed again in turns: the slowest over the fastest is {100 * np.median(spreads):.0f} % more in the median setting."]
+    spreads = [p.spread() for points in errors.values() for p in points.values() if len(p.runs) > p.n_starts]
+    if spreads:
+        lines += ["", f"The same trial, timed again in turns: the slowest over the fastest is {100 * np.median(spreads):.0f} % more in the median setting."]
     lines += ["", "| packing | rule | K | ν dt | rate, % | pressure (virial), % | pressure (walls), % | overlapping pairs per disc | deepest, σ | distance after one collision, σ | cost, µs: median (quartiles) |",
               "|---|---|---|---|---|---|---|---|---|---|---|"]
     for (packing, _), points in errors.items():
@@ -294,8 +297,24 @@ def table_of_laws(title, gases, wanted):
     return lines
 
 
-def tables(errors, arithmetic, sizes, thin):
+def table_of_lengths(errors, long):
+    """Errors of the same gases in runs of other lengths."""
+    lines = ["", "Longer runs", "", "| packing | K | rate, %, in runs of as many collisions per disc: | overlapping pairs per disc |", "|---|---|---|---|"]
+    for gas, points in long.items():
+        others = dict(default_curve(errors.get(gas, {})))
+        for k, p in default_curve(points):
+            both = [q for q in (others.get(k), p) if q]
+            lines.append(f"| {gas[0]:.3g} | {k} | " + "; ".join(f"{q.collisions:.0f}: {percent(q.rate)}" for q in both) + " | " +
+                         "; ".join(f"{q.overlaps[0]:.2g}" for q in both) + " |")
+    return lines
+
+
+def tables(errors, large, long, arithmetic, sizes, thin):
     lines = table_of_errors(errors) if errors else []
+    if large:
+        lines += ["", "A larger gas", ""] + table_of_errors(large)
+    if long:
+        lines += table_of_lengths(errors, long)
     if arithmetic:
         lines += table_of_laws("Precision and formula, two gases", arithmetic, lambda k: k in (1, 16, 256))
     if sizes:
@@ -307,20 +326,22 @@ def tables(errors, arithmetic, sizes, thin):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("tables", nargs="+", type=pathlib.Path, help="error*.csv, arithmetic*.csv, size*.csv and thin*.csv of a study, or any one table")
+    parser.add_argument("tables", nargs="+", type=pathlib.Path, help="error*.csv, large*.csv, long*.csv, arithmetic*.csv, size*.csv and thin*.csv of a study, or any one table")
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("."), help="folder for the figures")
     options = parser.parse_args()
-    named = {kind: points_by_gas(read([p for p in options.tables if p.name.startswith(kind)])) for kind in ("arithmetic", "size", "thin")}
+    named = {kind: points_by_gas(read([p for p in options.tables if p.name.startswith(kind)])) for kind in ("large", "long", "arithmetic", "size", "thin")}
     errors = points_by_gas(read([p for p in options.tables if not p.name.startswith(tuple(named))]))
     options.output.mkdir(parents=True, exist_ok=True)
     if errors:
         figure_error_against_cost(errors, options.output / "error_against_cost.png")
         figure_error_against_nu_dt(errors, options.output / "error_against_nu_dt.png")
+    if named["large"]:
+        figure_error_against_cost(named["large"], options.output / "error_against_cost_large.png")
     if named["size"]:
         figure_cost_against_size(named["size"], options.output / "cost_against_size.png")
     if named["thin"]:
         figure_formulas(named["thin"], options.output / "formulas.png")
-    (options.output / "tables.md").write_text(tables(errors, named["arithmetic"], named["size"], named["thin"]))
+    (options.output / "tables.md").write_text(tables(errors, named["large"], named["long"], named["arithmetic"], named["size"], named["thin"]))
 
 
 if __name__ == "__main__":
