@@ -13,6 +13,7 @@
 #include "accuracy_table.hpp"
 #include "carrom/core/errors.hpp"
 #include "carrom/simulation/initial_state.hpp"
+#include "standard_streams.hpp"
 #include "stopwatch.hpp"
 
 namespace carrom {
@@ -63,7 +64,7 @@ class StudyProgress {
 public:
     StudyProgress(double all, bool wanted) : all_(all), wanted_(wanted), on_terminal_(isatty(STDERR_FILENO) == 1) {}
     ~StudyProgress() {
-        if (wanted_ && on_terminal_) fmt::print(stderr, "\n");
+        if (wanted_ && on_terminal_) tell("\n");
     }
     StudyProgress(const StudyProgress&) = delete;
     StudyProgress& operator=(const StudyProgress&) = delete;
@@ -75,8 +76,8 @@ public:
         if (!wanted_ || !measured || since_shown_ < (on_terminal_ ? 0.2 : 20)) return;
         since_shown_ = 0;
         const auto left = static_cast<std::int64_t>(seconds_ * (all_ - found_ - done_) / done_ + 0.5);
-        fmt::print(stderr, "{}accuracy: {:.1f} % done, {}:{:02}:{:02} left{}", on_terminal_ ? "\r" : "", 100 * (found_ + done_) / all_,
-                   left / 3600, left / 60 % 60, left % 60, on_terminal_ ? "\x1b[K" : "\n");
+        tell("{}accuracy: {:.1f} % done, {}:{:02}:{:02} left{}", on_terminal_ ? "\r" : "", 100 * (found_ + done_) / all_,
+        left / 3600, left / 60 % 60, left % 60, on_terminal_ ? "\x1b[K" : "\n");
         std::fflush(stderr);
     }
 

@@ -2,7 +2,6 @@
 #include "accuracy_table.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <string_view>
 
@@ -10,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "machine.hpp"
+#include "standard_streams.hpp"
 
 namespace carrom {
 
@@ -57,8 +57,8 @@ AccuracyTable::AccuracyTable(const std::string& path)
     : table_(path, {fmt::format("{},{},threads,failure,{}", trial_columns(), number_columns, build_columns), n_columns(trial_columns()),
                     n_columns(build_columns), build_fields()}) {
     if (table_.n_foreign() > 0)
-        fmt::print(stderr, "{}: warning: {} of its lines are of another version, compiler or machine: costs of one setting and another are then not "
-                           "comparable\n", path, table_.n_foreign());
+        tell("{}: warning: {} of its lines are of another version, compiler or machine: costs of one setting and another are then not "
+                "comparable\n", path, table_.n_foreign());
 }
 
 bool AccuracyTable::has(const Scene& scene, const TrialStart& start, const TrialKey& key) const {

@@ -4,8 +4,10 @@
 #include "carrom/parallel/mpi.hpp"
 #include "command_line.hpp"
 #include "spinning.hpp"
+#include "standard_streams.hpp"
 
 int main(int argc, char** argv) {
+    carrom::keep_standard_streams();
     carrom::bound_spinning(argv);
     carrom::start_io();
     const carrom::Mpi mpi(argc, argv);

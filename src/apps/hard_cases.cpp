@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <fmt/format.h>
+#include "standard_streams.hpp"
 
 namespace carrom {
 
@@ -16,16 +16,15 @@ void warn_of_hard_cases(const Scene& scene, const Simulation& simulation, const 
     const double rounding = static_cast<double>(scene.sync_every) * 0x1p-53; // times count from the last sync
     // As far as the band before walls is wide: from there on bounces and overlaps show it.
     if (!ranks.is_root() || speed * rounding <= 1e-8 * scene.radius) return;
-    fmt::print(stderr,
-               "{}: warning: the fastest disc goes {:.3g} radii per micro-step, and {:.3g} radii in the rounding of a time; "
-               "more time.micro_steps or a smaller time.sync_every (now {}) keep overlaps smaller\n",
-               scene.name, speed / scene.radius, speed * rounding / scene.radius, scene.sync_every);
+    tell("{}: warning: the fastest disc goes {:.3g} radii per micro-step, and {:.3g} radii in the rounding of a time; "
+         "more time.micro_steps or a smaller time.sync_every (now {}) keep overlaps smaller\n",
+         scene.name, speed / scene.radius, speed * rounding / scene.radius, scene.sync_every);
 }
 
 void warn_of_overlaps(const Scene& scene, const Totals& start) {
     if (start.overlapping_pairs == 0) return;
-    fmt::print(stderr, "{}: warning: {} of discs overlap at the start; they pass through each other and collide once they have come apart\n",
-               scene.name, start.overlapping_pairs == 1 ? "1 pair" : fmt::format("{} pairs", start.overlapping_pairs));
+    tell("{}: warning: {} of discs overlap at the start; they pass through each other and collide once they have come apart\n",
+         scene.name, start.overlapping_pairs == 1 ? "1 pair" : fmt::format("{} pairs", start.overlapping_pairs));
 }
 
 } // namespace carrom

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "load.hpp"
 
-#include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -18,6 +17,7 @@
 #include "outputs.hpp"
 #include "report_file.hpp"
 #include "restart.hpp"
+#include "standard_streams.hpp"
 
 namespace carrom {
 
@@ -181,7 +181,7 @@ Loaded load(const RunOptions& options, const Problems& problems, const Communica
     }
     if (!loaded.stored) loaded.discs = load_discs(scene, stream, ranks);
     if (ranks.is_root())
-        for (const std::string& warning : scene.warnings) fmt::print(stderr, "{}: warning: {}\n", scene.name, warning);
+        for (const std::string& warning : scene.warnings) tell("{}: warning: {}\n", scene.name, warning);
     return loaded;
 }
 

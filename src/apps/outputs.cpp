@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "outputs.hpp"
 
-#include <cstdio>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "carrom/parallel/agreement.hpp"
 #include "data_output.hpp"
 #include "restart.hpp"
+#include "standard_streams.hpp"
 
 namespace carrom {
 
@@ -103,8 +103,8 @@ void check_older_checkpoints(const Scene& scene, std::int64_t first_step, const 
             problems.push_back({place, 0, fmt::format("{} is another run's ({}) and would be written over; name another folder, or move it away",
                                                       path, difference)});
         if (older.last_own >= 0 && first_step < 0)
-            fmt::print(stderr, "{} has checkpoints of this very run up to step {}; they are written anew (--restart latest goes on from there)\n",
-                       place, older.last_own);
+            tell("{} has checkpoints of this very run up to step {}; they are written anew (--restart latest goes on from there)\n",
+            place, older.last_own);
     }
     agree_on_problems(ranks, problems);
 }

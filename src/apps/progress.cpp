@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
+#include "standard_streams.hpp"
 
 namespace carrom {
 
@@ -44,10 +45,10 @@ void Progress::show(std::int64_t step) {
     const double seconds = std::chrono::duration<double>(now - start_).count();
     const std::string text = progress_text(step, first_step_, last_step_, seconds);
     if (on_terminal_) {
-        fmt::print(stderr, "\r{}\x1b[K", text); // erases what a longer line before has left
+        tell("\r{}\x1b[K", text); // erases what a longer line before has left
         line_is_open_ = true;
     } else {
-        fmt::print(stderr, "{}\n", text);
+        tell("{}\n", text);
         interval_ = std::min(interval_ * log_growth, std::chrono::duration<double>(longest_log_interval));
     }
     std::fflush(stderr);
@@ -55,7 +56,7 @@ void Progress::show(std::int64_t step) {
 }
 
 void Progress::finish() {
-    if (line_is_open_) fmt::print(stderr, "\n");
+    if (line_is_open_) tell("\n");
     line_is_open_ = false;
 }
 

@@ -2,7 +2,6 @@
 #include "restart.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <sstream>
 
@@ -13,6 +12,7 @@
 #include "carrom/scene/read_scene.hpp"
 #include "machine.hpp"
 #include "setting_choice.hpp"
+#include "standard_streams.hpp"
 
 namespace carrom {
 
@@ -51,7 +51,7 @@ std::vector<std::string> candidates_in(const std::string& folder, const Communic
 
 void tell_of_unfinished(const std::string& folder) {
     for (const FoundFile& found : find_checkpoints(folder))
-        if (!found.is_finished) fmt::print(stderr, "passing over {}: it was never finished\n", found.path);
+        if (!found.is_finished) tell("passing over {}: it was never finished\n", found.path);
 }
 
 /// Reads the checkpoint and fills in the scene if there is none yet; throws where it is not of that scene's run.
@@ -63,7 +63,7 @@ Checkpoint read_matching(const std::string& path, const RunOptions& options, Sce
     Scene here = options.input.empty() ? scene_of(checkpoint.header, overrides) : scene;
     if (here.accuracy || asks_again) {
         if (here.accuracy) settle_on(here, {there.rule, there.micro_steps});
-        if (ranks.is_root() && !options.quiet) fmt::print(stderr, "time.accuracy chooses at a run's start: going on with the checkpoint's setting\n");
+        if (ranks.is_root() && !options.quiet) tell("time.accuracy chooses at a run's start: going on with the checkpoint's setting\n");
     }
     std::vector<Problem> problems;
     for (const std::string& difference : physical_differences(there, here))
@@ -85,7 +85,7 @@ std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths, con
                                       const Communicator& ranks) {
     const auto pass_over = [&ranks](const std::string& path, const std::string& reason) {
         const std::size_t named = reason.starts_with(path + ": ") ? path.size() + 2 : 0;
-        if (ranks.is_root()) fmt::print(stderr, "passing over {}: {}\n", path, reason.substr(named));
+        if (ranks.is_root()) tell("passing over {}: {}\n", path, reason.substr(named));
     };
     for (const std::string& path : paths) {
         try {
@@ -171,13 +171,13 @@ void load_restart(const RunOptions& options, Loaded& loaded, const Communicator&
         checkpoint = read_newest(paths, options, loaded.scene, ranks);
         if (!checkpoint && !paths.empty()) refuse(folder, "no checkpoint there can be gone on from");
         if (!checkpoint && options.input.empty()) refuse(folder, "there is no checkpoint, and no scene to begin with");
-        if (!checkpoint && ranks.is_root()) fmt::print(stderr, "no checkpoint in {}: beginning at step 0\n", folder);
+        if (!checkpoint && ranks.is_root()) tell("no checkpoint in {}: beginning at step 0\n", folder);
     }
     if (!checkpoint) return;
     const CheckpointHeader& header = checkpoint->header;
     if (loaded.scene.steps < header.step)
         refuse(options.restart, fmt::format("the checkpoint is of step {}, and the run is to end at step {}", header.step, loaded.scene.steps));
-    if (ranks.is_root() && !options.quiet) fmt::print(stderr, "going on from step {}\n", header.step);
+    if (ranks.is_root() && !options.quiet) tell("going on from step {}\n", header.step);
     loaded.stored = StoredState{std::move(checkpoint->discs), header.micro_steps_done};
 }
 

@@ -2,7 +2,6 @@
 #include "run_command.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -22,6 +21,7 @@
 #include "report_file.hpp"
 #include "run_options.hpp"
 #include "setting_choice.hpp"
+#include "standard_streams.hpp"
 #include "stop_signals.hpp"
 #include "stopwatch.hpp"
 #include "summary.hpp"
@@ -46,10 +46,10 @@ void fill_machine(RunResult& result, const Communicator& ranks) {
 }
 
 /// Summary and report, by rank 0. If the report cannot be written every rank throws. **Collective.**
-void tell(const RunOptions& options, const Scene& scene, const RunResult& result, const Communicator& ranks) {
+void tell_result(const RunOptions& options, const Scene& scene, const RunResult& result, const Communicator& ranks) {
     std::string failure;
     if (ranks.is_root()) {
-        if (!options.quiet) fmt::print(stderr, "{}", summary_text(scene, result));
+        if (!options.quiet) tell("{}", summary_text(scene, result));
         if (!options.report.empty()) failure = write_whole_file(options.report, report_text(scene, result));
     }
     agree(ranks, failure.empty(), failure, ExitCode::output_failure);
@@ -107,7 +107,7 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     Tuning tuning = options.tuning;
     tuning.threads = options.threads.value_or(default_threads(ranks));
     if (const std::string warning = thread_warning(); !warning.empty() && !options.threads && ranks.is_root())
-        fmt::print(stderr, "warning: {}: running with {} threads a rank\n", warning, tuning.threads);
+        tell("warning: {}: running with {} threads a rank\n", warning, tuning.threads);
     if (loaded.scene.accuracy) choose_setting(loaded.scene, loaded.discs, options.quiet, ranks, tuning);
     const Scene& scene = loaded.scene;
     const bool is_restart = loaded.stored.has_value();
@@ -134,11 +134,11 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     phases.emplace_back("output", output_seconds);
     fill_times(result, phases, ranks);
     fill_machine(result, ranks);
-    tell(options, scene, result, ranks);
+    tell_result(options, scene, result, ranks);
     if (!is_done && ranks.is_root())
-        fmt::print(stderr, "stopped on request at step {} of {}; {}\n", result.last_step, scene.steps,
-                   scene.checkpoint ? fmt::format("run again with --restart {} to go on", scene.checkpoint->folder)
-                                    : "nothing is kept to go on from: the scene has no output.checkpoint.folder");
+        tell("stopped on request at step {} of {}; {}\n", result.last_step, scene.steps,
+        scene.checkpoint ? fmt::format("run again with --restart {} to go on", scene.checkpoint->folder)
+                         : "nothing is kept to go on from: the scene has no output.checkpoint.folder");
     return is_done ? ExitCode::success : ExitCode::stopped;
 }
 

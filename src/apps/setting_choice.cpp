@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "carrom/core/errors.hpp"
+#include "standard_streams.hpp"
 
 namespace carrom {
 
@@ -169,11 +169,11 @@ void choose_setting(Scene& scene, const std::vector<InputDisc>& discs, bool quie
         const auto n_discs = static_cast<double>(scene.n_discs);
         const Pilot pilot{scene, start, sixteenth_of_trial(n_discs, start.frequency * n_discs / 2, *scene.accuracy), communicator, tuning};
         if (communicator.is_root() && !quiet)
-            fmt::print(stderr, "accuracy {:g}: a pilot tries settings, each for up to {} steps\n", *scene.accuracy, 16 * pilot.sixteenth);
+            tell("accuracy {:g}: a pilot tries settings, each for up to {} steps\n", *scene.accuracy, 16 * pilot.sixteenth);
         choice = choose(pilot, *scene.accuracy);
     }
     if (communicator.is_root() && !quiet)
-        fmt::print(stderr, "accuracy {:g}: {}\n", *scene.accuracy, choice.reason);
+        tell("accuracy {:g}: {}\n", *scene.accuracy, choice.reason);
     settle_on(scene, choice.setting);
 }
 

@@ -27,4 +27,21 @@ wait "$program"
 code=$?
 expect_code 4 'a closed pipe'
 expect_told 'cannot write to standard output: Broken pipe' 'a closed pipe'
+
+# Messages that cannot be written end nothing, and never land in the data.
+"$CARROM_PROGRAM" run "$expected/three_discs.in" --quiet >lines.txt
+for kind in full closed unread; do
+    case $kind in
+    full) "$CARROM_PROGRAM" run "$expected/three_discs.in" --output "$kind.txt" 2>/dev/full ;;
+    closed) "$CARROM_PROGRAM" run "$expected/three_discs.in" --output "$kind.txt" <&- >&- 2>&- ;;
+    unread) "$CARROM_PROGRAM" run "$expected/three_discs.in" --output "$kind.txt" 2> >(exec <&-; exec sleep 0) ;;
+    esac
+    code=$?
+    expect_code 0 "standard error that is $kind"
+    cmp lines.txt "$kind.txt" || complain "other lines where standard error is $kind"
+done
+"$CARROM_PROGRAM" run "$expected/three_discs.in" >&- 2>"$test_folder/err"
+code=$?
+expect_code 4 'standard output that is closed'
+expect_told 'cannot write to standard output: Bad file descriptor' 'standard output that is closed'
 finish
