@@ -64,7 +64,7 @@ std::string_view part_after(std::string_view key, std::size_t dot) { return key.
 /// The place of the nearest name, if it is near enough to have been meant.
 std::optional<std::size_t> nearest_of(std::string_view name, std::span<const std::string_view> names) {
     name = name.substr(0, 200);
-    std::size_t least = std::max<std::size_t>(1, name.size() / 3) + 1;
+    std::size_t least = std::min(std::max<std::size_t>(1, name.size() / 3) + 1, name.size()); // not every letter replaced
     std::optional<std::size_t> nearest;
     for (std::size_t i = 0; i < names.size(); ++i) {
         const std::size_t distance = edit_distance(name, names[i]);

@@ -292,7 +292,7 @@ TEST_CASE("Misspelt keys name the nearest known one") {
 }
 
 TEST_CASE("Where no known key is near none is guessed: those that there are get listed") {
-    for (const char* wrong : {"foo=1", "discs.zzzzzzzqqqqq=1", "box.sidelength=3", "time.tau=1", "output.trajectory.colour='x'"}) {
+    for (const char* wrong : {"a=1", "box.q=1", "foo=1", "discs.zzzzzzzqqqqq=1", "box.sidelength=3", "time.tau=1", "output.trajectory.colour='x'"}) {
         CAPTURE(wrong);
         const auto problems = problems_in(good, {wrong});
         CHECK(problems.size() == 1);
