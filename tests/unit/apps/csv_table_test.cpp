@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 
 #include <sys/resource.h>
 
@@ -43,11 +44,24 @@ private:
     void (*before_)(int);
 };
 
+/// A file of this test's own, gone before and after.
+class OwnFile {
+public:
+    explicit OwnFile(std::string path) : path_(std::move(path)) { std::filesystem::remove(path_); }
+    ~OwnFile() { std::filesystem::remove(path_); }
+    OwnFile(const OwnFile&) = delete;
+    OwnFile& operator=(const OwnFile&) = delete;
+    const std::string& path() const { return path_; }
+
+private:
+    std::string path_;
+};
+
 } // namespace
 
 TEST_CASE("A table that a disk has no room for ends with a whole line, with code 4, and is gone on with") {
-    const std::string path = "full_table.csv";
-    std::filesystem::remove(path);
+    const OwnFile file("full_table.csv");
+    const std::string& path = file.path();
     {
         CsvTable table(path, layout);
         table.append("a", "1");
@@ -68,7 +82,8 @@ TEST_CASE("A table that a disk has no room for ends with a whole line, with code
 }
 
 TEST_CASE("A table drops half a line and half a header, and nothing else") {
-    const std::string path = "cut_table.csv";
+    const OwnFile file("cut_table.csv");
+    const std::string& path = file.path();
     const std::string whole = "key,number,origin\na,1,here\nb,2,there\n";
     for (std::size_t size = 0; size <= whole.size(); ++size) {
         std::ofstream(path, std::ios::binary) << whole.substr(0, size);
