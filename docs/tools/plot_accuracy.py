@@ -31,8 +31,15 @@ EXACT = ("all", 1, "double", "stable", "off")
 def read(paths):
     rows = []
     for path in paths:
-        with open(path, newline="") as table:
-            rows += list(csv.DictReader(table))
+        try:
+            with open(path, newline="") as table:
+                lines = csv.DictReader(table)
+                if "core_seconds" not in (lines.fieldnames or []):
+                    raise SystemExit(f"{path}: is no table of `carrom accuracy`" +
+                                     (" but one of distances: plot_distances.py draws it" if "collisions_per_disc" in (lines.fieldnames or []) else ""))
+                rows += list(lines)
+        except (OSError, UnicodeDecodeError) as error:
+            raise SystemExit(f"{path}: cannot be read: {error}") from None
     return rows
 
 
@@ -154,7 +161,11 @@ def crossover(points):
 
 
 def figure_error_against_cost(gases, path):
-    figure, panels = plt.subplots(2, 2, figsize=(10, 8.8), layout="constrained", sharey=True)
+    n_columns = min(2, len(gases))
+    n_rows = -(-len(gases) // n_columns)
+    figure, panels = plt.subplots(n_rows, n_columns, figsize=(1.5 + 4.25 * n_columns, 0.8 + 4 * n_rows), layout="constrained", sharey=True, squeeze=False)
+    for axes in panels.flat[len(gases):]:
+        axes.remove()
     for axes, ((packing, n), points) in zip(panels.flat, gases.items()):
         curve, exact = default_curve(points), exact_point(points)
         costs, cost_bars = bars([p.costs for _, p in curve])
@@ -181,7 +192,7 @@ def figure_error_against_cost(gases, path):
         axes.grid(True, which="major", color="0.92")
     for axes in panels[:, 0]:
         axes.set_ylabel("relative error")
-    figure.legend(*panels.flat[0].get_legend_handles_labels(), fontsize=8.5, loc="outside lower center", ncols=3)
+    figure.legend(*panels.flat[0].get_legend_handles_labels(), fontsize=8.5, loc="outside lower center", ncols=1 + n_columns)
     figure.savefig(path, dpi=120)
     plt.close(figure)
 

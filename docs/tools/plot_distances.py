@@ -37,7 +37,10 @@ def read(paths):
     looks = defaultdict(lambda: defaultdict(lambda: defaultdict(list)))
     for path in paths:
         with open(path, newline="") as table:
-            for row in csv.DictReader(table):
+            lines = csv.DictReader(table)
+            if "collisions_per_disc" not in (lines.fieldnames or []):
+                raise SystemExit(f"{path}: is no table of `carrom accuracy --distances`")
+            for row in lines:
                 if row["arithmetic"] == "stable":
                     setting = row["rule"], int(row["micro_steps"]), row["precision"]
                     looks[float(row["packing"])][setting][int(row["step"])].append((float(row["collisions_per_disc"]), float(row["distance_rms"])))
