@@ -74,7 +74,7 @@ WindowChoice choose_window(const WindowNeeds& needs, int n_left, std::optional<d
         best = choice;
     };
     for (int n = 2; n <= n_left; ++n) try_choice({n, 1, needs.largest_speed}, cost_per_micro_step(needs, n));
-    for (int n = 2; n <= 100000; n += std::max(1, n / 16)) {
+    for (int n = 2; n <= 100000 && n * disc_in_part < least; n += std::max(1, n / 16)) {
         const double duration = 1.0 / n;
         try_choice({1, n, needs.largest_speed}, cost_per_micro_step(needs, duration));
         for (std::size_t k = 1; needs.spread && k < SpeedSpread::n_parts; ++k) {
