@@ -53,6 +53,20 @@ HWY_INLINE std::uint64_t lanes_that_touch(D d, const FlightLanes& lanes, std::ui
     return n_inside < 64 ? bits & ((std::uint64_t{1} << n_inside) - 1) : bits;
 }
 
+/// Writes (first, second) to `out` behind the first `n_pairs`, which has room, for each slot `second` of `run` in `lanes`
+/// that might touch `flight`; without (first, first) if `first` is one of them. Returns how many pairs there are now.
+template <bool is_one_of_them, class D>
+HWY_INLINE std::size_t write_pairs(D d, const Broadcast<D>& flight, std::uint32_t first, const FlightLanes& lanes, SlotRange run,
+                                   SlotPair* out, std::size_t n_pairs) {
+    const auto n_lanes = static_cast<std::uint32_t>(hn::Lanes(d));
+    for (std::uint32_t other = run.begin; other < run.end; other += n_lanes) {
+        std::uint64_t bits = lanes_that_touch(d, lanes, other, run.end - other, flight);
+        if (is_one_of_them && first - other < n_lanes) bits &= ~(std::uint64_t{1} << (first - other));
+        for (; bits != 0; bits &= bits - 1) out[n_pairs++] = {first, other + static_cast<std::uint32_t>(std::countr_zero(bits))};
+    }
+    return n_pairs;
+}
+
 /// Room for `wanted` more items behind the first `size`, without clearing what is there.
 template <class T> T* room(std::vector<T>& buffer, std::size_t size, std::size_t wanted) {
     if (buffer.size() < size + wanted) buffer.resize(2 * (size + wanted));
@@ -61,7 +75,6 @@ template <class T> T* room(std::vector<T>& buffer, std::size_t size, std::size_t
 
 std::size_t FilterColumn(const CellGrid& grid, int column, float touching_squared, std::vector<SlotPair>& pairs) {
     const hn::ScalableTag<float> d;
-    const auto n_lanes = static_cast<std::uint32_t>(hn::Lanes(d));
     const FlightLanes lanes = grid.lanes();
     const int reach = grid.frame().n_reach, n_rows = grid.frame().n_rows;
     const int last_column = HWY_MIN(column + reach, grid.frame().n_columns - 1);
@@ -78,18 +91,10 @@ std::size_t FilterColumn(const CellGrid& grid, int column, float touching_square
             n_in_runs += run.end - run.begin;
         }
         SlotPair* out = room(pairs, n_pairs, (cell.end - cell.begin) * n_in_runs);
-        const auto filter_run = [&](std::uint32_t slot, const Broadcast<hn::ScalableTag<float>>& flight, SlotRange run) {
-            for (std::uint32_t other = run.begin; other < run.end; other += n_lanes) {
-                std::uint64_t bits = lanes_that_touch(d, lanes, other, run.end - other, flight);
-                for (; bits != 0; bits &= bits - 1) {
-                    out[n_pairs++] = {slot, other + static_cast<std::uint32_t>(std::countr_zero(bits))};
-                }
-            }
-        };
         for (std::uint32_t slot = cell.begin; slot < cell.end; ++slot) {
             const Broadcast flight(d, lanes, slot, touching_squared);
-            filter_run(slot, flight, {slot + 1, own_end});
-            for (const SlotRange run : runs) filter_run(slot, flight, run);
+            n_pairs = write_pairs<false>(d, flight, slot, lanes, {slot + 1, own_end}, out, n_pairs);
+            for (const SlotRange run : runs) n_pairs = write_pairs<false>(d, flight, slot, lanes, run, out, n_pairs);
         }
     }
     return n_pairs;
@@ -116,31 +121,12 @@ template <class Visit> HWY_INLINE void for_each_run(const CellGrid& grid, const 
 std::size_t FilterAround(const CellGrid& grid, LocalIndex index, float from, float half_reach, float touching_squared,
                          std::vector<SlotPair>& pairs, std::size_t n_pairs) {
     const hn::ScalableTag<float> d;
-    const auto n_lanes = static_cast<std::uint32_t>(hn::Lanes(d));
     const FlightLanes lanes = grid.lanes();
     const std::uint32_t slot = grid.slot_of(index);
     const Broadcast flight(d, lanes, slot, touching_squared);
     for_each_run(grid, Path(lanes, slot, from), half_reach, [&](const SlotRange run) {
-        SlotPair* out = room(pairs, n_pairs, run.end - run.begin);
-        for (std::uint32_t other = run.begin; other < run.end; other += n_lanes) {
-            std::uint64_t bits = lanes_that_touch(d, lanes, other, run.end - other, flight);
-            if (slot - other < n_lanes) bits &= ~(std::uint64_t{1} << (slot - other)); // not with itself
-            for (; bits != 0; bits &= bits - 1) out[n_pairs++] = {slot, other + static_cast<std::uint32_t>(std::countr_zero(bits))};
-        }
+        n_pairs = write_pairs<true>(d, flight, slot, lanes, run, room(pairs, n_pairs, run.end - run.begin), n_pairs);
     });
-    return n_pairs;
-}
-
-/// Writes (first, second) for each slot `second` of `run` in `lanes` that might touch `flight`.
-template <class D>
-std::size_t FilterRun(D d, const Broadcast<D>& flight, std::uint32_t first, const FlightLanes& lanes, SlotRange run,
-                      std::vector<SlotPair>& pairs, std::size_t n_pairs) {
-    SlotPair* out = room(pairs, n_pairs, run.end - run.begin);
-    const auto n_lanes = static_cast<std::uint32_t>(hn::Lanes(d));
-    for (std::uint32_t other = run.begin; other < run.end; other += n_lanes) {
-        std::uint64_t bits = lanes_that_touch(d, lanes, other, run.end - other, flight);
-        for (; bits != 0; bits &= bits - 1) out[n_pairs++] = {first, other + static_cast<std::uint32_t>(std::countr_zero(bits))};
-    }
     return n_pairs;
 }
 
@@ -149,7 +135,9 @@ std::size_t FilterApart(const CellGrid& grid, std::uint32_t k, float half_reach,
     const hn::ScalableTag<float> d;
     const FlightLanes apart = grid.apart_lanes(), lanes = grid.lanes();
     const Broadcast flight(d, apart, k, touching_squared);
-    for_each_run(grid, Path(apart, k, 0), half_reach, [&](const SlotRange run) { n_pairs = FilterRun(d, flight, k, lanes, run, pairs, n_pairs); });
+    for_each_run(grid, Path(apart, k, 0), half_reach, [&](const SlotRange run) {
+        n_pairs = write_pairs<false>(d, flight, k, lanes, run, room(pairs, n_pairs, run.end - run.begin), n_pairs);
+    });
     return n_pairs;
 }
 
@@ -158,7 +146,7 @@ std::size_t FilterApartPairs(const CellGrid& grid, std::uint32_t k, float touchi
     const hn::ScalableTag<float> d;
     const FlightLanes apart = grid.apart_lanes();
     const SlotRange later{k + 1, static_cast<std::uint32_t>(grid.apart().size())};
-    return FilterRun(d, Broadcast(d, apart, k, touching_squared), k, apart, later, pairs, n_pairs);
+    return write_pairs<false>(d, Broadcast(d, apart, k, touching_squared), k, apart, later, room(pairs, n_pairs, later.end - later.begin), n_pairs);
 }
 
 const char* FilterTarget() { return hwy::TargetName(HWY_TARGET); }

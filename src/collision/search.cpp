@@ -70,7 +70,7 @@ void Search<Law>::predict_all(const Population& population, const CellGrid& grid
     const Bounds bounds(law_, grid);
     const int n_columns = grid.frame().n_columns;
     const int chunk = std::max(1, n_columns / (16 * n_threads_));
-    const auto n_apart = static_cast<std::int64_t>(grid.apart().size());
+    const auto n_apart = Law::has_pairs ? static_cast<std::int64_t>(grid.apart().size()) : 0;
 #pragma omp parallel num_threads(n_threads_)
     {
         SearchLists& lists = lists_[static_cast<std::size_t>(omp_get_thread_num())];
