@@ -30,11 +30,22 @@ namespace carrom {
 
 namespace {
 
-/// Times as they are on the slowest rank. **Collective.**
+/// The largest of the ranks' times over their mean; 1 where there is none. **Collective.**
+double imbalance_of(double seconds, const Communicator& ranks) {
+    const auto nanoseconds = static_cast<std::uint64_t>(1e9 * seconds); // whole numbers: ranks add them in any order
+    const auto sum = static_cast<double>(ranks.sum(nanoseconds));
+    return sum > 0 ? static_cast<double>(ranks.max(nanoseconds)) * ranks.size() / sum : 1;
+}
+
+/// Times as they are on the slowest rank, and how even they are. **Collective.**
 void fill_times(RunResult& result, const PhaseSeconds& mine, const Communicator& ranks) {
     ensure(ranks.min(std::uint64_t{mine.size()}) == mine.size(), "ranks have different phases");
     result.wall_seconds = ranks.max(result.wall_seconds);
-    for (const auto& [name, seconds] : mine) result.phase_seconds.emplace_back(name, ranks.max(seconds));
+    for (const auto& [name, seconds] : mine) {
+        result.phase_seconds.emplace_back(name, ranks.max(seconds));
+        result.phase_imbalance.emplace_back(name, imbalance_of(seconds, ranks));
+    }
+    result.imbalance = imbalance_of(busy_seconds(mine), ranks);
 }
 
 /// **Collective.**

@@ -2,7 +2,9 @@
 #include "summary.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -36,6 +38,11 @@ double overlapping_pairs_per_disc(const RunResult& result) {
 
 double deepest_overlap(const Scene& scene, const RunResult& result) { return ratio(result.end.deepest_overlap, 2 * scene.radius); }
 
+bool is_own_work(std::string_view phase) {
+    static constexpr std::array others = {"wait", "exchange", "contested", "set-up", "output"};
+    return std::find(others.begin(), others.end(), phase) == others.end();
+}
+
 std::string phases_text(const RunResult& result) {
     double all = 0;
     for (const auto& [name, seconds] : result.phase_seconds) all += seconds;
@@ -44,6 +51,21 @@ std::string phases_text(const RunResult& result) {
         if (seconds >= 0.005 * all) // the report has the small ones too
             text += fmt::format("{}{} {:.3g} s ({:.0f} %)", text.empty() ? "" : ", ", name, seconds, 100 * ratio(seconds, all));
     return text;
+}
+
+/// How even the ranks' work is, and where it is least so.
+std::string imbalance_text(const RunResult& result) {
+    std::string text = fmt::format("{:.3f} times the mean of the ranks' own work on the busiest", result.imbalance);
+    const double enough = 0.1 * busy_seconds(result.phase_seconds); // what is short is uneven by chance
+    double most = 0;
+    std::string uneven;
+    for (std::size_t k = 0; k < result.phase_imbalance.size(); ++k) {
+        const auto& [name, imbalance] = result.phase_imbalance[k];
+        if (!is_own_work(name) || result.phase_seconds[k].second < enough || imbalance <= most) continue;
+        most = imbalance;
+        uneven = name;
+    }
+    return uneven.empty() ? text : text + fmt::format("; {} is least even, {:.3f}", uneven, most);
 }
 
 std::string windows_text(const ReplayCounts& replays) {
@@ -100,6 +122,12 @@ std::string plural(int count, const char* what) { return fmt::format("{} {}{}", 
 
 double ns_per_disc_step(const RunResult& result) { return ratio(1e9 * result.wall_seconds, disc_steps(result)); }
 
+double busy_seconds(const PhaseSeconds& phases) {
+    double busy = 0;
+    for (const auto& [name, seconds] : phases) busy += is_own_work(name) ? seconds : 0;
+    return busy;
+}
+
 double energy_drift(const RunResult& result) {
     const auto all = [](const Totals& totals) { return totals.kinetic_energy + totals.potential_energy; };
     return ratio(all(result.end) - all(result.start), all(result.start));
@@ -133,6 +161,7 @@ std::string summary_text(const Scene& scene, const RunResult& result) {
     text += line("machine", fmt::format("{} x {}, {:.0f} bytes per disc at the peak", plural(result.ranks, "rank"),
                                         plural(result.threads, "thread"), result.peak_bytes_per_disc));
     text += line("phases", phases_text(result));
+    if (result.ranks > 1) text += line("imbalance", imbalance_text(result));
     text += line("collisions", fmt::format("{} with walls, {} of pairs; {:.4g} per disc and micro-step (nu dt)",
                                            result.end.wall_collisions, result.end.pair_collisions,
                                            collisions_per_disc(scene, result)));
@@ -157,6 +186,8 @@ std::string summary_text(const Scene& scene, const RunResult& result) {
 std::string report_text(const Scene& scene, const RunResult& result) {
     nlohmann::ordered_json phases = nlohmann::ordered_json::object();
     for (const auto& [name, seconds] : result.phase_seconds) phases[name] = seconds;
+    nlohmann::ordered_json phase_imbalance = nlohmann::ordered_json::object();
+    for (const auto& [name, imbalance] : result.phase_imbalance) phase_imbalance[name] = imbalance;
     nlohmann::ordered_json report = {
         {"version", version()},
         {"scene", scene.name},
@@ -192,6 +223,8 @@ std::string report_text(const Scene& scene, const RunResult& result) {
         {"block_replays", result.replays.blocks},
         {"block_replays_redone", result.replays.blocks_redone},
         {"phase_seconds", phases},
+        {"phase_imbalance", phase_imbalance},
+        {"imbalance", result.imbalance},
         {"peak_bytes_per_disc", result.peak_bytes_per_disc},
     };
     if (scene.effects.gravity.is_any()) report["potential_energy"] = result.end.potential_energy;

@@ -20,10 +20,16 @@ struct RunResult {
     Averages averages;                 ///< since this process began
     ReplayCounts replays;              ///< under the rule "all"
     PhaseSeconds phase_seconds;        ///< each on the rank where it took longest
+    PhaseSeconds phase_imbalance;      ///< that over the mean of all ranks
+    double imbalance = 1;              ///< the same of `busy_seconds`
     double peak_bytes_per_disc = 0;    ///< peak memory of all ranks together, per disc
 };
 
 double ns_per_disc_step(const RunResult& result);
+
+/// What a rank has spent stepping on work of its own: all phases but those in which it may wait for other ranks (wait,
+/// exchange, contested) or is not stepping (set-up, output).
+double busy_seconds(const PhaseSeconds& phases);
 
 /// Change of the kinetic energy over the run, relative to its start.
 double energy_drift(const RunResult& result);

@@ -17,7 +17,10 @@ template <class Law> typename ExactEngine<Law>::Verdict ExactEngine<Law>::certif
     for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.too_fast);
     const bool is_too_fast = fastest > 0;
     std::vector<LocalIndex> foreign;
-    discs_.show(histories_);
+    {
+        const PhaseClock::Scope exchange(clock_, Phase::exchange);
+        discs_.show(histories_);
+    }
     compare_histories(foreign);
     std::uint64_t n_marked = foreign.size(), n_endless = 0;
     for (const Block& block : blocks_) {
@@ -25,10 +28,14 @@ template <class Law> typename ExactEngine<Law>::Verdict ExactEngine<Law>::certif
         n_endless += block.outcome.is_endless;
     }
     std::uint64_t news[] = {is_too_fast ? 1u : 0u, n_marked, n_endless};
-    if (communicator_.size() > 1) communicator_.sum(news);
+    if (communicator_.size() > 1) {
+        const PhaseClock::Scope wait(clock_, Phase::wait);
+        communicator_.sum(news);
+    }
     if (news[0] > 0) return Verdict::too_fast;
     if (news[2] > 0) fail_if_endless();
     if (!exact_.has_certificate || news[1] + news[2] == 0) return Verdict::exact;
+    const PhaseClock::Scope exchange(clock_, Phase::exchange);
     std::vector<LocalIndex> named;
     discs_.name_to_owners(foreign, named);
     for (const LocalIndex index : named) mark_owner(index);

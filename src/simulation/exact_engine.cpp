@@ -106,6 +106,7 @@ template <class Law> void ExactEngine<Law>::migrate() {
 }
 
 template <class Law> ReplayWindow ExactEngine<Law>::choose(double target) {
+    const PhaseClock::Scope scope(clock_, Phase::wait);
     ReplayWindow window;
     window.begin = time_;
     window.holds_begin = time_ == 0;
@@ -277,6 +278,7 @@ template <class Law> void ExactEngine<Law>::sync() {
     time_ = 0;
     ++n_syncs_;
     if (tuning_.rebalance_every > 0 && n_syncs_ % tuning_.rebalance_every == 0) {
+        const PhaseClock::Scope wait(clock_, Phase::wait);
         discs_.rebalance(0, tuning_.rebalance_above);
     }
 }

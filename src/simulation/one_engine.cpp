@@ -335,6 +335,7 @@ template <class Law> void OneEngine<Law>::sync() {
     // Discs may have moved at the old largest speed since they were last settled: the next migration allows for that.
     settled_time_ -= time;
     unchanged_until_ -= time;
+    const PhaseClock::Scope wait(clock_, Phase::wait);
     refreshed_speed_ = communicator_.max(std::sqrt(fastest));
     const std::uint64_t n_kept = communicator_.sum(n_kept_ - std::exchange(n_kept_at_sync_, n_kept_));
     hits_per_micro_step_ = 2 * static_cast<double>(n_kept) / (static_cast<double>(discs_.n_total()) * static_cast<double>(sync_every_));

@@ -73,6 +73,21 @@ TEST_CASE("A run of no steps, and one of discs at rest, have rates of zero") {
     CHECK(collisions_per_disc(small_scene(), result) == 0);
 }
 
+TEST_CASE("Imbalance is told where there are several ranks, of what ranks do without waiting for others") {
+    RunResult result = small_result();
+    CHECK(summary_text(small_scene(), result).find("imbalance") == std::string::npos);
+    result.ranks = 2;
+    result.phase_seconds = {{"search", 8}, {"move", 2}, {"sync", 0.5}, {"wait", 5}, {"exchange", 7}, {"contested", 3}, {"set-up", 9}, {"output", 4}};
+    result.phase_imbalance = {{"search", 1.25}, {"move", 1.5}, {"sync", 1.75}, {"wait", 2}, {"exchange", 2}, {"contested", 2}, {"set-up", 2}, {"output", 2}};
+    result.imbalance = 1.125;
+    CHECK(busy_seconds(result.phase_seconds) == 10.5);
+    const std::string text = summary_text(small_scene(), result);
+    CHECK(text.find("1.125 times the mean of the ranks' own work on the busiest; move is least even, 1.500") != std::string::npos);
+    const auto report = nlohmann::json::parse(report_text(small_scene(), result));
+    CHECK(report.at("imbalance") == 1.125);
+    CHECK(report.at("phase_imbalance").at("sync") == 1.75);
+}
+
 TEST_CASE("The report is JSON with the numbers of the result") {
     const auto report = nlohmann::json::parse(report_text(small_scene(), small_result()));
     CHECK(report.at("n_discs") == 4);
