@@ -112,8 +112,8 @@ template <class Law> ReplayWindow ExactEngine<Law>::choose(double target) {
     window.holds_begin = time_ == 0;
     // Largest speeds come and go: what was needed lately may be needed again.
     window.speed_bound = std::max(communicator_.max(largest_speed_) * exact_.speed_allowance, 0.99 * travel_speed_);
-    if constexpr (!Law::has_plain_walls) // discs at rest on a floor become faster as the frame falls
-        window.speed_bound += law_.sides().speed_gained_at(std::min(2 * last_duration_, target - time_));
+    // Discs at rest on a floor become faster as the frame falls.
+    window.speed_bound += law_.sides().speed_gained_at(std::min(2 * last_duration_, target - time_));
     const auto n = static_cast<double>(discs_.n_total());
     ExactNeeds needs{law_.box_size(), law_.radius() + law_.slack(), n, window.speed_bound, 0, time_, exact_.halo, false};
     is_one_block_ = communicator_.size() == 1 && tuning_.threads == 1 && n <= most_discs_alone;
@@ -247,13 +247,9 @@ template <class Law> void ExactEngine<Law>::commit() {
 template <class Law> void ExactEngine<Law>::log_events(const BlockOutcome& outcome) {
     const std::int64_t last_sync = n_micro_done_ / sync_every_ * sync_every_;
     for (const LoggedEvent& event : outcome.log) {
-        double time = event.time, slowing = 1;
-        if constexpr (!Law::has_plain_walls) {
-            time = law_.sides().micro_steps_at(event.time);
-            slowing = law_.sides().frame_at(event.time).slowing;
-        }
-        log_->push_back({last_sync, time, event.generation, event.p, event.is_wall ? Collision::wall : event.q,
-                         event.impulse * slowing * static_cast<double>(micro_steps_)});
+        const double slowing = law_.sides().frame_at(event.time).slowing;
+        log_->push_back({last_sync, law_.sides().micro_steps_at(event.time), event.generation, event.p,
+                         event.is_wall ? Collision::wall : event.q, event.impulse * slowing * static_cast<double>(micro_steps_)});
     }
 }
 
@@ -266,14 +262,12 @@ template <class Law> void ExactEngine<Law>::sync() {
     for (std::int64_t i = 0; i < n; ++i) {
         Disc& disc = discs[static_cast<std::size_t>(i)];
         Law::advance(disc, time_);
-        if constexpr (!Law::has_plain_walls) law_.sides().restart_frame(disc, time_);
+        law_.sides().restart_frame(disc, time_);
         disc.tau = 0;
     }
-    if constexpr (!Law::has_plain_walls) {
-        jumped_ += law_.sides().jump_at(time_);
-        largest_speed_ += law_.sides().speed_gained_at(time_);
-        begin_interval();
-    }
+    jumped_ += law_.sides().jump_at(time_);
+    largest_speed_ += law_.sides().speed_gained_at(time_);
+    begin_interval();
     settled_time_ -= time_;
     time_ = 0;
     ++n_syncs_;
@@ -285,28 +279,19 @@ template <class Law> void ExactEngine<Law>::sync() {
 
 /// Tells the law where its walls are from here, the last sync, on.
 template <class Law> void ExactEngine<Law>::begin_interval() {
-    if constexpr (!Law::has_plain_walls) {
-        law_.begin_interval(n_micro_done_ / sync_every_ * sync_every_);
-        for (BlockReplay<Law>& replay : replays_) replay.change_law(law_);
-    }
+    law_.begin_interval(n_micro_done_ / sync_every_ * sync_every_);
+    for (BlockReplay<Law>& replay : replays_) replay.change_law(law_);
 }
 
 /// What the clock shows so many micro-steps after a sync.
 template <class Law> double ExactEngine<Law>::clock_at(std::int64_t micro_steps) const {
-    if constexpr (!Law::has_plain_walls) return law_.sides().clock_at(static_cast<double>(micro_steps));
-    return static_cast<double>(micro_steps);
+    return law_.sides().clock_at(static_cast<double>(micro_steps));
 }
 
 /// The walls in the coordinates of states, now.
-template <class Law> Extent ExactEngine<Law>::extent() const {
-    if constexpr (!Law::has_plain_walls) return law_.sides().extent_at(time_);
-    return {0, law_.box_size(), 0, law_.box_size()};
-}
+template <class Law> Extent ExactEngine<Law>::extent() const { return law_.sides().extent_at(time_); }
 
-template <class Law> Frame ExactEngine<Law>::frame() const {
-    if constexpr (!Law::has_plain_walls) return law_.sides().frame_at(time_);
-    return {};
-}
+template <class Law> Frame ExactEngine<Law>::frame() const { return law_.sides().frame_at(time_); }
 
 template <class Law> void ExactEngine<Law>::settle_now() {
     migrate();

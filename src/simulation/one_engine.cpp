@@ -248,7 +248,7 @@ template <class Law> void OneEngine<Law>::apply(const Window& window, int m) {
             const Candidate& c = verdicts_.kept[static_cast<std::size_t>(k)];
             if (c.is_wall()) {
                 law_.bounce(results[c.p], m, c.time);
-                if constexpr (!Law::has_plain_walls) fastest = std::max(fastest, squared_speed_of(results[c.p]));
+                if constexpr (!Law::has_mirror_walls) fastest = std::max(fastest, squared_speed_of(results[c.p]));
             } else {
                 law_.collide(results[c.p], results[c.q], m, c.time);
                 fastest = std::max({fastest, squared_speed_of(results[c.p]), squared_speed_of(results[c.q])});

@@ -15,7 +15,7 @@ namespace carrom {
 template <class Contact> class EffectLaw : public PlainLaw {
 public:
     static constexpr bool has_pairs = Contact::has_pairs;
-    static constexpr bool has_plain_walls = false;
+    static constexpr bool has_mirror_walls = false;
 
     /// `effects` per micro-step.
     EffectLaw(double box_size, double radius, const Effects& effects)

@@ -12,12 +12,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <type_traits>
 
 #include "carrom/core/disc.hpp"
 #include "carrom/effects/effects.hpp"
+#include "carrom/effects/plain_sides.hpp"
 #include "carrom/geometry/naive_contact.hpp"
 #include "carrom/geometry/pair_contact.hpp"
 
@@ -44,8 +46,8 @@ public:
     static constexpr bool parts_overlaps = Formula::parts_overlaps;
     /// Whether discs meet each other at all.
     static constexpr bool has_pairs = true;
-    /// Whether walls are elastic and at rest, and the frame of coordinates the box's.
-    static constexpr bool has_plain_walls = true;
+    /// Whether a wall reverses a velocity across it and does nothing else to a disc.
+    static constexpr bool has_mirror_walls = true;
     /// Under the rule "all": more than some thousand collisions of a disc in so many micro-steps are without end. Where discs
     /// have no room, loose laws move them on by a rounding of time now and then, which is not at one time and has no end either.
     static constexpr double one_time = is_loose ? 0x1p-3 : 0x1p-40;
@@ -55,6 +57,11 @@ public:
           band_(static_cast<Real>(1e-8) * radius_),
           tolerance_(std::max(static_cast<Real>(1e-12) * diameter_, 16 * std::numeric_limits<Real>::epsilon() * box_size_)),
           slack_(rounding() + (Formula::keeps_digits ? 0 : misplacement() * this->radius())) {}
+
+    /// What engines ask of walls, clock and frame.
+    PlainSides sides() const { return PlainSides(box_size()); }
+    /// From now on times count from micro-step `n` of the scene.
+    void begin_interval(std::int64_t /*n*/) {}
 
     double box_size() const { return box_size_; }
     double radius() const { return radius_; }

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sides of a scene that names no effect, in the words of Sides: elastic walls at rest around discs that do not fall, seen
+// in the box's own frame and clock. Nothing of it is computed.
+#pragma once
+
+#include <cstdint>
+
+#include "carrom/core/disc.hpp"
+#include "carrom/core/frame.hpp"
+#include "carrom/effects/effects.hpp"
+
+namespace carrom {
+
+class PlainSides {
+public:
+    explicit PlainSides(double box_size) : box_size_(box_size) {}
+
+    static constexpr double clock_at(double micro_steps) { return micro_steps; }
+    static constexpr double micro_steps_at(double clock) { return clock; }
+    static void restart_frame(Disc& /*disc*/, double /*time*/) {}
+    static Frame frame_at(double /*time*/) { return {}; }
+    Extent extent_at(double /*time*/) const { return {0, box_size_, 0, box_size_}; }
+    static constexpr double jump_at(double /*time*/) { return 0; }
+    static constexpr double speed_gained_at(double /*time*/) { return 0; }
+
+private:
+    double box_size_;
+};
+
+} // namespace carrom
