@@ -94,6 +94,13 @@ Problems problems_of_disc_lines(const Scene& scene, std::istream& stream) {
     return problems;
 }
 
+/// The files that are read: what is written must be others.
+std::vector<NamedFile> read_for(const RunOptions& options, const Scene& scene) {
+    std::vector<NamedFile> sources = read_by(options);
+    if (!scene.discs_file.empty()) sources.push_back({"the file of discs", discs_path(scene)});
+    return sources;
+}
+
 /// The scene; `stream`, on rank 0, is left at the first line of discs. **Collective.**
 Scene load_scene(const RunOptions& options, const Problems& problems_so_far, const Communicator& ranks,
                  std::unique_ptr<std::istream>& stream) {
@@ -116,7 +123,10 @@ Scene load_scene(const RunOptions& options, const Problems& problems_so_far, con
         Problems same_everywhere;
         scene = read_scene(text, options.overrides, same_everywhere);
         if (ranks.is_root()) append(problems, same_everywhere);
-        if (!problems.empty() && options.restart.empty()) append(problems, problems_of_disc_lines(scene, *stream));
+        if (!problems.empty()) { // on rank 0
+            if (options.restart.empty()) append(problems, problems_of_disc_lines(scene, *stream));
+            append(problems, problems_of_outputs(scene, read_for(options, scene)));
+        }
     }
     agree_on_problems(ranks, problems);
     return scene;
@@ -130,13 +140,6 @@ void check_without_scene(const RunOptions& options, const Problems& problems_so_
         check_destinations(options, problems);
     }
     agree_on_problems(ranks, problems);
-}
-
-/// The files that are read: what is written must be others.
-std::vector<NamedFile> read_for(const RunOptions& options, const Scene& scene) {
-    std::vector<NamedFile> sources = read_by(options);
-    if (!scene.discs_file.empty()) sources.push_back({"the file of discs", discs_path(scene)});
-    return sources;
 }
 
 /// A mistake in the number of discs would end in the middle, without a word of why. **Collective.**

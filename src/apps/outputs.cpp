@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "outputs.hpp"
 
+#include <cerrno>
 #include <filesystem>
+
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -34,12 +37,17 @@ public:
     void add(const std::vector<Problem>& problems) { problems_.insert(problems_.end(), problems.begin(), problems.end()); }
     bool is_clear() const { return problems_.empty() && failures_.empty(); }
 
+    std::vector<Problem> all() const {
+        std::vector<Problem> found = problems_;
+        found.insert(found.end(), failures_.begin(), failures_.end());
+        return found;
+    }
+
     /// **Collective.**
     std::vector<WriteLock> agreed(const Communicator& ranks) {
         std::string text;
         for (const Problem& failure : failures_) text += (text.empty() ? "" : "\n") + to_string(failure);
-        if (!problems_.empty()) add(failures_);
-        agree_on_problems(ranks, problems_);
+        agree_on_problems(ranks, problems_.empty() ? problems_ : all());
         agree(ranks, text.empty(), text, ExitCode::output_failure);
         return std::move(locks_);
     }
@@ -65,15 +73,31 @@ void check_recording(Claims& claims, const char* key, const std::string& path) {
     else claims.check(key, path, obstacle_to_opening(path));
 }
 
-void check_places(Claims& claims, const Scene& scene) {
+/// What would keep a folder from being made, without making it.
+Obstacle obstacle_to_making(const std::string& folder) {
+    std::error_code ignored;
+    std::filesystem::path place = std::filesystem::absolute(folder, ignored);
+    while (place.has_relative_path() && !std::filesystem::exists(place, ignored)) place = place.parent_path();
+    if (!std::filesystem::is_directory(place, ignored)) return {fmt::format("cannot be made: {} is not a folder", place.string())};
+    if (::access(place.c_str(), W_OK | X_OK) == 0) return {};
+    return obstacle("cannot be made in " + place.string(), errno);
+}
+
+/// Makes nothing and locks nothing unless `may_begin`, and then only if all is right.
+void check_places(Claims& claims, const Scene& scene, const std::vector<NamedFile>& sources, std::vector<NamedFile> destinations, bool may_begin) {
+    for (const NamedFile& file : recordings_of(scene)) destinations.push_back(file);
+    claims.add(problems_with(destinations, sources));
     constexpr const char *folder_key = "output.checkpoint.folder", *trajectory_key = "output.trajectory.file", *log_key = "output.collisions.file";
     if (scene.trajectory) check_recording(claims, trajectory_key, scene.trajectory->file);
     if (scene.collisions) check_recording(claims, log_key, scene.collisions->file);
-    std::error_code ignored;
-    // A folder is made only for a run that nothing else keeps from running.
-    if (scene.checkpoint && (claims.is_clear() || std::filesystem::exists(scene.checkpoint->folder, ignored)))
-        claims.check(folder_key, scene.checkpoint->folder, obstacle_to_folder(scene.checkpoint->folder));
-    if (!claims.is_clear()) return;
+    if (scene.checkpoint) {
+        // A folder is made only for a run that nothing else keeps from running.
+        const std::string& folder = scene.checkpoint->folder;
+        std::error_code ignored;
+        const bool may_try = (may_begin && claims.is_clear()) || std::filesystem::exists(folder, ignored);
+        claims.check(folder_key, folder, may_try ? obstacle_to_folder(folder) : obstacle_to_making(folder));
+    }
+    if (!may_begin || !claims.is_clear()) return;
     if (scene.checkpoint) claims.lock(folder_key, scene.checkpoint->folder, (std::filesystem::path(scene.checkpoint->folder) / ".carrom.lock").string());
     if (scene.trajectory) claims.lock(trajectory_key, scene.trajectory->file, scene.trajectory->file + ".lock");
     if (scene.collisions) claims.lock(log_key, scene.collisions->file, scene.collisions->file + ".lock");
@@ -84,13 +108,14 @@ void check_places(Claims& claims, const Scene& scene) {
 std::vector<WriteLock> claim_outputs(const Scene& scene, const std::vector<NamedFile>& sources, const std::vector<NamedFile>& others,
                                      const Communicator& ranks) {
     Claims claims;
-    if (ranks.is_root()) {
-        std::vector<NamedFile> destinations = others;
-        for (const NamedFile& file : recordings_of(scene)) destinations.push_back(file);
-        claims.add(problems_with(destinations, sources));
-        if (claims.is_clear()) check_places(claims, scene);
-    }
+    if (ranks.is_root()) check_places(claims, scene, sources, others, true);
     return claims.agreed(ranks);
+}
+
+std::vector<Problem> problems_of_outputs(const Scene& scene, const std::vector<NamedFile>& sources) {
+    Claims claims;
+    check_places(claims, scene, sources, {}, false);
+    return claims.all();
 }
 
 void check_older_checkpoints(const Scene& scene, std::int64_t first_step, const Communicator& ranks) {

@@ -19,6 +19,9 @@ namespace carrom {
 std::vector<WriteLock> claim_outputs(const Scene& scene, const std::vector<NamedFile>& sources, const std::vector<NamedFile>& others,
                                      const Communicator& ranks);
 
+/// The same for a run that will not begin, so that all is told at once: makes nothing, locks nothing.
+std::vector<Problem> problems_of_outputs(const Scene& scene, const std::vector<NamedFile>& sources);
+
 /// Throws InputError on every rank where the run would write over whole checkpoints of another one; `first_step` is that
 /// of the checkpoint it goes on from, or -1. Tells, on rank 0, of older ones of this very run. **Collective.**
 void check_older_checkpoints(const Scene& scene, std::int64_t first_step, const Communicator& ranks);

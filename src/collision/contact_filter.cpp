@@ -2,6 +2,7 @@
 #include "contact_filter.hpp"
 
 #include <bit>
+#include <cmath>
 #include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
@@ -73,8 +74,79 @@ template <class T> T* room(std::vector<T>& buffer, std::size_t size, std::size_t
     return buffer.data();
 }
 
+/// touching^2 for find_near_passes, whose d x w is wrong by 5 * 2^-24 |d| |w| at most.
+float passing_squared(const CellGrid& grid, float touching_squared) {
+    const float margin = 0x1p-21f * 4 * static_cast<float>(grid.frame().n_reach + 2);
+    const float passing = std::sqrt(touching_squared) + margin;
+    return passing * passing * (1 + 0x1p-20f);
+}
+
+/// A vector of flights, from slot `other` on, that holds one which does not pass that of `first` by.
+struct NearPass {
+    std::uint32_t first, other, n_inside;
+};
+
+/// Finds those among the flights of `cell` and the vectors of `run`: (d x w)^2 <= touching^2 w.w, with d and w as above. That is
+/// half as dear as to ask when they are near, and few vectors are left where discs fly much further than they are wide.
+/// No branch depends on what it finds. Writes to `out` behind the first n, which has room for all; returns how many there are.
+template <class D>
+HWY_INLINE std::size_t find_near_passes(D d, const FlightLanes& lanes, SlotRange cell, SlotRange run, float passing_squared,
+                                        NearPass* out, std::size_t n) {
+    const auto n_lanes = static_cast<std::uint32_t>(hn::Lanes(d));
+    const auto passing = hn::Set(d, passing_squared);
+    for (std::uint32_t other = run.begin; other < run.end; other += n_lanes) {
+        const auto x = hn::LoadU(d, lanes.x + other), y = hn::LoadU(d, lanes.y + other);
+        const auto vx = hn::LoadU(d, lanes.vx + other), vy = hn::LoadU(d, lanes.vy + other);
+        for (std::uint32_t slot = cell.begin; slot < cell.end; ++slot) {
+            const auto dx = hn::Sub(x, hn::Set(d, lanes.x[slot])), dy = hn::Sub(y, hn::Set(d, lanes.y[slot]));
+            const auto wx = hn::Sub(vx, hn::Set(d, lanes.vx[slot])), wy = hn::Sub(vy, hn::Set(d, lanes.vy[slot]));
+            const auto cross = hn::MulSub(dx, wy, hn::Mul(dy, wx));
+            const auto a = hn::MulAdd(wx, wx, hn::Mul(wy, wy));
+            out[n] = {slot, other, run.end - other};
+            n += !hn::AllFalse(d, hn::Le(hn::Mul(cross, cross), hn::Mul(a, passing)));
+        }
+    }
+    return n;
+}
+
+/// FilterColumn where discs fly much further than they are wide.
+template <class D>
+HWY_INLINE std::size_t filter_long_flights(D d, const CellGrid& grid, int column, float touching_squared, std::vector<SlotPair>& pairs) {
+    const FlightLanes lanes = grid.lanes();
+    const auto n_lanes = static_cast<std::uint32_t>(hn::Lanes(d));
+    const int reach = grid.frame().n_reach, n_rows = grid.frame().n_rows;
+    const int last_column = HWY_MIN(column + reach, grid.frame().n_columns - 1);
+    const float passing = passing_squared(grid, touching_squared);
+    std::vector<NearPass> near;
+    std::size_t n_pairs = 0;
+    for (int row = 0; row < n_rows; ++row) {
+        const SlotRange cell = grid.run(column, row, row);
+        const std::size_t n_in_cell = cell.end - cell.begin;
+        if (n_in_cell == 0) continue;
+        std::size_t n_near = 0;
+        for (int other = column; other <= last_column; ++other) {
+            const SlotRange run = other == column ? SlotRange{cell.end, grid.run(column, row, row + reach).end}
+                                                  : grid.run(other, row - reach, row + reach);
+            const std::size_t n_vectors = (run.end - run.begin + n_lanes - 1) / n_lanes;
+            n_near = find_near_passes(d, lanes, cell, run, passing, room(near, n_near, n_in_cell * n_vectors + 1), n_near);
+        }
+        SlotPair* out = room(pairs, n_pairs, n_in_cell * n_in_cell + n_near * n_lanes);
+        for (std::uint32_t slot = cell.begin; slot < cell.end; ++slot) {
+            n_pairs = write_pairs<false>(d, Broadcast(d, lanes, slot, touching_squared), slot, lanes, {slot + 1, cell.end}, out, n_pairs);
+        }
+        for (std::size_t k = 0; k < n_near; ++k) {
+            const auto [first, other, n_inside] = near[k];
+            const SlotRange vector{other, other + HWY_MIN(n_inside, n_lanes)};
+            n_pairs = write_pairs<false>(d, Broadcast(d, lanes, first, touching_squared), first, lanes, vector, out, n_pairs);
+        }
+    }
+    return n_pairs;
+}
+
 std::size_t FilterColumn(const CellGrid& grid, int column, float touching_squared, std::vector<SlotPair>& pairs) {
     const hn::ScalableTag<float> d;
+    if (const auto reach = static_cast<float>(grid.frame().n_reach); reach * reach > 64 * touching_squared)
+        return filter_long_flights(d, grid, column, touching_squared, pairs);
     const FlightLanes lanes = grid.lanes();
     const int reach = grid.frame().n_reach, n_rows = grid.frame().n_rows;
     const int last_column = HWY_MIN(column + reach, grid.frame().n_columns - 1);

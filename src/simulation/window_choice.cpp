@@ -17,6 +17,7 @@ struct Costs {
 };
 constexpr Costs in_cache{30, 1.3, 85, 3}, in_memory{60, 1.3, 370, 7};
 constexpr double disc_in_part = 65; ///< of a disc in a part of a micro-step, what the part's end costs it included
+constexpr double partner_in_part = 0.7; ///< most pass by, and are seen to at little cost
 /// Of a fast disc in a part of a micro-step, and of each disc that it looks at: those in the cells along its path, which
 /// come in runs, and the other fast ones, which lie side by side.
 constexpr double fast_disc = 200, fast_partner = 1, fast_pair = 0.1;
@@ -27,8 +28,9 @@ double cost_per_micro_step(const WindowNeeds& needs, double duration) {
     const Costs& cost = needs.discs_per_rank > discs_in_cache ? in_memory : in_cache;
     const double reach = std::min(reach_of(needs, duration), needs.box_size);
     const double in_reach = needs.n_discs * (reach / needs.box_size) * (reach / needs.box_size);
-    const double disc = duration < 1 ? disc_in_part : cost.disc;
-    const double once = (disc + cost.partner * in_reach) / duration;
+    const bool is_part = duration < 1;
+    const double partner = is_part ? partner_in_part : cost.partner;
+    const double once = ((is_part ? disc_in_part : cost.disc) + partner * in_reach) / duration;
     const double again = needs.hits_per_micro_step * (cost.hit + cost.hit_partner * in_reach);
     return duration > 1 ? once + again * (1 - 1 / duration) : once;
 }

@@ -149,6 +149,9 @@ refuse 'a folder below a file' 'output.checkpoint.folder file/below: cannot be m
 refuse 'a folder where there can be none' 'output.checkpoint.folder /proc/carrom: cannot be made' run good.toml --set output.checkpoint.folder=/proc/carrom
 refuse 'recordings into folders' $'output.trajectory.file .: is a directory\noutput.collisions.file no/c.h5: cannot be written: No such file' \
     run good.toml --set output.trajectory.file=. --set output.collisions.file=no/c.h5 --set output.checkpoint.folder=new
+refuse 'a wrong scene and wrong places' \
+    $'--set discs.count\noutput.collisions.file good.toml: is the input itself\noutput.trajectory.file .: is a directory\noutput.checkpoint.folder file/below: cannot be made' \
+    run good.toml --set discs.count=-1 --set output.collisions.file=good.toml --set output.trajectory.file=. --set output.checkpoint.folder=file/below
 ulimit -Sv 4194304
 refuse 'more discs than memory' 'good.toml: discs.count = 200000000 needs at least' \
     run good.toml --set discs.count=200000000 --set discs.packing=0.1
