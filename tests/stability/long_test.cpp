@@ -183,4 +183,6 @@ TEST_CASE("long: energy and restarts over 2e5 collisions", "[long]") {
     many_collisions(CollisionRule::all, 400, 1e5, 4);
 }
 
-TEST_CASE("long: energy and restarts over 1e9 collisions", "[long][.hours]") { many_collisions(CollisionRule::all, 10000, 1e9, 10); }
+TEST_CASE("long: energy and restarts over 1e9 collisions, rule all", "[long][.hours]") { many_collisions(CollisionRule::all, 10000, 1e9, 10); }
+
+TEST_CASE("long: energy and restarts over 1e9 collisions, rule one", "[long][.hours]") { many_collisions(CollisionRule::one, 10000, 1e9, 10); }

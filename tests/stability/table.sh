@@ -4,9 +4,8 @@
 #
 #   tests/stability/table.sh [BUILD] [--long | --long=FAMILY]
 #
-# Runs the tests of BUILD (default: build), one rank with two threads: some 20 seconds on two idle cores. With --long also
-# the long cases: `dense` takes half an hour, `long` some ten minutes, `property` hours. With a family its rows alone are
-# made anew. Without --long their table stays as it is.
+# Runs the tests of BUILD (default: build), one rank with one thread: some 20 seconds. With --long also the long cases, which
+# take an hour or so. With a family its rows alone are made anew. Without --long their table stays as it is.
 set -euo pipefail
 source_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 page=$source_folder/docs/stability.md
@@ -15,7 +14,7 @@ is_long=no family=
 for word; do
     case $word in --long) is_long=yes ;; --long=*) is_long=yes family=${word#--long=} ;; *) build=$word ;; esac
 done
-export OMP_NUM_THREADS=2 OMP_WAIT_POLICY=passive OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMP_NUM_THREADS=1 OMP_WAIT_POLICY=passive OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export CARROM_TEST_SECONDS=7200
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
