@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "checked_dataset.hpp"
 #include "files.hpp"
 #include "journal_driver.hpp"
 
@@ -85,7 +86,7 @@ void set_length(hid_t parent, const char* name, hsize_t length) {
     dataset.close(name);
 }
 
-hsize_t length_of(hid_t parent, const char* name) { return h5::dimensions_of(h5::open_dataset(parent, name).id()).front(); }
+hsize_t length_of(hid_t parent, const char* name) { return h5::dimensions_of(h5::open_checked(parent, name, {std::nullopt}).id()).front(); }
 
 void write_block(hid_t parent, const char* name, std::span<const hsize_t> start, std::span<const hsize_t> count, hid_t type,
                  const void* values) {
@@ -97,7 +98,7 @@ void write_block(hid_t parent, const char* name, std::span<const hsize_t> start,
 }
 
 hsize_t count_up_to(hid_t parent, const char* name, std::int64_t last) {
-    const h5::Dataset dataset = h5::open_dataset(parent, name);
+    const h5::Dataset dataset = h5::open_checked(parent, name, {std::nullopt});
     hsize_t low = 0, high = h5::dimensions_of(dataset.id()).front();
     const h5::Space target(h5::checked(H5Dget_space(dataset.id()), name)), memory = h5::scalar_space();
     while (low < high) { // by halves: a log of collisions may have billions
@@ -112,7 +113,7 @@ hsize_t count_up_to(hid_t parent, const char* name, std::int64_t last) {
 }
 
 std::vector<std::int64_t> read_numbers(hid_t parent, const char* name) {
-    const h5::Dataset dataset = h5::open_dataset(parent, name);
+    const h5::Dataset dataset = h5::open_checked(parent, name, {std::nullopt});
     std::vector<std::int64_t> numbers(h5::dimensions_of(dataset.id()).front());
     h5::checked(H5Dread(dataset.id(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()), name);
     return numbers;

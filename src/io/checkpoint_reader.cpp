@@ -8,6 +8,8 @@
 #include "carrom/io/checkpoint.hpp"
 #include "carrom/parallel/slabs.hpp"
 #include "checkpoint_fields.hpp"
+#include "checked_dataset.hpp"
+#include "crash_guard.hpp"
 #include "files.hpp"
 #include "seal.hpp"
 
@@ -25,6 +27,7 @@ void check_header(const CheckpointHeader& header) {
 CheckpointHeader header_of(const std::string& path, const Communicator& communicator) {
     CheckpointHeader header;
     on_root(communicator, path, ExitCode::bad_input, [&] {
+        const CrashGuard guard(path);
         const h5::File file = h5::open_file(path, h5::Access::read);
         const h5::Group run(h5::checked(H5Gopen2(file.id(), "/carrom/run", H5P_DEFAULT), "has no /carrom/run"));
         header = read_header(run.id());
@@ -42,9 +45,7 @@ void read_columns(hid_t file, const std::string& path, std::uint64_t n, std::vec
     std::vector<h5::Dataset> datasets;
     on_all(communicator, path, ExitCode::bad_input, [&] {
         for (const Column& column : checkpoint_columns) {
-            datasets.push_back(h5::open_dataset(file, (std::string("/carrom/discs/") + column.name).c_str()));
-            if (h5::dimensions_of(datasets.back().id()) != std::vector<hsize_t>{n})
-                throw FileError(std::string(column.name) + " is of another length");
+            datasets.push_back(h5::open_checked(file, std::string("/carrom/discs/") + column.name, {n}));
         }
     });
     const std::uint64_t first = slab_begin(communicator.rank(), n, communicator.size());
@@ -82,6 +83,7 @@ Checkpoint read_checkpoint(const std::string& path, const Communicator& communic
     const std::uint64_t first = slab_begin(communicator.rank(), n, communicator.size());
     checkpoint.discs.resize(slab_begin(communicator.rank() + 1, n, communicator.size()) - first);
     for (std::size_t i = 0; i < checkpoint.discs.size(); ++i) checkpoint.discs[i].id = first + i;
+    const CrashGuard guard(path);
     h5::File file;
     on_all(communicator, path, ExitCode::bad_input, [&] { file = h5::open_file(path, h5::Access::read, communicator); });
     read_columns(file.id(), path, n, checkpoint.discs, communicator);

@@ -8,6 +8,8 @@
 
 #include "appended_file.hpp"
 #include "carrom/parallel/exchange.hpp"
+#include "checked_dataset.hpp"
+#include "crash_guard.hpp"
 #include "files.hpp"
 #include "h5md.hpp"
 
@@ -36,6 +38,11 @@ void create_structure(hid_t file, const std::string& program_version) {
     const h5::Group carrom = h5::create_group(file, "carrom"), log = h5::create_group(carrom.id(), "collisions");
     for (const Column& column : columns)
         create_growing(file, column.path, type_of(column), {}, std::array<hsize_t, 1>{rows_per_chunk}, 0);
+}
+
+void check_columns(hid_t file) {
+    const hsize_t n_rows = length_of(file, columns.front().path);
+    for (const Column& column : columns) static_cast<void>(h5::open_checked(file, column.path, {n_rows}));
 }
 
 void write_rows(hid_t file, hsize_t begin, std::span<const LoggedCollision> rows) {
@@ -78,6 +85,8 @@ void CollisionLog::go_on(std::int64_t step) {
     communicator_.broadcast(is_there);
     if (is_there == 0) return begin();
     on_root(communicator_, path_, ExitCode::bad_input, [&] {
+        const CrashGuard guard(path_);
+        check_columns(h5::open_file(path_, h5::Access::read).id());
         state_->file.change([&](hid_t file) {
             state_->n_rows = count_up_to(file, columns.front().path, step);
             for (const Column& column : columns) set_length(file, column.path, state_->n_rows);

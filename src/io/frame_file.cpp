@@ -6,12 +6,16 @@
 #include <bit>
 
 #include "appended_file.hpp"
+#include "checked_dataset.hpp"
 #include "checkpoint_fields.hpp"
+#include "crash_guard.hpp"
 #include "files.hpp"
 
 namespace carrom {
 
 namespace {
+
+constexpr std::size_t longest_version = 1000;
 
 /// HDF5 wants every group on the way to be asked for.
 bool has(hid_t file, const std::string& path) {
@@ -21,15 +25,17 @@ bool has(hid_t file, const std::string& path) {
     }
 }
 
-/// Rows [begin, end) of a column, or of frame `frame` of a dataset with several axes.
-void read_block(hid_t file, const std::string& path, std::size_t frame, std::uint64_t begin, std::uint64_t end, hid_t type, void* values) {
-    const h5::Dataset dataset = h5::open_dataset(file, path.c_str());
+/// Rows [begin, end) of a column, or, of `width` numbers each, of frame `frame` of a dataset with several axes.
+void read_block(hid_t file, const std::string& path, std::size_t frame, std::uint64_t begin, std::uint64_t end, hsize_t width, hid_t type,
+                void* values) {
+    const h5::Dataset dataset = h5::open_checked(file, path);
     std::vector<hsize_t> count = h5::dimensions_of(dataset.id()), start(count.size(), 0);
+    if (count.empty() || (count.size() == 3 ? count[2] : 1) != width) throw FileError(path + " has another shape than this program writes");
     const std::size_t axis = count.size() == 1 ? 0 : 1;
+    if (end > count[axis] || (axis == 1 && frame >= count[0])) throw FileError(path + " is shorter than the others");
     if (axis == 1) start[0] = frame;
     if (axis == 1) count[0] = 1;
     start[axis] = begin;
-    if (end > count[axis]) throw FileError(path + " is shorter than the others");
     count[axis] = end - begin;
     const h5::Space source(h5::checked(H5Dget_space(dataset.id()), path.c_str())), memory = h5::space(count);
     h5::checked(H5Sselect_hyperslab(source.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), path.c_str());
@@ -40,7 +46,9 @@ std::string version_in(hid_t file) {
     const h5::Group creator(h5::checked(H5Gopen2(file, "/h5md/creator", H5P_DEFAULT), "has no /h5md/creator"));
     const h5::Attribute attribute(h5::checked(H5Aopen(creator.id(), "version", H5P_DEFAULT), "has no version"));
     const h5::Type type(h5::checked(H5Aget_type(attribute.id()), "has no version"));
-    if (H5Tis_variable_str(type.id()) != 0) throw FileError("was written by another program");
+    const h5::Space shape(h5::checked(H5Aget_space(attribute.id()), "has no version"));
+    const bool is_text = H5Tget_class(type.id()) == H5T_STRING && H5Tis_variable_str(type.id()) == 0 && H5Tget_size(type.id()) <= longest_version;
+    if (!is_text || H5Sget_simple_extent_npoints(shape.id()) != 1) throw FileError("was written by another program");
     std::string text(H5Tget_size(type.id()), '\0');
     h5::checked(H5Aread(attribute.id(), type.id(), text.data()), "has no version");
     return text;
@@ -48,11 +56,19 @@ std::string version_in(hid_t file) {
 
 template <class Act> void guarded(const std::string& path, const Act& act) {
     try {
+        const CrashGuard guard(path);
         act();
     } catch (const FileError& error) {
         throw InputError({{path, 0, error.what()}});
     }
 }
+
+/// What `/particles/discs` has of one frame after the other.
+struct Element {
+    const char* name;
+    hsize_t width; ///< numbers for a disc
+};
+constexpr std::array<Element, 3> elements = {{{"position", 3}, {"velocity", 3}, {"collisions", 2}}};
 
 constexpr const char* discs_path = "/particles/discs/";
 
@@ -84,17 +100,16 @@ FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_un
             summary_.has_velocity = has(file, "/particles/discs/velocity");
             summary_.has_collisions = has(file, "/particles/discs/collisions");
             summary_.steps = read_numbers(file, "/particles/discs/box/edges/step");
-            for (const char* element : {"position", "velocity", "collisions"})
-                if (has(file, discs + element))
-                    summary_.n_discs = h5::dimensions_of(h5::open_dataset(file, (discs + element + "/value").c_str()).id()).at(1);
-            for (const char* element : {"position", "velocity"}) {
-                if (!has(file, discs + element)) continue;
-                const h5::Type type(h5::checked(H5Dget_type(h5::open_dataset(file, (discs + element + "/value").c_str()).id()), element));
-                summary_.bytes_per_number = H5Tget_size(type.id());
+            for (const Element& element : elements) {
+                if (!has(file, discs + element.name)) continue;
+                const h5::Dataset values = h5::open_checked(file, discs + element.name + "/value", {std::nullopt, std::nullopt, element.width});
+                const h5::Type type(h5::checked(H5Dget_type(values.id()), element.name));
+                summary_.n_discs = h5::dimensions_of(values.id())[1];
+                if (element.width == 3) summary_.bytes_per_number = H5Tget_size(type.id());
             }
             h5::read_scalar(file, "/parameters/radius", summary_.radius);
             std::array<double, 3> edges = {};
-            if (!summary_.steps.empty()) read_block(file, discs + "box/edges/value", 0, 0, 3, H5T_NATIVE_DOUBLE, edges.data());
+            if (!summary_.steps.empty()) read_block(file, discs + "box/edges/value", 0, 0, 3, 1, H5T_NATIVE_DOUBLE, edges.data());
             summary_.box_size = edges[0];
         } else {
             throw FileError("holds nothing that carrom writes");
@@ -103,7 +118,10 @@ FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_un
     });
 }
 
-FrameFile::~FrameFile() = default;
+FrameFile::~FrameFile() {
+    const CrashGuard guard(path_);
+    state_.reset();
+}
 FrameFile::FrameFile(FrameFile&&) noexcept = default;
 
 void FrameFile::read(std::size_t frame, std::uint64_t begin, std::uint64_t end, std::vector<FrameRow>& rows) const {
@@ -115,7 +133,7 @@ void FrameFile::read(std::size_t frame, std::uint64_t begin, std::uint64_t end, 
             std::vector<Disc> discs(n);
             std::vector<std::uint64_t> numbers(n);
             for (const Column& column : checkpoint_columns) {
-                read_block(file, std::string("/carrom/discs/") + column.name, 0, begin, end, type_of(column), numbers.data());
+                read_block(file, std::string("/carrom/discs/") + column.name, 0, begin, end, 1, type_of(column), numbers.data());
                 for (std::uint64_t i = 0; i < n; ++i) set_bits(column, discs[i], numbers[i]);
             }
             const double clock = state_->header.clock(), k = static_cast<double>(state_->header.micro_steps);
@@ -128,11 +146,11 @@ void FrameFile::read(std::size_t frame, std::uint64_t begin, std::uint64_t end, 
         const std::string discs = discs_path;
         std::vector<double> vectors(3 * n);
         std::vector<std::uint64_t> counts(2 * n);
-        if (summary_.has_position) read_block(file, discs + "position/value", frame, begin, end, H5T_NATIVE_DOUBLE, vectors.data());
+        if (summary_.has_position) read_block(file, discs + "position/value", frame, begin, end, 3, H5T_NATIVE_DOUBLE, vectors.data());
         for (std::uint64_t i = 0; i < n && summary_.has_position; ++i) rows[i].x = vectors[3 * i], rows[i].y = vectors[3 * i + 1];
-        if (summary_.has_velocity) read_block(file, discs + "velocity/value", frame, begin, end, H5T_NATIVE_DOUBLE, vectors.data());
+        if (summary_.has_velocity) read_block(file, discs + "velocity/value", frame, begin, end, 3, H5T_NATIVE_DOUBLE, vectors.data());
         for (std::uint64_t i = 0; i < n && summary_.has_velocity; ++i) rows[i].vx = vectors[3 * i], rows[i].vy = vectors[3 * i + 1];
-        if (summary_.has_collisions) read_block(file, discs + "collisions/value", frame, begin, end, H5T_NATIVE_UINT64, counts.data());
+        if (summary_.has_collisions) read_block(file, discs + "collisions/value", frame, begin, end, 2, H5T_NATIVE_UINT64, counts.data());
         for (std::uint64_t i = 0; i < n && summary_.has_collisions; ++i)
             rows[i].wall_collisions = counts[2 * i], rows[i].pair_collisions = counts[2 * i + 1];
     });
@@ -144,7 +162,7 @@ void FrameFile::read(std::uint64_t begin, std::uint64_t end, std::vector<LoggedC
     const auto column = [&](const char* name, hid_t type, auto field) {
         using Number = std::remove_reference_t<decltype(rows[0].*field)>;
         std::vector<Number> numbers(end - begin);
-        read_block(file, std::string("/carrom/collisions/") + name, 0, begin, end, type, numbers.data());
+        read_block(file, std::string("/carrom/collisions/") + name, 0, begin, end, 1, type, numbers.data());
         for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*field = numbers[i];
     };
     guarded(path_, [&] {

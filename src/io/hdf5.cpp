@@ -7,6 +7,7 @@
 
 #include "carrom/io/start_io.hpp"
 #include "carrom/parallel/native.hpp"
+#include "checked_dataset.hpp"
 #include "files.hpp"
 
 namespace carrom {
@@ -58,8 +59,10 @@ void write_dataset(hid_t parent, const char* name, const Space& shape, hid_t typ
 
 /// Checks that there is one value, so that nothing is written beyond it.
 void read_scalar_as(hid_t parent, const char* name, hid_t type, void* value) {
-    const Dataset dataset = open_dataset(parent, name);
+    const Dataset dataset = open_checked(parent, name);
     const Space shape(checked(H5Dget_space(dataset.id()), name));
+    const Type stored(checked(H5Dget_type(dataset.id()), name));
+    if (H5Tget_class(stored.id()) != H5Tget_class(type)) throw FileError(std::string(name) + " is of another type than this program writes");
     if (H5Sget_simple_extent_npoints(shape.id()) != 1) throw FileError(std::string(name) + " is not a single value");
     checked(H5Dread(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value), name);
 }
@@ -158,7 +161,7 @@ void read_scalar(hid_t parent, const char* name, double& value) { read_scalar_as
 void read_scalar(hid_t parent, const char* name, std::int64_t& value) { read_scalar_as(parent, name, H5T_NATIVE_INT64, &value); }
 void read_scalar(hid_t parent, const char* name, std::uint64_t& value) { read_scalar_as(parent, name, H5T_NATIVE_UINT64, &value); }
 void read_scalar(hid_t parent, const char* name, std::string& value) {
-    const Dataset dataset = open_dataset(parent, name);
+    const Dataset dataset = open_checked(parent, name);
     const Type type(checked(H5Dget_type(dataset.id()), name));
     if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0) throw FileError(std::string(name) + " is not a text");
     if (H5Tget_size(type.id()) > longest_text) throw FileError(std::string(name) + " is longer than any text of ours");

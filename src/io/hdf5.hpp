@@ -75,6 +75,7 @@ File open_file(const std::string& path, const Properties& access);
 File open_file(const std::string& path, Access access, const Communicator& communicator);
 
 Group create_group(hid_t parent, const char* name);
+/// To be written to; what is to be read may be damaged: see checked_dataset.hpp.
 Dataset open_dataset(hid_t parent, const char* name);
 
 /// Attributes and scalars; texts are of fixed length, UTF-8.

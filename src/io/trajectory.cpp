@@ -9,6 +9,8 @@
 
 #include "appended_file.hpp"
 #include "carrom/parallel/exchange.hpp"
+#include "checked_dataset.hpp"
+#include "crash_guard.hpp"
 #include "files.hpp"
 #include "h5md.hpp"
 #include "xdmf.hpp"
@@ -96,13 +98,16 @@ void set_frames(hid_t file, const TrajectoryLayout& layout, hsize_t n) {
 }
 
 void check_layout(hid_t file, const TrajectoryLayout& layout) {
+    const hsize_t n_frames = length_of(file, step_path);
     for (const Field& field : fields_of(layout)) {
-        const h5::Dataset dataset = h5::open_dataset(file, value_path(field).c_str());
+        const h5::Dataset dataset = h5::open_checked(file, value_path(field));
         const std::vector<hsize_t> dimensions = h5::dimensions_of(dataset.id());
         const h5::Type type(h5::checked(H5Dget_type(dataset.id()), "cannot look at a dataset"));
-        if (dimensions.size() != 3 || dimensions[1] != layout.n_discs || dimensions[2] != field.width || H5Tequal(type.id(), field.type) <= 0)
+        if (dimensions != std::vector<hsize_t>{n_frames, layout.n_discs, field.width} || H5Tequal(type.id(), field.type) <= 0)
             throw FileError("is of another run: its " + field.path + " has another shape");
     }
+    static_cast<void>(h5::open_checked(file, time_path, {n_frames}));
+    static_cast<void>(h5::open_checked(file, edges_path, {n_frames, 3}));
 }
 
 /// The discs of all ranks on rank 0, slab after slab of ids.
@@ -193,6 +198,7 @@ void Trajectory::go_on(std::int64_t step) {
     communicator_.broadcast(is_there);
     if (is_there == 0) return begin();
     on_root(communicator_, path_, ExitCode::bad_input, [&] {
+        const CrashGuard guard(path_);
         check_layout(h5::open_file(path_, h5::Access::read).id(), layout_);
         state_->file.change([&](hid_t file) {
             const hsize_t n = count_up_to(file, step_path, step);

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include <mpi.h>
+#include <unistd.h>
 
 #include "carrom/core/errors.hpp"
 #include "handle.hpp"
@@ -94,6 +95,13 @@ void wait_or_abort(MPI_Request& request, const std::string& failure, double pati
         std::this_thread::sleep_for(pause);
         pause = std::min(2 * pause, std::chrono::microseconds(2000));
     }
+}
+
+void abort_from_signal(std::string_view text, int code) {
+    static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
+    ::alarm(10);
+    MPI_Abort(MPI_COMM_WORLD, code);
+    ::_exit(code);
 }
 
 Mpi::Mpi(int& argc, char**& argv) {

@@ -11,8 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,7 +25,7 @@
 #include "carrom/parallel/mpi.hpp"
 #include "checkpoint_fields.hpp"
 #include "hdf5.hpp"
-#include "seal.hpp"
+#include "sample_files.hpp"
 
 using namespace carrom;
 
@@ -43,27 +41,8 @@ void demand(bool claim) {
 std::string path() { return "/dev/shm/carrom_fuzzed_" + std::to_string(::getpid()) + ".h5"; }
 
 std::vector<char> whole_checkpoint(const Communicator& world) {
-    CheckpointHeader header;
-    header.program_version = "0.1.0";
-    header.scene_name = "fuzz.toml";
-    header.scene_text = "[box]\nsize = 10\n[discs]\ncount = 12\nradius = 0.5\n[time]\nsteps = 100\n";
-    header.box_size = 10;
-    header.radius = 0.5;
-    header.collisions = "one";
-    header.sync_every = 64;
-    header.step = header.micro_steps_done = 70;
-    std::vector<Disc> discs(12);
-    for (std::size_t i = 0; i < discs.size(); ++i) {
-        discs[i].id = i;
-        discs[i].x = 1 + 0.5 * static_cast<double>(i);
-        discs[i].y = 5;
-        discs[i].vx = 0.125;
-        discs[i].tau = static_cast<double>(i % 6);
-        discs[i].pair_collisions = i / 2;
-    }
-    write_checkpoint(path(), header, discs, world);
-    std::ifstream file(path(), std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+    test::write_sample_checkpoint(path(), world);
+    return test::bytes_of(path());
 }
 
 /// Where something stands: most of a small file is the room between its datasets.
@@ -91,16 +70,6 @@ std::vector<std::size_t> places_of_values() {
     for (const HeaderField& field : checkpoint_header) add(std::string("/carrom/run/") + field.name);
     for (const Column& column : checkpoint_columns) add(std::string("/carrom/discs/") + column.name);
     return places;
-}
-
-/// Seals the file at `path()`, which holds `bytes`, as a writer of just these would have.
-void seal_anew(const std::vector<char>& bytes) {
-    std::vector<SealedPart> parts = sealed_parts(path());
-    for (SealedPart& part : parts) {
-        demand(part.rows <= rows_per_block && part.end() <= bytes.size());
-        part.checksum = checksum_of_block(std::as_bytes(std::span(bytes)).subspan(part.begin, part.rows * part.bytes_per_row), 0);
-    }
-    seal(path(), parts);
 }
 
 /// The file as the input wants it.
@@ -160,8 +129,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const bool is_sealed_anew = data[0] % 2 == 1;
     const std::vector<char> bytes =
         edited(ground->whole, is_sealed_anew ? ground->places_of_values : ground->places, std::span(data, size).subspan(1), !is_sealed_anew);
-    std::ofstream(path(), std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (is_sealed_anew) seal_anew(bytes);
+    test::write_bytes(path(), bytes);
+    if (is_sealed_anew) test::seal_anew(path(), bytes);
     try {
         check(read_checkpoint(path(), ground->world));
         demand(is_sealed_anew || bytes == ground->whole);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <string_view>
 
 #include "carrom/parallel/communicator.hpp"
 
@@ -18,6 +19,10 @@ public:
     Mpi(const Mpi&) = delete;
     Mpi& operator=(const Mpi&) = delete;
 };
+
+/// Prints `text` as it is and ends all ranks with `code`: for handlers of signals that end the program. Should MPI not come to
+/// an end within ten seconds, this process does.
+[[noreturn]] void abort_from_signal(std::string_view text, int code);
 
 /// Runs `body` on every rank and turns what it throws into an exit code: the program's only try and catch.
 /// InputError: rank 0 prints each problem on a line of standard error, 2. CollectiveError: rank 0 prints it, its code.

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sample_files.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <span>
+
+#include "carrom/core/errors.hpp"
+#include "carrom/io/checkpoint.hpp"
+#include "carrom/io/collision_log.hpp"
+#include "seal.hpp"
+
+namespace carrom::test {
+
+namespace {
+
+/// Twelve discs in a box of size 10.
+std::vector<Disc> some_discs() {
+    std::vector<Disc> discs(12);
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        discs[i].id = i;
+        discs[i].x = 1 + 0.5 * static_cast<double>(i);
+        discs[i].y = 5;
+        discs[i].vx = 0.125;
+        discs[i].tau = static_cast<double>(i % 6);
+        discs[i].pair_collisions = i / 2;
+    }
+    return discs;
+}
+
+} // namespace
+
+std::vector<char> bytes_of(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void write_bytes(const std::string& path, const std::vector<char>& bytes) {
+    std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+void write_sample_checkpoint(const std::string& path, const Communicator& world) {
+    CheckpointHeader header;
+    header.program_version = "0.1.0";
+    header.scene_name = "fuzz.toml";
+    header.scene_text = "[box]\nsize = 10\n[discs]\ncount = 12\nradius = 0.5\n[time]\nsteps = 100\n";
+    header.box_size = 10;
+    header.radius = 0.5;
+    header.collisions = "one";
+    header.sync_every = 64;
+    header.step = header.micro_steps_done = 70;
+    write_checkpoint(path, header, some_discs(), world);
+}
+
+TrajectoryLayout sample_layout(bool is_compressed) {
+    TrajectoryLayout layout;
+    layout.program_version = "0.1.0";
+    layout.n_discs = some_discs().size();
+    layout.box_size = 10;
+    layout.radius = 0.5;
+    layout.has_collisions = true;
+    layout.compression = is_compressed ? 4 : 0;
+    return layout;
+}
+
+void write_sample_trajectory(const std::string& path, bool is_compressed, const Communicator& world) {
+    const std::vector<Disc> discs = some_discs();
+    Trajectory trajectory(path, sample_layout(is_compressed), world);
+    trajectory.begin();
+    for (const std::int64_t step : {0, 10, 20}) trajectory.append(step, discs, 6);
+    trajectory.commit();
+}
+
+void write_sample_log(const std::string& path, const Communicator& world) {
+    std::vector<LoggedCollision> rows;
+    for (std::int64_t i = 0; i < 20; ++i) rows.push_back({1 + i / 4, 0.25 * static_cast<double>(i), i % 6, i % 3 == 0 ? -1 : 6 + i % 6, 0.5});
+    CollisionLog log(path, "0.1.0", world);
+    log.begin();
+    log.append(rows);
+    log.commit();
+}
+
+void seal_anew(const std::string& path, const std::vector<char>& bytes) {
+    std::vector<SealedPart> parts = sealed_parts(path);
+    for (SealedPart& part : parts) {
+        ensure(part.rows <= rows_per_block && part.end() <= bytes.size(), "a sample's seal names other parts");
+        part.checksum = checksum_of_block(std::as_bytes(std::span(bytes)).subspan(part.begin, part.rows * part.bytes_per_row), 0);
+    }
+    seal(path, parts);
+}
+
+} // namespace carrom::test

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Small files of each kind to be damaged, and how a damaged checkpoint is given the seal that a writer of just these bytes
+// would have given it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "carrom/io/trajectory.hpp"
+#include "carrom/parallel/communicator.hpp"
+
+namespace carrom::test {
+
+/// All bytes of a file.
+std::vector<char> bytes_of(const std::string& path);
+/// Replaces the file.
+void write_bytes(const std::string& path, const std::vector<char>& bytes);
+
+/// Twelve discs at step 70 of a scene of the rule "one". **Collective.**
+void write_sample_checkpoint(const std::string& path, const Communicator& world);
+
+/// Three frames of twelve discs with their counters; compressed or not. **Collective.**
+TrajectoryLayout sample_layout(bool is_compressed);
+void write_sample_trajectory(const std::string& path, bool is_compressed, const Communicator& world);
+
+/// Twenty collisions. **Collective.**
+void write_sample_log(const std::string& path, const Communicator& world);
+
+/// Seals a checkpoint that holds `bytes` anew; its seal must still name its parts. Of one rank.
+void seal_anew(const std::string& path, const std::vector<char>& bytes);
+
+} // namespace carrom::test
