@@ -98,7 +98,8 @@ TEST_CASE("contact: a million random collisions leave no pair that approaches", 
     const PlainLaw law(64, 0.5);
     double n_again = 0;
     for (int i = 0; i < 1000000; ++i) {
-        const Approach c = some.make(some.log_uniform(1, 30), some.log_uniform(1e-10, 1), some.log_uniform(1e-3, 10), 1);
+        const double distance = some.log_uniform(1, 30), margin = some.log_uniform(1e-10, 1), speed = some.log_uniform(1e-3, 10);
+        const Approach c = some.make(distance, margin, speed, 1);
         Disc p, q;
         p.x = 32 - c.dx / 2;
         p.y = 32 - c.dy / 2;
@@ -126,7 +127,8 @@ TEST_CASE("contact: lone pairs collide once in a run", "[contact]") {
         for (int i = 0; i < 40; ++i) {
             TestScene scene = empty_scene("lone pairs", 160, 0.5, 6);
             for (int cell = 0; cell < 64; ++cell) {
-                const Approach c = some.make(some.uniform(1, 4), some.log_uniform(1e-8, 1), some.uniform(0.5, 2), 1);
+                const double distance = some.uniform(1, 4), margin = some.log_uniform(1e-8, 1), speed = some.uniform(0.5, 2);
+                const Approach c = some.make(distance, margin, speed, 1);
                 const double x = 10 + 20 * (cell % 8), y = 10 + 20 * (cell / 8);
                 add_disc(scene, x - c.dx / 2, y - c.dy / 2, -c.wx / 2, -c.wy / 2);
                 add_disc(scene, x + c.dx / 2, y + c.dy / 2, c.wx / 2, c.wy / 2);

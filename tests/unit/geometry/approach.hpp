@@ -38,7 +38,8 @@ public:
         const bool is_touching = whole(0, 3) == 0;
         const double distance = is_touching ? 1 + whole(-8, 8) * 0x1p-53 : log_uniform(1, 1e6);
         const double margin = log_uniform(1e-14, 1) * (whole(0, 4) == 0 ? -1 : 1);
-        return make(distance, margin, log_uniform(0x1p-7, 0x1p7), uniform(0.5, 2));
+        const double speed = log_uniform(0x1p-7, 0x1p7), sigma = uniform(0.5, 2); // arguments are drawn in no order
+        return make(distance, margin, speed, sigma);
     }
 
 private:
