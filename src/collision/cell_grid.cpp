@@ -201,6 +201,18 @@ void CellGrid::set_apart(double speed) {
     }
 }
 
+std::vector<std::int64_t> CellGrid::column_shares(int n_shares) const {
+    std::vector<std::int64_t> bounds;
+    int column = 0;
+    for (int k = 0; k < n_shares; ++k) {
+        const std::size_t before = share(order_.size(), k, n_shares);
+        while (column < frame_.n_columns && cell_start_[static_cast<std::size_t>(column) * rows()] < before) ++column;
+        bounds.push_back(column);
+    }
+    bounds.push_back(frame_.n_columns);
+    return bounds;
+}
+
 void CellGrid::reorder(std::span<Disc> discs, std::size_t n_own, int n_threads) {
     ensure(order_.size() >= n_own && discs.size() >= n_own, "discs are brought into the order of a grid that holds them");
     std::size_t n_placed = 0; // slot_of_ becomes the list of own discs by slot

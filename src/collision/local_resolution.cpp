@@ -48,6 +48,7 @@ void LocalResolution::resolve(const Population& population, std::vector<Candidat
     if (first_.size() < population.discs.size()) first_.resize(population.discs.size(), free_disc);
     kept_by_thread_.resize(static_cast<std::size_t>(n_threads_));
     live_by_thread_.resize(static_cast<std::size_t>(n_threads_));
+    places_.resize(static_cast<std::size_t>(n_threads_));
     while (!live.empty()) {
         if (verdicts.n_rounds >= rounds_before_walk) return walk(population, live, verdicts);
         ++verdicts.n_rounds;
@@ -65,6 +66,7 @@ std::size_t LocalResolution::round(const Population& population, std::vector<Can
     const TotalOrder before(population.discs);
     const std::size_t old_kept = verdicts.kept.size();
     const auto n_live = static_cast<std::int64_t>(live.size());
+    const std::size_t n_lists = concurrent ? kept_by_thread_.size() : 1;
 #pragma omp parallel num_threads(n_threads_) if (concurrent)
     {
         std::vector<Candidate>& kept = kept_by_thread_[static_cast<std::size_t>(omp_get_thread_num())];
@@ -103,12 +105,20 @@ std::size_t LocalResolution::round(const Population& population, std::vector<Can
             write(first_[candidate.p], free_disc);
             if (!candidate.is_wall()) write(first_[candidate.q], free_disc);
         }
-    }
-    live.clear();
-    const std::size_t n_lists = concurrent ? kept_by_thread_.size() : 1;
-    for (std::size_t thread = 0; thread < n_lists; ++thread) {
-        verdicts.kept.insert(verdicts.kept.end(), kept_by_thread_[thread].begin(), kept_by_thread_[thread].end());
-        live.insert(live.end(), live_by_thread_[thread].begin(), live_by_thread_[thread].end());
+#pragma omp single
+        {
+            std::size_t n_kept = 0, n_rest = 0;
+            for (std::size_t thread = 0; thread < n_lists; ++thread) {
+                places_[thread] = {old_kept + n_kept, n_rest};
+                n_kept += kept_by_thread_[thread].size();
+                n_rest += live_by_thread_[thread].size();
+            }
+            verdicts.kept.resize(old_kept + n_kept);
+            live.resize(n_rest);
+        }
+        const auto [kept_place, rest_place] = places_[static_cast<std::size_t>(omp_get_thread_num())];
+        std::copy(kept.begin(), kept.end(), verdicts.kept.begin() + static_cast<std::ptrdiff_t>(kept_place));
+        std::copy(rest.begin(), rest.end(), live.begin() + static_cast<std::ptrdiff_t>(rest_place));
     }
     return verdicts.kept.size() - old_kept;
 }

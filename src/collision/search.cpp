@@ -5,6 +5,7 @@
 
 #include <omp.h>
 
+#include "carrom/collision/shared_work.hpp"
 #include "contact_filter.hpp"
 
 namespace carrom {
@@ -69,17 +70,16 @@ template <class Law>
 void Search<Law>::predict_all(const Population& population, const CellGrid& grid, const Window& window, double reach) {
     const Bounds bounds(law_, grid);
     const int n_columns = grid.frame().n_columns;
-    const int chunk = std::max(1, n_columns / (16 * n_threads_));
+    SharedWork columns(grid.column_shares(n_threads_), std::max(1, n_columns / (16 * n_threads_)));
     const auto n_apart = Law::has_pairs ? static_cast<std::int64_t>(grid.apart().size()) : 0;
 #pragma omp parallel num_threads(n_threads_)
     {
         SearchLists& lists = lists_[static_cast<std::size_t>(omp_get_thread_num())];
         lists.by_micro.resize(static_cast<std::size_t>(window.n_micro));
         for (std::vector<Candidate>& list : lists.by_micro) list.clear();
-#pragma omp for schedule(dynamic, chunk)
-        for (int column = 0; column < n_columns; ++column) {
-            predict_column(population, grid, window, bounds, column, lists);
-        }
+        columns.run(omp_get_thread_num(), [&](std::int64_t column) {
+            predict_column(population, grid, window, bounds, static_cast<int>(column), lists);
+        });
 #pragma omp for schedule(dynamic, 8)
         for (std::int64_t k = 0; k < n_apart; ++k) {
             predict_apart(population, grid, window, bounds, reach, static_cast<std::uint32_t>(k), lists);
@@ -133,11 +133,11 @@ void Search<Law>::predict_again(const Population& population, const CellGrid& gr
     const std::span<const LocalIndex> order = grid.order();
     const auto n_batches = static_cast<std::int64_t>((hit.size() + hits_per_batch - 1) / hits_per_batch);
     const WindowState now = window.state_after(from - 1);
+    SharedWork batches(equal_shares(n_batches, n_threads_), 1);
 #pragma omp parallel num_threads(n_threads_) if (n_batches > 1)
     {
         SearchLists& lists = lists_[static_cast<std::size_t>(omp_get_thread_num())];
-#pragma omp for schedule(dynamic, 1)
-        for (std::int64_t k = 0; k < n_batches; ++k) {
+        batches.run(omp_get_thread_num(), [&](std::int64_t k) {
             const std::size_t first = static_cast<std::size_t>(k) * hits_per_batch;
             const std::span<const LocalIndex> batch = hit.subspan(first, std::min(hits_per_batch, hit.size() - first));
             look_around(grid, bounds, begin, half_reach(grid, reach), batch, lists);
@@ -152,7 +152,7 @@ void Search<Law>::predict_again(const Population& population, const CellGrid& gr
                 if (index != wall && bounds.reaches_wall(grid.lanes(), grid.slot_of(index)))
                     predict_wall(population, window, from, states, index, lists);
             }
-        }
+        });
     }
 }
 

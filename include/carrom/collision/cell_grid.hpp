@@ -107,6 +107,9 @@ public:
         return {cell_start_[base + static_cast<std::size_t>(low)], cell_start_[base + static_cast<std::size_t>(high) + 1]};
     }
 
+    /// First columns of `n_shares` shares with about as many discs each, and the number of columns.
+    std::vector<std::int64_t> column_shares(int n_shares) const;
+
     /// Ask for what a look around a disc will need: first where its cells begin, some time later the flights in them.
     void prefetch_cells(LocalIndex index) const {
         const std::uint32_t cell = cell_of_[index];

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "carrom/collision/candidate.hpp"
@@ -40,6 +41,7 @@ private:
     int n_threads_;
     std::vector<std::uint32_t> first_; ///< by disc: the number of its first live candidate, or a mark
     std::vector<std::vector<Candidate>> kept_by_thread_, live_by_thread_;
+    std::vector<std::pair<std::size_t, std::size_t>> places_; ///< where a thread's kept and live ones go
     std::vector<LocalIndex> touched_;
 };
 
