@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Discs to scale on matplotlib's axes, coloured by speed or by strip; shared by plot_frame.py and plot_movie.py."""
+import tomllib
+
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.collections import EllipseCollection
+from matplotlib.collections import EllipseCollection, LineCollection, PatchCollection
 from matplotlib.colors import ListedColormap
+from matplotlib.patches import Circle
 
 from frames import strips_of
 
@@ -16,6 +19,7 @@ def add_drawing_options(parser):
     parser.add_argument("--ranks", type=int, default=4, help="how many strips to show; default 4")
     parser.add_argument("--view", type=float, nargs=4, metavar=("X0", "Y0", "X1", "Y1"), help="part of the box to show")
     parser.add_argument("--fastest", type=float, help="speed of the brightest colour; default: 99 in 100 discs are slower")
+    parser.add_argument("--scene", help="the scene's TOML, to draw its obstacles from")
     parser.add_argument("--dpi", type=int, default=110)
 
 
@@ -28,6 +32,8 @@ class Picture:
         self.figure, self.axes = plt.subplots(figsize=(7.2, 6.2), layout="constrained", dpi=options.dpi)
         x0, y0, x1, y1 = self.view
         self.axes.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal", xlabel="x", ylabel="y")
+        if options.scene:
+            self._add_obstacles(options.scene)
         self.fastest = options.fastest
         self.discs = self.background = None
 
@@ -61,6 +67,14 @@ class Picture:
         for spine in self.axes.spines.values():
             self.axes.draw_artist(spine)
         return np.asarray(canvas.buffer_rgba())[:, :, :3]
+
+    def _add_obstacles(self, path):
+        with open(path, "rb") as file:
+            obstacles = tomllib.load(file).get("effects", {}).get("obstacles", {})
+        circles = [Circle((x, y), max(radius, 0.002 * self.frames.size)) for x, y, radius in obstacles.get("discs", [])]
+        lines = [((x0, y0), (x1, y1)) for x0, y0, x1, y1 in obstacles.get("segments", [])]
+        self.axes.add_collection(PatchCollection(circles, facecolors="0.6", edgecolors="none"))
+        self.axes.add_collection(LineCollection(lines, colors="0.4", linewidths=1))
 
     def _add_discs(self):
         """The discs, none yet, and the bar of their colours."""

@@ -100,7 +100,7 @@ void Search<Law>::predict_column(const Population& population, const CellGrid& g
     });
     const SlotRange slots = grid.run(column, 0, grid.frame().n_rows - 1);
     for (std::uint32_t slot = slots.begin; slot < slots.end; ++slot) {
-        if (bounds.reaches_wall(grid.lanes(), slot)) {
+        if (bounds.reaches_wall(grid.lanes(), slot) || law_.has_obstacles()) {
             predict_wall(population, window, window.first_micro, {}, order[slot], lists);
         }
     }
@@ -149,7 +149,7 @@ void Search<Law>::predict_again(const Population& population, const CellGrid& gr
                 if (states[other] != now || index < other) predict_pair(population, window, from, states, index, other, lists);
             });
             for (const LocalIndex index : batch) {
-                if (index != wall && bounds.reaches_wall(grid.lanes(), grid.slot_of(index)))
+                if (index != wall && (bounds.reaches_wall(grid.lanes(), grid.slot_of(index)) || law_.has_obstacles()))
                     predict_wall(population, window, from, states, index, lists);
             }
         });

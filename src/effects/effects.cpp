@@ -28,6 +28,13 @@ std::string description(const Side& side, const char* name) {
     return {};
 }
 
+std::string description(const ObstacleList& obstacles) {
+    const auto counted = [](std::size_t n, const char* what) { return n == 0 ? std::string() : fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
+    const std::string discs = counted(obstacles.discs.size(), "fixed disc"), segments = counted(obstacles.segments.size(), "segment");
+    return discs + (discs.empty() || segments.empty() ? "" : " and ") + segments +
+           (obstacles.restitution < 1 ? fmt::format(" of restitution {:g}", obstacles.restitution) : "");
+}
+
 } // namespace
 
 bool Effects::have_plain_sides() const {
@@ -54,6 +61,7 @@ std::string description(const Effects& effects) {
         if (!effects.sides[k].is_plain()) add(description(effects.sides[k], side_names[k]));
     if (effects.gravity.is_any()) add(fmt::format("gravity ({:g}, {:g})", effects.gravity.x, effects.gravity.y));
     if (effects.drag != 0) add(fmt::format("drag {:g}", effects.drag));
+    if (effects.obstacles.are_any()) add(description(effects.obstacles));
     return text;
 }
 

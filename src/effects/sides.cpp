@@ -12,6 +12,7 @@ Sides::Sides(double box_size, double radius, const Effects& effects)
     : effects_(effects), radius_(radius), starts_{radius, box_size - radius, radius, box_size - radius}, places_(starts_),
       gravity_{effects.gravity.x, effects.gravity.y} {
     for (std::size_t side = 0; side < 4; ++side) speeds_[side] = effects.sides[side].speed;
+    effects_.obstacles = {}; // laws are copied for each thread
 }
 
 void Sides::begin_interval(std::int64_t n) {

@@ -218,12 +218,25 @@ template <class Law> void BlockReplay<Law>::Scratch::predict_pair(std::uint32_t 
 }
 
 template <class Law> void BlockReplay<Law>::Scratch::predict_walls(std::uint32_t slot) {
+    predict_obstacle(slot);
     const float x_end = x[slot] + vx[slot], y_end = y[slot] + vy[slot];
     if (x_end > x_inner_low && x_end < x_inner_high && y_end > y_inner_low && y_end < y_inner_high) return;
     const Disc& disc = discs[slot];
     if (!law.may_meet_wall(disc, ground.window.end)) return;
     push(law.x_wall_time(disc), slot, x_wall);
     push(law.y_wall_time(disc), slot, y_wall);
+}
+
+/// The obstacle that the disc comes to first. One that it has just left is left out at that time, as with pairs.
+template <class Law> void BlockReplay<Law>::Scratch::predict_obstacle(std::uint32_t slot) {
+    if constexpr (Law::may_have_obstacles) {
+        if (!law.has_obstacles()) return;
+        const ReplayWindow& window = ground.window;
+        const std::uint32_t last = pasts[slot].partner;
+        const std::uint32_t left = is_obstacle(last) && last != Past::nobody ? last - first_obstacle : ObstacleContact::no_body;
+        const ObstacleContact contact = law.first_obstacle(discs[slot], {window.begin, window.end, window.holds_begin, left});
+        if (contact.exists()) push(contact.time, slot, first_obstacle + contact.body);
+    }
 }
 
 template <class Law> void BlockReplay<Law>::Scratch::push(double time, std::uint32_t a, std::uint32_t b) {
@@ -277,6 +290,8 @@ template <class Law> void BlockReplay<Law>::Scratch::carry_out(const Event& even
         law.bounce_x_at(p, event.time);
     } else if (event.q == y_wall) {
         law.bounce_y_at(p, event.time);
+    } else if (Law::may_have_obstacles && is_wall(event.q)) {
+        if constexpr (Law::may_have_obstacles) law.bounce_off_at(p, event.q - first_obstacle, event.time);
     } else {
         law.collide_at(p, discs[event.q], event.time);
         note(event.q, event.p, event);

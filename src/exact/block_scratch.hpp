@@ -39,6 +39,7 @@ template <class Law> struct BlockReplay<Law>::Scratch {
     void predict_pairs(std::uint32_t slot, std::uint32_t except);
     void predict_pair(std::uint32_t a, std::uint32_t b);
     void predict_walls(std::uint32_t slot);
+    void predict_obstacle(std::uint32_t slot);
     void push(double time, std::uint32_t a, std::uint32_t b);
     void report(const CellBlock& own, std::span<std::uint64_t> histories);
 

@@ -16,9 +16,10 @@
 
 namespace carrom {
 
-/// Stand for a wall in the place of a second disc; x comes before y.
-inline constexpr std::uint32_t x_wall = 0xfffffffe, y_wall = 0xffffffff;
-inline bool is_wall(std::uint32_t partner) { return partner >= x_wall; }
+/// Stand for what is fixed in the place of a second disc: obstacles by their numbers, then the walls, x before y.
+inline constexpr std::uint32_t first_obstacle = 0x80000000, x_wall = 0xfffffffe, y_wall = 0xffffffff;
+inline bool is_wall(std::uint32_t partner) { return partner >= first_obstacle; }
+inline bool is_obstacle(std::uint32_t partner) { return partner >= first_obstacle && partner < x_wall; }
 
 struct Event {
     double time = 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "limits.hpp"
@@ -109,9 +110,30 @@ void fill_thermal(const Check& check) {
     if (const auto seed = whole_number(check, "effects.thermal.seed", 0, INT64_MAX)) effects.thermal_seed = static_cast<std::uint64_t>(*seed);
 }
 
+/// Calls what(row) for the rows of a list that are what they should be.
+template <class What> void for_each_row(const Check& check, std::string_view key, const What& what) {
+    const Setting* list = check.settings.find(key);
+    if (!list) return;
+    for (const Row& row : std::get<std::vector<Row>>(list->value))
+        if (!row.numbers.empty()) what(row);
+}
+
+void fill_obstacles(const Check& check) {
+    ObstacleList& obstacles = check.scene.effects.obstacles;
+    for_each_row(check, "effects.obstacles.discs", [&obstacles](const Row& row) { obstacles.discs.push_back({row.numbers[0], row.numbers[1], row.numbers[2]}); });
+    for_each_row(check, "effects.obstacles.segments",
+                 [&obstacles](const Row& row) { obstacles.segments.push_back({row.numbers[0], row.numbers[1], row.numbers[2], row.numbers[3]}); });
+    constexpr std::string_view key = "effects.obstacles.restitution";
+    if (!obstacles.are_any()) return refuse_without(check, key, "'effects.obstacles.discs' or 'effects.obstacles.segments'");
+    if (const auto restitution = number_within(check, key, 0, 1)) obstacles.restitution = *restitution;
+    for (std::size_t side = 0; side < 4; ++side)
+        if (check.scene.effects.sides[side].kind == SideKind::moving)
+            check.refuse(*check.settings.find(std::string("box.") + side_names[side] + ".kind"), "this version has no moving walls together with obstacles");
+}
+
 bool lose_energy_or_fall(const Effects& effects) {
     const bool is_lossy = std::any_of(effects.sides.begin(), effects.sides.end(), [](const Side& side) { return side.restitution < 1; });
-    return is_lossy || effects.contact.kind == ContactKind::restitution || effects.gravity.is_any();
+    return is_lossy || effects.contact.kind == ContactKind::restitution || effects.gravity.is_any() || effects.obstacles.restitution < 1;
 }
 
 /// The falling frame must not leave the box far behind: its coordinates would be coarser than the box's.
@@ -125,6 +147,38 @@ void check_fall(const Check& check) {
                      fmt::format("'{}' = {} makes discs fall further than half the box from sync to sync; {}", key, g,
                                  longest >= 1 ? fmt::format("time.sync_every = {} or less will do", longest) : "take more time.micro_steps"));
     }
+}
+
+void refuse_rows(const Check& check, std::string_view key, const std::function<std::string(const std::vector<double>&)>& fault) {
+    std::size_t number = 0;
+    for_each_row(check, key, [&](const Row& row) {
+        const std::string text = fault(row.numbers);
+        ++number;
+        if (!text.empty()) add_problem(check.problems, row.place, fmt::format("row {} of '{}': {}", number, key, text));
+    });
+}
+
+void check_obstacles(const Check& check) {
+    const double size = check.scene.box_size;
+    const Generator generator = check.scene.generator;
+    if (check.scene.effects.obstacles.are_any() && (generator == Generator::lattice || generator == Generator::ancestor)) {
+        const Setting* setting = check.settings.find("discs.generator");
+        for (const std::string_view key : {"discs.packing", "discs.radius"})
+            if (!setting) setting = check.settings.find(key);
+        check.refuse(*setting, "a lattice and the ancestor's generator know nothing of obstacles; insert discs at random (at a packing that allows it), or list them");
+    }
+    const auto is_inside = [size](double x, double y) { return x >= 0 && x <= size && y >= 0 && y <= size; };
+    refuse_rows(check, "effects.obstacles.discs", [&](const std::vector<double>& n) -> std::string {
+        if (!is_inside(n[0], n[1])) return fmt::format("the centre ({}, {}) is not in the box", n[0], n[1]);
+        if (!(n[2] >= 0 && n[2] <= size)) return fmt::format("the radius must be from 0 to {}, not {}", size, n[2]);
+        return {};
+    });
+    refuse_rows(check, "effects.obstacles.segments", [&](const std::vector<double>& n) -> std::string {
+        if (!is_inside(n[0], n[1]) || !is_inside(n[2], n[3])) return fmt::format("the segment from ({}, {}) to ({}, {}) is not in the box", n[0], n[1], n[2], n[3]);
+        const double length = std::hypot(n[2] - n[0], n[3] - n[1]);
+        if (!(length > 0x1p-30 * size)) return fmt::format("a segment of length {}: a point is a fixed disc of radius 0", length);
+        return {};
+    });
 }
 
 void check_moving_walls(const Check& check) {
@@ -156,9 +210,10 @@ void fill_effects(const Check& check) {
     fill_gravity(check);
     fill_drag(check);
     fill_thermal(check);
+    fill_obstacles(check);
     const Effects& effects = check.scene.effects;
     if (lose_energy_or_fall(effects)) fill_contact_time(check);
-    else refuse_without(check, "effects.contact.contact_time", "discs or walls of restitution, or gravity");
+    else refuse_without(check, "effects.contact.contact_time", "discs, walls or obstacles of restitution, or gravity");
     if (!effects.are_any()) return;
     for (const std::string_view key : {"time.precision", "time.arithmetic", "time.accuracy"}) {
         const Setting* setting = check.settings.find(key);
@@ -171,6 +226,7 @@ void fill_effects(const Check& check) {
 void check_room_for_effects(const Check& check) {
     check_fall(check);
     check_moving_walls(check);
+    check_obstacles(check);
 }
 
 } // namespace carrom

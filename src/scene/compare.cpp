@@ -87,6 +87,9 @@ void compare_effects(Comparison& c, const Effects& there, const Effects& here) {
     c.compare("effects.gravity.y", there.gravity.y, here.gravity.y);
     c.compare("effects.drag.rate", there.drag, here.drag);
     c.compare("effects.thermal.seed", there.thermal_seed, here.thermal_seed);
+    c.compare_list("effects.obstacles.discs", there.obstacles.discs == here.obstacles.discs);
+    c.compare_list("effects.obstacles.segments", there.obstacles.segments == here.obstacles.segments);
+    c.compare("effects.obstacles.restitution", there.obstacles.restitution, here.obstacles.restitution);
 }
 
 } // namespace

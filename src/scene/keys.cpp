@@ -42,6 +42,8 @@ constexpr std::array keys = {
     Key{"effects.contact.kind", ValueKind::text},
     Key{"effects.contact.restitution", ValueKind::number},
     Key{"effects.contact.contact_time", ValueKind::number},
+    Key{"effects.obstacles.discs", ValueKind::fixed_discs}, Key{"effects.obstacles.segments", ValueKind::segments},
+    Key{"effects.obstacles.restitution", ValueKind::number},
     Key{"output.text", ValueKind::text},         Key{"output.checkpoint.folder", ValueKind::text},
     Key{"output.checkpoint.every_steps", ValueKind::integer},
     Key{"output.checkpoint.every_minutes", ValueKind::number},
@@ -55,9 +57,9 @@ constexpr std::array keys = {
     Key{"output.collisions.file", ValueKind::text},
 };
 
-constexpr std::array<std::string_view, 16> tables = {
+constexpr std::array<std::string_view, 17> tables = {
     "box", "discs", "time", "output", "output.checkpoint", "output.trajectory", "output.collisions", "effects", "effects.contact",
-    "effects.gravity", "effects.drag", "effects.thermal", "box.left", "box.right", "box.bottom", "box.top"};
+    "effects.gravity", "effects.drag", "effects.thermal", "effects.obstacles", "box.left", "box.right", "box.bottom", "box.top"};
 
 std::string_view part_after(std::string_view key, std::size_t dot) { return key.substr(dot + 1, key.find('.', dot + 1) - dot - 1); }
 

@@ -22,7 +22,7 @@ struct Place {
     std::int64_t line = 0;
 };
 
-/// One row of numbers of `discs.list`; empty where something else was written, a problem by then.
+/// One row of numbers of `discs.list` or of the obstacles' lists; empty where something else was written, a problem by then.
 struct Row {
     Place place;
     std::vector<double> numbers;

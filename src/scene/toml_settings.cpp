@@ -47,6 +47,8 @@ std::string kind_name(ValueKind kind) {
     case ValueKind::words: return "an array of texts";
     case ValueKind::flag: return "true or false";
     case ValueKind::rows: return "an array of [x, y, vx, vy]";
+    case ValueKind::fixed_discs: return "an array of [x, y, radius]";
+    case ValueKind::segments: return "an array of [x0, y0, x1, y1]";
     case ValueKind::streams: return "an array of tables, [[discs.streams]]";
     }
     return {};
@@ -75,10 +77,10 @@ std::optional<std::vector<double>> numbers_of(Walk& walk, const toml::node& node
     return std::nullopt;
 }
 
-std::vector<Row> rows_of(Walk& walk, const toml::array& array) {
+std::vector<Row> rows_of(Walk& walk, const toml::array& array, const std::string& key, std::size_t count, std::string_view numbers_wanted) {
     std::vector<Row> rows;
     for (const toml::node& node : array) {
-        const auto numbers = numbers_of(walk, node, 4, fmt::format("row {} of 'discs.list' must be four numbers, [x, y, vx, vy]", rows.size() + 1));
+        const auto numbers = numbers_of(walk, node, count, fmt::format("row {} of '{}' must be {}", rows.size() + 1, key, numbers_wanted));
         rows.push_back({walk.place_of(node.source()), numbers.value_or(std::vector<double>{})});
     }
     return rows;
@@ -137,7 +139,11 @@ bool add_value(Walk& walk, const std::string& key, ValueKind kind, const toml::n
     } else if (kind == ValueKind::flag && node.is_boolean()) {
         setting.value = node.as_boolean()->get();
     } else if (kind == ValueKind::rows && node.is_array()) {
-        setting.value = rows_of(walk, *node.as_array());
+        setting.value = rows_of(walk, *node.as_array(), key, 4, "four numbers, [x, y, vx, vy]");
+    } else if (kind == ValueKind::fixed_discs && node.is_array()) {
+        setting.value = rows_of(walk, *node.as_array(), key, 3, "three numbers, [x, y, radius]");
+    } else if (kind == ValueKind::segments && node.is_array()) {
+        setting.value = rows_of(walk, *node.as_array(), key, 4, "four numbers, [x0, y0, x1, y1]");
     } else if (kind == ValueKind::streams && node.is_array()) {
         auto streams = streams_of(walk, *node.as_array());
         if (!streams) return false;

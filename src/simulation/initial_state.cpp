@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "ancestor_discs.hpp"
+#include "carrom/effects/obstacles.hpp"
 #include "carrom/parallel/agreement.hpp"
 #include "carrom/parallel/exchange.hpp"
 #include "carrom/parallel/slabs.hpp"
@@ -100,6 +101,22 @@ std::vector<InputDisc> ancestor_discs(const Scene& scene, const Communicator& co
     return discs;
 }
 
+/// Every listed disc has to be clear of all obstacles; the first few that are not are named. **Collective.**
+void refuse_in_obstacles(const Scene& scene, const std::vector<InputDisc>& discs, const Communicator& communicator) {
+    constexpr std::size_t most_named = 5;
+    if (!scene.effects.obstacles.are_any()) return;
+    const Obstacles obstacles(scene.box_size, scene.radius, scene.effects);
+    const double least = 2 * std::max(2e-12 * scene.radius, 32 * 0x1p-53 * scene.box_size);
+    std::vector<Problem> problems;
+    for (const InputDisc& disc : discs) {
+        const auto overlap = obstacles.deepest_overlap(disc.x, disc.y, least);
+        if (overlap.body == ObstacleContact::no_body || problems.size() == most_named) continue;
+        problems.push_back({scene.name, 0, fmt::format("disc {} at ({}, {}) overlaps {} by {:.3g}; move one of them", disc.id, disc.x, disc.y,
+                                                       obstacles.name_of(overlap.body), overlap.depth)});
+    }
+    agree_on_problems(communicator, problems);
+}
+
 void add_streams(const Scene& scene, std::vector<InputDisc>& discs) {
     if (scene.streams.empty()) return;
     for (InputDisc& disc : discs) {
@@ -120,8 +137,11 @@ void set_velocities(const Scene& scene, std::vector<InputDisc>& discs) {
 } // namespace
 
 std::vector<InputDisc> initial_state(const Scene& scene, std::istream* lines, const Communicator& communicator) {
-    if (scene.generator == Generator::file)
-        return scene.reads_disc_lines() ? read_discs(scene, lines, communicator) : listed_discs(scene, communicator);
+    if (scene.generator == Generator::file) {
+        std::vector<InputDisc> listed = scene.reads_disc_lines() ? read_discs(scene, lines, communicator) : listed_discs(scene, communicator);
+        refuse_in_obstacles(scene, listed, communicator);
+        return listed;
+    }
     std::vector<InputDisc> discs;
     if (scene.generator == Generator::ancestor) {
         discs = ancestor_discs(scene, communicator);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "carrom/core/errors.hpp"
+#include "carrom/effects/obstacles.hpp"
 #include "carrom/parallel/exchange.hpp"
 #include "carrom/parallel/slabs.hpp"
 #include "carrom/scene/lattice.hpp"
@@ -34,6 +35,7 @@ public:
     Insertion(const Scene& scene, const Communicator& communicator, std::uint64_t start)
         : scene_(scene), communicator_(communicator), start_(start), diameter_(2 * scene.radius),
           placed_grid_(grid()), proposal_grid_(grid()) {
+        if (scene.effects.obstacles.are_any()) obstacles_.emplace(scene.box_size, scene.radius, scene.effects);
         const std::uint64_t n = scene.n_discs;
         const std::uint64_t first = slab_begin(communicator.rank(), n, communicator.size());
         const std::uint64_t last = slab_begin(communicator.rank() + 1, n, communicator.size());
@@ -120,6 +122,7 @@ private:
     /// or they do not overlap.
     bool is_refused(const Notice& notice) const {
         const Point at{notice.x, notice.y};
+        if (obstacles_ && obstacles_->deepest_overlap(at.x, at.y, 0).body != ObstacleContact::no_body) return true;
         return placed_grid_.any_near(at, [&](std::uint32_t k) { return overlaps(at, placed_[k].x, placed_[k].y); }) ||
                proposal_grid_.any_near(at, [&](std::uint32_t k) {
                    return proposals_[k].id < notice.id && overlaps(at, proposals_[k].x, proposals_[k].y);
@@ -143,6 +146,7 @@ private:
     }
 
     const Scene& scene_;
+    std::optional<Obstacles> obstacles_;
     const Communicator& communicator_;
     std::uint64_t start_;
     double diameter_;

@@ -11,7 +11,7 @@
 namespace carrom::reference {
 
 EventDrivenReference::EventDrivenReference(const Setting& setting, std::span<const InputDisc> discs, std::size_t most_events)
-    : setting_(setting), discs_(stored_states(setting, discs)), past_(discs.size()), most_events_(most_events) {
+    : setting_(setting), bodies_(std::make_shared<FixedBodies>(setting)), discs_(stored_states(setting, discs)), past_(discs.size()), most_events_(most_events) {
     predict_all();
 }
 
@@ -37,7 +37,7 @@ void EventDrivenReference::run_micro_steps(std::int64_t count) {
 }
 
 bool EventDrivenReference::comes_later(const Prediction& a, const Prediction& b) {
-    const auto key = [](const Event& e) { return std::make_tuple(e.time, e.generation, e.p, e.is_pair, e.q); };
+    const auto key = [](const Event& e) { return std::make_tuple(e.time, e.generation, e.p, e.is_pair, !e.is_obstacle, e.q); };
     return key(a.event) > key(b.event);
 }
 
@@ -55,6 +55,7 @@ void EventDrivenReference::predict_all() {
     for (Past& past : past_) {
         past.time = -1;
         past.partner = Past::no_partner;
+        past.body = FixedBodies::none;
     }
     for (DiscId p = 0; p < discs_.size(); ++p) {
         predict_walls(p);
@@ -65,6 +66,18 @@ void EventDrivenReference::predict_all() {
 void EventDrivenReference::predict_walls(DiscId p) {
     const Disc& disc = discs_[p];
     for (const DiscId axis : {Event::wall_x, Event::wall_y}) push({meeting(disc, axis).time, 0, p, false, axis, 0});
+    predict_obstacle(p);
+}
+
+void EventDrivenReference::predict_obstacle(DiscId p) {
+    if (bodies_->are_none()) return;
+    const Past& past = past_[p];
+    const bool has_just_left = past.time == discs_[p].tau;
+    const BodyMeeting first = bodies_->first_meeting(discs_[p], discs_[p].tau, has_just_left ? past.body : FixedBodies::none);
+    if (first.body == FixedBodies::none) return;
+    Event event{first.time, 0, p, false, first.body, 0};
+    event.is_obstacle = true;
+    push(event);
 }
 
 /// Where the low or the high wall of an axis is for a disc's centre, and how fast, in the frame that falls since the sync.
@@ -174,7 +187,7 @@ bool EventDrivenReference::is_valid(const Prediction& prediction) const {
 void EventDrivenReference::happen(const Event& event) {
     if (log_.size() == most_events_) throw std::runtime_error("more collisions than a test should have");
     const Disc& first = discs_[event.p];
-    const bool is_corner = !event.is_pair && event.q == Event::wall_x && meeting(first, Event::wall_y).time == event.time;
+    const bool is_corner = !event.is_pair && !event.is_obstacle && event.q == Event::wall_x && meeting(first, Event::wall_y).time == event.time;
     const double vy_before = first.vy;
     carry_out(event);
     if (is_corner && first.vy == vy_before) {
@@ -195,7 +208,7 @@ void EventDrivenReference::carry_out(const Event& event) {
     Disc& p = discs_[event.p];
     const auto is_recent = [&](const Disc& disc) { return event.time - disc.tau < setting_.contact_time(); };
     const bool is_touched = is_recent(p) || (event.is_pair && is_recent(discs_[event.q]));
-    const bool is_high = !event.is_pair && meeting(p, event.q).is_high;
+    const bool is_high = !event.is_pair && !event.is_obstacle && meeting(p, event.q).is_high;
     advance(p, event.time);
     if (event.is_pair) {
         Disc& q = discs_[event.q];
@@ -206,17 +219,20 @@ void EventDrivenReference::carry_out(const Event& event) {
         pair_collisions_ += 1;
         note(event.q, event.p, event);
     } else {
-        rebound(p, event.q, is_high, event.time, is_touched);
+        if (event.is_obstacle) bodies_->reflect(p, event.q, event.time, is_touched);
+        else rebound(p, event.q, is_high, event.time, is_touched);
         p.wall_collisions += 1;
         wall_collisions_ += 1;
     }
     note(event.p, event.is_pair ? event.q : Past::no_partner, event);
+    if (event.is_obstacle) past_[event.p].body = event.q;
     log_.push_back(event);
     log_.back().sync = micro_step_ / setting_.sync_every;
 }
 
 void EventDrivenReference::note(DiscId id, DiscId partner, const Event& event) {
     past_[id].partner = partner;
+    past_[id].body = FixedBodies::none;
     past_[id].time = event.time;
     past_[id].generation = event.generation;
     past_[id].version += 1;

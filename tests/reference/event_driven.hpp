@@ -13,14 +13,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "fixed_bodies.hpp"
 #include "one_rule.hpp"
 
 namespace carrom::reference {
 
-/// One collision that happened. `time` counts from sync number `sync`; for walls, `q` is wall_x or wall_y.
+/// One collision that happened. `time` counts from sync number `sync`; for walls, `q` is wall_x or wall_y, for obstacles the body.
 struct Event {
     static constexpr DiscId wall_x = 0, wall_y = 1;
 
@@ -30,6 +32,7 @@ struct Event {
     bool is_pair = false;
     DiscId q = wall_x;
     std::int64_t sync = 0;
+    bool is_obstacle = false; ///< comes before walls
 
     friend bool operator==(const Event&, const Event&) = default;
 };
@@ -57,6 +60,7 @@ private:
         static constexpr DiscId no_partner = ~DiscId{0};
         double time = -1;
         DiscId partner = no_partner;
+        std::size_t body = ~std::size_t{0}; ///< an obstacle
         std::uint32_t generation = 0;
         std::uint64_t version = 0;
     };
@@ -73,6 +77,7 @@ private:
     void run_until(double time);
     void predict_all();
     void predict_walls(DiscId p);
+    void predict_obstacle(DiscId p);
     Wall wall_at(DiscId axis, bool is_high, double time) const;
     double gravity(DiscId axis) const;
     Meeting meeting(const Disc& disc, DiscId axis) const;
@@ -87,6 +92,7 @@ private:
     void note(DiscId id, DiscId partner, const Event& event);
 
     Setting setting_;
+    std::shared_ptr<const FixedBodies> bodies_;
     std::vector<Disc> discs_;
     std::vector<Past> past_;
     std::vector<Prediction> heap_;

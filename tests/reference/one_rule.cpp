@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "fixed_bodies.hpp"
+
 namespace carrom::reference {
 
 namespace {
@@ -85,7 +87,7 @@ std::vector<Disc> stored_states(const Setting& setting, std::span<const InputDis
 }
 
 OneRuleReference::OneRuleReference(const Setting& setting, std::span<const InputDisc> discs)
-    : setting_(setting), low_(setting.radius), high_(setting.box_size - setting.radius), band_(1e-8 * setting.radius),
+    : setting_(setting), bodies_(std::make_shared<FixedBodies>(setting)), low_(setting.radius), high_(setting.box_size - setting.radius), band_(1e-8 * setting.radius),
       sigma_(2 * setting.radius), tolerance_(std::max(1e-12 * sigma_, 32 * 0x1p-53 * setting.box_size)),
       discs_(stored_states(setting, discs)) {}
 
@@ -133,10 +135,11 @@ void OneRuleReference::keep(const Collision& candidate, double m) {
     log_.push_back(candidate);
     Disc& p = discs_[candidate.p];
     if (candidate.q == Collision::wall) {
+        counters_.wall_collisions += 1;
+        if (candidate.t != axes_time(p, m)) return bounce_off(p, m, candidate.t);
         bounce(p, m, candidate.t);
         p.wall_collisions += 1;
-        counters_.wall_collisions += 1;
-        stop_at_wall(p, m, candidate.t);
+        stop_at_wall(p, m, candidate.t, FixedBodies::none);
         return;
     }
     Disc& q = discs_[candidate.q];
@@ -146,8 +149,16 @@ void OneRuleReference::keep(const Collision& candidate, double m) {
     p.pair_collisions += 1;
     q.pair_collisions += 1;
     counters_.pair_collisions += 1;
-    stop_at_wall(p, m, candidate.t);
-    stop_at_wall(q, m, candidate.t);
+    stop_at_wall(p, m, candidate.t, FixedBodies::none);
+    stop_at_wall(q, m, candidate.t, FixedBodies::none);
+}
+
+void OneRuleReference::bounce_off(Disc& disc, double m, double t) const {
+    const BodyMeeting meeting = bodies_->first_meeting(disc, m, FixedBodies::none);
+    advance(disc, meeting.time);
+    bodies_->reflect(disc, meeting.body, 0, false);
+    disc.wall_collisions += 1;
+    stop_at_wall(disc, m, t, meeting.body);
 }
 
 void OneRuleReference::synchronize() {
@@ -171,6 +182,13 @@ double OneRuleReference::axis_time(double x, double v, double tau, double m) con
 }
 
 double OneRuleReference::wall_time(const Disc& disc, double m) const {
+    const double at_wall = axes_time(disc, m);
+    if (bodies_->are_none()) return at_wall;
+    const double at_body = bodies_->first_meeting(disc, m, FixedBodies::none).time;
+    return at_body <= m + 1 && at_body - m < at_wall ? at_body - m : at_wall;
+}
+
+double OneRuleReference::axes_time(const Disc& disc, double m) const {
     const double tx = axis_time(disc.x, disc.vx, disc.tau, m);
     const double ty = axis_time(disc.y, disc.vy, disc.tau, m);
     return tx < ty ? tx : ty;
@@ -207,10 +225,17 @@ double OneRuleReference::stop_time(double x, double v, double t) const {
     return ts < 0 ? 0 : ts;
 }
 
-void OneRuleReference::stop_at_wall(Disc& disc, double m, double t) const {
+/// `left` is the body that it has just been reflected from.
+void OneRuleReference::stop_at_wall(Disc& disc, double m, double t, std::size_t left) const {
     const double sx = stop_time(disc.x, disc.vx, t);
     const double sy = stop_time(disc.y, disc.vy, t);
     const double ts = sx < sy ? sx : sy;
+    const BodyMeeting meeting = bodies_->first_meeting(disc, disc.tau, left);
+    if (meeting.time < m + 1 && meeting.time - disc.tau < ts) {
+        advance(disc, meeting.time);
+        disc.tau = m + 1;
+        return;
+    }
     if (ts == never) return;
     disc.x = disc.x + disc.vx * ts;
     disc.y = disc.y + disc.vy * ts;

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct Setting {
 
     /// Under drag: what its clock shows so many micro-steps after a sync.
     std::function<double(double micro_steps)> drag_clock{};
+    /// With obstacles under gravity: see FixedBodies::meeting_time. Handed in, and held to its own path elsewhere.
+    std::function<double(double dx, double dy, double wx, double wy, double gx, double gy, double reach)> falling_contact{};
     double clock_at(std::int64_t count) const {
         const auto time = static_cast<double>(count);
         return drag_clock ? drag_clock(time) : time;
@@ -41,6 +44,8 @@ struct Setting {
     double restitution() const { return effects.contact.kind == ContactKind::restitution ? effects.contact.restitution : 1; }
     double contact_time() const { return effects.contact.contact_time * static_cast<double>(micro_steps); }
 };
+
+class FixedBodies;
 
 struct Counters {
     std::uint64_t candidates = 0;
@@ -100,12 +105,15 @@ private:
     void synchronize();
 
     double wall_time(const Disc& disc, double m) const;
+    double axes_time(const Disc& disc, double m) const;
     double axis_time(double x, double v, double tau, double m) const;
     void bounce(Disc& disc, double m, double t) const;
-    void stop_at_wall(Disc& disc, double m, double t) const;
+    void bounce_off(Disc& disc, double m, double t) const;
+    void stop_at_wall(Disc& disc, double m, double t, std::size_t left) const;
     double stop_time(double x, double v, double t) const;
 
     Setting setting_;
+    std::shared_ptr<const FixedBodies> bodies_;
     double low_, high_, band_, sigma_, tolerance_;
     std::vector<Disc> discs_;
     std::vector<Collision> candidates_;

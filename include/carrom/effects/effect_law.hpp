@@ -5,8 +5,11 @@
 // that an effect whose parameters make it none gives the plain law's bits.
 #pragma once
 
+#include <memory>
+
 #include "carrom/effects/contacts.hpp"
 #include "carrom/effects/effects.hpp"
+#include "carrom/effects/obstacles.hpp"
 #include "carrom/effects/plain_law.hpp"
 #include "carrom/effects/sides.hpp"
 
@@ -16,12 +19,16 @@ template <class Contact> class EffectLaw : public PlainLaw {
 public:
     static constexpr bool has_pairs = Contact::has_pairs;
     static constexpr bool has_mirror_walls = false;
+    static constexpr bool may_have_obstacles = true;
 
     /// `effects` per micro-step.
     EffectLaw(double box_size, double radius, const Effects& effects)
-        : PlainLaw(box_size, radius), contact_(effects.contact), sides_(box_size, radius, effects) {}
+        : PlainLaw(box_size, radius), contact_(effects.contact), contact_time_(effects.contact.contact_time), sides_(box_size, radius, effects) {
+        if (effects.obstacles.are_any()) obstacles_ = std::make_shared<const Obstacles>(box_size, radius, effects);
+    }
 
     const Sides& sides() const { return sides_; }
+    bool has_obstacles() const { return obstacles_ != nullptr; }
     void begin_interval(std::int64_t n) { sides_.begin_interval(n); }
 
     PairContact<double> contact(const Disc& p, const Disc& q) const {
@@ -35,13 +42,20 @@ public:
 
     void collide(Disc& p, Disc& q, double m, double t) const {
         collide_with(p, q, m + t, contact_.impulse());
-        stop_at_wall(p, m, t);
-        stop_at_wall(q, m, t);
+        stop(p, m, t);
+        stop(q, m, t);
     }
     void collide_at(Disc& p, Disc& q, double time) const { collide_with(p, q, time, contact_.impulse_at(p, q, time)); }
 
+    /// A disc's one candidate with what stands still: a wall, or an obstacle if that comes before.
+    double wall_time(const Disc& disc, double m) const {
+        const double at_wall = PlainLaw::wall_time(disc, m);
+        return has_obstacles() ? std::min(at_wall, obstacle_contact(disc, m).time - m) : at_wall;
+    }
+
     /// The plain law's times; what happens at them is the sides' business. Walls are at rest under the rule "one".
     void bounce(Disc& disc, double m, double t) const {
+        if (has_obstacles() && t != PlainLaw::wall_time(disc, m)) return bounce_off(disc, m, t);
         const double tx = axis_time(disc.x, disc.vx, disc.tau, m), ty = axis_time(disc.y, disc.vy, disc.tau, m);
         advance(disc, m + t);
         const bool x_reverses = tx == t || touches_wall(disc.x, disc.vx);
@@ -51,7 +65,7 @@ public:
         // A thermal wall may have turned the disc away from the other one.
         if (y_reverses && (goes_down ? disc.vy < 0 : disc.vy > 0)) sides_.reverse(disc, Axis::y);
         disc.wall_collisions += 1;
-        stop_at_wall(disc, m, t);
+        stop(disc, m, t);
     }
 
     double x_wall_time(const Disc& disc) const { return sides_.wall_time(disc, Axis::x); }
@@ -63,10 +77,40 @@ public:
     Extent walls_between(double begin, double end) const { return sides_.walls_between(begin, end); }
     void bounce_x_at(Disc& disc, double time) const { sides_.bounce_at(disc, Axis::x, time); }
     void bounce_y_at(Disc& disc, double time) const { sides_.bounce_at(disc, Axis::y, time); }
+    /// The first obstacle that the disc comes to.
+    ObstacleContact first_obstacle(const Disc& disc, const ContactTimes& times) const { return obstacles_->first_contact(disc, times); }
+    void bounce_off_at(Disc& disc, std::uint32_t body, double time) const {
+        const bool is_touched = time - disc.tau < contact_time_;
+        advance(disc, time);
+        obstacles_->rebound(disc, body, time, is_touched);
+        disc.wall_collisions += 1;
+    }
 
 private:
+    ObstacleContact obstacle_contact(const Disc& disc, double m) const { return obstacles_->first_contact(disc, {m, m + 1}); }
+
+    void bounce_off(Disc& disc, double m, double t) const {
+        const ObstacleContact contact = obstacle_contact(disc, m);
+        advance(disc, contact.time);
+        obstacles_->rebound(disc, contact.body, 0, false);
+        disc.wall_collisions += 1;
+        stop(disc, m, t, contact.body);
+    }
+
+    /// As at walls: what would run into an obstacle before the micro-step ends waits there. `left` is one just left.
+    void stop(Disc& disc, double m, double t, std::uint32_t left = ObstacleContact::no_body) const {
+        if (!has_obstacles()) return stop_at_wall(disc, m, t);
+        const double at_wall = std::min(axis_stop(disc.x, disc.vx, 1 - t), axis_stop(disc.y, disc.vy, 1 - t));
+        const ObstacleContact contact = obstacles_->first_contact(disc, {disc.tau, m + 1, true, left});
+        if (!(contact.time < m + 1) || !(contact.time - disc.tau < at_wall)) return stop_at_wall(disc, m, t);
+        advance(disc, contact.time);
+        disc.tau = m + 1;
+    }
+
     Contact contact_;
+    double contact_time_; ///< for obstacles under the rule "all"
     Sides sides_;
+    std::shared_ptr<const Obstacles> obstacles_; ///< the same for all copies; null where there are none
 };
 
 using IdealGasLaw = EffectLaw<NoContact>;

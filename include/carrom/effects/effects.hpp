@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace carrom {
 
@@ -45,6 +46,28 @@ struct Gravity {
     friend bool operator==(const Gravity&, const Gravity&) = default;
 };
 
+/// Bodies that stand fixed in the box and reflect discs (obstacles.hpp).
+struct FixedDisc {
+    double x = 0, y = 0, radius = 0;
+
+    friend bool operator==(const FixedDisc&, const FixedDisc&) = default;
+};
+
+struct Segment {
+    double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+    friend bool operator==(const Segment&, const Segment&) = default;
+};
+
+struct ObstacleList {
+    std::vector<FixedDisc> discs;
+    std::vector<Segment> segments;
+    double restitution = 1;
+
+    bool are_any() const { return !discs.empty() || !segments.empty(); }
+    friend bool operator==(const ObstacleList&, const ObstacleList&) = default;
+};
+
 /// Times in steps in a scene, in micro-steps in a law.
 struct Effects {
     ContactEffect contact;
@@ -52,9 +75,12 @@ struct Effects {
     Gravity gravity;
     double drag = 0; ///< the rate at which discs lose their velocity, dv/dt = -drag v
     std::uint64_t thermal_seed = 3210;
+    ObstacleList obstacles{};
 
     bool have_plain_sides() const;
-    bool are_any() const { return contact.kind != ContactKind::elastic || !have_plain_sides() || gravity.is_any() || drag != 0; }
+    bool are_any() const {
+        return contact.kind != ContactKind::elastic || !have_plain_sides() || gravity.is_any() || drag != 0 || obstacles.are_any();
+    }
     friend bool operator==(const Effects&, const Effects&) = default;
 };
 

@@ -46,6 +46,9 @@ public:
     static constexpr bool parts_overlaps = Formula::parts_overlaps;
     /// Whether discs meet each other at all.
     static constexpr bool has_pairs = true;
+    /// Whether there may be bodies in the box beside its walls.
+    static constexpr bool may_have_obstacles = false;
+    static constexpr bool has_obstacles() { return false; }
     /// Whether a wall reverses a velocity across it and does nothing else to a disc.
     static constexpr bool has_mirror_walls = true;
     /// Under the rule "all": more than some thousand collisions of a disc in so many micro-steps are without end. Where discs

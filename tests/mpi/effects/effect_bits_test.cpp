@@ -12,6 +12,8 @@
 
 #include "carrom/core/random_numbers.hpp"
 #include "carrom/effects/drag.hpp"
+#include "carrom/effects/falling_contact.hpp"
+#include "carrom/effects/obstacles.hpp"
 #include "effect_runs.hpp"
 #include "event_driven.hpp"
 #include "one_rule.hpp"
@@ -63,6 +65,31 @@ std::vector<TestScene> base_scenes() {
     return scenes;
 }
 
+/// Gases with the bodies taken out of their way: discs that would overlap one are left out.
+std::vector<TestScene> obstructed_scenes() {
+    std::vector<TestScene> scenes;
+    for (const TestScene& gas : {gas(300, 0.05, 0.8, 511), gas(196, 0.3, 0.3, 512)}) {
+        TestScene scene = empty_scene(gas.name + " among obstacles", gas.setting.box_size, gas.setting.radius, 14);
+        scene.setting.sync_every = 5;
+        scene.setting.micro_steps = 2;
+        const double size = scene.setting.box_size;
+        ObstacleList& list = scene.setting.effects.obstacles;
+        Random random(513);
+        for (int k = 0; k < 12; ++k) list.discs.push_back({random.uniform(0, size), random.uniform(0, size), k % 4 == 0 ? 0 : random.uniform(0.2, 3)});
+        for (int k = 0; k < 6; ++k) {
+            const double x = random.uniform(0.2, 0.8) * size, y = random.uniform(0.2, 0.8) * size;
+            list.segments.push_back({x, y, x + random.uniform(-0.2, 0.2) * size, y + random.uniform(-0.2, 0.2) * size});
+        }
+        list.segments.push_back({0, 0.3 * size, 0.3 * size, 0.25 * size}); // a funnel's two sides, of which one meets a wall
+        list.segments.push_back({0.3 * size, 0.25 * size, 0.3 * size, 0.1 * size});
+        const Obstacles obstacles(size, scene.setting.radius, scene.setting.effects);
+        for (const InputDisc& disc : gas.discs)
+            if (obstacles.deepest_overlap(disc.x, disc.y, 0).body == ObstacleContact::no_body) add_disc(scene, disc.x, disc.y, disc.vx, disc.vy);
+        scenes.push_back(scene);
+    }
+    return scenes;
+}
+
 } // namespace
 
 TEST_CASE("effects: discs that do not meet, and discs that lose energy, have the references' bits") {
@@ -97,6 +124,25 @@ TEST_CASE("effects: sides and gravity have the references' bits, alone and toget
             scene.setting.effects = {contact, all_lossy, {}};
             check_bits(scene, CollisionRule::one);
         }
+    }
+}
+
+// Discs among bodies of both kinds, some touching each other or a wall; with what else changes how they are met.
+TEST_CASE("effects: obstacles have the references' bits, with restitution, gravity and drag too") {
+    for (TestScene scene : obstructed_scenes()) {
+        Effects& effects = scene.setting.effects;
+        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
+        effects.obstacles.restitution = 0.7;
+        effects.contact = {ContactKind::restitution, 0.9, 0.002};
+        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
+        effects.gravity = {0.01, -0.03};
+        scene.setting.falling_contact = falling_contact;
+        check_bits(scene, CollisionRule::all);
+        effects.gravity = {};
+        const double rate = 0.2, per_micro_step = rate / static_cast<double>(scene.setting.micro_steps);
+        effects.drag = rate;
+        scene.setting.drag_clock = [per_micro_step](double n) { return drag_clock(per_micro_step, n); };
+        check_bits(scene, CollisionRule::all);
     }
 }
 

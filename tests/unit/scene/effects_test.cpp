@@ -67,8 +67,26 @@ TEST_CASE("Sides are read, and contradictions explained") {
     CHECK(has(problems_with({"box.right.kind=moving", "box.right.speed=11", all}), "more than twice as long"));
     CHECK(has(problems_with({"box.left.kind=moving", "box.left.speed=-0.1", all}), "let the right one move out"));
     CHECK(has(problems_with({"effects.thermal.seed=1"}), "no meaning without a side of kind = \"thermal\""));
-    CHECK(has(problems_with({"effects.contact.contact_time=0.1"}), "no meaning without discs or walls of restitution, or gravity"));
+    CHECK(has(problems_with({"effects.contact.contact_time=0.1"}), "no meaning without discs, walls or obstacles of restitution, or gravity"));
     CHECK(has(problems_with({"box.middle.kind=wall"}), "no such key"));
+}
+
+TEST_CASE("Obstacles are read, each wrong one is named") {
+    const Scene scene = read_scene(good, "s.toml", {"effects.obstacles.discs=[[10, 20, 3], [40, 50, 0]]", "effects.obstacles.segments=[[0, 0, 30, 40]]",
+                                                    "effects.obstacles.restitution=0.5"});
+    CHECK(scene.effects.obstacles.discs == std::vector<FixedDisc>{{10, 20, 3}, {40, 50, 0}});
+    CHECK(scene.effects.obstacles.segments == std::vector<Segment>{{0, 0, 30, 40}});
+    CHECK(scene.effects.obstacles.restitution == 0.5);
+    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20]]"}), "row 1 of 'effects.obstacles.discs' must be three numbers, [x, y, radius]"));
+    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1], [110, 20, 1]]"}), "row 2 of 'effects.obstacles.discs': the centre (110, 20) is not in the box"));
+    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, -1]]"}), "the radius must be from 0 to 100, not -1"));
+    CHECK(has(problems_with({"effects.obstacles.segments=[[10, 20, 10, 120]]"}), "row 1 of 'effects.obstacles.segments'"));
+    CHECK(has(problems_with({"effects.obstacles.segments=[[10, 20, 10, 20]]"}), "a point is a fixed disc of radius 0"));
+    CHECK(has(problems_with({"effects.obstacles.restitution=0.5"}), "no meaning without 'effects.obstacles.discs' or 'effects.obstacles.segments'"));
+    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1]]", "discs.generator=lattice"}), "know nothing of obstacles"));
+    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1]]", "box.top.kind=moving", "box.top.speed=1", "time.collisions=all"}), "together with obstacles"));
+    const Scene other = read_scene(good, "s.toml", {"effects.obstacles.discs=[[10, 20, 4], [40, 50, 0]]", "effects.obstacles.segments=[[0, 0, 30, 40]]"});
+    CHECK(physical_differences(scene, other).size() == 2);
 }
 
 TEST_CASE("Gravity is read, and refused where the falling frame would leave the box") {

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bodies that stand fixed in a box: discs, and straight segments with a disc of radius 0 at either end. A disc that comes to
+// one is reflected from it, as from a wall.
+//
+// A disc of radius r touches a fixed one of radius R where their centres are r + R apart (the predicate of pairs; a quartic
+// under gravity: falling_contact.hpp) and a segment where it is r from its line (a quadratic). The contact is a function of the
+// stored state alone. The bodies lie in a grid of cells for good; a flight looks at the cells on its way, to its first contact.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "carrom/core/disc.hpp"
+#include "carrom/effects/effects.hpp"
+
+namespace carrom {
+
+/// A contact with a body, or none.
+struct ObstacleContact {
+    static constexpr std::uint32_t no_body = 0xffffffff;
+
+    double time = std::numeric_limits<double>::infinity();
+    std::uint32_t body = no_body;
+
+    bool exists() const { return body != no_body; }
+};
+
+/// Times that count, those since the last sync.
+struct ContactTimes {
+    double from = 0, to = 0;
+    bool hold_from = true;                                 ///< whether `from` itself counts
+    std::uint32_t except = ObstacleContact::no_body;       ///< does not count at the disc's own time: it has just been left
+};
+
+class Obstacles {
+public:
+    /// For discs of radius `disc_radius`; `effects` per micro-step.
+    Obstacles(double box_size, double disc_radius, const Effects& effects);
+
+    bool are_none() const { return bodies_.empty(); }
+
+    /// The first body that the disc comes to at such a time; the one of the lower number where two are met at once.
+    ObstacleContact first_contact(const Disc& disc, const ContactTimes& times) const;
+
+    /// Turns round the velocity of a disc that has come to `body` at `time`, its own now; `is_touched` says whether it has been
+    /// touched within the contact time before.
+    void rebound(Disc& disc, std::uint32_t body, double time, bool is_touched) const;
+
+    struct Overlap {
+        double depth = 0;
+        std::uint32_t body = ObstacleContact::no_body;
+    };
+    /// The body that a disc at (x, y) in the box overlaps deepest, by more than `least`, or `no_body`.
+    Overlap deepest_overlap(double x, double y, double least) const;
+    /// "fixed disc 3" or "segment 1", by their rows in the scene's lists.
+    std::string name_of(std::uint32_t body) const;
+
+private:
+    struct Body {
+        double x, y;        ///< its centre, or one end of a line
+        double reach;       ///< of a disc's centre that touches
+        double ux = 0, uy = 0, length = 0; ///< of a line: direction and length
+        bool is_line() const { return length > 0; }
+    };
+    struct Box {
+        double x_low, x_high, y_low, y_high;
+    };
+    struct Cells {
+        std::size_t first_column, last_column, first_row, last_row;
+    };
+
+    double contact_time(const Disc& disc, const Body& body) const;
+    double line_delay(const Body& line, double dx, double dy, double wx, double wy) const;
+    Box extent_of(const Body& body) const;
+    Box path_of(const Disc& disc, double begin, double end) const;
+    double slices_of(const Disc& disc, double begin, double end) const;
+    bool may_hold(const Body& body, std::size_t column, std::size_t row) const;
+    std::size_t cell_of(double place) const;
+    Cells cells_of(const Box& box) const;
+    void sort_into_cells();
+    double fallen(std::size_t axis, double time) const { return (0.5 * gravity_[axis] * time) * time; }
+
+    double disc_radius_, restitution_, contact_time_;
+    std::array<double, 2> gravity_;
+    std::size_t n_fixed_discs_;
+    std::vector<Body> bodies_; ///< fixed discs, then a line and its two ends for each segment
+    double cell_width_ = 1, margin_ = 0;
+    std::size_t n_rows_ = 1;   ///< and columns
+    std::vector<std::uint32_t> cell_starts_, in_cells_;
+};
+
+} // namespace carrom

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carrom/effects/obstacles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "carrom/effects/falling_contact.hpp"
+#include "carrom/geometry/pair_contact.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// The first time at which a distance that begins with `rate` and is pulled at comes down to 0. On the body's own `side` one that
+/// is not above 0 counts from where it turns round; from elsewhere it has to come up first.
+double fall_delay(double distance, double rate, double pull, bool is_on_side) {
+    if (rate < 0) {
+        if (!(distance > 0)) return is_on_side ? 0 : never;
+        if (pull == 0) return distance / -rate;
+        const double square = rate * rate - 2 * pull * distance;
+        return square > 0 ? 2 * distance / (-rate + std::sqrt(square)) : never;
+    }
+    if (!(pull < 0)) return never;
+    const double square = rate * rate - 2 * pull * distance;
+    if (!is_on_side && !(square > 0)) return never;
+    return (rate + std::sqrt(std::max(square, 0.0))) / -pull;
+}
+
+} // namespace
+
+Obstacles::Obstacles(double box_size, double disc_radius, const Effects& effects)
+    : disc_radius_(disc_radius), restitution_(effects.obstacles.restitution), contact_time_(effects.contact.contact_time),
+      gravity_{effects.gravity.x, effects.gravity.y}, n_fixed_discs_(effects.obstacles.discs.size()) {
+    for (const FixedDisc& disc : effects.obstacles.discs) bodies_.push_back({disc.x, disc.y, disc.radius + disc_radius});
+    for (const Segment& segment : effects.obstacles.segments) {
+        const double dx = segment.x1 - segment.x0, dy = segment.y1 - segment.y0, length = std::sqrt(dx * dx + dy * dy);
+        bodies_.push_back({segment.x0, segment.y0, disc_radius, dx / length, dy / length, length});
+        bodies_.push_back({segment.x0, segment.y0, disc_radius});
+        bodies_.push_back({segment.x1, segment.y1, disc_radius});
+    }
+    if (are_none()) return;
+    const auto n = static_cast<double>(bodies_.size());
+    n_rows_ = static_cast<std::size_t>(std::clamp(std::sqrt(2 * n), 4.0, 4096.0));
+    cell_width_ = box_size / static_cast<double>(n_rows_);
+    margin_ = 1e-6 * cell_width_ + 1e-9 * box_size; // far above the rounding of places and times
+    sort_into_cells();
+}
+
+std::size_t Obstacles::cell_of(double place) const {
+    return static_cast<std::size_t>(std::clamp(place / cell_width_, 0.0, static_cast<double>(n_rows_ - 1)));
+}
+
+Obstacles::Cells Obstacles::cells_of(const Box& box) const {
+    return {cell_of(box.x_low - margin_), cell_of(box.x_high + margin_), cell_of(box.y_low - margin_), cell_of(box.y_high + margin_)};
+}
+
+/// Where the centres of discs that touch it lie.
+Obstacles::Box Obstacles::extent_of(const Body& body) const {
+    const double x_end = body.x + body.length * body.ux, y_end = body.y + body.length * body.uy;
+    return {std::min(body.x, x_end) - body.reach, std::max(body.x, x_end) + body.reach, std::min(body.y, y_end) - body.reach,
+            std::max(body.y, y_end) + body.reach};
+}
+
+/// False for cells that an oblique line keeps clear of. Those at the border also stand for what lies beyond.
+bool Obstacles::may_hold(const Body& body, std::size_t column, std::size_t row) const {
+    const bool is_at_border = std::min(column, row) == 0 || std::max(column, row) + 1 == n_rows_;
+    if (!body.is_line() || is_at_border) return true;
+    const double dx = (static_cast<double>(column) + 0.5) * cell_width_ - body.x, dy = (static_cast<double>(row) + 0.5) * cell_width_ - body.y;
+    return std::fabs(body.ux * dy - body.uy * dx) <= body.reach + cell_width_ + margin_;
+}
+
+void Obstacles::sort_into_cells() {
+    cell_starts_.assign(n_rows_ * n_rows_ + 1, 0);
+    const auto visit = [this](const auto& what) {
+        for (std::size_t k = 0; k < bodies_.size(); ++k) {
+            const Cells cells = cells_of(extent_of(bodies_[k]));
+            for (std::size_t column = cells.first_column; column <= cells.last_column; ++column)
+                for (std::size_t row = cells.first_row; row <= cells.last_row; ++row)
+                    if (may_hold(bodies_[k], column, row)) what(column * n_rows_ + row, static_cast<std::uint32_t>(k));
+        }
+    };
+    visit([this](std::size_t cell, std::uint32_t) { ++cell_starts_[cell + 1]; });
+    for (std::size_t cell = 1; cell < cell_starts_.size(); ++cell) cell_starts_[cell] += cell_starts_[cell - 1];
+    in_cells_.resize(cell_starts_.back());
+    std::vector<std::uint32_t> ends = cell_starts_;
+    visit([this, &ends](std::size_t cell, std::uint32_t body) { in_cells_[ends[cell]++] = body; });
+}
+
+/// `dx`, `dy` from the line's beginning, `wx`, `wy` in the box.
+double Obstacles::line_delay(const Body& line, double dx, double dy, double wx, double wy) const {
+    const auto [gx, gy] = gravity_;
+    const double place = line.ux * dy - line.uy * dx, rate = line.ux * wy - line.uy * wx, pull = line.ux * gy - line.uy * gx;
+    double first = never;
+    for (const double side : {1.0, -1.0}) {
+        const double s = fall_delay(side * place - line.reach, side * rate, side * pull, side * place >= 0);
+        if (!(s < first)) continue;
+        const double along = (line.ux * dx + line.uy * dy) + (line.ux * wx + line.uy * wy) * s + (0.5 * (line.ux * gx + line.uy * gy) * s) * s;
+        if (along >= 0 && along <= line.length) first = s;
+    }
+    return first;
+}
+
+/// From the state alone: the first time at which the distance is not positive and falls.
+double Obstacles::contact_time(const Disc& disc, const Body& body) const {
+    const bool falls = gravity_[0] != 0 || gravity_[1] != 0;
+    const double dx = (disc.x + fallen(0, disc.tau)) - body.x, dy = (disc.y + fallen(1, disc.tau)) - body.y;
+    const double wx = disc.vx + gravity_[0] * disc.tau, wy = disc.vy + gravity_[1] * disc.tau;
+    if (body.is_line()) return disc.tau + line_delay(body, dx, dy, wx, wy);
+    if (falls) return disc.tau + falling_contact(dx, dy, wx, wy, gravity_[0], gravity_[1], body.reach);
+    const double delay = contact_delay(-dx, -dy, -wx, -wy, body.reach, never);
+    return delay < 0 ? never : disc.tau + delay;
+}
+
+/// What the flight covers in the box; a parabola keeps within an eighth of its pull from the chord.
+Obstacles::Box Obstacles::path_of(const Disc& disc, double begin, double end) const {
+    const double x0 = disc.x_at(begin) + fallen(0, begin), x1 = disc.x_at(end) + fallen(0, end);
+    const double y0 = disc.y_at(begin) + fallen(1, begin), y1 = disc.y_at(end) + fallen(1, end);
+    const double eighth = (end - begin) * (end - begin) / 8;
+    const double x_bend = std::fabs(gravity_[0]) * eighth, y_bend = std::fabs(gravity_[1]) * eighth;
+    return {std::min(x0, x1) - x_bend, std::max(x0, x1) + x_bend, std::min(y0, y1) - y_bend, std::max(y0, y1) + y_bend};
+}
+
+/// Parts of a flight in which it goes no further than a cell or so.
+double Obstacles::slices_of(const Disc& disc, double begin, double end) const {
+    const auto speed = [&](double v, std::size_t axis) {
+        return std::max(std::fabs(v + gravity_[axis] * begin), std::fabs(v + gravity_[axis] * end));
+    };
+    const double way = std::max(speed(disc.vx, 0), speed(disc.vy, 1)) * (end - begin);
+    return std::clamp(std::ceil(way / cell_width_), 1.0, 1e6);
+}
+
+ObstacleContact Obstacles::first_contact(const Disc& disc, const ContactTimes& times) const {
+    const double begin = std::max(times.from, disc.tau);
+    ObstacleContact best;
+    if (!(begin <= times.to)) return best;
+    const double n_slices = slices_of(disc, begin, times.to);
+    double from = begin;
+    for (double k = 1; k <= n_slices; ++k) {
+        const double to = k == n_slices ? times.to : begin + (times.to - begin) * (k / n_slices);
+        const Box path = path_of(disc, from, to);
+        const Cells cells = cells_of(path);
+        for (std::size_t column = cells.first_column; column <= cells.last_column; ++column) {
+            const std::uint32_t* const starts = cell_starts_.data() + column * n_rows_;
+            for (std::uint32_t place = starts[cells.first_row]; place < starts[cells.last_row + 1]; ++place) {
+                const std::uint32_t number = in_cells_[place];
+                const Body& body = bodies_[number];
+                const Box extent = extent_of(body);
+                if (extent.x_low > path.x_high + margin_ || extent.x_high < path.x_low - margin_ || extent.y_low > path.y_high + margin_ ||
+                    extent.y_high < path.y_low - margin_)
+                    continue;
+                const double time = contact_time(disc, body);
+                if (!(time <= times.to) || time < times.from || (time == times.from && !times.hold_from)) continue;
+                if (number == times.except && time == disc.tau) continue;
+                if (time < best.time || (time == best.time && number < best.body)) best = {time, number};
+            }
+        }
+        if (best.time <= to) return best;
+        from = to;
+    }
+    return best;
+}
+
+void Obstacles::rebound(Disc& disc, std::uint32_t body, double time, bool is_touched) const {
+    const Body& at = bodies_[body];
+    const double dx = (disc.x + fallen(0, time)) - at.x, dy = (disc.y + fallen(1, time)) - at.y;
+    double nx, ny; // away from the body
+    if (at.is_line()) {
+        const double side = at.ux * dy - at.uy * dx < 0 ? -1 : 1;
+        nx = -side * at.uy;
+        ny = side * at.ux;
+    } else {
+        const double distance = std::sqrt(dx * dx + dy * dy);
+        nx = dx / distance;
+        ny = dy / distance;
+    }
+    const double normal = nx * (disc.vx + gravity_[0] * time) + ny * (disc.vy + gravity_[1] * time);
+    double away = (is_touched ? 1 : restitution_) * std::fabs(normal);
+    // As at walls: one that is pulled back stays away for the contact time at least.
+    const double pull = -(nx * gravity_[0] + ny * gravity_[1]);
+    if (pull > 0) away = std::max(away, 0.5 * pull * contact_time_);
+    disc.vx += (away - normal) * nx;
+    disc.vy += (away - normal) * ny;
+}
+
+Obstacles::Overlap Obstacles::deepest_overlap(double x, double y, double least) const {
+    Overlap deepest;
+    double most = least;
+    const std::size_t cell = cell_of(x) * n_rows_ + cell_of(y);
+    for (std::uint32_t place = cell_starts_[cell]; place < cell_starts_[cell + 1]; ++place) {
+        const Body& body = bodies_[in_cells_[place]];
+        const double along = std::clamp(body.ux * (x - body.x) + body.uy * (y - body.y), 0.0, body.length);
+        const double dx = x - (body.x + along * body.ux), dy = y - (body.y + along * body.uy);
+        const double overlap = body.reach - std::sqrt(dx * dx + dy * dy);
+        if (!(overlap > most)) continue;
+        most = overlap;
+        deepest = {overlap, in_cells_[place]};
+    }
+    return deepest;
+}
+
+std::string Obstacles::name_of(std::uint32_t body) const {
+    if (body < n_fixed_discs_) return fmt::format("fixed disc {}", body + 1);
+    return fmt::format("segment {}", (body - n_fixed_discs_) / 3 + 1);
+}
+
+} // namespace carrom

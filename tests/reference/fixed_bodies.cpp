@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fixed_bodies.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace carrom::reference {
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+} // namespace
+
+FixedBodies::FixedBodies(const Setting& setting) : setting_(setting) {
+    const double k = static_cast<double>(setting.micro_steps);
+    gx_ = setting.effects.gravity.x / (k * k);
+    gy_ = setting.effects.gravity.y / (k * k);
+    for (const FixedDisc& disc : setting.effects.obstacles.discs) bodies_.push_back({disc.x, disc.y, setting.radius + disc.radius});
+    for (const Segment& s : setting.effects.obstacles.segments) {
+        const double x = s.x1 - s.x0, y = s.y1 - s.y0, length = std::sqrt(x * x + y * y);
+        bodies_.push_back({s.x0, s.y0, setting.radius, x / length, y / length, length});
+        bodies_.push_back({s.x0, s.y0, setting.radius});
+        bodies_.push_back({s.x1, s.y1, setting.radius});
+    }
+}
+
+/// Where the disc would be in the box at its own time, and how fast; then the distance from there on.
+double FixedBodies::meeting_time(const Disc& disc, const Body& body) const {
+    const double x = (disc.x + (0.5 * gx_ * disc.tau) * disc.tau) - body.x, y = (disc.y + (0.5 * gy_ * disc.tau) * disc.tau) - body.y;
+    const double vx = disc.vx + gx_ * disc.tau, vy = disc.vy + gy_ * disc.tau;
+    if (body.length == 0 && (gx_ != 0 || gy_ != 0)) return disc.tau + setting_.falling_contact(x, y, vx, vy, gx_, gy_, body.reach);
+    if (body.length == 0) {
+        Disc fixed;
+        fixed.x = body.x;
+        fixed.y = body.y;
+        fixed.tau = disc.tau;
+        const Contact found = contact(disc, fixed, body.reach, never);
+        return found.delay < 0 ? never : found.base + found.delay;
+    }
+    // Off the line to its left, along it, and what changes both.
+    const double off = body.ux * y - body.uy * x, off_rate = body.ux * vy - body.uy * vx, off_pull = body.ux * gy_ - body.uy * gx_;
+    const double along = body.ux * x + body.uy * y, along_rate = body.ux * vx + body.uy * vy, along_pull = body.ux * gx_ + body.uy * gy_;
+    double first = never;
+    for (const bool is_left : {true, false}) {
+        const double gap = (is_left ? off : -off) - body.reach, rate = is_left ? off_rate : -off_rate, pull = is_left ? off_pull : -off_pull;
+        const bool is_here = is_left ? off >= 0 : off <= 0;
+        const double square = rate * rate - 2 * pull * gap;
+        double s = never;
+        if (rate < 0 && gap <= 0) {
+            if (is_here) s = 0;
+        } else if (rate < 0 && pull == 0) {
+            s = gap / -rate;
+        } else if (rate < 0) {
+            if (square > 0) s = 2 * gap / (std::sqrt(square) - rate);
+        } else if (pull < 0 && (is_here || square > 0)) {
+            s = (rate + std::sqrt(square > 0 ? square : 0)) / -pull;
+        }
+        if (s == never) continue;
+        const double foot = along + along_rate * s + (0.5 * along_pull * s) * s;
+        if (foot >= 0 && foot <= body.length && s < first) first = s;
+    }
+    return disc.tau + first;
+}
+
+BodyMeeting FixedBodies::first_meeting(const Disc& disc, double from, std::size_t left) const {
+    BodyMeeting first{never, none};
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+        const double time = meeting_time(disc, bodies_[k]);
+        if (time < from || (k == left && time == disc.tau)) continue;
+        if (time < first.time) first = {time, k};
+    }
+    return first;
+}
+
+void FixedBodies::reflect(Disc& disc, std::size_t number, double time, bool is_touched) const {
+    const Body& body = bodies_[number];
+    const double x = (disc.x + (0.5 * gx_ * time) * time) - body.x, y = (disc.y + (0.5 * gy_ * time) * time) - body.y;
+    const bool is_line = body.length > 0, is_left = body.ux * y - body.uy * x >= 0;
+    const double distance = std::sqrt(x * x + y * y);
+    const double nx = is_line ? (is_left ? -body.uy : body.uy) : x / distance, ny = is_line ? (is_left ? body.ux : -body.ux) : y / distance;
+    const double normal = nx * (disc.vx + gx_ * time) + ny * (disc.vy + gy_ * time);
+    const double restitution = is_touched ? 1 : setting_.effects.obstacles.restitution;
+    double away = restitution * std::fabs(normal);
+    const double pull_back = -(nx * gx_ + ny * gy_);
+    if (pull_back > 0 && away < 0.5 * pull_back * setting_.contact_time()) away = 0.5 * pull_back * setting_.contact_time();
+    disc.vx += (away - normal) * nx;
+    disc.vy += (away - normal) * ny;
+}
+
+} // namespace carrom::reference
