@@ -2,17 +2,35 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Look for wrong memory accesses, undefined behaviour and data races, and fuzz the readers of files.
 #
-#   ./job_scripts/sanitize.sh              all of it: an hour or more on two cores
-#   ./job_scripts/sanitize.sh --short      what continuous integration runs, in some three minutes on two cores; no threads' races
+#   ./job_scripts/sanitize.sh                      all of it: some two hours on two idle cores
+#   ./job_scripts/sanitize.sh --short              what continuous integration runs, in some three minutes on two cores
+#   ./job_scripts/sanitize.sh --only PART ...      some of these parts, one after the other:
 #
-# Address and undefined-behaviour sanitizers on unit and MPI tests, libFuzzer on the readers of scenes and checkpoints,
-# thread sanitizer with clang's OpenMP and archer on threaded runs, valgrind on a run of two ranks. Builds are in
-# build-fuzz and build-tsan.
+#   address      address and undefined-behaviour sanitizers on unit, MPI and stability tests
+#   scenes       libFuzzer with both on the readers of scenes, 20 minutes
+#   checkpoints  the same on the reader of checkpoints, 10 minutes
+#   files        damaged files of every kind, HDF5's metadata included, some 10 minutes
+#   threads      thread sanitizer with clang's OpenMP and archer on threaded runs
+#   memory       valgrind on a run of two ranks
+#
+# Each command may take an hour and a half ($SANITIZE_MINUTES says otherwise, for a machine that is busy or slow); what it
+# says goes to a file that is named as it begins, in build/sanitize. Builds are in build, build-fuzz and build-tsan. The
+# exit code is 1 if anything has been found; a line tells what is clean and what is not.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
+all_parts=(address scenes checkpoints files threads memory)
 is_short=no
-[ "${1:-}" != --short ] || is_short=yes
+parts=("${all_parts[@]}")
+case ${1:-} in
+    '') ;;
+    --short) is_short=yes ;;
+    --only) parts=("${@:2}") ;;
+    *) die "what is $1? See the head of this script" ;;
+esac
+for part in "${parts[@]}"; do
+    [[ " ${all_parts[*]} " == *" $part "* ]] || die "there is no part $part; there are ${all_parts[*]}"
+done
 install_sanitizer_packages
 n_failures=0
 
@@ -36,28 +54,31 @@ build_preset() {
         die "cmake could not configure $preset"
     cmake --build "$top/build-$preset" --parallel "$(nproc)" ${1:+--target "$@"} >&2 </dev/null || die "$preset does not build"
 }
-# try NAME WORD...: a command that must succeed within ten minutes (--short) or an hour.
+minutes=${SANITIZE_MINUTES:-90}
+[ $is_short = no ] || minutes=${SANITIZE_MINUTES:-10}
+log_folder=$build/sanitize
+mkdir -p "$log_folder"
+# try NAME WORD...: a command that must succeed within so many minutes.
 try() {
-    local name=$1 limit=3600 start=$SECONDS
-    [ $is_short = no ] || limit=600
+    local name=$1 start=$SECONDS code=0 log
+    log=$log_folder/$(tr -cs 'A-Za-z0-9\n' _ <<<"$name").log
     shift
-    if timeout "$limit" "$@" >"$log" 2>&1 </dev/null; then
-        say "$name: clean, $((SECONDS - start)) s"
-    else
-        say "$name: FAILED"
-        tail -n 60 "$log" >&2
-        n_failures=$((n_failures + 1))
-    fi
+    say "$name: begins at $(date +%H:%M); see $log"
+    timeout "$((60 * minutes))" "$@" >"$log" 2>&1 </dev/null || code=$?
+    case $code in
+        0) say "$name: clean, $((SECONDS - start)) s" ;;
+        124) say "$name: NOT DONE after $minutes minutes; SANITIZE_MINUTES allows more" ;;
+        *) say "$name: FAILED, exit code $code" ;;
+    esac
+    [ $code -eq 0 ] || { tail -n 60 "$log" >&2; n_failures=$((n_failures + 1)); }
 }
-log=$(mktemp)
-trap 'rm -f "$log"' EXIT
 launch_settings $(($(nproc) + 1))
 export OMP_WAIT_POLICY=passive
 # MPI never gives some of its memory back.
 # HDF5 asks for absurd amounts of memory where a file's metadata has been forged, and copes with getting none.
 export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
 
-address_and_undefined() {
+address() {
     if [ $is_short = no ]; then
         build_preset fuzz
         try 'address, undefined: unit and MPI tests' ctest --test-dir "$top/build-fuzz" -L 'unit|mpi|stability' -LE long \
@@ -69,13 +90,20 @@ address_and_undefined() {
     try 'address, undefined: both engines, 1 rank x 2 threads' env OMP_NUM_THREADS=2 CARROM_TEST_SECONDS=300 "$tests/check_mpi_test"
     try 'address, undefined: both engines, 3 ranks' env OMP_NUM_THREADS=1 CARROM_TEST_SECONDS=300 mpiexec -n 3 "$tests/check_mpi_test"
 }
+scenes() { fuzz scene $([ $is_short = yes ] && echo 8 || echo 1200); }
+checkpoints() { fuzz checkpoint $([ $is_short = yes ] && echo 8 || echo 600); }
 # fuzz NAME SECONDS: new inputs are kept in build-fuzz/found_NAME.
 fuzz() {
     local found=$top/build-fuzz/found_$1
+    build_preset fuzz "$1_fuzzer"
     mkdir -p "$found"
     try "libFuzzer: $1, $2 s" "$top/build-fuzz/$1_fuzzer" -max_total_time="$2" -max_len=2000 -timeout=60 -detect_leaks=0 \
         -rss_limit_mb=4000 -malloc_limit_mb=4000 \
         -artifact_prefix="$found/" "$found" "$top/tests/fuzz/$1_corpus"
+}
+files() {
+    build_target damaged_files
+    try 'damaged files' "$build/tests/damaged_files" 20000 1000
 }
 threads() {
     local archer
@@ -100,14 +128,6 @@ memory() {
         --set output.checkpoint.folder="$build/valgrind_checkpoints"
 }
 
-address_and_undefined
-if [ $is_short = yes ]; then
-    fuzz scene 8
-    fuzz checkpoint 8
-else
-    fuzz scene 1200
-    fuzz checkpoint 600
-fi
-[ $is_short = yes ] || threads # building everything once more takes a minute or two
-memory
+[ $is_short = no ] || parts=(address scenes checkpoints memory) # the others take too long; the tests have some damaged files
+for part in "${parts[@]}"; do $part; done
 [ $n_failures -eq 0 ] || die "$n_failures of these have failed"
