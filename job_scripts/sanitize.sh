@@ -3,7 +3,7 @@
 # Look for wrong memory accesses, undefined behaviour and data races, and fuzz the readers of files.
 #
 #   ./job_scripts/sanitize.sh                      all of it: some two hours on two idle cores
-#   ./job_scripts/sanitize.sh --short              what continuous integration runs, in some three minutes on two cores
+#   ./job_scripts/sanitize.sh --short              what continuous integration runs, in some four minutes on two cores
 #   ./job_scripts/sanitize.sh --only PART ...      some of these parts, one after the other:
 #
 #   address      address and undefined-behaviour sanitizers on unit, MPI and stability tests
@@ -112,6 +112,11 @@ threads() {
     # Without archer the sanitizer does not know what OpenMP's barriers order. MPI is not instrumented.
     local settings=(OMP_TOOL_LIBRARIES="$archer" TSAN_OPTIONS=ignore_noninstrumented_modules=1:halt_on_error=1 OMP_NUM_THREADS=2
                     CARROM_TEST_SECONDS=3600)
+    if [ $is_short = yes ]; then
+        build_preset tsan stability_hashes
+        try 'threads: gases' env "${settings[@]}" "$top/build-tsan/tests/stability_hashes" gas
+        return
+    fi
     build_preset tsan
     try 'threads: all scenes' env "${settings[@]}" "$top/build-tsan/tests/stability_hashes"
     try 'threads: the tests of two threads' env "${settings[@]}" ctest --test-dir "$top/build-tsan" -R 'x 2 threads' \
@@ -128,6 +133,6 @@ memory() {
         --set output.checkpoint.folder="$build/valgrind_checkpoints"
 }
 
-[ $is_short = no ] || parts=(address scenes checkpoints memory) # the others take too long; the tests have some damaged files
+[ $is_short = no ] || parts=(address scenes checkpoints threads memory) # the tests have some damaged files
 for part in "${parts[@]}"; do $part; done
 [ $n_failures -eq 0 ] || die "$n_failures of these have failed"
