@@ -44,7 +44,7 @@ CrashGuard::CrashGuard(const std::string& path) : outer_path_(path_being_read) {
     path_being_read = path.c_str();
     struct sigaction action{};
     action.sa_handler = end_for_damage;
-    action.sa_flags = SA_ONSTACK | SA_RESETHAND;
+    action.sa_flags = static_cast<int>(SA_ONSTACK | SA_RESETHAND);
     for (std::size_t k = 0; k < signals.size(); ++k) ::sigaction(signals[k], &action, &outer_actions_[k]);
 }
 
