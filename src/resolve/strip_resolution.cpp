@@ -22,15 +22,108 @@ struct StripResolution::Contested {
     auto key() const { return std::tuple(time, p, second); }
 };
 
-void StripResolution::decide(const Population& population, std::vector<Candidate>& undecided, std::uint64_t n_contested,
-                             std::vector<Candidate>& kept) {
+/// What a rank says of a candidate with a disc of its own and one of another rank.
+struct StripResolution::Statement {
+    double time;
+    DiscId p, q;
+    std::uint32_t number;       ///< among the undecided of the rank that says it
+    std::uint16_t is_first;     ///< for the own disc, among what is left
+    std::uint16_t is_mine = 0;  ///< said here, not heard
+
+    auto key() const { return std::tuple(time, p, q); }
+};
+
+namespace {
+
+bool is_shared(const Candidate& c, const Population& population) {
+    return c.p >= population.n_own || (!c.is_wall() && c.q >= population.n_own);
+}
+
+} // namespace
+
+void StripResolution::negotiate(const Population& population, std::span<const int> neighbours,
+                                std::vector<Candidate>& undecided, std::vector<Candidate>& kept) {
+    std::sort(undecided.begin(), undecided.end(), TotalOrder(population.discs));
+    find_first(population, undecided);
+    std::vector<Statement> mine;
+    for (std::size_t k = 0; k < undecided.size(); ++k) {
+        const Candidate& c = undecided[k];
+        if (!is_shared(c, population)) continue;
+        mine.push_back({c.time, population.discs[c.p].id, population.discs[c.q].id, static_cast<std::uint32_t>(k), is_first_[k]});
+    }
+    // Who owns the other disc is not known here: all neighbours hear all of the few statements.
+    Received<Statement> heard;
+    with_neighbours_.exchange(neighbours, std::vector(neighbours.size(), mine), heard);
+    for (Statement& statement : mine) statement.is_mine = 1;
+    mine.insert(mine.end(), heard.items.begin(), heard.items.end());
+    std::sort(mine.begin(), mine.end(), [](const Statement& a, const Statement& b) { return a.key() < b.key(); });
+
+    std::vector<std::uint8_t> is_struck(undecided.size(), 0);
+    Marks taken;
+    for (std::size_t begin = 0, end = 0; begin < mine.size(); begin = end) {
+        bool are_first = true;
+        for (end = begin; end < mine.size() && mine[end].key() == mine[begin].key(); ++end) are_first = are_first && mine[end].is_first != 0;
+        const bool is_named_by_both = end - begin >= 2; // else one of its ranks has struck it
+        for (std::size_t k = begin; k < end; ++k) {
+            if (mine[k].is_mine == 0 || (is_named_by_both && !are_first)) continue;
+            const Candidate& c = undecided[mine[k].number];
+            is_struck[mine[k].number] = 1;
+            if (!is_named_by_both) continue;
+            kept.push_back(c);
+            taken.insert({c.p, c.q});
+        }
+    }
+    walk_own(population, taken, is_struck, undecided, kept);
+}
+
+/// Of undecided candidates in total order, tells which come first for all of this rank's discs that they have.
+void StripResolution::find_first(const Population& population, const std::vector<Candidate>& undecided) {
+    is_first_.clear();
+    seen_.clear();
+    for (const Candidate& c : undecided) {
+        bool is_first = true;
+        for (const LocalIndex index : {c.p, c.q})
+            if (index < population.n_own && !seen_.insert(index).second) is_first = false;
+        is_first_.push_back(is_first ? 1 : 0);
+    }
+}
+
+/// Decides what follows on this rank from the discs `taken` and the candidates struck, which are dropped.
+void StripResolution::walk_own(const Population& population, Marks& taken, const std::vector<std::uint8_t>& is_struck,
+                               std::vector<Candidate>& undecided, std::vector<Candidate>& kept) {
+    seen_.clear(); // discs that wait for another rank
+    std::size_t n_left = 0;
+    for (std::size_t k = 0; k < undecided.size(); ++k) {
+        const Candidate c = undecided[k];
+        if (is_struck[k] != 0 || taken.contains(c.p) || (!c.is_wall() && taken.contains(c.q))) continue;
+        if (is_shared(c, population) || seen_.contains(c.p) || (!c.is_wall() && seen_.contains(c.q))) {
+            undecided[n_left++] = c;
+            seen_.insert({c.p, c.q});
+        } else {
+            kept.push_back(c);
+            taken.insert({c.p, c.q});
+        }
+    }
+    undecided.resize(n_left);
+}
+
+void StripResolution::decide(const Population& population, std::span<const int> neighbours, std::vector<Candidate>& undecided,
+                             std::uint64_t n_contested, std::vector<Candidate>& kept) {
+    for (int round = 0; round < rounds_before_sort && n_contested > 0; ++round) {
+        negotiate(population, neighbours, undecided, kept);
+        n_contested = communicator_.sum(std::uint64_t{undecided.size()});
+    }
+    if (n_contested > 0) sort(population, undecided, n_contested, kept);
+}
+
+void StripResolution::sort(const Population& population, std::vector<Candidate>& undecided, std::uint64_t n_contested,
+                           std::vector<Candidate>& kept) {
     std::vector<Contested> mine;
     mine.reserve(undecided.size());
     for (std::size_t k = 0; k < undecided.size(); ++k) {
         const Candidate& c = undecided[k];
-        const bool is_shared = c.p >= population.n_own || (!c.is_wall() && c.q >= population.n_own);
         mine.push_back({c.time, population.discs[c.p].id, c.is_wall() ? 0 : population.discs[c.q].id + 1,
-                        communicator_.rank(), static_cast<std::uint32_t>(k), is_shared ? 2u : 1u});
+                        communicator_.rank(), static_cast<std::uint32_t>(k), is_shared(c, population) ? 2u : 1u});
     }
     const auto before = [](const Contested& a, const Contested& b) { return a.key() < b.key(); };
     const auto n_ranks = static_cast<std::uint64_t>(communicator_.size());

@@ -188,6 +188,10 @@ template <class Law> bool OneEngine<Law>::run_micro_step(const Window& window, i
     const std::uint64_t n_candidates = count_ours(live_);
     if (in_parts_) strike_taken(live_);
     local_.resolve(population(), live_, verdicts_);
+    if (communicator_.size() > 1) {
+        const PhaseClock::Scope scope(clock_, Phase::contested);
+        across_strips_.negotiate(population(), discs_.neighbours(), verdicts_.undecided, verdicts_.kept);
+    }
     // Within a micro-step no disc flies on after its collision, so only later ones have to worry about its speed.
     std::uint64_t news[2] = {verdicts_.undecided.size(), speed_exceeded_ && m > window.first_micro ? 1u : 0u};
     if (communicator_.size() > 1) {
@@ -197,7 +201,7 @@ template <class Law> bool OneEngine<Law>::run_micro_step(const Window& window, i
     if (news[1] > 0) return false;
     if (news[0] > 0) {
         const PhaseClock::Scope scope(clock_, Phase::contested);
-        across_strips_.decide(population(), verdicts_.undecided, news[0], verdicts_.kept);
+        across_strips_.decide(population(), discs_.neighbours(), verdicts_.undecided, news[0], verdicts_.kept);
     }
     n_candidates_ += n_candidates;
     n_kept_ += count_ours(verdicts_.kept);

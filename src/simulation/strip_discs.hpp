@@ -58,6 +58,7 @@ public:
     std::size_t n_own() const { return n_own_; }
     std::uint64_t n_total() const { return n_total_; } ///< over all ranks
     const Strips& strips() const { return strips_; }
+    std::span<const int> neighbours() const { return halo_plan_.partners; } ///< since the halo was fetched
 
     /// Drops the halo's discs.
     void forget_halo() { discs_.resize(n_own_); }
