@@ -1,0 +1,184 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Put what has been measured into docs/performance.md: tables between its markers, pictures beside its CSV files.
+
+  tests/performance/page.py [--folder docs/performance] [--page docs/performance.md]
+
+Reads rates.csv (compare.py), cluster.csv (simulate.py --study), kernels.json (carrom_benchmarks) and peaks.txt (machine_peaks);
+measure_all.sh writes all four. A part whose file is missing keeps what it says. Words around the markers are the page's
+own. Needs the Python environment of docs/tools/README.md.
+"""
+import argparse
+import csv
+import json
+import pathlib
+import re
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+STYLES = [("o", "-", "#000000"), ("s", "--", "#666666"), ("^", "-.", "#000000"), ("D", ":", "#666666")]
+
+
+def read_csv(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def table(heading, rows):
+    return "\n".join(["| " + " | ".join(heading) + " |", "|" + "---|" * len(heading)] + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def short(value, digits=3):
+    return f"{float(value):.{digits}g}" if value not in ("", None) else ""
+
+
+def rate_text(row):
+    value = float(row["rate"])
+    return f"{value / 1e6:.3g}" if value > 0 else ""
+
+
+def rates_part(rows):
+    first = rows[0]
+    lines = [f"{first['machine']}; {first['compiler']}; version {first['version']}. Medians of {min(int(r['rounds']) for r in rows)} rounds or more, "
+             "least and most beside them; ratios are taken within a round.", ""]
+    body = [[r["case"], f"{r['ranks']} x {r['threads']}", f"{rate_text(r)} ({short(float(r['least']) / 1e6)} to {short(float(r['most']) / 1e6)})",
+             r["unit"], r["goal"], short(r["over_lammps"]), short(r["over_stream"], 2), short(r["bytes_per_disc"])] for r in rows if "generated" not in r["case"]]
+    lines.append(table(["case", "ranks x threads", "million per second", "of", "goal per second", "x LAMMPS", "of the stream's rate", "bytes a disc"], body))
+    for r in rows:
+        if "generated" in r["case"]:
+            lines += ["", f"The generated scene of 10,000 discs, 500 steps, start and end of the program included: {short(r['seconds'])} s (goal: {r['goal']})."]
+    by_name = {r["case"]: float(r["rate"]) for r in rows}
+    pairs = [(name, by_name[name + ", 2 threads"] / rate, by_name[name + ", 2 ranks"] / rate)
+             for name, rate in by_name.items() if name + ", 2 threads" in by_name and name + ", 2 ranks" in by_name]
+    lines += ["", table(["two cores against one (strong scaling)", "2 threads", "2 ranks"], [[n, f"{t:.2f}", f"{k:.2f}"] for n, t, k in pairs])]
+    return "\n".join(lines)
+
+
+def cluster_part(rows):
+    body = [[r["case"], r["ranks"], f"{int(r['n_discs']) * int(r['stands_for']):.3g}", f"{float(r['efficiency']):.3f}", f"{float(r['messages']):.2f}", f"{float(r['most_messages']):.2f}",
+             f"{float(r['bytes']) * int(r['stands_for']) / 1e3:.3g}", f"{float(r['collectives']):.2f}", f"{float(r['any_to_any']):g}", f"{float(r['network_messages']):.2f}"] for r in rows]
+    return table(["case", "ranks", "discs", "efficiency", "messages", "most of any rank", "kB", "collective operations", "of these any-to-any",
+                  "messages with those inside collectives"], body)
+
+
+def new_axes(xlabel, ylabel):
+    figure, axes = plt.subplots(figsize=(6.4, 4.2), layout="constrained", dpi=110)
+    axes.set(xlabel=xlabel, ylabel=ylabel)
+    axes.grid(True, which="both", color="0.9", linewidth=0.6)
+    return figure, axes
+
+
+def draw_series(axes, series):
+    for index, (label, points) in enumerate(series.items()):
+        marker, line, colour = STYLES[index % len(STYLES)]
+        axes.plot([x for x, _ in points], [y for _, y in points], marker=marker, linestyle=line, color=colour, markerfacecolor="white", label=label)
+    axes.legend(frameon=False)
+
+
+def draw_cluster(rows, folder):
+    for kind, title in (("weak", "weak_scaling.png"), ("strong", "strong_scaling.png")):
+        series = {}
+        for row in rows:
+            if row["case"].startswith(kind):
+                series.setdefault(row["case"].split(", ")[1], []).append((int(row["ranks"]), float(row["efficiency"])))
+        if not series:
+            continue
+        figure, axes = new_axes("ranks, one a node (simulated)", "time of own computing / time of a step")
+        draw_series(axes, {name + (" (all ranks)" if kind == "strong" else ""): sorted(points) for name, points in series.items()})
+        axes.axhline(0.9, color="0.6", linewidth=1)
+        axes.set_xscale("log", base=2)
+        ticks = sorted({int(row["ranks"]) for row in rows})
+        axes.set_xticks(ticks, [str(tick) for tick in ticks])
+        axes.set_ylim(0, 1.05)
+        figure.savefig(folder / title)
+        plt.close(figure)
+
+
+def draw_sizes(rows, folder):
+    points = sorted((int(r["n_discs"]), float(r["ns_per_disc_step"])) for r in rows if re.fullmatch(r"gas, 1e\d", r["case"]))
+    if len(points) < 2:
+        return
+    streams = sorted((int(r["n_discs"]), 1e9 / float(r["stream_rate"])) for r in rows if re.fullmatch(r"gas, 1e\d", r["case"]) and r["stream_rate"])
+    figure, axes = new_axes("number of discs N", "nanoseconds per disc and step")
+    draw_series(axes, {"gas of packing 0.2, rule \"one\", one core": points, "a plain stream of 64 bytes a disc": streams})
+    axes.set(xscale="log", yscale="log")
+    figure.savefig(folder / "cost_against_size.png")
+    plt.close(figure)
+
+
+def read_kernels(path):
+    with open(path, encoding="utf-8") as file:
+        found = json.load(file)["benchmarks"]
+    return [b for b in found if b.get("run_type") != "aggregate" or b.get("aggregate_name") == "median"]
+
+
+def read_peaks(path):
+    return {name: float(value) for name, value in (line.split() for line in path.read_text(encoding="utf-8").splitlines())}
+
+
+def kernels_part(kernels, peaks):
+    body = []
+    for kernel in kernels:
+        rate, flops, size = kernel["items_per_second"], kernel["flops"], kernel["bytes"]
+        body.append([kernel.get("run_name", kernel["name"]).removesuffix("_median"), f"{1e9 / rate:.3g}", f"{flops:g}" if flops else "", f"{size:.3g}" if size else "",
+                     f"{rate * flops / 1e9:.3g}" if flops else "", f"{rate * size / 1e9:.3g}" if size else ""])
+    lines = [table(["kernel / discs", "ns per item", "operations an item", "bytes an item", "10^9 operations/s", "GB/s"], body), ""]
+    lines.append(f"The machine's peaks, one core: {peaks['double']:.3g} and {peaks['single']:.3g} x 10^9 operations a second in double and single precision; an in-place stream of "
+                 f"{peaks['stream_memory']:.3g} GB/s from memory, {peaks['stream_cache']:.3g} GB/s in the second level of cache (read and written bytes).")
+    return "\n".join(lines)
+
+
+def draw_roofline(kernels, peaks, folder):
+    figure, axes = new_axes("operations per byte", "10^9 operations per second, one core")
+    low, high = 0.02, 64.0
+    for name, gbytes, line in (("cache", peaks["stream_cache"], "--"), ("memory", peaks["stream_memory"], "-")):
+        knee = peaks["single"] / gbytes
+        axes.plot([low, knee, high], [low * gbytes, peaks["single"], peaks["single"]], color="black", linestyle=line, linewidth=1.2, label=f"{name}: {gbytes:.0f} GB/s; single precision")
+    axes.axhline(peaks["double"], color="0.5", linestyle=":", label="double precision")
+    shown = [kernel for kernel in kernels if kernel["flops"] > 0]
+    for index, kernel in enumerate(shown):
+        x, y = kernel["flops"] / kernel["bytes"], kernel["items_per_second"] * kernel["flops"] / 1e9
+        name = kernel.get("run_name", kernel["name"]).removesuffix("_median")
+        axes.plot([x], [y], marker=STYLES[index % len(STYLES)][0], color="black", linestyle="none", markersize=6, markerfacecolor="white")
+        is_right = x > 1
+        axes.annotate(name, (x, y), textcoords="offset points", xytext=(-7 if is_right else 7, -3 - 11 * (index % 2)), ha="right" if is_right else "left", fontsize=8)
+    axes.set(xscale="log", yscale="log", xlim=(low, high))
+    axes.legend(frameon=False, fontsize=8, loc="lower right")
+    figure.savefig(folder / "roofline.png")
+    plt.close(figure)
+
+
+def replace_part(text, name, part):
+    begin, end = f"<!-- {name} -->", f"<!-- end of {name} -->"
+    if begin not in text or end not in text:
+        sys.exit(f"the page has no markers '{begin}' and '{end}'")
+    return text[:text.index(begin) + len(begin)] + "\n" + part + "\n" + text[text.index(end):]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path("docs/performance"))
+    parser.add_argument("--page", type=pathlib.Path, default=pathlib.Path("docs/performance.md"))
+    options = parser.parse_args()
+    folder, text = options.folder, options.page.read_text(encoding="utf-8")
+    if (folder / "rates.csv").exists():
+        rows = read_csv(folder / "rates.csv")
+        text = replace_part(text, "rates", rates_part(rows))
+        draw_sizes(rows, folder)
+    if (folder / "cluster.csv").exists():
+        rows = read_csv(folder / "cluster.csv")
+        text = replace_part(text, "cluster", cluster_part(rows))
+        draw_cluster(rows, folder)
+    if (folder / "kernels.json").exists() and (folder / "peaks.txt").exists():
+        kernels, peaks = read_kernels(folder / "kernels.json"), read_peaks(folder / "peaks.txt")
+        text = replace_part(text, "kernels", kernels_part(kernels, peaks))
+        draw_roofline(kernels, peaks, folder)
+    options.page.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

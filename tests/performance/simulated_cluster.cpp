@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Steps a scene on the ranks of a simulated cluster: SimGrid (SMPI) stands in for the MPI library and the network, all ranks
+// take turns in this one process. Says what is sent and how long it would take. Discs are stepped for real, so messages
+// are the ones that a real run sends; what computing takes is told to the simulation instead of measured, so that the
+// same run gives the same numbers on any machine.
+//
+//   simulated_cluster PLATFORM RANKS SCENE STEPS NS_OWN NS_HALO STANDS_FOR
+//
+// The first interval between two syncs is left out of the tallies; then STEPS steps count. A rank computes for NS_OWN
+// nanoseconds per own disc and micro-step and for NS_HALO per disc that it has sent (as many come). A disc may stand for
+// several: then all this takes so many times as long, and so does a byte on its way. One line on standard output, as in the
+// heading that `simulated_cluster` alone prints: per rank and step, means over ranks where nothing else is said.
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <mpi.h>
+#include <simgrid/kernel/resource/Action.hpp>
+#include <simgrid/s4u.hpp>
+#include <smpi/smpi.h>
+
+#include "carrom/core/disc.hpp"
+#include "carrom/core/errors.hpp"
+#include "carrom/parallel/communicator.hpp"
+#include "carrom/scene/read_scene.hpp"
+#include "carrom/simulation/initial_state.hpp"
+#include "carrom/simulation/simulation.hpp"
+
+using namespace carrom;
+
+namespace {
+
+std::uint64_t n_any_to_any = 0; ///< calls so far, by all ranks
+
+} // namespace
+
+// The linker puts this in the place of MPI_Alltoall (CMakeLists.txt): to count calls whose messages grow with the ranks.
+extern "C" int __real_MPI_Alltoall(const void*, int, MPI_Datatype, void*, int, MPI_Datatype, MPI_Comm); // NOLINT
+extern "C" int __wrap_MPI_Alltoall(const void* out, int n_out, MPI_Datatype out_type, void* in, int n_in, MPI_Datatype in_type, MPI_Comm comm) { // NOLINT
+    ++n_any_to_any;
+    return __real_MPI_Alltoall(out, n_out, out_type, in, n_in, in_type, comm);
+}
+
+namespace {
+
+constexpr double simulated_flops = 1e9; ///< of every host in the platform file: a nanosecond is an operation
+
+/// What one rank has sent and computed while steps counted.
+struct Tally {
+    Traffic traffic;
+    double own_seconds = 0, seconds = 0; ///< computing for own discs; all of it, communication included
+    std::uint64_t network_messages = 0; ///< of all ranks, those inside collective operations included
+    std::uint64_t any_to_any = 0;       ///< calls of all ranks
+    std::int64_t steps = 0;
+    std::string hash;
+};
+
+struct Job {
+    std::string scene;
+    std::int64_t steps;
+    double ns_own, ns_halo;
+    std::vector<Tally> tallies;
+    std::uint64_t network_messages = 0;
+};
+
+Traffic difference(const Traffic& after, const Traffic& before) {
+    return {after.messages - before.messages, after.bytes - before.bytes, after.collectives - before.collectives};
+}
+
+void compute_for(double nanoseconds) { smpi_execute_flops(nanoseconds * 1e-9 * simulated_flops); }
+
+/// What a rank does between start and end of MPI.
+void step(Job& job, int rank) {
+    const Communicator world = Communicator::world();
+    std::ifstream file = open_input(job.scene);
+    const Scene scene = read_scene(read_scene_text(file, job.scene));
+    Simulation simulation(scene, initial_state(scene, nullptr, world), world, Tuning{});
+    const std::int64_t first = scene.sync_every / scene.micro_steps, last = first + job.steps;
+    while (simulation.step() < first) simulation.advance_towards(first);
+    world.barrier();
+    Tally& tally = job.tallies[static_cast<std::size_t>(rank)];
+    const double start = MPI_Wtime();
+    const Traffic at_start = world.traffic();
+    const std::uint64_t messages_at_start = job.network_messages, any_to_any_at_start = n_any_to_any;
+    while (simulation.step() < last) {
+        const std::int64_t micro_steps = simulation.micro_steps_done();
+        const std::uint64_t bytes = world.traffic().bytes;
+        simulation.advance_towards(last);
+        const double own = job.ns_own * static_cast<double>(simulation.discs().size()) * static_cast<double>(simulation.micro_steps_done() - micro_steps);
+        compute_for(own + job.ns_halo * static_cast<double>(world.traffic().bytes - bytes) / sizeof(Disc));
+        tally.own_seconds += own * 1e-9;
+    }
+    tally.traffic = difference(world.traffic(), at_start);
+    world.barrier();
+    tally.seconds = MPI_Wtime() - start;
+    tally.network_messages = job.network_messages - messages_at_start;
+    tally.any_to_any = n_any_to_any - any_to_any_at_start;
+    tally.steps = simulation.step() - first;
+    tally.hash = to_string(simulation.totals().hash);
+}
+
+/// A rank's whole life.
+void live(Job& job, int rank) {
+    MPI_Init(nullptr, nullptr); // not by class Mpi: SMPI promises no threads
+    step(job, rank);
+    MPI_Finalize();
+}
+
+/// Means and largest values over ranks, per rank and step.
+void print_row(const Job& job, std::uint64_t n_discs) {
+    const auto n_ranks = static_cast<double>(job.tallies.size());
+    const Tally& first = job.tallies.front();
+    const auto n_steps = static_cast<double>(first.steps);
+    double messages = 0, bytes = 0, own_seconds = 0, most_messages = 0, most_bytes = 0;
+    for (const Tally& tally : job.tallies) {
+        messages += static_cast<double>(tally.traffic.messages);
+        bytes += static_cast<double>(tally.traffic.bytes);
+        own_seconds += tally.own_seconds;
+        most_messages = std::max(most_messages, static_cast<double>(tally.traffic.messages));
+        most_bytes = std::max(most_bytes, static_cast<double>(tally.traffic.bytes));
+    }
+    std::printf("%zu,%llu,%lld,%.4f,%.4f,%.1f,%.1f,%.4f,%.4f,%.4f,%.4g,%.4g,%.4f,%s\n", job.tallies.size(),
+                static_cast<unsigned long long>(n_discs), static_cast<long long>(first.steps), messages / n_ranks / n_steps, most_messages / n_steps,
+                bytes / n_ranks / n_steps, most_bytes / n_steps, static_cast<double>(first.traffic.collectives) / n_steps,
+                static_cast<double>(first.any_to_any) / n_ranks / n_steps, static_cast<double>(first.network_messages) / n_ranks / n_steps,
+                first.seconds / n_steps, own_seconds / n_ranks / n_steps,
+                own_seconds / n_ranks / first.seconds, first.hash.c_str());
+}
+
+constexpr const char* heading = "ranks,n_discs,steps,messages,most_messages,bytes,most_bytes,collectives,any_to_any,network_messages,"
+                                "step_seconds,own_seconds,efficiency,state_hash";
+
+} // namespace
+
+int main(int argc, char** argv) {
+    if (argc == 1) {
+        std::printf("%s\n", heading);
+        return 0;
+    }
+    simgrid::s4u::Engine engine(&argc, argv); // takes its own options out
+    if (argc != 8) {
+        std::fprintf(stderr, "simulated_cluster PLATFORM RANKS SCENE STEPS NS_OWN NS_HALO STANDS_FOR\n");
+        return 2;
+    }
+    const int n_ranks = std::stoi(argv[2]);
+    const double stands_for = std::stod(argv[7]);
+    Job job{argv[3], std::stoll(argv[4]), std::stod(argv[5]) * stands_for, std::stod(argv[6]) * stands_for, {}};
+    job.tallies.resize(static_cast<std::size_t>(n_ranks));
+    SMPI_init(); // knows the settings from here on
+    simgrid::s4u::Engine::set_config("smpi/simulate-computation:no");
+    simgrid::s4u::Engine::set_config("network/model:CM02"); // latency + bytes / bandwidth, shared by what meets on a link
+    simgrid::s4u::Engine::set_config("network/TCP-gamma:0");
+    simgrid::s4u::Engine::set_config("network/bandwidth-factor:" + std::to_string(1 / stands_for));
+    simgrid::s4u::Engine::set_config("smpi/coll-selector:ompi");
+    simgrid::s4u::Engine::set_config("smpi/host-speed:1Gf");
+    simgrid::s4u::Engine::set_config("smpi/privatization:no"); // no variable of the program differs between ranks
+    engine.load_platform(argv[1]);
+    simgrid::s4u::Link::on_communication_state_change_cb(
+        [&job](const simgrid::kernel::resource::NetworkAction&, simgrid::kernel::resource::Action::State before) {
+            if (before == simgrid::kernel::resource::Action::State::STARTED) ++job.network_messages;
+        });
+    SMPI_app_instance_register("carrom", nullptr, n_ranks);
+    for (int rank = 0; rank < n_ranks; ++rank) {
+        const simgrid::s4u::ActorPtr actor = simgrid::s4u::Actor::init("rank-" + std::to_string(rank), engine.host_by_name("node-" + std::to_string(rank)));
+        actor->set_property("instance_id", "carrom");
+        actor->set_property("rank", std::to_string(rank));
+        actor->start([&job, rank] { live(job, rank); });
+    }
+    engine.run();
+    SMPI_finalize();
+    std::ifstream file = open_input(job.scene);
+    print_row(job, read_scene(read_scene_text(file, job.scene)).n_discs);
+    return 0;
+}
