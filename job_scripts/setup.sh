@@ -15,8 +15,8 @@ say() { printf '%s\n' "$*" >&2; }
 die() { say "$(basename "$0"): $*"; exit 1; }
 
 # What some tests need; they are skipped, with the reason, where these cannot be had: a Slurm of their own, failing disks,
-# Python programs that open our files.
-test_packages=(slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge strace python3-venv)
+# Python programs that open our files, a simulated cluster, micro-benchmarks.
+test_packages=(slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge strace python3-venv libsimgrid-dev libbenchmark-dev)
 
 # What job_scripts/sanitize.sh needs.
 sanitizer_packages=(clang-14 libomp-14-dev valgrind)
