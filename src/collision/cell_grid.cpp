@@ -39,7 +39,8 @@ GridFrame make_frame(double x_low, double x_high, double y_low, double y_high, d
     const double sparse_width = std::sqrt(width / static_cast<double>(n_discs + 16)) * std::sqrt(height);
     // Two cells to the reach save a third of the pairs where cells of one reach would hold many discs.
     const double crowding = reach / std::max(sparse_width, reach * 1e-3);
-    const double wanted = cell_width > 0 ? cell_width * reach : (crowding > 2.4 ? reach / 2 : reach);
+    // Cells much smaller than that would be more to the reach of fast discs than an int counts.
+    const double wanted = cell_width > 0 ? std::max(cell_width, 1e-6) * reach : (crowding > 2.4 ? reach / 2 : reach);
     GridFrame frame;
     frame.x_low = x_low;
     frame.y_low = y_low;

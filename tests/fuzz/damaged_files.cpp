@@ -4,6 +4,7 @@
 // have no seal, and recordings that a run is to go on with.
 //
 //   damaged_files COUNT [SEED [KIND]]      COUNT files of each kind; the numbers of those that have failed are told
+//   damaged_files 1 SEED KIND              this one, which stays where it is said to be
 //
 // A file must be read or refused; a crash within HDF5 must end in a refusal too, and is counted. No crash, no other exception, no more memory or time than that: exit code 1 otherwise.
 #include <algorithm>
@@ -185,6 +186,10 @@ int main(int argc, char** argv) {
     int n_bad = 0;
     for (const Kind& kind : kinds)
         if (argc < 4 || std::strcmp(argv[3], kind.name) == 0) n_bad += try_kind(kind, seed, count);
+    if (argc > 3 && count == 1) {
+        std::printf("%s\n", path().c_str());
+        return n_bad;
+    }
     for (const char* const ending : {"", ".undo", ".lock"}) ::unlink((path() + ending).c_str());
     return n_bad == 0 ? 0 : 1;
 }

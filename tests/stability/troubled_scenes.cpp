@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -96,6 +97,66 @@ TestScene troubled_scene(std::uint64_t seed) {
     return scene;
 }
 
+namespace {
+
+/// The places of a patch of a hexagonal lattice around (x, y), as far as they are free.
+void add_patch(TestScene& scene, double x, double y, double spacing, double vx, double vy) {
+    for (const double row : {0.0, 1.0, -1.0}) {
+        for (const double column : {0.0, 1.0, -1.0}) {
+            const double px = x + spacing * (column + 0.5 * std::fabs(row)), py = y + spacing * std::sqrt(0.75) * row;
+            if (is_free(scene, px, py)) add_disc(scene, px, py, vx, vy);
+        }
+    }
+}
+
+/// Of the kinds that differ in size: from discs that hardly fit to discs that are hard to find.
+double wild_box_size(double radius, Random& random) {
+    switch (random.index(6)) {
+    case 0: return 2 * radius * (1 + std::array{0x1p-50, 1e-9, 1e-3, 0.5}[random.index(4)]);
+    case 1: return radius * std::array{1e2, 1e4, 1e6}[random.index(3)];
+    default: return radius * std::array{8.0, 12.0, 14.6, 30.0}[random.index(4)];
+    }
+}
+
+} // namespace
+
+TestScene wildly_troubled_scene(std::uint64_t seed, bool may_overlap) {
+    Random random(seed);
+    const double radius = std::array{0.5, 0.3, 1.0}[random.index(3)], sigma = 2 * radius;
+    TestScene scene = empty_scene("wildly troubled scene " + std::to_string(seed), wild_box_size(radius, random), radius, 6);
+    scene.setting.sync_every = std::array<std::int64_t, 5>{1, 3, 5, 64, 100000}[random.index(5)];
+    scene.setting.micro_steps = std::array<std::int64_t, 5>{1, 1, 2, 3, 7}[random.index(5)];
+    const double gap = std::array{0.0, 0x1p-52, 0x1p-48, 1e-12, 1e-6, 0.1}[random.index(6)];
+    const double speed = sigma * std::array{1e-12, 1e-3, 0.3, 1.0, 10.0, 1e3, 1e9}[random.index(7)]; // what velocities are multiplied by
+    const std::size_t most = 1 + random.index(random.index(3) == 0 ? 40 : 8);
+    for (int tries = 0; tries < 200 && scene.discs.size() < most; ++tries) {
+        double x = troubled_place(scene, random), y = troubled_place(scene, random);
+        auto [vx, vy] = troubled_velocity(scene, random);
+        if (!scene.discs.empty() && random.index(3) != 0) { // beside another one, aimed at it, or inside it
+            const InputDisc& other = scene.discs[random.index(scene.discs.size())];
+            const auto [ex, ey] = troubled_direction(random);
+            const bool is_aimed = random.index(2) == 0;
+            const double distance = may_overlap && random.index(8) == 0 ? sigma * random.uniform(0, 1)
+                                    : is_aimed                          ? sigma * (1 + gap) + 3 * speed * random.uniform(0, 1)
+                                                                        : sigma * (1 + gap);
+            x = other.x + distance * ex;
+            y = other.y + distance * ey;
+            if (is_aimed) std::tie(vx, vy) = std::pair(other.vx - ex, other.vy - ey);
+            if (random.index(4) == 0) std::tie(vx, vy) = std::pair(std::nextafter(other.vx, 1e300), other.vy);
+        }
+        const double low = radius, high = scene.setting.box_size - radius;
+        if (may_overlap ? x < low || x > high || y < low || y > high : !is_free(scene, x, y)) continue;
+        if (random.index(6) == 0) add_patch(scene, x, y, sigma * (1 + gap), vx, vy);
+        else add_disc(scene, x, y, vx, vy);
+    }
+    if (scene.discs.empty()) add_disc(scene, scene.setting.box_size / 2, scene.setting.box_size / 2, 1, 0);
+    for (InputDisc& disc : scene.discs) {
+        disc.vx *= speed;
+        disc.vy *= speed;
+    }
+    return random.index(3) == 0 ? scaled(scene, static_cast<int>(random.index(400)) - 200) : scene;
+}
+
 TestScene shrunk(TestScene scene, const std::function<bool(const TestScene&)>& fails) {
     for (bool has_changed = true; has_changed;) {
         has_changed = false;
@@ -104,8 +165,10 @@ TestScene shrunk(TestScene scene, const std::function<bool(const TestScene&)>& f
         while (scene.steps > 1 && keep_if_it_fails(scene, fails, [](TestScene& trial) { trial.steps -= 1; })) has_changed = true;
         for (InputDisc& disc : scene.discs) {
             for (double InputDisc::*const number : {&InputDisc::vx, &InputDisc::vy, &InputDisc::x, &InputDisc::y}) {
-                const double rounded = std::round(16 * (disc.*number)) / 16;
+                const double unit = scene.setting.radius / 16, rounded = std::round(disc.*number / unit) * unit;
+                const bool is_place = number == &InputDisc::x || number == &InputDisc::y;
                 if (rounded == disc.*number) continue;
+                if (is_place && !(rounded >= scene.setting.radius && rounded <= scene.setting.box_size - scene.setting.radius)) continue;
                 const auto place = &disc - scene.discs.data();
                 has_changed |= keep_if_it_fails(scene, fails, [&](TestScene& trial) {
                     trial.discs[static_cast<std::size_t>(place)].*number = rounded;
