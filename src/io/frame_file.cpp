@@ -82,8 +82,8 @@ struct FrameFile::State {
 FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_unique<State>()) {
     guarded(path_, [&] {
         static_cast<void>(Descriptor(path_, 0)); // for the system's words
-        state_->file = h5::open_file(path_, h5::Access::read);
-        const hid_t file = state_->file.id();
+        h5::File opened = h5::open_file(path_, h5::Access::read); // closed in here if anything is thrown: closing may crash too
+        const hid_t file = opened.id();
         const std::string discs = discs_path;
         if (has(file, "/carrom/run")) {
             const h5::Group run(h5::checked(H5Gopen2(file, "/carrom/run", H5P_DEFAULT), "has no /carrom/run"));
@@ -115,6 +115,7 @@ FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_un
             throw FileError("holds nothing that carrom writes");
         }
         if (summary_.kind != FileKind::checkpoint) summary_.program_version = version_in(file);
+        state_->file = std::move(opened);
     });
 }
 
