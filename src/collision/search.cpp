@@ -244,5 +244,6 @@ template class Search<SingleContractedLaw>;
 template class Search<ElasticLaw>;
 template class Search<IdealGasLaw>;
 template class Search<InelasticLaw>;
+template class Search<MixedLaw>;
 
 } // namespace carrom

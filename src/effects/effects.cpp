@@ -35,6 +35,15 @@ std::string description(const ObstacleList& obstacles) {
            (obstacles.restitution < 1 ? fmt::format(" of restitution {:g}", obstacles.restitution) : "");
 }
 
+std::string description(const std::vector<DiscClass>& classes) {
+    constexpr std::size_t most_named = 4;
+    if (classes.size() > most_named) return fmt::format("discs of {} classes", classes.size());
+    std::string text;
+    for (const DiscClass& one : classes)
+        text += fmt::format("{}{} discs of radius {:g} and mass {:g}", text.empty() ? "" : ", ", one.count, one.radius, one.mass);
+    return text;
+}
+
 } // namespace
 
 bool Effects::have_plain_sides() const {
@@ -57,6 +66,7 @@ Effects per_micro_step(const Effects& effects, double micro_steps) {
 std::string description(const Effects& effects) {
     std::string text = description(effects.contact);
     const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
+    if (!effects.classes.empty()) add(description(effects.classes));
     for (std::size_t k = 0; k < effects.sides.size(); ++k)
         if (!effects.sides[k].is_plain()) add(description(effects.sides[k], side_names[k]));
     if (effects.gravity.is_any()) add(fmt::format("gravity ({:g}, {:g})", effects.gravity.x, effects.gravity.y));

@@ -9,14 +9,13 @@
 namespace carrom {
 
 Sides::Sides(double box_size, double radius, const Effects& effects)
-    : effects_(effects), radius_(radius), starts_{radius, box_size - radius, radius, box_size - radius}, places_(starts_),
-      gravity_{effects.gravity.x, effects.gravity.y} {
+    : effects_(effects), box_size_(box_size), radius_(radius), bodies_(effects.classes, radius), gravity_{effects.gravity.x, effects.gravity.y} {
     for (std::size_t side = 0; side < 4; ++side) speeds_[side] = effects.sides[side].speed;
     effects_.obstacles = {}; // laws are copied for each thread
 }
 
 void Sides::begin_interval(std::int64_t n) {
-    for (std::size_t side = 0; side < 4; ++side) places_[side] = starts_[side] + speeds_[side] * static_cast<double>(n);
+    for (std::size_t side = 0; side < 4; ++side) moved_[side] = speeds_[side] * static_cast<double>(n);
 }
 
 Frame Sides::frame_at(double time) const {
@@ -32,7 +31,8 @@ double Sides::micro_steps_at(double clock) const { return time_of_drag_clock(eff
 void Sides::restart_frame(Disc& disc, double time) const { disc = frame_at(time).in_box(disc, time); }
 
 Extent Sides::extent_at(double time) const {
-    return {wall_at(0, time) - radius_, wall_at(1, time) + radius_, wall_at(2, time) - radius_, wall_at(3, time) + radius_};
+    return {wall_at(0, time, radius_) - radius_, wall_at(1, time, radius_) + radius_, wall_at(2, time, radius_) - radius_,
+            wall_at(3, time, radius_) + radius_};
 }
 
 Extent Sides::walls_between(double begin, double end) const {
@@ -99,7 +99,7 @@ void Sides::rebound(Disc& disc, std::size_t side, double restitution, double tim
     if (effects_.sides[side].kind == SideKind::thermal) {
         // What leaves a wall of temperature T: v_n with the density v_n / T exp(-v_n^2 / 2 T), the other part Maxwell's.
         DiscRandom random(effects_.thermal_seed, Purpose::thermal_wall, disc.id, 4 * disc.wall_collisions + side);
-        const double temperature = effects_.sides[side].temperature;
+        const double temperature = effects_.sides[side].temperature / bodies_.of(disc.id).mass;
         away = std::sqrt(2 * temperature * random_exponential(random)) / slowing_at(time);
         const double speed = std::sqrt(2 * temperature * random_exponential(random)) / slowing_at(time);
         along = speed * random_direction(random).x - gravity_[1 - side / 2] * time;

@@ -399,5 +399,6 @@ template class BlockReplay<SingleContractedLaw>;
 template class BlockReplay<ElasticLaw>;
 template class BlockReplay<IdealGasLaw>;
 template class BlockReplay<InelasticLaw>;
+template class BlockReplay<MixedLaw>;
 
 } // namespace carrom

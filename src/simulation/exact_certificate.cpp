@@ -142,5 +142,6 @@ template class ExactEngine<SingleContractedLaw>;
 template class ExactEngine<ElasticLaw>;
 template class ExactEngine<IdealGasLaw>;
 template class ExactEngine<InelasticLaw>;
+template class ExactEngine<MixedLaw>;
 
 } // namespace carrom

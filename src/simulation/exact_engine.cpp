@@ -55,7 +55,7 @@ ExactEngine<Law>::ExactEngine(const Scene& scene, StoredState state, const Commu
     discs_.rebalance(time_, tuning_.rebalance_above);
     settle_now();
     if (Law::has_pairs && (Law::parts_overlaps || n_micro_done_ == 0)) // else the run itself may have come to them
-        refuse_overlaps(discs_.population(), grid_, time_, {law_.diameter(), law_.tolerance()}, communicator_, scene.name);
+        refuse_overlaps(discs_.population(), grid_, time_, touching_of(law_), communicator_, scene.name);
 }
 
 template <class Law> void ExactEngine<Law>::advance_towards(std::int64_t last_step) {
@@ -247,9 +247,11 @@ template <class Law> void ExactEngine<Law>::commit() {
 template <class Law> void ExactEngine<Law>::log_events(const BlockOutcome& outcome) {
     const std::int64_t last_sync = n_micro_done_ / sync_every_ * sync_every_;
     for (const LoggedEvent& event : outcome.log) {
+        double mass = 1;
+        if constexpr (Law::has_bodies) mass = law_.bodies().of(event.p).mass;
         const double slowing = law_.sides().frame_at(event.time).slowing;
         log_->push_back({last_sync, law_.sides().micro_steps_at(event.time), event.generation, event.p,
-                         event.is_wall ? Collision::wall : event.q, event.impulse * slowing * static_cast<double>(micro_steps_)});
+                         event.is_wall ? Collision::wall : event.q, mass * event.impulse * slowing * static_cast<double>(micro_steps_)});
     }
 }
 
@@ -319,7 +321,7 @@ template <class Law> Settled ExactEngine<Law>::settled() {
 template <class Law> void ExactEngine<Law>::add_to(Totals& totals) {
     settle_now();
     if constexpr (Law::has_pairs)
-        measure_overlaps(discs_.population(), grid_, time_, {law_.diameter(), law_.tolerance()}, communicator_, tuning_.threads, totals);
+        measure_overlaps(discs_.population(), grid_, time_, touching_of(law_), communicator_, tuning_.threads, totals);
 }
 
 template class ExactEngine<PlainLaw>;
@@ -331,6 +333,7 @@ template class ExactEngine<SingleContractedLaw>;
 template class ExactEngine<ElasticLaw>;
 template class ExactEngine<IdealGasLaw>;
 template class ExactEngine<InelasticLaw>;
+template class ExactEngine<MixedLaw>;
 
 std::unique_ptr<Engine> make_exact_engine(const Scene& scene, StoredState state, const Communicator& communicator,
                                           const Tuning& tuning) {

@@ -47,7 +47,7 @@ void refuse_overlaps(const Population& population, const CellGrid& grid, double 
         const Disc& p = population.discs[a];
         const Disc& q = population.discs[b];
         const double dx = q.x_at(time) - p.x_at(time), dy = q.y_at(time) - p.y_at(time);
-        const double depth = touching.diameter - std::sqrt(dx * dx + dy * dy);
+        const double depth = touching.diameter_of(p, q) - std::sqrt(dx * dx + dy * dy);
         if (depth > 2 * touching.tolerance) mine.add({p.id, q.id, depth});
     });
     FirstOverlaps all;

@@ -22,17 +22,31 @@ void measure_collisions(std::span<const Disc> own, const Communicator& communica
     totals.hash = {sums[2], sums[3]};
 }
 
-void measure_motion(std::span<const Disc> own, double velocity_unit, const Communicator& communicator, Totals& totals) {
+namespace {
+
+double mass_of(const Disc& disc, const DiscBodies* bodies) { return bodies ? bodies->of(disc.id).mass : 1; }
+
+double largest_mass(std::span<const Disc> own, const DiscBodies* bodies, const Communicator& communicator) {
+    if (!bodies) return 1;
+    double largest = 0;
+    for (const Disc& disc : own) largest = std::max(largest, bodies->of(disc.id).mass);
+    return communicator.max(largest);
+}
+
+} // namespace
+
+void measure_motion(std::span<const Disc> own, const DiscBodies* bodies, double velocity_unit, const Communicator& communicator, Totals& totals) {
     double largest = 0; // of any component of a velocity
     for (const Disc& disc : own) largest = std::max({largest, std::fabs(disc.vx), std::fabs(disc.vy)});
     largest = communicator.max(largest) * velocity_unit;
-    const double n = static_cast<double>(totals.n_discs);
-    ExactSum energy(n * largest * largest), momentum_x(n * largest), momentum_y(n * largest);
+    const double n = static_cast<double>(totals.n_discs), heaviest = largest_mass(own, bodies, communicator);
+    ExactSum energy(n * heaviest * largest * largest), momentum_x(n * heaviest * largest), momentum_y(n * heaviest * largest);
     for (const Disc& disc : own) {
         const double vx = disc.vx * velocity_unit, vy = disc.vy * velocity_unit;
-        energy.add(0.5 * (vx * vx + vy * vy));
-        momentum_x.add(vx);
-        momentum_y.add(vy);
+        const double mass = mass_of(disc, bodies);
+        energy.add(0.5 * mass * (vx * vx + vy * vy));
+        momentum_x.add(mass * vx);
+        momentum_y.add(mass * vy);
     }
     for (ExactSum* sum : {&energy, &momentum_x, &momentum_y}) communicator.sum(*sum);
     totals.kinetic_energy = energy.value();
@@ -40,11 +54,11 @@ void measure_motion(std::span<const Disc> own, double velocity_unit, const Commu
     totals.momentum_y = momentum_y.value();
 }
 
-void measure_height(std::span<const Disc> own, const Gravity& gravity, double box_size, const Communicator& communicator, Totals& totals) {
+void measure_height(std::span<const Disc> own, const DiscBodies* bodies, const Gravity& gravity, double box_size, const Communicator& communicator, Totals& totals) {
     const auto height = [box_size](double place, double pull) { return pull < 0 ? place : box_size - place; };
     const double gx = std::fabs(gravity.x), gy = std::fabs(gravity.y);
-    ExactSum energy(2 * static_cast<double>(totals.n_discs) * (gx + gy) * box_size);
-    for (const Disc& disc : own) energy.add(gx * height(disc.x, gravity.x) + gy * height(disc.y, gravity.y));
+    ExactSum energy(2 * static_cast<double>(totals.n_discs) * largest_mass(own, bodies, communicator) * (gx + gy) * box_size);
+    for (const Disc& disc : own) energy.add(mass_of(disc, bodies) * (gx * height(disc.x, gravity.x) + gy * height(disc.y, gravity.y)));
     communicator.sum(energy);
     totals.potential_energy = energy.value();
 }
@@ -56,7 +70,7 @@ void measure_overlaps(const Population& population, const CellGrid& grid, double
     };
     const auto depth = [&](const Disc& p, const Disc& q) {
         const double dx = q.x_at(time) - p.x_at(time), dy = q.y_at(time) - p.y_at(time);
-        return touching.diameter - std::sqrt(dx * dx + dy * dy);
+        return touching.diameter_of(p, q) - std::sqrt(dx * dx + dy * dy);
     };
     std::uint64_t n_pairs = 0;
     double deepest = 0;

@@ -7,6 +7,7 @@
 #include "carrom/collision/cell_grid.hpp"
 #include "carrom/collision/search.hpp"
 #include "carrom/core/disc.hpp"
+#include "carrom/effects/effects.hpp"
 #include "carrom/parallel/communicator.hpp"
 #include "carrom/simulation/simulation.hpp"
 
@@ -15,16 +16,25 @@ namespace carrom {
 /// Fills in the collision counts and the state hash. **Collective.**
 void measure_collisions(std::span<const Disc> own, const Communicator& communicator, Totals& totals);
 
-/// Fills in energy and momentum; `velocity_unit` turns stored velocities into those per step. **Collective.**
-void measure_motion(std::span<const Disc> own, double velocity_unit, const Communicator& communicator, Totals& totals);
+/// Fills in energy and momentum; `velocity_unit` turns stored velocities into those per step. `bodies`: null for masses of 1. **Collective.**
+void measure_motion(std::span<const Disc> own, const DiscBodies* bodies, double velocity_unit, const Communicator& communicator, Totals& totals);
 
 /// Fills in the potential energy of discs as the box sees them. **Collective.**
-void measure_height(std::span<const Disc> own, const Gravity& gravity, double box_size, const Communicator& communicator, Totals& totals);
+void measure_height(std::span<const Disc> own, const DiscBodies* bodies, const Gravity& gravity, double box_size, const Communicator& communicator, Totals& totals);
 
 /// When two discs count as overlapping: closer than the diameter by more than the tolerance.
 struct Touching {
     double diameter = 0, tolerance = 0;
+    const DiscBodies* bodies = nullptr; ///< null where all diameters are equal
+
+    double diameter_of(const Disc& p, const Disc& q) const {
+        return bodies ? bodies->of(p.id).radius + bodies->of(q.id).radius : diameter;
+    }
 };
+template <class Law> Touching touching_of(const Law& law) {
+    if constexpr (Law::has_bodies) return {law.diameter(), law.tolerance(), &law.bodies()};
+    else return {law.diameter(), law.tolerance()};
+}
 
 /// Fills in the pairs that overlap at `time`, each counted once, and how far the deepest overlaps. The grid holds the
 /// population at that time, and partners within a diameter are within its reach. **Collective.**

@@ -119,7 +119,7 @@ template <class Law> void OneEngine<Law>::add_to(Totals& totals) {
     totals.rejected_candidates = communicator_.sum(n_candidates_ - n_kept_);
     settle_now();
     if constexpr (Law::has_pairs)
-        measure_overlaps(population(), grid_, micro_, {law_.diameter(), law_.tolerance()}, communicator_, tuning_.threads, totals);
+        measure_overlaps(population(), grid_, micro_, touching_of(law_), communicator_, tuning_.threads, totals);
 }
 
 /// Halo discs come from within `reach`. Cells are made for `usual_reach`; discs that are too fast for it are set apart.
@@ -290,8 +290,10 @@ template <class Law> void OneEngine<Law>::log_collisions(std::span<const Disc> r
         const Candidate& c = verdicts_.kept[i];
         if (c.p >= discs_.n_own()) continue;
         const double dx = (results[c.p].vx - unhit_[i].vx) * k, dy = (results[c.p].vy - unhit_[i].vy) * k;
+        double mass = 1;
+        if constexpr (Law::has_bodies) mass = law_.bodies().of(unhit_[i].id).mass;
         log_->push_back({n_micro_done_ - micro_ + m, c.time, 0, unhit_[i].id,
-                         c.is_wall() ? Collision::wall : results[c.q].id, std::sqrt(dx * dx + dy * dy)});
+                         c.is_wall() ? Collision::wall : results[c.q].id, mass * std::sqrt(dx * dx + dy * dy)});
     }
 }
 

@@ -43,7 +43,7 @@ Simulation::Simulation(const Scene& scene, std::vector<InputDisc> discs, const C
     : Simulation(scene, first_state(scene, std::move(discs)), communicator, tuning) {}
 
 Simulation::Simulation(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning)
-    : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)), effects_(scene.effects), box_size_(scene.box_size),
+    : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)), effects_(scene.effects), bodies_(scene.effects.classes, scene.radius), box_size_(scene.box_size),
       n_threads_(tuning.threads), engine_(engine_for(scene, std::move(state), communicator, tuning)),
       averages_(std::make_unique<BlockAverages>(AveragedSystem{static_cast<double>(engine_->n_discs()), scene.box_size, scene.radius,
                                                                velocity_unit_, scene.micro_steps, scene.sync_every, !scene.effects.are_any()})) {}
@@ -104,8 +104,9 @@ Totals Simulation::totals() const {
     Totals totals;
     totals.n_discs = engine_->n_discs();
     measure_collisions(engine_->own(), communicator_, totals);
-    measure_motion(shown(), velocity_unit_, communicator_, totals);
-    if (effects_.gravity.is_any()) measure_height(shown(), effects_.gravity, box_size_, communicator_, totals);
+    const DiscBodies* const bodies = effects_.classes.empty() ? nullptr : &bodies_;
+    measure_motion(shown(), bodies, velocity_unit_, communicator_, totals);
+    if (effects_.gravity.is_any()) measure_height(shown(), bodies, effects_.gravity, box_size_, communicator_, totals);
     engine_->add_to(totals);
     return totals;
 }

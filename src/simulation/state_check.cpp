@@ -239,7 +239,7 @@ StateCheck::Finding StateCheck::first_other_energy(std::span<const Disc> own, Lo
 double StateCheck::energy_of(std::span<const Disc> own) const {
     Totals totals;
     totals.n_discs = scene_.n_discs;
-    measure_motion(own, static_cast<double>(scene_.micro_steps), communicator_, totals);
+    measure_motion(own, nullptr, static_cast<double>(scene_.micro_steps), communicator_, totals);
     return totals.kinetic_energy;
 }
 

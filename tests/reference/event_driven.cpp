@@ -81,10 +81,10 @@ void EventDrivenReference::predict_obstacle(DiscId p) {
 }
 
 /// Where the low or the high wall of an axis is for a disc's centre, and how fast, in the frame that falls since the sync.
-EventDrivenReference::Wall EventDrivenReference::wall_at(DiscId axis, bool is_high, double time) const {
+EventDrivenReference::Wall EventDrivenReference::wall_at(DiscId disc, DiscId axis, bool is_high, double time) const {
     const double k = static_cast<double>(setting_.micro_steps), g = gravity(axis);
     const double speed = setting_.effects.sides[2 * axis + (is_high ? 1 : 0)].speed / k;
-    const double start = is_high ? setting_.box_size - setting_.radius : setting_.radius;
+    const double start = is_high ? setting_.box_size - setting_.radius_of(disc) : setting_.radius_of(disc);
     const double at_sync = start + speed * static_cast<double>(micro_step_ / setting_.sync_every * setting_.sync_every);
     return {(at_sync + speed * time) - (0.5 * g * time) * time, speed - g * time};
 }
@@ -99,7 +99,7 @@ EventDrivenReference::Meeting EventDrivenReference::meeting(const Disc& disc, Di
     constexpr double never = std::numeric_limits<double>::infinity();
     Meeting first{never, false};
     for (const bool is_high : {false, true}) {
-        const Wall wall = wall_at(axis, is_high, disc.tau);
+        const Wall wall = wall_at(disc.id, axis, is_high, disc.tau);
         const double x = axis == Event::wall_x ? disc.x : disc.y, v = axis == Event::wall_x ? disc.vx : disc.vy;
         const double gap = is_high ? wall.place - x : x - wall.place;
         const double rate = is_high ? wall.speed - v : v - wall.speed;
@@ -124,7 +124,7 @@ EventDrivenReference::Meeting EventDrivenReference::meeting(const Disc& disc, Di
 /// Turns the velocity round at the wall that it has come to; `disc` is there, and was `is_touched` a short time ago.
 void EventDrivenReference::rebound(Disc& disc, DiscId axis, bool is_high, double time, bool is_touched) const {
     double& v = axis == Event::wall_x ? disc.vx : disc.vy;
-    const Wall wall = wall_at(axis, is_high, time);
+    const Wall wall = wall_at(disc.id, axis, is_high, time);
     const double restitution = is_touched ? 1 : setting_.effects.sides[2 * axis + (is_high ? 1 : 0)].restitution;
     double away = restitution * std::fabs(v - wall.speed);
     const std::size_t number = 2 * axis + (is_high ? 1 : 0);
@@ -151,7 +151,7 @@ void EventDrivenReference::restart_frame(Disc& disc, double time) const {
 void EventDrivenReference::predict_pair(DiscId p, DiscId q) {
     if (!setting_.discs_meet()) return;
     if (p > q) std::swap(p, q);
-    const Contact found = contact(discs_[p], discs_[q], 2 * setting_.radius, std::numeric_limits<double>::infinity());
+    const Contact found = contact(discs_[p], discs_[q], setting_.radius_of(p) + setting_.radius_of(q), std::numeric_limits<double>::infinity());
     if (found.delay < 0) return;
     const double time = found.base + found.delay;
     if (past_[p].partner == q && past_[q].partner == p && time == past_[p].time) return;
@@ -213,7 +213,7 @@ void EventDrivenReference::carry_out(const Event& event) {
     if (event.is_pair) {
         Disc& q = discs_[event.q];
         advance(q, event.time);
-        exchange_momentum(p, q, is_touched ? 1 : setting_.restitution());
+        exchange_momentum(setting_, p, q, is_touched ? 1 : setting_.restitution());
         p.pair_collisions += 1;
         q.pair_collisions += 1;
         pair_collisions_ += 1;

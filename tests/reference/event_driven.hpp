@@ -78,7 +78,7 @@ private:
     void predict_all();
     void predict_walls(DiscId p);
     void predict_obstacle(DiscId p);
-    Wall wall_at(DiscId axis, bool is_high, double time) const;
+    Wall wall_at(DiscId disc, DiscId axis, bool is_high, double time) const;
     double gravity(DiscId axis) const;
     Meeting meeting(const Disc& disc, DiscId axis) const;
     void rebound(Disc& disc, DiscId axis, bool is_high, double time, bool is_touched) const;

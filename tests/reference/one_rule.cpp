@@ -53,19 +53,29 @@ void advance(Disc& disc, double time) {
     disc.tau = time;
 }
 
-void exchange_momentum(Disc& p, Disc& q, double restitution) {
+void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitution) {
     const double ex = q.x - p.x, ey = q.y - p.y;
     const double wx = q.vx - p.vx, wy = q.vy - p.vy;
     const double k = (1 + restitution) / 2 * ((wx * ex + wy * ey) / (ex * ex + ey * ey));
-    p.vx += k * ex;
-    p.vy += k * ey;
-    q.vx -= k * ex;
-    q.vy -= k * ey;
+    const double mp = setting.mass_of(p.id), mq = setting.mass_of(q.id), mean = (mp + mq) / 2;
+    p.vx += k * (mq / mean) * ex;
+    p.vy += k * (mq / mean) * ey;
+    q.vx -= k * (mp / mean) * ex;
+    q.vy -= k * (mp / mean) * ey;
+}
+
+DiscClass Setting::class_of(DiscId id) const {
+    for (const DiscClass& one : effects.classes) {
+        if (id < one.count) return one;
+        id -= one.count;
+    }
+    return {0, radius, 1};
 }
 
 std::array<double, 2> Setting::leaving(const Disc& disc, std::size_t number) const {
     Side side = effects.sides[number];
     side.temperature /= static_cast<double>(micro_steps) * static_cast<double>(micro_steps);
+    side.temperature /= mass_of(disc.id);
     return thermal_draw(side, disc.id, disc.wall_collisions, number);
 }
 
@@ -87,8 +97,8 @@ std::vector<Disc> stored_states(const Setting& setting, std::span<const InputDis
 }
 
 OneRuleReference::OneRuleReference(const Setting& setting, std::span<const InputDisc> discs)
-    : setting_(setting), bodies_(std::make_shared<FixedBodies>(setting)), low_(setting.radius), high_(setting.box_size - setting.radius), band_(1e-8 * setting.radius),
-      sigma_(2 * setting.radius), tolerance_(std::max(1e-12 * sigma_, 32 * 0x1p-53 * setting.box_size)),
+    : setting_(setting), bodies_(std::make_shared<FixedBodies>(setting)), band_(1e-8 * setting.radius),
+      tolerance_(std::max(1e-12 * (2 * setting.radius), 32 * 0x1p-53 * setting.box_size)),
       discs_(stored_states(setting, discs)) {}
 
 void OneRuleReference::run_micro_steps(std::int64_t count) {
@@ -123,7 +133,7 @@ void OneRuleReference::find_candidates(double m) {
         const double t = wall_time(p, m);
         if (t != never) candidates_.push_back({micro_step_, t, p.id, Collision::wall});
         for (DiscId id = p.id + 1; id < discs_.size() && setting_.discs_meet(); ++id) {
-            const Contact found = contact(p, discs_[id], sigma_, tolerance_);
+            const Contact found = contact(p, discs_[id], setting_.radius_of(p.id) + setting_.radius_of(id), tolerance_);
             if (found.delay < 0) continue;
             const double in_step = (found.base - m) + found.delay;
             if (in_step >= 0 && in_step <= 1) candidates_.push_back({micro_step_, in_step, p.id, id});
@@ -145,7 +155,7 @@ void OneRuleReference::keep(const Collision& candidate, double m) {
     Disc& q = discs_[candidate.q];
     advance(p, m + candidate.t);
     advance(q, m + candidate.t);
-    exchange_momentum(p, q, setting_.restitution());
+    exchange_momentum(setting_, p, q, setting_.restitution());
     p.pair_collisions += 1;
     q.pair_collisions += 1;
     counters_.pair_collisions += 1;
@@ -168,12 +178,12 @@ void OneRuleReference::synchronize() {
     }
 }
 
-double OneRuleReference::axis_time(double x, double v, double tau, double m) const {
+double OneRuleReference::axis_time(DiscId id, double x, double v, double tau, double m) const {
     double wall = 0;
-    if (v < 0 && x + v * ((m + 1) - tau) < low_ + band_) {
-        wall = low_;
-    } else if (v > 0 && x + v * ((m + 1) - tau) > high_ - band_) {
-        wall = high_;
+    if (v < 0 && x + v * ((m + 1) - tau) < low(id) + band_) {
+        wall = low(id);
+    } else if (v > 0 && x + v * ((m + 1) - tau) > high(id) - band_) {
+        wall = high(id);
     } else {
         return never;
     }
@@ -189,17 +199,17 @@ double OneRuleReference::wall_time(const Disc& disc, double m) const {
 }
 
 double OneRuleReference::axes_time(const Disc& disc, double m) const {
-    const double tx = axis_time(disc.x, disc.vx, disc.tau, m);
-    const double ty = axis_time(disc.y, disc.vy, disc.tau, m);
+    const double tx = axis_time(disc.id, disc.x, disc.vx, disc.tau, m);
+    const double ty = axis_time(disc.id, disc.y, disc.vy, disc.tau, m);
     return tx < ty ? tx : ty;
 }
 
 void OneRuleReference::bounce(Disc& disc, double m, double t) const {
-    const bool x_is_due = axis_time(disc.x, disc.vx, disc.tau, m) == t;
-    const bool y_is_due = axis_time(disc.y, disc.vy, disc.tau, m) == t;
+    const bool x_is_due = axis_time(disc.id, disc.x, disc.vx, disc.tau, m) == t;
+    const bool y_is_due = axis_time(disc.id, disc.y, disc.vy, disc.tau, m) == t;
     advance(disc, m + t);
-    const auto is_at_wall = [this](double x, double v) {
-        return (v < 0 && x <= low_ + band_) || (v > 0 && x >= high_ - band_);
+    const auto is_at_wall = [&](double x, double v) {
+        return (v < 0 && x <= low(disc.id) + band_) || (v > 0 && x >= high(disc.id) - band_);
     };
     const bool x_reverses = x_is_due || is_at_wall(disc.x, disc.vx);
     const bool y_reverses = y_is_due || is_at_wall(disc.y, disc.vy);
@@ -218,17 +228,17 @@ void OneRuleReference::bounce(Disc& disc, double m, double t) const {
     if (y_reverses && still_comes) reverse(disc.vy < 0 ? 2 : 3, disc.vy, disc.vx);
 }
 
-double OneRuleReference::stop_time(double x, double v, double t) const {
+double OneRuleReference::stop_time(DiscId id, double x, double v, double t) const {
     double ts = never;
-    if (v < 0 && x + v * (1 - t) < low_) ts = (low_ - x) / v;
-    if (v > 0 && x + v * (1 - t) > high_) ts = (high_ - x) / v;
+    if (v < 0 && x + v * (1 - t) < low(id)) ts = (low(id) - x) / v;
+    if (v > 0 && x + v * (1 - t) > high(id)) ts = (high(id) - x) / v;
     return ts < 0 ? 0 : ts;
 }
 
 /// `left` is the body that it has just been reflected from.
 void OneRuleReference::stop_at_wall(Disc& disc, double m, double t, std::size_t left) const {
-    const double sx = stop_time(disc.x, disc.vx, t);
-    const double sy = stop_time(disc.y, disc.vy, t);
+    const double sx = stop_time(disc.id, disc.x, disc.vx, t);
+    const double sy = stop_time(disc.id, disc.y, disc.vy, t);
     const double ts = sx < sy ? sx : sy;
     const BodyMeeting meeting = bodies_->first_meeting(disc, disc.tau, left);
     if (meeting.time < m + 1 && meeting.time - disc.tau < ts) {

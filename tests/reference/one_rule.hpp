@@ -40,6 +40,9 @@ struct Setting {
 
     /// The same in micro-steps for a disc at the wall `number`.
     std::array<double, 2> leaving(const Disc& disc, std::size_t number) const;
+    double radius_of(DiscId id) const { return class_of(id).radius; }
+    double mass_of(DiscId id) const { return class_of(id).mass; }
+    DiscClass class_of(DiscId id) const;
     bool discs_meet() const { return effects.contact.kind != ContactKind::none; }
     double restitution() const { return effects.contact.kind == ContactKind::restitution ? effects.contact.restitution : 1; }
     double contact_time() const { return effects.contact.contact_time * static_cast<double>(micro_steps); }
@@ -77,9 +80,9 @@ struct Contact {
 /// The predicate of section 4. `tolerance` is the deepest overlap that still collides; infinity under the rule "all".
 Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance);
 
-/// The two states' positions at `time`, the impulse of a pair of equal masses; p has the lower id.
+/// The two states' positions at `time`, the impulse of a pair; p has the lower id.
 void advance(Disc& disc, double time);
-void exchange_momentum(Disc& p, Disc& q, double restitution);
+void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitution);
 
 /// Numbers the discs 0 .. N-1 as given (ids must be a permutation of that) and divides velocities by `micro_steps`.
 std::vector<Disc> stored_states(const Setting& setting, std::span<const InputDisc> discs);
@@ -106,15 +109,18 @@ private:
 
     double wall_time(const Disc& disc, double m) const;
     double axes_time(const Disc& disc, double m) const;
-    double axis_time(double x, double v, double tau, double m) const;
+    double axis_time(DiscId id, double x, double v, double tau, double m) const;
     void bounce(Disc& disc, double m, double t) const;
     void bounce_off(Disc& disc, double m, double t) const;
     void stop_at_wall(Disc& disc, double m, double t, std::size_t left) const;
-    double stop_time(double x, double v, double t) const;
+    double stop_time(DiscId id, double x, double v, double t) const;
 
     Setting setting_;
     std::shared_ptr<const FixedBodies> bodies_;
-    double low_, high_, band_, sigma_, tolerance_;
+    double low(DiscId id) const { return setting_.radius_of(id); }
+    double high(DiscId id) const { return setting_.box_size - setting_.radius_of(id); }
+
+    double band_, tolerance_;
     std::vector<Disc> discs_;
     std::vector<Collision> candidates_;
     std::int64_t micro_step_ = 0;

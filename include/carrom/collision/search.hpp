@@ -75,5 +75,6 @@ extern template class Search<SingleContractedLaw>;
 extern template class Search<ElasticLaw>;
 extern template class Search<IdealGasLaw>;
 extern template class Search<InelasticLaw>;
+extern template class Search<MixedLaw>;
 
 } // namespace carrom

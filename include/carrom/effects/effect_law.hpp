@@ -15,15 +15,18 @@
 
 namespace carrom {
 
-template <class Contact> class EffectLaw : public PlainLaw {
+/// `is_mixed`: discs are of several radii and masses (and there are no obstacles then). Then the plain law's radius is the largest, and so are its bands and tolerances.
+template <class Contact, bool is_mixed = false> class EffectLaw : public PlainLaw {
 public:
     static constexpr bool has_pairs = Contact::has_pairs;
+    static constexpr bool has_bodies = is_mixed;
     static constexpr bool has_mirror_walls = false;
     static constexpr bool may_have_obstacles = true;
 
     /// `effects` per micro-step.
     EffectLaw(double box_size, double radius, const Effects& effects)
-        : PlainLaw(box_size, radius), contact_(effects.contact), contact_time_(effects.contact.contact_time), sides_(box_size, radius, effects) {
+        : PlainLaw(box_size, radius), contact_(effects.contact), contact_time_(effects.contact.contact_time), bodies_(effects.classes, radius),
+          sides_(box_size, radius, effects) {
         if (effects.obstacles.are_any()) obstacles_ = std::make_shared<const Obstacles>(box_size, radius, effects);
     }
 
@@ -31,35 +34,38 @@ public:
     bool has_obstacles() const { return obstacles_ != nullptr; }
     void begin_interval(std::int64_t n) { sides_.begin_interval(n); }
 
+    const DiscBodies& bodies() const { return bodies_; }
+
     PairContact<double> contact(const Disc& p, const Disc& q) const {
-        if constexpr (has_pairs) return PlainLaw::contact(p, q);
+        if constexpr (has_pairs) return pair_law(p, q).contact(p, q);
         return {};
     }
     PairContact<double> exact_contact(const Disc& p, const Disc& q) const {
-        if constexpr (has_pairs) return PlainLaw::exact_contact(p, q);
+        if constexpr (has_pairs) return pair_law(p, q).exact_contact(p, q);
         return {};
     }
 
     void collide(Disc& p, Disc& q, double m, double t) const {
-        collide_with(p, q, m + t, contact_.impulse());
+        exchange_momentum(p, q, m + t, contact_.impulse());
         stop(p, m, t);
         stop(q, m, t);
     }
-    void collide_at(Disc& p, Disc& q, double time) const { collide_with(p, q, time, contact_.impulse_at(p, q, time)); }
+    void collide_at(Disc& p, Disc& q, double time) const { exchange_momentum(p, q, time, contact_.impulse_at(p, q, time)); }
 
     /// A disc's one candidate with what stands still: a wall, or an obstacle if that comes before.
     double wall_time(const Disc& disc, double m) const {
-        const double at_wall = PlainLaw::wall_time(disc, m);
+        const double at_wall = wall_law(disc).wall_time(disc, m);
         return has_obstacles() ? std::min(at_wall, obstacle_contact(disc, m).time - m) : at_wall;
     }
 
     /// The plain law's times; what happens at them is the sides' business. Walls are at rest under the rule "one".
     void bounce(Disc& disc, double m, double t) const {
         if (has_obstacles() && t != PlainLaw::wall_time(disc, m)) return bounce_off(disc, m, t);
-        const double tx = axis_time(disc.x, disc.vx, disc.tau, m), ty = axis_time(disc.y, disc.vy, disc.tau, m);
+        const PlainLaw walls = wall_law(disc);
+        const double tx = walls.axis_time(disc.x, disc.vx, disc.tau, m), ty = walls.axis_time(disc.y, disc.vy, disc.tau, m);
         advance(disc, m + t);
-        const bool x_reverses = tx == t || touches_wall(disc.x, disc.vx);
-        const bool y_reverses = ty == t || touches_wall(disc.y, disc.vy);
+        const bool x_reverses = tx == t || walls.touches_wall(disc.x, disc.vx);
+        const bool y_reverses = ty == t || walls.touches_wall(disc.y, disc.vy);
         const bool goes_down = disc.vy < 0;
         if (x_reverses) sides_.reverse(disc, Axis::x);
         // A thermal wall may have turned the disc away from the other one.
@@ -99,7 +105,7 @@ private:
 
     /// As at walls: what would run into an obstacle before the micro-step ends waits there. `left` is one just left.
     void stop(Disc& disc, double m, double t, std::uint32_t left = ObstacleContact::no_body) const {
-        if (!has_obstacles()) return stop_at_wall(disc, m, t);
+        if (!has_obstacles()) return wall_law(disc).stop_at_wall(disc, m, t);
         const double at_wall = std::min(axis_stop(disc.x, disc.vx, 1 - t), axis_stop(disc.y, disc.vy, 1 - t));
         const ObstacleContact contact = obstacles_->first_contact(disc, {disc.tau, m + 1, true, left});
         if (!(contact.time < m + 1) || !(contact.time - disc.tau < at_wall)) return stop_at_wall(disc, m, t);
@@ -107,8 +113,30 @@ private:
         disc.tau = m + 1;
     }
 
+    /// The plain law as a pair, or a disc at walls, needs it. Sums of two numbers are the same in any order.
+    [[gnu::always_inline]] PlainLaw pair_law(const Disc& p, const Disc& q) const {
+        if constexpr (is_mixed) return with_sizes(radius_, bodies_.of(p.id).radius + bodies_.of(q.id).radius);
+        return *this;
+    }
+    [[gnu::always_inline]] PlainLaw wall_law(const Disc& disc) const {
+        if constexpr (is_mixed) return with_sizes(bodies_.of(disc.id).radius, diameter_);
+        return *this;
+    }
+
+    /// Of the momentum that equal discs would exchange each takes 2 m' / (m + m') as velocity, m' being the other's mass; 1 if they are equal.
+    [[gnu::always_inline]] void exchange_momentum(Disc& p, Disc& q, double time, double impulse) const {
+        if constexpr (is_mixed) {
+            const double p_mass = bodies_.of(p.id).mass, q_mass = bodies_.of(q.id).mass;
+            const double half = (p_mass + q_mass) / 2;
+            collide_with(p, q, time, impulse, q_mass / half, p_mass / half);
+        } else {
+            collide_with(p, q, time, impulse);
+        }
+    }
+
     Contact contact_;
     double contact_time_; ///< for obstacles under the rule "all"
+    DiscBodies bodies_;
     Sides sides_;
     std::shared_ptr<const Obstacles> obstacles_; ///< the same for all copies; null where there are none
 };
@@ -116,5 +144,6 @@ private:
 using IdealGasLaw = EffectLaw<NoContact>;
 using ElasticLaw = EffectLaw<ElasticContact>; ///< with sides or gravity that are not plain
 using InelasticLaw = EffectLaw<InelasticContact>;
+using MixedLaw = EffectLaw<InelasticContact, true>; ///< of any restitution, 1 included
 
 } // namespace carrom

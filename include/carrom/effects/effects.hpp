@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "carrom/effects/disc_classes.hpp"
+
 namespace carrom {
 
 /// What two discs that touch do to each other.
@@ -76,10 +78,12 @@ struct Effects {
     double drag = 0; ///< the rate at which discs lose their velocity, dv/dt = -drag v
     std::uint64_t thermal_seed = 3210;
     ObstacleList obstacles{};
+    std::vector<DiscClass> classes{}; ///< in the order of ids; empty where all discs are of one radius and mass 1
 
     bool have_plain_sides() const;
     bool are_any() const {
-        return contact.kind != ContactKind::elastic || !have_plain_sides() || gravity.is_any() || drag != 0 || obstacles.are_any();
+        return contact.kind != ContactKind::elastic || !have_plain_sides() || gravity.is_any() || drag != 0 || obstacles.are_any() ||
+               !classes.empty();
     }
     friend bool operator==(const Effects&, const Effects&) = default;
 };

@@ -51,6 +51,8 @@ public:
     static constexpr bool has_obstacles() { return false; }
     /// Whether a wall reverses a velocity across it and does nothing else to a disc.
     static constexpr bool has_mirror_walls = true;
+    /// Whether discs differ in radius and mass.
+    static constexpr bool has_bodies = false;
     /// Under the rule "all": more than some thousand collisions of a disc in so many micro-steps are without end. Where discs
     /// have no room, loose laws move them on by a rounding of time now and then, which is not at one time and has no end either.
     static constexpr double one_time = is_loose ? 0x1p-3 : 0x1p-40;
@@ -77,6 +79,14 @@ public:
         return 0;
     }
     double search_diameter() const { return diameter() + 2 * slack(); }
+
+    /// The same law for a pair whose radii have the sum `diameter`, or for a disc of another `radius` at walls. Bands and tolerances stay.
+    BasicPlainLaw with_sizes(Real radius, Real diameter) const {
+        BasicPlainLaw law = *this;
+        law.radius_ = radius;
+        law.diameter_ = diameter;
+        return law;
+    }
 
     /// Rounds a state to the precision that it is to have.
     static void round(Disc& disc) {
@@ -165,18 +175,43 @@ public:
         disc.tau = real(time);
     }
 
+    // What wall_time, bounce and collide are made of, for other laws.
+
+    /// Only the wall being approached counts; a slow disc inside the band bounces at t = 1 without touching.
+    Real axis_time(double x, double v, double tau, double m) const {
+        const Real at_end = real(x) + real(v) * ((real(m) + 1) - real(tau));
+        if (v < 0 && at_end < radius_ + band_) return std::clamp((real(tau) - real(m)) + (low() - real(x)) / real(v), Real{0}, Real{1});
+        if (v > 0 && at_end > high() - band_) return std::clamp((real(tau) - real(m)) + (high() - real(x)) / real(v), Real{0}, Real{1});
+        return real(never);
+    }
+
+    bool touches_wall(double x, double v) const {
+        return (v < 0 && x <= radius_ + band_) || (v > 0 && x >= high() - band_);
+    }
+
+    /// A disc that would leave the box before the micro-step ends waits at the wall; it bounces in the next one.
+    [[gnu::always_inline]] void stop_at_wall(Disc& disc, double m, double t) const {
+        const Real rest = 1 - real(t);
+        const Real stop = std::min(axis_stop(disc.x, disc.vx, rest), axis_stop(disc.y, disc.vy, rest));
+        if (stop == real(never)) return;
+        disc.x = real(disc.x) + real(disc.vx) * stop;
+        disc.y = real(disc.y) + real(disc.vy) * stop;
+        disc.tau = m + 1;
+    }
+
 protected:
-    /// `impulse` in units of that of an elastic contact; multiplying by 1 leaves every bit, and no instruction.
-    [[gnu::always_inline]] static void collide_with(Disc& p, Disc& q, double time, Real impulse) {
+    /// `impulse` in units of that of an elastic contact of equal masses, of which p and q take their shares; multiplying by 1
+    /// leaves every bit, and no instruction.
+    [[gnu::always_inline]] static void collide_with(Disc& p, Disc& q, double time, Real impulse, Real p_share = 1, Real q_share = 1) {
         advance(p, time);
         advance(q, time);
         const Real ex = real(q.x) - real(p.x), ey = real(q.y) - real(p.y);
         const Real wx = real(q.vx) - real(p.vx), wy = real(q.vy) - real(p.vy);
         const Real k = impulse * ((wx * ex + wy * ey) / (ex * ex + ey * ey));
-        p.vx = real(p.vx) + k * ex;
-        p.vy = real(p.vy) + k * ey;
-        q.vx = real(q.vx) - k * ex;
-        q.vy = real(q.vy) - k * ey;
+        p.vx = real(p.vx) + k * p_share * ex;
+        p.vy = real(p.vy) + k * p_share * ey;
+        q.vx = real(q.vx) - k * q_share * ex;
+        q.vy = real(q.vy) - k * q_share * ey;
         p.pair_collisions += 1;
         q.pair_collisions += 1;
     }
@@ -207,32 +242,10 @@ protected:
         return dx * dx + dy * dy <= farthest * farthest;
     }
 
-    /// Only the wall being approached counts; a slow disc inside the band bounces at t = 1 without touching.
-    Real axis_time(double x, double v, double tau, double m) const {
-        const Real at_end = real(x) + real(v) * ((real(m) + 1) - real(tau));
-        if (v < 0 && at_end < radius_ + band_) return std::clamp((real(tau) - real(m)) + (low() - real(x)) / real(v), Real{0}, Real{1});
-        if (v > 0 && at_end > high() - band_) return std::clamp((real(tau) - real(m)) + (high() - real(x)) / real(v), Real{0}, Real{1});
-        return real(never);
-    }
-
     double exact_axis_time(double x, double v, double tau) const {
         if (v == 0) return never;
         const Real delay = ((v < 0 ? low() : high()) - real(x)) / real(v);
         return real(tau) + (delay > 0 ? delay : 0);
-    }
-
-    bool touches_wall(double x, double v) const {
-        return (v < 0 && x <= radius_ + band_) || (v > 0 && x >= high() - band_);
-    }
-
-    /// A disc that would leave the box before the micro-step ends waits at the wall; it bounces in the next one.
-    [[gnu::always_inline]] void stop_at_wall(Disc& disc, double m, double t) const {
-        const Real rest = 1 - real(t);
-        const Real stop = std::min(axis_stop(disc.x, disc.vx, rest), axis_stop(disc.y, disc.vy, rest));
-        if (stop == real(never)) return;
-        disc.x = real(disc.x) + real(disc.vx) * stop;
-        disc.y = real(disc.y) + real(disc.vy) * stop;
-        disc.tau = m + 1;
     }
 
     [[gnu::always_inline]] Real axis_stop(double x, double v, Real rest) const {

@@ -24,7 +24,7 @@ class Sides {
 public:
     static constexpr double never = std::numeric_limits<double>::infinity();
 
-    /// `effects` per micro-step.
+    /// `effects` per micro-step; `radius` is the largest one.
     Sides(double box_size, double radius, const Effects& effects);
 
     /// From now on times count from micro-step `n` of the scene.
@@ -68,15 +68,17 @@ private:
     static double velocity_of(const Disc& disc, std::size_t axis) { return axis == 0 ? disc.vx : disc.vy; }
     static double sign_of(std::size_t side) { return side % 2 == 0 ? 1 : -1; }
 
-    double wall_at(std::size_t side, double time) const {
-        return (places_[side] + speeds_[side] * time) - (0.5 * gravity_[side / 2] * time) * time;
+    /// For the centre of a disc of that radius that touches.
+    double wall_at(std::size_t side, double time, double radius) const {
+        const double place = (side % 2 == 0 ? radius : box_size_ - radius) + moved_[side];
+        return (place + speeds_[side] * time) - (0.5 * gravity_[side / 2] * time) * time;
     }
     /// Of the clock: exp(-c t) = 1 - c s.
     double slowing_at(double time) const { return 1 - effects_.drag * time; }
     double wall_velocity(std::size_t side, double time) const { return speeds_[side] - gravity_[side / 2] * time; }
     Approach approach(const Disc& disc, std::size_t side) const {
         const double sign = sign_of(side);
-        return {sign * (place_of(disc, side / 2) - wall_at(side, disc.tau)),
+        return {sign * (place_of(disc, side / 2) - wall_at(side, disc.tau, bodies_.of(disc.id).radius)),
                 sign * (velocity_of(disc, side / 2) - wall_velocity(side, disc.tau)), sign * gravity_[side / 2]};
     }
     static double delay_of(const Approach& approach);
@@ -84,8 +86,9 @@ private:
     void rebound(Disc& disc, std::size_t side, double restitution, double time) const;
 
     Effects effects_;
-    double radius_;
-    std::array<double, 4> starts_, places_, speeds_; ///< of the centre of a disc that touches: at the scene's start, at the last sync
+    double box_size_, radius_;
+    DiscBodies bodies_;
+    std::array<double, 4> moved_{}, speeds_{}; ///< moved: from the scene's start to the last sync
     std::array<double, 2> gravity_;
 };
 

@@ -133,5 +133,6 @@ extern template class BlockReplay<SingleContractedLaw>;
 extern template class BlockReplay<ElasticLaw>;
 extern template class BlockReplay<IdealGasLaw>;
 extern template class BlockReplay<InelasticLaw>;
+extern template class BlockReplay<MixedLaw>;
 
 } // namespace carrom

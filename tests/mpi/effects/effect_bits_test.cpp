@@ -14,56 +14,12 @@
 #include "carrom/effects/drag.hpp"
 #include "carrom/effects/falling_contact.hpp"
 #include "carrom/effects/obstacles.hpp"
-#include "effect_runs.hpp"
-#include "event_driven.hpp"
-#include "one_rule.hpp"
+#include "reference_bits.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
 
 namespace {
-
-template <class Reference> StateHash reference_hash(const TestScene& scene, const Communicator& world) {
-    StateHash hash;
-    if (world.is_root()) {
-        Reference reference(scene.setting, scene.discs);
-        reference.run_steps(scene.steps);
-        hash = hash_of(reference.discs());
-    }
-    world.broadcast(hash);
-    return hash;
-}
-
-/// The rule's own statement, windows of several lengths, and a run that is stopped and begun again on the way.
-void check_bits(const TestScene& scene, CollisionRule rule) {
-    const Communicator world = Communicator::world();
-    const StateHash expected = rule == CollisionRule::one ? reference_hash<reference::OneRuleReference>(scene, world)
-                                                          : reference_hash<reference::EventDrivenReference>(scene, world);
-    INFO(scene.name << (rule == CollisionRule::one ? ", rule one" : ", rule all"));
-    for (const std::optional<double>& window : {std::optional<double>{}, {0.3}, {2.7}}) {
-        Tuning tuning;
-        tuning.window = window;
-        tuning.rebalance_above = window ? 0 : 1.05;
-        CHECK(to_string(run(scene, rule, world, tuning).hash) == to_string(expected));
-    }
-    Simulation first = simulation_of(scene, rule, world);
-    advance_to(first, scene.steps / 2);
-    Scene again = scene_of(scene);
-    again.rule = rule;
-    Simulation second(again, {{first.discs().begin(), first.discs().end()}, first.micro_steps_done()}, world, {});
-    advance_to(second, scene.steps);
-    CHECK(to_string(second.totals().hash) == to_string(expected));
-}
-
-std::vector<TestScene> base_scenes() {
-    std::vector<TestScene> scenes{gas(300, 0.05, 0.8, 501), gas(196, 0.6, 0.3, 502), break_shot(5, 0.5, 3, 0.1), cradle(12, 0.5, 0.25, 1)};
-    for (TestScene& scene : scenes) {
-        scene.steps = 14;
-        scene.setting.sync_every = 5;
-        scene.setting.micro_steps = 2;
-    }
-    return scenes;
-}
 
 /// Gases with the bodies taken out of their way: discs that would overlap one are left out.
 std::vector<TestScene> obstructed_scenes() {

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Discs of several radii and masses: the references' bits, the plain law's where they are equal, and what is known of mixtures.
+#include <cmath>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "carrom/core/random_numbers.hpp"
+#include "carrom/parallel/exchange.hpp"
+#include "reference_bits.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+/// Discs of these classes at random without overlaps, the largest class first; speeds in largest diameters per step.
+TestScene mixture(const std::vector<DiscClass>& classes, double box_size, double speed, std::uint64_t seed) {
+    double largest = 0;
+    for (const DiscClass& one : classes) largest = std::max(largest, one.radius);
+    TestScene scene = empty_scene("mixture", box_size, largest, 14);
+    scene.setting.effects.classes = classes;
+    scene.setting.sync_every = 5;
+    scene.setting.micro_steps = 2;
+    Random random(seed);
+    for (const DiscClass& one : classes) {
+        for (std::uint64_t k = 0; k < one.count; ++k) {
+            for (bool is_free = false; !is_free;) {
+                const double x = random.uniform(one.radius, box_size - one.radius), y = random.uniform(one.radius, box_size - one.radius);
+                is_free = true;
+                for (const InputDisc& disc : scene.discs)
+                    is_free = is_free && std::hypot(disc.x - x, disc.y - y) > 1.0001 * (one.radius + scene.setting.radius_of(disc.id));
+                if (is_free) add_disc(scene, x, y);
+            }
+        }
+    }
+    set_speeds(scene, 2 * largest * speed, random);
+    return scene;
+}
+
+/// Three sizes, masses that are no function of them.
+std::vector<TestScene> mixtures() {
+    const std::vector<DiscClass> three{{12, 2.5, 3}, {60, 1, 1.3}, {150, 0.3, 0.07}};
+    std::vector<DiscClass> many; // more than are searched one by one
+    for (int k = 0; k < 40; ++k) many.push_back({1 + static_cast<std::uint64_t>(k % 3), 2 - 0.04 * k, 1 + 0.5 * (k % 4)});
+    return {mixture(three, 40, 0.6, 701), mixture(three, 31, 0.2, 702), mixture(many, 30, 0.4, 703)};
+}
+
+double mass_of(const TestScene& scene, DiscId id) { return scene.setting.mass_of(id); }
+
+} // namespace
+
+TEST_CASE("effects: mixtures have the references' bits, alone and with other effects") {
+    for (TestScene scene : mixtures()) {
+        Effects& effects = scene.setting.effects;
+        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
+        effects.contact = {ContactKind::restitution, 0.8, 0.002};
+        effects.sides[3].restitution = 0.7;
+        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
+        effects.gravity = {0.01, -0.03};
+        effects.sides[1] = {SideKind::moving, 1, 0, -0.03};
+        effects.sides[2] = {SideKind::thermal, 1, 0.3, 0};
+        effects.thermal_seed = 77;
+        scene.setting.thermal_draw = [](const Side& side, DiscId id, std::uint64_t count, std::size_t number) {
+            DiscRandom random(77, Purpose::thermal_wall, id, 4 * count + number);
+            const double away = std::sqrt(2 * side.temperature * random_exponential(random));
+            const double speed = std::sqrt(2 * side.temperature * random_exponential(random));
+            return std::array{away, speed * random_direction(random).x};
+        };
+        check_bits(scene, CollisionRule::all);
+    }
+}
+
+TEST_CASE("effects: classes of one radius and one mass are the plain law to the bit") {
+    const Communicator world = Communicator::world();
+    for (TestScene scene : base_scenes()) {
+        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+            INFO(scene.name);
+            scene.setting.effects = {};
+            const Totals plain = run(scene, rule, world);
+            const double r = scene.setting.radius;
+            for (const double mass : {1.0, 0.3}) {
+                scene.setting.effects.classes = {{5, r, mass}, {scene.discs.size() - 5, r, mass}};
+                const Totals mixed = run(scene, rule, world);
+                CHECK(to_string(mixed.hash) == to_string(plain.hash));
+                CHECK(mixed.overlapping_pairs == plain.overlapping_pairs);
+                CHECK(mixed.kinetic_energy == Approx(mass * plain.kinetic_energy).epsilon(1e-14));
+            }
+        }
+    }
+}
+
+// An elastic head-on collision, by the conservation of momentum and energy.
+TEST_CASE("effects: unequal discs exchange momentum as mechanics says, touching at the sum of their radii") {
+    const Communicator world = Communicator::world();
+    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+        TestScene scene = empty_scene("two discs", 64, 4, 12);
+        scene.setting.effects.classes = {{1, 4, 5}, {1, 1, 0.5}};
+        add_disc(scene, 20, 32, 1, 0);
+        add_disc(scene, 35, 32, 0, 0);
+        Simulation simulation = simulation_of(scene, rule, world);
+        std::vector<Collision> log;
+        simulation.log_to(&log);
+        advance_to(simulation, scene.steps);
+        for (const Disc& disc : simulation.discs()) {
+            const double expected = disc.id == 0 ? (5 - 0.5) / 5.5 : 2 * 5 / 5.5;
+            CHECK(disc.vx == Approx(expected).epsilon(1e-14));
+            CHECK(disc.x_at(simulation.clock()) == Approx(disc.id == 0 ? 30 + 2 * expected : 35 + 2 * expected).epsilon(1e-14));
+            CHECK(disc.pair_collisions == 1);
+        }
+        for (const Collision& collision : log) CHECK(collision.impulse == Approx(0.5 * 2 * 5 / 5.5).epsilon(1e-14));
+        const Totals totals = simulation.totals();
+        CHECK(totals.kinetic_energy == Approx(2.5).epsilon(1e-14));
+        CHECK(totals.momentum_x == Approx(5).epsilon(1e-14));
+    }
+}
+
+// Each class has kT = <m v^2> / 2 per disc. Looks are several collisions apart; N discs' energy over one look scatters by 1 / sqrt(N).
+TEST_CASE("effects: a mixture that starts with equal speeds comes to equal energies") {
+    const Communicator world = Communicator::world();
+    TestScene scene = mixture({{100, 1.5, 8}, {200, 1, 2}, {300, 0.5, 0.5}}, 80, 0.2, 704);
+    scene.setting.micro_steps = 1;
+    scene.setting.sync_every = 64;
+    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    const Totals start = simulation.totals();
+    advance_to(simulation, 1000);
+    std::vector<double> sums(3, 0);
+    constexpr int n_looks = 40;
+    for (int look = 0; look < n_looks; ++look) {
+        advance_to(simulation, simulation.step() + 50);
+        std::vector<double> energies(3, 0);
+        for (const Disc& disc : simulation.discs())
+            energies[disc.id < 100 ? 0 : disc.id < 300 ? 1 : 2] += 0.5 * mass_of(scene, disc.id) * (disc.vx * disc.vx + disc.vy * disc.vy);
+        for (const auto& part : world.all_gather(std::array{energies[0], energies[1], energies[2]}))
+            for (std::size_t k = 0; k < 3; ++k) sums[k] += part[k] / n_looks;
+    }
+    const Totals end = simulation.totals();
+    const double mean = end.kinetic_energy / 600;
+    CHECK(sums[0] / 100 == Approx(mean).epsilon(4 / std::sqrt(100.0 * n_looks)));
+    CHECK(sums[1] / 200 == Approx(mean).epsilon(4 / std::sqrt(200.0 * n_looks)));
+    CHECK(sums[2] / 300 == Approx(mean).epsilon(4 / std::sqrt(300.0 * n_looks)));
+    CHECK(end.kinetic_energy == Approx(start.kinetic_energy).epsilon(1e-12));
+    CHECK(end.overlapping_pairs == 0);
+    CHECK(end.pair_collisions > 600 * 20);
+}
