@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "limits.hpp"
 
@@ -191,7 +190,7 @@ void check_moving_walls(const Check& check) {
         if (sides[low].speed < 0) refuse(low, fmt::format("the {} wall would leave the box; let the {} one move out", side_names[low], side_names[low + 1]));
     const Extent end = extent_at(scene.effects, scene.box_size, static_cast<double>(scene.steps));
     const double width = end.x_high - end.x_low, height = end.y_high - end.y_low;
-    const double largest = std::max(end.x_high, end.y_high), covered = static_cast<double>(scene.n_discs) * std::numbers::pi * scene.radius * scene.radius;
+    const double largest = std::max(end.x_high, end.y_high), covered = scene.packing() * scene.box_size * scene.box_size;
     const bool is_full = scene.effects.contact.kind != ContactKind::none && covered > largest_packing * width * height;
     for (std::size_t side = 0; side < sides.size(); ++side) {
         if (sides[side].speed == 0) continue;
@@ -215,6 +214,11 @@ void fill_effects(const Check& check) {
     if (lose_energy_or_fall(effects)) fill_contact_time(check);
     else refuse_without(check, "effects.contact.contact_time", "discs, walls or obstacles of restitution, or gravity");
     if (!effects.are_any()) return;
+    const bool are_mixed = !effects.classes.empty();
+    if (are_mixed && effects.contact.kind == ContactKind::none)
+        check.refuse(*check.settings.find("effects.contact.kind"), "this version has no discs of several classes that pass through each other");
+    if (are_mixed && effects.obstacles.are_any())
+        add_problem(check.problems, {check.scene.name, 0}, "this version has no obstacles together with discs of several classes");
     for (const std::string_view key : {"time.precision", "time.arithmetic", "time.accuracy"}) {
         const Setting* setting = check.settings.find(key);
         const bool is_default = setting && std::holds_alternative<std::string>(setting->value) &&

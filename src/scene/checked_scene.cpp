@@ -7,6 +7,7 @@
 
 #include "carrom/scene/lattice.hpp"
 #include "check.hpp"
+#include "checked_classes.hpp"
 #include "checked_effects.hpp"
 #include "limits.hpp"
 
@@ -41,9 +42,10 @@ void check_listed_discs(const Check& check) {
     const Setting* list = check.settings.find("discs.list");
     if (!list) return;
     const auto& rows = std::get<std::vector<Row>>(list->value);
+    const DiscBodies bodies(check.scene.effects.classes, check.scene.radius);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (rows[i].numbers.empty()) continue;
-        if (const std::string text = disc_problem(check.scene.listed_discs[i], check.scene); !text.empty())
+        if (const std::string text = disc_problem(check.scene.listed_discs[i], check.scene, bodies.of(i).radius); !text.empty())
             add_problem(check.problems, rows[i].place, fmt::format("row {} of 'discs.list': {}", i + 1, text));
     }
 }
@@ -85,6 +87,15 @@ void fill_count(const Check& check) {
     const Setting* list = check.settings.find("discs.list");
     const std::size_t n_listed = list ? std::get<std::vector<Row>>(list->value).size() : 0;
     if (count) check.scene.n_discs = static_cast<std::uint64_t>(*count);
+    if (const Setting* classes = check.settings.find("discs.classes")) {
+        std::uint64_t n = 0;
+        for (const DiscClass& one : check.scene.effects.classes) n += one.count;
+        if (!check.settings.is_mentioned("discs.count")) check.scene.n_discs = n;
+        if (n > largest_count) check.refuse(*classes, fmt::format("'discs.classes' have {} discs; at most {} are possible", n, largest_count));
+        else if (n > 0 && count && n != check.scene.n_discs) check.refuse(*classes, fmt::format("'discs.classes' have {} discs, but 'discs.count' is {}", n, *count));
+        else if (n > 0 && list && n != n_listed) check.refuse(*list, fmt::format("'discs.list' has {} discs, but 'discs.classes' have {}", n_listed, n));
+        if (!list) return;
+    }
     if (!list) {
         check.refuse_missing("discs.count", "the number of discs");
         return;
@@ -100,16 +111,19 @@ void fill_count(const Check& check) {
 /// Whether the discs can fit at all. `radius_setting` gave the radius, or the packing it was taken from.
 bool check_sizes(const Check& check, const Setting& radius_setting) {
     Scene& scene = check.scene;
-    const double r = scene.radius, l = scene.box_size;
+    const auto& classes = scene.effects.classes;
+    double r = scene.radius;
+    const double l = scene.box_size, densest = classes.empty() ? largest_packing : 1;
     const std::size_t n_problems = check.problems.size();
     if (l < 2 * r) {
         check.refuse(radius_setting, fmt::format("a disc of radius {} does not fit into a box of side {}: L < 2 r", r, l));
-    } else if (scene.packing() > largest_packing) {
+    } else if (scene.packing() > densest) {
         check.refuse(radius_setting,
                      fmt::format("{} discs of radius {} cannot fit into a box of side {}: they would cover {:.4g} of it, "
                                  "and no packing covers more than {}",
-                                 scene.n_discs, r, l, scene.packing(), largest_packing));
+                                 scene.n_discs, r, l, scene.packing(), densest));
     }
+    for (const DiscClass& one : classes) r = std::min(r, one.radius);
     if (l / r > largest_box_in_radii) {
         const std::string text = fmt::format("discs of radius {} in a box of side {}: it is {:.4g} radii wide, and above {:.0e} positions "
                                              "are too coarse for contacts with walls", r, l, l / r, largest_box_in_radii);
@@ -126,7 +140,8 @@ bool fill_sizes(const Check& check) {
     Scene& scene = check.scene;
     const Setting* radius = check.settings.find("discs.radius");
     const Setting* packing = check.settings.find("discs.packing");
-    if (!check.settings.is_mentioned("discs.packing"))
+    const Setting* classes = classes_setting(check);
+    if (!check.settings.is_mentioned("discs.packing") && !classes)
         check.refuse_missing("discs.radius", "give a radius, or 'discs.packing' for the share of the box the discs cover");
     if (radius && packing) check.refuse(*packing, "'discs.radius' and 'discs.packing' exclude each other");
     check.refuse_missing("box.size", "the side of the box");
@@ -137,6 +152,12 @@ bool fill_sizes(const Check& check) {
         check.refuse(*packing, fmt::format("'discs.packing' must be greater than 0 and at most {}, not {}: equal discs cover no more of the plane",
                                           largest_packing, *share));
         share.reset();
+    }
+    if (classes) {
+        if (!box || scene.n_discs == 0 || radius || packing) return false;
+        scene.box_size = *box;
+        for (const DiscClass& one : scene.effects.classes) scene.radius = std::max(scene.radius, one.radius);
+        return scene.radius > 0 && check_sizes(check, *classes);
     }
     if (!box || scene.n_discs == 0 || (radius && packing) || (!given_radius && !share)) return false;
     scene.box_size = *box;
@@ -157,8 +178,9 @@ void check_generator(const Check& check) {
     if (scene.generator == Generator::lattice && !widest_lattice(scene.n_discs, scene.box_size, scene.radius)) {
         const Setting* setting = check.settings.find("discs.radius");
         if (!setting) setting = check.settings.find("discs.packing");
-        check.refuse(*setting, fmt::format("no lattice of {} discs of radius {} fits into a box of side {}", scene.n_discs,
-                                           scene.radius, scene.box_size));
+        if (!setting) setting = classes_setting(check);
+        check.refuse(*setting, fmt::format("no lattice of {} discs of radius {} fits into a box of side {}{}", scene.n_discs, scene.radius,
+                                           scene.box_size, scene.effects.classes.empty() ? "" : " (a lattice has room for the largest disc everywhere); list them"));
     }
 }
 
@@ -303,6 +325,7 @@ void fill_output(const Check& check) {
 void fill_scene(Scene& scene, const Settings& settings, Problems& problems) {
     const Check check{scene, settings, problems};
     fill_time(check);
+    fill_classes(check);
     fill_effects(check);
     fill_output(check);
     fill_generator(check);

@@ -99,6 +99,7 @@ std::vector<std::string> physical_differences(const Scene& there, const Scene& h
     c.compare("box.size", there.box_size, here.box_size);
     c.compare("discs.count", there.n_discs, here.n_discs);
     c.compare("discs.radius", there.radius, here.radius);
+    c.compare_list("discs.classes", there.effects.classes == here.effects.classes);
     c.compare("discs.generator", name_of(there.generator), name_of(here.generator));
     c.compare("discs.file", there.discs_file, here.discs_file);
     c.compare_list("discs.list", there.listed_discs == here.listed_discs);

@@ -18,7 +18,7 @@ public:
 };
 
 DiscReader::DiscReader(std::istream& stream, const Scene& scene)
-    : scene_(scene), place_(scene.discs_file.empty() ? scene.name : discs_path(scene)),
+    : scene_(scene), bodies_(scene.effects.classes, scene.radius), place_(scene.discs_file.empty() ? scene.name : discs_path(scene)),
       lines_(std::make_unique<Lines>(stream, scene.discs_file.empty() ? scene.lines_before_discs : 0)) {}
 
 DiscReader::~DiscReader() = default;
@@ -66,7 +66,7 @@ bool DiscReader::parse(std::string_view line, InputDisc& disc) {
         if (number) *numbers[i] = *number;
         else add(fmt::format("{} is not a number", quoted(words_[i + 1])));
     }
-    if (text.empty()) text = disc_problem(disc, scene_);
+    if (text.empty()) text = disc_problem(disc, scene_, bodies_.of(disc.id).radius);
     if (words_.size() > 5) add(fmt::format("{} after the 5 numbers 'id x y vx vy'", quoted(words_[5])));
     if (text.empty()) return true;
     refuse(std::move(text));

@@ -23,7 +23,8 @@ constexpr std::array keys = {
     Key{"discs.generator", ValueKind::text},     Key{"discs.file", ValueKind::text},
     Key{"discs.list", ValueKind::rows},          Key{"discs.speed", ValueKind::number},
     Key{"discs.velocities", ValueKind::text},    Key{"discs.seed", ValueKind::integer},
-    Key{"discs.streams", ValueKind::streams},    Key{"time.steps", ValueKind::integer},
+    Key{"discs.streams", ValueKind::streams},    Key{"discs.classes", ValueKind::classes},
+    Key{"time.steps", ValueKind::integer},
     Key{"time.collisions", ValueKind::text},     Key{"time.micro_steps", ValueKind::integer},
     Key{"time.sync_every", ValueKind::integer},  Key{"time.accuracy", ValueKind::number},
     Key{"time.precision", ValueKind::text},      Key{"time.arithmetic", ValueKind::text},
@@ -122,7 +123,7 @@ bool has_meaning_for(std::string_view generator, std::string_view key) {
     const bool speeds = key == "discs.speed" || key == "discs.velocities";
     const bool random = key == "discs.seed" || key == "discs.streams";
     if (generator == "file") return !speeds && !random;
-    if (generator == "ancestor") return !lists && !speeds;
+    if (generator == "ancestor") return !lists && !speeds && key != "discs.classes";
     return !lists;
 }
 

@@ -15,14 +15,14 @@ std::string velocity_problem(double component) {
     return {};
 }
 
-std::string disc_problem(const InputDisc& disc, const Scene& scene) {
+std::string disc_problem(const InputDisc& disc, const Scene& scene, double radius) {
     std::string all;
     const auto add = [&all](const std::string& text) {
         if (!text.empty()) all += (all.empty() ? "" : "; ") + text;
     };
     // L - r and whatever wrote the input round to within an ulp of L, at most 2^-52 L.
     const double slack = 0x1p-52 * scene.box_size;
-    const double low = scene.radius - slack, high = (scene.box_size - scene.radius) + slack;
+    const double low = radius - slack, high = (scene.box_size - radius) + slack;
     bool is_finite = true, is_inside = true;
     for (const double centre : {disc.x, disc.y}) {
         if (!std::isfinite(centre)) add(fmt::format("the position {} is not a finite number", centre));
@@ -32,7 +32,7 @@ std::string disc_problem(const InputDisc& disc, const Scene& scene) {
     const bool is_box_known = scene.box_size > 0;
     if (is_finite && !is_inside && is_box_known)
         add(fmt::format("disc {} at ({}, {}) is not inside the box: centres lie between r = {} and L - r = {}", disc.id,
-                        disc.x, disc.y, scene.radius, scene.box_size - scene.radius));
+                        disc.x, disc.y, radius, scene.box_size - radius));
     for (const double component : {disc.vx, disc.vy}) add(velocity_problem(component));
     return all;
 }

@@ -7,6 +7,11 @@
 namespace carrom {
 
 double Scene::packing() const {
+    if (!effects.classes.empty()) {
+        double sum = 0;
+        for (const DiscClass& one : effects.classes) sum += static_cast<double>(one.count) * std::numbers::pi * (one.radius / box_size) * (one.radius / box_size);
+        return sum;
+    }
     const double share = radius / box_size;
     return static_cast<double>(n_discs) * std::numbers::pi * share * share;
 }

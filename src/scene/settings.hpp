@@ -22,7 +22,7 @@ struct Place {
     std::int64_t line = 0;
 };
 
-/// One row of numbers of `discs.list` or of the obstacles' lists; empty where something else was written, a problem by then.
+/// One row of numbers of `discs.list`, four or six, or of the obstacles' lists; empty where something else was written, a problem by then.
 struct Row {
     Place place;
     std::vector<double> numbers;
@@ -35,10 +35,17 @@ struct StreamRows {
     std::vector<double> region, velocity;
 };
 
+/// One of `discs.classes` as written.
+struct ClassRow {
+    Place place;
+    std::size_t number = 0; ///< among the classes, from 1
+    double count = 0, radius = 0, mass = 1;
+};
+
 struct Setting {
     std::string key;
     Place place;
-    std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, std::vector<Row>, std::vector<StreamRows>> value;
+    std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, std::vector<Row>, std::vector<StreamRows>, std::vector<ClassRow>> value;
 };
 
 class Settings {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "toml_settings.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <sstream>
@@ -46,10 +47,11 @@ std::string kind_name(ValueKind kind) {
     case ValueKind::text: return "text";
     case ValueKind::words: return "an array of texts";
     case ValueKind::flag: return "true or false";
-    case ValueKind::rows: return "an array of [x, y, vx, vy]";
+    case ValueKind::rows: return "an array of [x, y, vx, vy] or [x, y, vx, vy, radius, mass]";
     case ValueKind::fixed_discs: return "an array of [x, y, radius]";
     case ValueKind::segments: return "an array of [x0, y0, x1, y1]";
     case ValueKind::streams: return "an array of tables, [[discs.streams]]";
+    case ValueKind::classes: return "an array of tables, [[discs.classes]]";
     }
     return {};
 }
@@ -80,7 +82,8 @@ std::optional<std::vector<double>> numbers_of(Walk& walk, const toml::node& node
 std::vector<Row> rows_of(Walk& walk, const toml::array& array, const std::string& key, std::size_t count, std::string_view numbers_wanted) {
     std::vector<Row> rows;
     for (const toml::node& node : array) {
-        const auto numbers = numbers_of(walk, node, count, fmt::format("row {} of '{}' must be {}", rows.size() + 1, key, numbers_wanted));
+        const bool has_body = key == "discs.list" && node.is_array() && node.as_array()->size() == 6;
+        const auto numbers = numbers_of(walk, node, has_body ? 6 : count, fmt::format("row {} of '{}' must be {}", rows.size() + 1, key, numbers_wanted));
         rows.push_back({walk.place_of(node.source()), numbers.value_or(std::vector<double>{})});
     }
     return rows;
@@ -117,6 +120,35 @@ std::optional<std::vector<StreamRows>> streams_of(Walk& walk, const toml::array&
     return streams;
 }
 
+/// The `number`-th class, from 1; nothing after a problem.
+std::optional<ClassRow> class_of(Walk& walk, const toml::table& table, std::size_t number) {
+    static constexpr std::array<std::string_view, 3> names = {"count", "radius", "mass"};
+    ClassRow row{walk.place_of(table.source()), number, 0, 0, 1};
+    const std::size_t n_problems = walk.problems.size();
+    const auto refuse = [&](const Place& place, const std::string& text) { add_problem(walk.problems, place, fmt::format("class {}: {}", number, text)); };
+    for (const auto& [key, node] : table) {
+        const auto value = as_number(node);
+        const Place place = walk.place_of(key.source());
+        if (std::find(names.begin(), names.end(), key.str()) == names.end())
+            refuse(place, fmt::format("a class has no {}{}", quoted(key.str()), guess(key.str(), names, '\'')));
+        else if (!value) refuse(place, fmt::format("its {} must be a number, not {}", key.str(), shown(node)));
+        else (key.str() == names[0] ? row.count : key.str() == names[1] ? row.radius : row.mass) = *value;
+    }
+    if (!table.contains(names[0]) || !table.contains(names[1])) refuse(row.place, "it needs count = ... and radius = ...; mass = 1 unless given");
+    if (walk.problems.size() > n_problems) return std::nullopt;
+    return row;
+}
+
+std::optional<std::vector<ClassRow>> classes_of(Walk& walk, const toml::array& array) {
+    std::vector<ClassRow> classes;
+    std::size_t number = 0;
+    for (const toml::node& node : array) {
+        if (!node.is_table()) return std::nullopt;
+        if (auto one = class_of(walk, *node.as_table(), ++number)) classes.push_back(std::move(*one));
+    }
+    return classes;
+}
+
 /// Whether `node` is of the kind and now stands in the settings.
 bool add_value(Walk& walk, const std::string& key, ValueKind kind, const toml::node& node) {
     walk.settings.mention(key);
@@ -148,6 +180,10 @@ bool add_value(Walk& walk, const std::string& key, ValueKind kind, const toml::n
         auto streams = streams_of(walk, *node.as_array());
         if (!streams) return false;
         setting.value = std::move(*streams);
+    } else if (kind == ValueKind::classes && node.is_array()) {
+        auto classes = classes_of(walk, *node.as_array());
+        if (!classes) return false;
+        setting.value = std::move(*classes);
     } else {
         return false;
     }

@@ -2,6 +2,7 @@
 #include "carrom/simulation/initial_state.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -66,14 +67,22 @@ std::vector<InputDisc> listed_discs(const Scene& scene, const Communicator& comm
     return {begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last)};
 }
 
+/// Coprime to n and near its golden section: sites taken in such strides mix classes, which come in the order of ids.
+std::uint64_t mixing_stride(std::uint64_t n) {
+    auto stride = static_cast<std::uint64_t>(0.6180339887498949 * static_cast<double>(n)) | 1;
+    while (std::gcd(stride, n) != 1) stride += 2;
+    return stride;
+}
+
 std::vector<InputDisc> lattice_discs(const Scene& scene, const Communicator& communicator) {
     const auto lattice = widest_lattice(scene.n_discs, scene.box_size, scene.radius);
     ensure(lattice.has_value(), "the scene was checked, yet its lattice does not fit");
     const auto [first, last] = share_of(scene, communicator);
     std::vector<InputDisc> discs;
     discs.reserve(last - first);
+    const std::uint64_t stride = scene.effects.classes.empty() ? 1 : mixing_stride(scene.n_discs);
     for (DiscId id = first; id < last; ++id) {
-        const Point place = shaken_site(*lattice, id, scene.seed);
+        const Point place = shaken_site(*lattice, id * stride % scene.n_discs, scene.seed); // below 2^64: ids are below 2^32
         discs.push_back({id, place.x, place.y, 0, 0});
     }
     return discs;

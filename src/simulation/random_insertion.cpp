@@ -2,6 +2,7 @@
 #include "random_insertion.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -21,7 +22,7 @@ namespace {
 
 constexpr std::uint64_t most_idle_rounds = 10000; ///< without any disc finding a place, before all starts anew
 constexpr std::uint64_t most_starts = 10;
-constexpr DiscId copy_id = ~DiscId{0};            ///< marks a neighbour's disc among the placed ones
+constexpr DiscId copy_mark = DiscId{1} << 63;     ///< on the id of a neighbour's disc among the placed ones
 
 /// A proposal, or the news of a place taken near a strip's edge.
 struct Notice {
@@ -34,31 +35,43 @@ class Insertion {
 public:
     Insertion(const Scene& scene, const Communicator& communicator, std::uint64_t start)
         : scene_(scene), communicator_(communicator), start_(start), diameter_(2 * scene.radius),
-          placed_grid_(grid()), proposal_grid_(grid()) {
+          bodies_(scene.effects.classes, scene.radius), placed_grid_(grid()), proposal_grid_(grid()) {
         if (scene.effects.obstacles.are_any()) obstacles_.emplace(scene.box_size, scene.radius, scene.effects);
-        const std::uint64_t n = scene.n_discs;
-        const std::uint64_t first = slab_begin(communicator.rank(), n, communicator.size());
-        const std::uint64_t last = slab_begin(communicator.rank() + 1, n, communicator.size());
-        for (std::uint64_t id = first; id < last; ++id) unplaced_.push_back(static_cast<std::uint32_t>(id));
         placed_.reserve(static_cast<std::size_t>(1.1 * share()) + 100);
     }
 
     /// The places, or nothing where the discs have jammed. **Collective.**
     std::optional<std::vector<InputDisc>> run() {
-        std::uint64_t n_left = scene_.n_discs, idle_rounds = 0;
+        std::vector<double> radii{scene_.radius};
+        for (const DiscClass& one : scene_.effects.classes) radii.push_back(one.radius);
+        std::sort(radii.begin(), radii.end(), std::greater<>());
+        radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
+        for (const double radius : radii) { // the largest first: they find no room among smaller ones
+            if (!place_all_of(radius)) return std::nullopt;
+        }
+        placed_.erase(std::remove_if(placed_.begin(), placed_.end(), [](const InputDisc& d) { return (d.id & copy_mark) != 0; }),
+                      placed_.end());
+        return std::move(placed_);
+    }
+
+private:
+    /// False where the discs have jammed. **Collective.**
+    bool place_all_of(double radius) {
+        const std::uint64_t n = scene_.n_discs;
+        const std::uint64_t first = slab_begin(communicator_.rank(), n, communicator_.size());
+        const std::uint64_t last = slab_begin(communicator_.rank() + 1, n, communicator_.size());
+        for (std::uint64_t id = first; id < last; ++id)
+            if (bodies_.of(id).radius == radius) unplaced_.push_back(static_cast<std::uint32_t>(id));
+        std::uint64_t n_left = communicator_.sum(std::uint64_t{unplaced_.size()}), idle_rounds = 0;
         for (std::uint64_t round = 0; n_left > 0 && idle_rounds < most_idle_rounds; ++round) {
             exchange(round);
             judge();
             const std::uint64_t n_before = std::exchange(n_left, communicator_.sum(std::uint64_t{unplaced_.size()}));
             idle_rounds = n_left < n_before ? 0 : idle_rounds + 1;
         }
-        if (n_left > 0) return std::nullopt;
-        placed_.erase(std::remove_if(placed_.begin(), placed_.end(), [](const InputDisc& d) { return d.id == copy_id; }),
-                      placed_.end());
-        return std::move(placed_);
+        return n_left == 0;
     }
 
-private:
     double share() const { return static_cast<double>(scene_.n_discs) / communicator_.size(); }
 
     PointGrid grid() const {
@@ -76,7 +89,7 @@ private:
 
     Point proposal(DiscId id, std::uint64_t round) const {
         const auto words = random_words(scene_.seed, Purpose::position, id, round, start_);
-        const double low = scene_.radius, high = scene_.box_size - scene_.radius;
+        const double radius = bodies_.of(id).radius, low = radius, high = scene_.box_size - radius;
         return {std::min(low + (high - low) * unit_number(words[0]), high),
                 std::min(low + (high - low) * unit_number(words[1]), high)};
     }
@@ -101,7 +114,7 @@ private:
 
     void judge() {
         const auto first_proposal = std::partition(proposals_.begin(), proposals_.end(), [](const Notice& n) { return n.is_placed; });
-        for (auto news = proposals_.begin(); news != first_proposal; ++news) place({copy_id, news->x, news->y, 0, 0});
+        for (auto news = proposals_.begin(); news != first_proposal; ++news) place({copy_mark | news->id, news->x, news->y, 0, 0});
         proposals_.erase(proposals_.begin(), first_proposal);
         // The verdicts do not depend on the order; memory does: columns of cells that are near in x are near in memory.
         std::sort(proposals_.begin(), proposals_.end(), [](const Notice& a, const Notice& b) { return a.x < b.x; });
@@ -123,15 +136,15 @@ private:
     bool is_refused(const Notice& notice) const {
         const Point at{notice.x, notice.y};
         if (obstacles_ && obstacles_->deepest_overlap(at.x, at.y, 0).body != ObstacleContact::no_body) return true;
-        return placed_grid_.any_near(at, [&](std::uint32_t k) { return overlaps(at, placed_[k].x, placed_[k].y); }) ||
+        return placed_grid_.any_near(at, [&](std::uint32_t k) { return overlaps(notice, placed_[k].id & ~copy_mark, placed_[k].x, placed_[k].y); }) ||
                proposal_grid_.any_near(at, [&](std::uint32_t k) {
-                   return proposals_[k].id < notice.id && overlaps(at, proposals_[k].x, proposals_[k].y);
+                   return proposals_[k].id < notice.id && overlaps(notice, proposals_[k].id, proposals_[k].x, proposals_[k].y);
                });
     }
 
-    bool overlaps(Point a, double x, double y) const {
-        const double dx = x - a.x, dy = y - a.y;
-        return dx * dx + dy * dy < diameter_ * diameter_;
+    bool overlaps(const Notice& a, DiscId other, double x, double y) const {
+        const double dx = x - a.x, dy = y - a.y, distance = bodies_.of(a.id).radius + bodies_.of(other).radius;
+        return dx * dx + dy * dy < distance * distance;
     }
 
     void place(const InputDisc& disc) {
@@ -149,9 +162,10 @@ private:
     std::optional<Obstacles> obstacles_;
     const Communicator& communicator_;
     std::uint64_t start_;
-    double diameter_;
+    double diameter_; ///< the largest
+    DiscBodies bodies_;
     PointGrid placed_grid_, proposal_grid_;
-    std::vector<InputDisc> placed_;        ///< own discs and, with copy_id, those within a diameter of the strip
+    std::vector<InputDisc> placed_;        ///< own discs and, with the mark, those within a diameter of the strip
     std::vector<std::uint32_t> unplaced_;  ///< discs whose last proposal was refused here
     std::vector<Notice> proposals_, news_;
 };

@@ -44,6 +44,7 @@ private:
     std::uint64_t most_discs() const; ///< N, or what it can be at most where the scene has no right one
 
     const Scene& scene_;
+    DiscBodies bodies_;
     std::string place_;
     std::unique_ptr<Lines> lines_;
     std::vector<bool> seen_; ///< by id, as far as ids have come
