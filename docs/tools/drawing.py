@@ -46,7 +46,7 @@ class Picture:
         is_first = self.discs is None
         if is_first:
             self._add_discs()
-        width = np.full(np.count_nonzero(seen), 2 * r)
+        width = 2 * np.broadcast_to(self.frames.radii, len(place))[seen]
         self.discs.set(widths=width, heights=width, angles=np.zeros(len(width)), offsets=place[seen], array=values[seen])
         self.axes.set_title(f"step {self.frames.steps[frame]}")
         if is_first:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Frames of Carrom's checkpoints and trajectories, for the tools beside this file."""
 import sys
+import tomllib
 
 import h5py
 import numpy as np
@@ -21,6 +22,20 @@ class Frames:
         self.size = float(self.discs["box/edges/value"][0, 0])
         is_checkpoint = "carrom/run" in self.file
         self.radius = float(self.file["carrom/run/radius" if is_checkpoint else "parameters/radius"][()])
+
+        self.radii = self._radii(is_checkpoint)
+
+    def _radii(self, is_checkpoint):
+        """Of each disc, or one number for all. A checkpoint has them in its scene's text."""
+        if "radius" in self.discs:
+            return self.discs["radius"][:]
+        if not is_checkpoint or not self.file["carrom/run/scene_name"].asstr()[()].endswith(".toml"):
+            return self.radius
+        discs = tomllib.loads(self.file["carrom/run/scene_text"].asstr()[()]).get("discs", {})
+        if "classes" in discs:
+            return np.concatenate([np.full(int(one["count"]), float(one["radius"])) for one in discs["classes"]])
+        rows = discs.get("list", [])
+        return np.array([row[4] for row in rows]) if rows and len(rows[0]) == 6 else self.radius
 
     def nearest(self, step):
         """The number of the frame of that step; the last one for None."""

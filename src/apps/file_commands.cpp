@@ -119,13 +119,13 @@ ExitCode info(const std::string& path, const Communicator& ranks) {
 }
 
 /// What no state of a run can be; empty if all is well.
-std::string flaw_of(const Disc& disc, const CheckpointHeader& header, const Extent& box) {
+std::string flaw_of(const Disc& disc, double radius, const CheckpointHeader& header, const Extent& box) {
     const double clock = header.clock();
     const Disc shown = header.frame.in_box(disc, clock);
     const double x = shown.x, y = shown.y;
     // A disc may stand a little beyond its wall for the rest of a micro-step, or by the rounding of L - r.
     const double slack = 1e-6 * header.radius + 0x1p-50 * header.box_size;
-    const double margin = header.radius - slack;
+    const double margin = radius - slack;
     if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(disc.vx) || !std::isfinite(disc.vy))
         return fmt::format("disc {} has a number that is not finite", disc.id);
     if (x < box.x_low + margin || x > box.x_high - margin || y < box.y_low + margin || y > box.y_high - margin)
@@ -139,10 +139,11 @@ void verify_checkpoint(const std::string& path, const Communicator& ranks) {
     const Checkpoint checkpoint = read_checkpoint(path, ranks);
     const Effects effects = scene_of(checkpoint.header, {}).effects; // a scene that cannot be read is no use either
     const Extent box = extent_at(effects, checkpoint.header.box_size, static_cast<double>(checkpoint.header.step));
+    const DiscBodies bodies(effects.classes, checkpoint.header.radius);
     std::string flaw;
     std::uint64_t sums[] = {0, 0};
     for (const Disc& disc : checkpoint.discs) {
-        if (flaw.empty()) flaw = flaw_of(disc, checkpoint.header, box);
+        if (flaw.empty()) flaw = flaw_of(disc, bodies.of(disc.id).radius, checkpoint.header, box);
         sums[0] += disc.wall_collisions;
         sums[1] += disc.pair_collisions;
     }

@@ -24,6 +24,10 @@ TrajectoryLayout layout_of(const Scene& scene) {
     const Extent end = extent_at(scene.effects, scene.box_size, static_cast<double>(scene.steps));
     layout.box_size = std::max({scene.box_size, end.x_high, end.y_high}); // walls may move
     layout.radius = scene.radius;
+    for (const DiscClass& one : scene.effects.classes) {
+        layout.radii.insert(layout.radii.end(), one.count, one.radius);
+        layout.masses.insert(layout.masses.end(), one.count, one.mass);
+    }
     layout.velocity_unit = static_cast<double>(scene.micro_steps);
     layout.has_position = wanted.has_position;
     layout.has_velocity = wanted.has_velocity;

@@ -67,6 +67,12 @@ void link(hid_t from, const char* name, hid_t to) {
     h5::checked(H5Lcreate_hard(from, name, to, name, H5P_DEFAULT, H5P_DEFAULT), name);
 }
 
+/// What never changes has no step and no time (H5MD 1.1, "time-independent data").
+void write_fixed(hid_t discs, const char* name, const std::vector<double>& values) {
+    if (values.empty()) return;
+    h5::write_whole(discs, name, std::array<hsize_t, 1>{values.size()}, H5T_IEEE_F64LE, values.data());
+}
+
 /// Steps and times stand once; every element links to them, as H5MD allows.
 void create_structure(hid_t file, const TrajectoryLayout& layout) {
     const std::vector<Field> fields = fields_of(layout);
@@ -74,6 +80,8 @@ void create_structure(hid_t file, const TrajectoryLayout& layout) {
     h5::write_scalar(h5::create_group(file, "parameters").id(), "radius", layout.radius);
     const h5::Group particles = h5::create_group(file, "particles");
     const h5::Group discs = h5::create_group(particles.id(), "discs");
+    write_fixed(discs.id(), "radius", layout.radii);
+    write_fixed(discs.id(), "mass", layout.masses);
     const h5::Group box = h5md::create_box(discs.id()), edges = h5::create_group(box.id(), "edges");
     create_growing(edges.id(), "step", H5T_STD_I64LE, {}, std::array<hsize_t, 1>{256}, 0);
     create_growing(edges.id(), "time", H5T_IEEE_F64LE, {}, std::array<hsize_t, 1>{256}, 0);

@@ -49,6 +49,36 @@ tail -n 400 "$test_folder/out" | cmp - "$test_folder/end" || complain 'other lin
 run 1 run fall.toml --restart kept --set effects.gravity.y=-0.01
 expect_code 2 'another gravity'
 expect_told "'effects.gravity.y' is -0.005 there and -0.01 here" 'another gravity'
+# Discs of several classes: no ancestor text, no lattice of one size; their radii and masses go into recordings, and come back with a restart.
+cat >mixture.toml <<'SCENE'
+[box]
+size = 60
+[[discs.classes]]
+count = 5
+radius = 4
+mass = 20
+[[discs.classes]]
+count = 300
+radius = 0.5
+[time]
+steps = 60
+SCENE
+run 3 run mixture.toml --quiet --report one.json --set output.trajectory.file=m.h5 --set output.checkpoint.folder=mixed
+expect_code 0 'a mixture'
+run 1 run mixture.toml --threads 2 --quiet --report one_again.json
+[ "$(json_value one.json state_hash)" = "$(json_value one_again.json state_hash)" ] || complain 'a mixture has other bits on other ranks'
+run 1 verify mixed/checkpoint-000000000060.h5
+expect_code 0 "the mixture's checkpoint"
+run 1 verify m.h5
+expect_code 0 "the mixture's trajectory"
+run 1 info mixed/checkpoint-000000000060.h5
+grep -q '5 discs of radius 4 and mass 20, 300 discs of radius 0.5 and mass 1' "$test_folder/out" || complain 'no classes in info'
+run 3 run --restart mixed --steps 90 --set time.collisions=all
+expect_code 2 'another rule'
+run 2 run --restart mixed --steps 90 --quiet --report rest.json
+run 1 run mixture.toml --steps 90 --quiet --report whole.json
+[ "$(json_value rest.json state_hash)" = "$(json_value whole.json state_hash)" ] || complain 'a mixture has another state hash after a restart'
+
 run 3 run fall.toml --check
 expect_code 2 'a checked run with effects'
 run 1 accuracy fall.toml

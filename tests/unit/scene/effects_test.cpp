@@ -106,6 +106,41 @@ TEST_CASE("Drag is read, and refused beside what it does not go with yet") {
     CHECK(has(problems_with({"effects.drag.rate=0.02", "box.right.kind=moving", "box.right.speed=1", all}), "no drag together with moving walls"));
 }
 
+TEST_CASE("Classes of discs are read, by table and by list") {
+    const std::string box = "[box]\nsize = 100\n[time]\nsteps = 10\n";
+    const std::string two = "[[discs.classes]]\ncount = 3\nradius = 2\nmass = 7\n[[discs.classes]]\ncount = 40\nradius = 0.5\n";
+    const Scene scene = read_scene(box + two, "s.toml");
+    CHECK(scene.effects.classes == std::vector<DiscClass>{{3, 2, 7}, {40, 0.5, 1}});
+    CHECK(scene.n_discs == 43);
+    CHECK(scene.radius == 2);
+    CHECK(scene.packing() == Approx(3.14159265358979 * (3 * 4 + 40 * 0.25) / 1e4));
+    CHECK(description(scene.effects) == "3 discs of radius 2 and mass 7, 40 discs of radius 0.5 and mass 1");
+
+    const Scene listed = read_scene(box + "[discs]\nlist = [[10, 10, 0, 0, 2, 3], [20, 20, 1, 0, 2, 3], [0.5, 50, 0, 0, 0.5, 1]]\n", "s.toml");
+    CHECK(listed.effects.classes == std::vector<DiscClass>{{2, 2, 3}, {1, 0.5, 1}});
+    CHECK(listed.listed_discs[1] == InputDisc{1, 20, 20, 1, 0});
+
+    const auto problems = [&](const std::string& text, const Texts& overrides = {}) {
+        std::string all;
+        for (const Problem& problem : problems_of([&] { read_scene(box + text, "s.toml", overrides); })) all += problem.text + '\n';
+        return all;
+    };
+    CHECK(has(problems(two, {"discs.radius=1"}), "'discs.radius' has no meaning where 'discs.classes' name radii"));
+    CHECK(has(problems(two, {"discs.count=44"}), "'discs.classes' have 43 discs, but 'discs.count' is 44"));
+    CHECK(has(problems(two, {"effects.contact.kind=none"}), "pass through each other"));
+    CHECK(has(problems(two, {"time.precision=single"}), "for scenes without effects"));
+    CHECK(has(problems(two, {"discs.generator=ancestor"}), "has no meaning") == false); // the override takes the classes away
+    CHECK(has(problems("[[discs.classes]]\ncount = 3\nradius = -2\n"), "class 1: the radius must be"));
+    CHECK(has(problems("[[discs.classes]]\ncount = 3.5\nradius = 2\n"), "class 1: its count must be a whole number"));
+    CHECK(has(problems("[[discs.classes]]\ncount = 3\nradius = 2\nmas = 1\n"), "class 1: a class has no"));
+    CHECK(has(problems("[[discs.classes]]\ncount = 3\n"), "class 1: it needs count"));
+    CHECK(has(problems("[[discs.classes]]\ncount = 3\nradius = 60\n"), "does not fit into a box"));
+    CHECK(has(problems("[discs]\nlist = [[10, 10, 0, 0, 2, 3], [20, 20, 1, 0]]\n"), "other rows have six numbers"));
+    CHECK(has(problems("[discs]\nlist = [[10, 10, 0, 0, 2, 0]]\n"), "row 1 of 'discs.list': the mass must be"));
+    CHECK(has(problems("[discs]\nlist = [[1, 10, 0, 0, 2, 3]]\n"), "is not inside the box"));
+    CHECK(physical_differences(scene, read_scene(box + two + "[[discs.classes]]\ncount = 1\nradius = 1\n", "s.toml")).size() == 2);
+}
+
 TEST_CASE("A restart cannot change effects") {
     const Texts there{"effects.gravity.y=-0.02", "time.collisions=all", "box.top.restitution=0.5"};
     const Texts here{"effects.gravity.y=-0.01", "time.collisions=all", "box.top.kind=thermal", "box.top.temperature=1"};
