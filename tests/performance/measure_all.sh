@@ -17,7 +17,8 @@ mkdir -p "$folder"
 say() { printf '%s: %s\n' "$(date +%T)" "$*" >&2; }
 
 targets=(carrom machine_peaks)
-have() { cmake --build "$build" --target help | grep -q "$1"; }
+known=$(cmake --build "$build" --target help)
+have() { grep -q "$1" <<<"$known"; }
 for target in simulated_cluster carrom_benchmarks; do
     if have "$target"; then targets+=("$target"); else say "$target cannot be built here: its part is left out"; fi
 done

@@ -43,11 +43,11 @@ def rate_text(row):
 
 def rates_part(rows):
     first = rows[0]
-    lines = [f"{first['machine']}; {first['compiler']}; version {first['version']}. Medians of {min(int(r['rounds']) for r in rows)} rounds or more, "
+    lines = [f"{first['machine']}; {first['compiler']}; version {first['version']}. Medians of {min(int(r['rounds']) for r in rows)} rounds, "
              "least and most beside them; ratios are taken within a round.", ""]
     body = [[r["case"], f"{r['ranks']} x {r['threads']}", f"{rate_text(r)} ({short(float(r['least']) / 1e6)} to {short(float(r['most']) / 1e6)})",
-             r["unit"], r["goal"], short(r["over_lammps"]), short(r["over_stream"], 2), short(r["bytes_per_disc"])] for r in rows if "generated" not in r["case"]]
-    lines.append(table(["case", "ranks x threads", "million per second", "of", "goal per second", "x LAMMPS", "of the stream's rate", "bytes a disc"], body))
+             r["unit"], r["goal"], short(r["over_lammps"]), short(r["over_stream"], 2), short(r["bytes_per_disc"]) if int(r["n_discs"]) >= 1_000_000 else ""] for r in rows if "generated" not in r["case"]]
+    lines.append(table(["case", "ranks x threads", "million per second", "of", "goal per second", "x LAMMPS", "of the stream's rate", "bytes a disc (from 1e6 discs on)"], body))
     for r in rows:
         if "generated" in r["case"]:
             lines += ["", f"The generated scene of 10,000 discs, 500 steps, start and end of the program included: {short(r['seconds'])} s (goal: {r['goal']})."]
@@ -88,7 +88,7 @@ def draw_cluster(rows, folder):
         if not series:
             continue
         figure, axes = new_axes("ranks, one a node (simulated)", "time of own computing / time of a step")
-        draw_series(axes, {name + (" (all ranks)" if kind == "strong" else ""): sorted(points) for name, points in series.items()})
+        draw_series(axes, {name.replace(" a rank", " discs a rank") + (" discs in all" if kind == "strong" else ""): sorted(points) for name, points in series.items()})
         axes.axhline(0.9, color="0.6", linewidth=1)
         axes.set_xscale("log", base=2)
         ticks = sorted({int(row["ranks"]) for row in rows})
@@ -133,11 +133,11 @@ def kernels_part(kernels, peaks):
 
 
 def draw_roofline(kernels, peaks, folder):
-    figure, axes = new_axes("operations per byte", "10^9 operations per second, one core")
+    figure, axes = new_axes("operations per byte", "$10^9$ operations per second, one core")
     low, high = 0.02, 64.0
     for name, gbytes, line in (("cache", peaks["stream_cache"], "--"), ("memory", peaks["stream_memory"], "-")):
         knee = peaks["single"] / gbytes
-        axes.plot([low, knee, high], [low * gbytes, peaks["single"], peaks["single"]], color="black", linestyle=line, linewidth=1.2, label=f"{name}: {gbytes:.0f} GB/s; single precision")
+        axes.plot([low, knee, high], [low * gbytes, peaks["single"], peaks["single"]], color="black", linestyle=line, linewidth=1.2, label=f"{name}, {gbytes:.0f} GB/s, then single precision")
     axes.axhline(peaks["double"], color="0.5", linestyle=":", label="double precision")
     shown = [kernel for kernel in kernels if kernel["flops"] > 0]
     for index, kernel in enumerate(shown):
@@ -145,7 +145,8 @@ def draw_roofline(kernels, peaks, folder):
         name = kernel.get("run_name", kernel["name"]).removesuffix("_median")
         axes.plot([x], [y], marker=STYLES[index % len(STYLES)][0], color="black", linestyle="none", markersize=6, markerfacecolor="white")
         is_right = x > 1
-        axes.annotate(name, (x, y), textcoords="offset points", xytext=(-7 if is_right else 7, -3 - 11 * (index % 2)), ha="right" if is_right else "left", fontsize=8)
+        axes.annotate(name, (x, y), textcoords="offset points", xytext=(-7 if is_right else 7, -3 - 11 * (index % 2)), ha="right" if is_right else "left", fontsize=8,
+                      bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8})
     axes.set(xscale="log", yscale="log", xlim=(low, high))
     axes.legend(frameon=False, fontsize=8, loc="lower right")
     figure.savefig(folder / "roofline.png")
