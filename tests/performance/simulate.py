@@ -103,13 +103,15 @@ def study(program, path, largest, n_workers):
               f"a rank and step ({time.monotonic() - start:.0f} s)", file=sys.stderr)
         return name, ranks, stands_for, found
 
+    results = []
     with concurrent.futures.ThreadPoolExecutor(n_workers) as workers:
-        results = sorted(workers.map(run, chosen), key=lambda result: result[:2])
-    with open(path, "w", encoding="utf-8", newline="") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(["case", "ranks", "stands_for", *fields, "ns_own", "ns_halo"])
-        for name, ranks, stands_for, found in results:
-            table.writerow([name, ranks, stands_for] + [found[field] for field in fields] + [NS_OWN, NS_HALO])
+        for finished in concurrent.futures.as_completed([workers.submit(run, case) for case in chosen]):
+            results = sorted([*results, finished.result()], key=lambda result: result[:2])
+            with open(path, "w", encoding="utf-8", newline="") as file: # anew each time: an end before the end loses nothing
+                table = csv.writer(file, lineterminator="\n")
+                table.writerow(["case", "ranks", "stands_for", *fields, "ns_own", "ns_halo"])
+                for name, ranks, stands_for, found in results:
+                    table.writerow([name, ranks, stands_for] + [found[field] for field in fields] + [NS_OWN, NS_HALO])
 
 
 def main():
