@@ -73,7 +73,7 @@ void Checkpoints::write(const Simulation& simulation, Recordings& recordings) {
     header.micro_steps_done = simulation.micro_steps_done();
     header.frame = simulation.frame();
     const std::string path = checkpoint_path(scene_.checkpoint->folder, header.step);
-    write_checkpoint(path, header, simulation.discs(), ranks_, n_threads_);
+    write_checkpoint(path, header, simulation.discs(), ranks_, n_threads_, recordings.samples());
     last_written_ = header.step;
     std::erase(kept_, path);
     kept_.push_back(path);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "carrom/core/errors.hpp"
+#include "carrom/core/stored_samples.hpp"
 #include "carrom/io/write_lock.hpp"
 #include "carrom/parallel/communicator.hpp"
 #include "carrom/scene/scene.hpp"
@@ -22,6 +23,7 @@ struct Loaded {
     Scene scene;
     std::vector<InputDisc> discs;      ///< of a run from its start
     std::optional<StoredState> stored; ///< what a restart goes on from
+    StoredSamples samples;             ///< the measurements that it goes on with
     std::vector<WriteLock> locks;      ///< rank 0's, on what is written to
 };
 

@@ -83,21 +83,30 @@ Obstacle obstacle_to_making(const std::string& folder) {
     return obstacle("cannot be made in " + place.string(), errno);
 }
 
+bool same_place(const std::string& a, const std::string& b) {
+    std::error_code ignored;
+    return std::filesystem::equivalent(a, b, ignored);
+}
+
 /// Makes nothing and locks nothing unless `may_begin`, and then only if all is right.
 void check_places(Claims& claims, const Scene& scene, const std::vector<NamedFile>& sources, std::vector<NamedFile> destinations, bool may_begin) {
     for (const NamedFile& file : recordings_of(scene)) destinations.push_back(file);
     claims.add(problems_with(destinations, sources));
-    constexpr const char *folder_key = "output.checkpoint.folder", *trajectory_key = "output.trajectory.file", *log_key = "output.collisions.file";
+    constexpr const char *folder_key = "output.checkpoint.folder", *tables_key = "output.measurements.folder", *trajectory_key = "output.trajectory.file",
+                         *log_key = "output.collisions.file";
     if (scene.trajectory) check_recording(claims, trajectory_key, scene.trajectory->file);
     if (scene.collisions) check_recording(claims, log_key, scene.collisions->file);
-    if (scene.checkpoint) {
+    const auto check_folder = [&](const char* key, const std::string& folder) {
         // A folder is made only for a run that nothing else keeps from running.
-        const std::string& folder = scene.checkpoint->folder;
         std::error_code ignored;
         const bool may_try = (may_begin && claims.is_clear()) || std::filesystem::exists(folder, ignored);
-        claims.check(folder_key, folder, may_try ? obstacle_to_folder(folder) : obstacle_to_making(folder));
-    }
+        claims.check(key, folder, may_try ? obstacle_to_folder(folder) : obstacle_to_making(folder));
+    };
+    if (scene.checkpoint) check_folder(folder_key, scene.checkpoint->folder);
+    if (scene.measurements) check_folder(tables_key, scene.measurements->folder);
     if (!may_begin || !claims.is_clear()) return;
+    const bool is_shared = scene.checkpoint && scene.measurements && same_place(scene.checkpoint->folder, scene.measurements->folder);
+    if (scene.measurements && !is_shared) claims.lock(tables_key, scene.measurements->folder, (std::filesystem::path(scene.measurements->folder) / ".carrom.lock").string());
     if (scene.checkpoint) claims.lock(folder_key, scene.checkpoint->folder, (std::filesystem::path(scene.checkpoint->folder) / ".carrom.lock").string());
     if (scene.trajectory) claims.lock(trajectory_key, scene.trajectory->file, scene.trajectory->file + ".lock");
     if (scene.collisions) claims.lock(log_key, scene.collisions->file, scene.collisions->file + ".lock");

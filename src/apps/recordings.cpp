@@ -9,6 +9,7 @@
 
 #include "carrom/parallel/sample_sort.hpp"
 #include "machine.hpp"
+#include "measured_files.hpp"
 
 namespace carrom {
 
@@ -57,7 +58,7 @@ LoggedCollision logged(const Collision& collision, std::int64_t micro_steps) {
     return entry;
 }
 
-Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_restart, const Communicator& ranks)
+Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_restart, StoredSamples samples, const Communicator& ranks)
     : scene_(scene), ranks_(ranks) {
     const std::int64_t step = simulation.step();
     if (scene_.trajectory) {
@@ -71,17 +72,25 @@ Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_resta
         else log_->begin();
         simulation.log_to(&collisions_);
     }
+    if (scene_.measurements) {
+        sampler_.emplace(scene_, simulation, ranks_);
+        if (is_restart) sampler_->go_on(std::move(samples));
+        sampler_->look();
+    }
     if (!is_restart) record(simulation);
 }
 
 std::int64_t Recordings::next_due(std::int64_t step) const {
-    if (!scene_.trajectory) return std::numeric_limits<std::int64_t>::max();
-    return (step / scene_.trajectory->every_steps + 1) * scene_.trajectory->every_steps;
+    std::int64_t next = std::numeric_limits<std::int64_t>::max();
+    if (scene_.trajectory) next = (step / scene_.trajectory->every_steps + 1) * scene_.trajectory->every_steps;
+    if (sampler_) next = std::min(next, sampler_->next_due(step));
+    return next;
 }
 
 void Recordings::record(const Simulation& simulation) {
     const std::int64_t step = simulation.step();
     if (log_) record_collisions();
+    if (sampler_) sampler_->look();
     if (trajectory_ && step % scene_.trajectory->every_steps == 0)
         trajectory_->append(step, simulation.shown(), simulation.clock());
     if (!scene_.checkpoint) commit_now_and_then();
@@ -106,6 +115,7 @@ void Recordings::record_collisions() {
 void Recordings::commit() {
     if (trajectory_) trajectory_->commit();
     if (log_) log_->commit();
+    if (sampler_) write_tables(scene_, sampler_->tables(), ranks_);
 }
 
 void Recordings::finish() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run records as it goes on, if its scene asks for it: a trajectory, and the collisions in their total order.
+// What a run records as it goes on, if its scene asks for it: a trajectory, the collisions in their total order, and
+// measurements, whose tables are written with each checkpoint and at the end.
 //
 // Where checkpoints are stored, recordings are committed before each; without checkpoints, after each addition.
 #pragma once
@@ -12,6 +13,7 @@
 #include "carrom/io/trajectory.hpp"
 #include "carrom/parallel/communicator.hpp"
 #include "carrom/scene/scene.hpp"
+#include "carrom/simulation/sampler.hpp"
 #include "carrom/simulation/simulation.hpp"
 #include "stopwatch.hpp"
 
@@ -24,7 +26,7 @@ class Recordings {
 public:
     /// Opens the files; cut back to the present step in a restart, else new ones with the present step as a first frame.
     /// From then on the simulation logs its collisions here: this must outlive its stepping. **Collective.**
-    Recordings(const Scene& scene, Simulation& simulation, bool is_restart, const Communicator& ranks);
+    Recordings(const Scene& scene, Simulation& simulation, bool is_restart, StoredSamples samples, const Communicator& ranks);
 
     /// The next step after `step` that is to be recorded.
     std::int64_t next_due(std::int64_t step) const;
@@ -38,6 +40,10 @@ public:
     /// The same, at the end of the run. **Collective.**
     void finish();
 
+    /// What a checkpoint has to keep of the measurements. **Collective.**
+    StoredSamples samples() const { return sampler_ ? sampler_->stored() : StoredSamples{}; }
+    std::vector<MeasuredTable> tables() const { return sampler_ ? sampler_->tables() : std::vector<MeasuredTable>{}; }
+
 private:
     void record_collisions();
     void commit_now_and_then();
@@ -46,6 +52,7 @@ private:
     const Communicator& ranks_;
     std::optional<Trajectory> trajectory_;
     std::optional<CollisionLog> log_;
+    std::optional<Sampler> sampler_;
     Stopwatch since_look_;
     double seconds_uncommitted_ = 0;    ///< on rank 0's clock
     std::vector<Collision> collisions_; ///< of this rank since they were last recorded

@@ -178,6 +178,7 @@ void load_restart(const RunOptions& options, Loaded& loaded, const Communicator&
     if (loaded.scene.steps < header.step)
         refuse(options.restart, fmt::format("the checkpoint is of step {}, and the run is to end at step {}", header.step, loaded.scene.steps));
     if (ranks.is_root() && !options.quiet) tell("going on from step {}\n", header.step);
+    loaded.samples = std::move(checkpoint->samples);
     loaded.stored = StoredState{std::move(checkpoint->discs), header.micro_steps_done};
 }
 

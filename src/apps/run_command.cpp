@@ -69,7 +69,7 @@ void tell_result(const RunOptions& options, const Scene& scene, const RunResult&
 /// Steps to the end of the scene, writing on the way what it asks for, or to where the run is told to stop: false then.
 /// A restart does not write the lines of its first step again. **Collective.**
 bool step_to_end(Simulation& simulation, RunResult& result, double& output_seconds, const RunOptions& options,
-                 const Scene& scene, bool is_restart, const StopSignals& signals, const Communicator& ranks) {
+                 const Scene& scene, bool is_restart, StoredSamples samples, const StopSignals& signals, const Communicator& ranks) {
     DiscLines lines(scene, options.output, options.digits, ranks);
     Progress progress(simulation.step(), scene.steps, ranks.is_root() && !options.quiet);
     Stopwatch watch;
@@ -80,7 +80,7 @@ bool step_to_end(Simulation& simulation, RunResult& result, double& output_secon
     };
     if (!is_restart || simulation.step() == scene.steps) write_if_due();
     Checkpoints checkpoints(scene, simulation.step(), is_restart, signals, ranks, result.threads);
-    Recordings recordings(scene, simulation, is_restart, ranks);
+    Recordings recordings(scene, simulation, is_restart, std::move(samples), ranks);
     bool must_stop = checkpoints.look_up(simulation, recordings);
     output_seconds += watch.lap();
     while (simulation.step() < scene.steps && !must_stop) {
@@ -96,6 +96,7 @@ bool step_to_end(Simulation& simulation, RunResult& result, double& output_secon
     }
     lines.close();
     recordings.finish();
+    result.tables = recordings.tables();
     return !must_stop;
 }
 
@@ -134,7 +135,7 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     if (ranks.is_root() && result.first_step == 0) warn_of_overlaps(scene, result.start);
     const double setup_seconds = watch.lap();
     double output_seconds = 0;
-    const bool is_done = step_to_end(simulation, result, output_seconds, options, scene, is_restart, *signals, ranks);
+    const bool is_done = step_to_end(simulation, result, output_seconds, options, scene, is_restart, std::move(loaded.samples), *signals, ranks);
     result.last_step = simulation.step();
     result.end = simulation.totals();
     result.averages = simulation.averages();

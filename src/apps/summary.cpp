@@ -116,6 +116,29 @@ nlohmann::ordered_json averages_json(const Averages& averages) {
             {"speed_kurtosis", estimate_json(averages.speed_kurtosis)}};
 }
 
+/// Columns of numbers; null where there is none.
+nlohmann::ordered_json tables_json(const std::vector<MeasuredTable>& tables) {
+    nlohmann::ordered_json all = nlohmann::ordered_json::object();
+    for (const MeasuredTable& table : tables) {
+        nlohmann::ordered_json columns = nlohmann::ordered_json::object();
+        columns["remarks"] = table.remarks;
+        for (std::size_t k = 0; k < table.columns.size(); ++k) {
+            nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
+            for (const std::vector<double>& row : table.rows) numbers.push_back(number_or_null(row[k]));
+            columns[table.columns[k]] = std::move(numbers);
+        }
+        all[table.name] = std::move(columns);
+    }
+    return all;
+}
+
+std::string measured_text(const Scene& scene, const std::vector<MeasuredTable>& tables) {
+    if (tables.empty()) return fmt::format("nothing yet: the first sample is that of step {}", scene.measurements->from_step);
+    std::string names;
+    for (const MeasuredTable& table : tables) names += (names.empty() ? "" : ", ") + table.name;
+    return fmt::format("{} in {} ({})", names, scene.measurements->folder, tables.front().remarks.front());
+}
+
 std::string plural(int count, const char* what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); }
 
 } // namespace
@@ -178,6 +201,7 @@ std::string summary_text(const Scene& scene, const RunResult& result) {
                                             deepest_overlap(scene, result), result.start.overlapping_pairs));
     const std::string height = scene.effects.gravity.is_any() ? fmt::format(" of motion, {:.17g} of height; the sum has", result.end.potential_energy) : ",";
     text += line("energy", fmt::format("{:.17g}{} changed by {:.2g} of itself", result.end.kinetic_energy, height, energy_drift(result)));
+    if (scene.measurements) text += line("measured", measured_text(scene, result.tables));
     text += line("momentum", fmt::format("{:.17g} {:.17g}", result.end.momentum_x, result.end.momentum_y));
     text += line("state hash", to_string(result.end.hash));
     return text;
@@ -228,6 +252,7 @@ std::string report_text(const Scene& scene, const RunResult& result) {
         {"peak_bytes_per_disc", result.peak_bytes_per_disc},
     };
     if (scene.effects.gravity.is_any()) report["potential_energy"] = result.end.potential_energy;
+    if (scene.measurements) report["measurements"] = tables_json(result.tables);
     if (scene.effects.are_any()) report["effects"] = description(scene.effects);
     // A scene's name is whatever bytes the file system allows; replaced where they are not UTF-8.
     return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';

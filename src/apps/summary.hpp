@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "carrom/scene/scene.hpp"
+#include "carrom/simulation/sampler.hpp"
 #include "carrom/simulation/simulation.hpp"
 
 namespace carrom {
@@ -18,6 +20,7 @@ struct RunResult {
     int threads = 1;                   ///< per rank; the largest where ranks differ
     double wall_seconds = 0;           ///< spent stepping, on the slowest rank; reading and writing are phases
     Averages averages;                 ///< since this process began
+    std::vector<MeasuredTable> tables; ///< of what the scene asks to be measured
     ReplayCounts replays;              ///< under the rule "all"
     PhaseSeconds phase_seconds;        ///< each on the rank where it took longest
     PhaseSeconds phase_imbalance;      ///< that over the mean of all ranks

@@ -351,7 +351,7 @@ template <class Law> void BlockReplay<Law>::Scratch::give_up(const Event& event)
 template <class Law> void BlockReplay<Law>::Scratch::log_event(const Event& event, double wx, double wy) {
     const bool at_wall = is_wall(event.q);
     outcome->log.push_back({event.time, event.generation, at_wall, discs[event.p].id, at_wall ? event.q - x_wall : discs[event.q].id,
-                            std::sqrt(wx * wx + wy * wy)});
+                            std::sqrt(wx * wx + wy * wy), event.q == x_wall ? wx : event.q == y_wall ? wy : 0});
 }
 
 template <class Law>

@@ -67,6 +67,13 @@ inline constexpr std::array<FrameField, 6> checkpoint_frame = {{{"frame_x", &Fra
                                                                 {"frame_slowing", &Frame::slowing},
                                                                 {"frame_clock", &Frame::clock}}};
 
+/// A dataset of /carrom/measurements: one number for each disc.
+struct SampleColumn {
+    const char* name;
+    double FirstPlace::*field;
+};
+inline constexpr std::array<SampleColumn, 2> sample_columns = {{{"first_x", &FirstPlace::x}, {"first_y", &FirstPlace::y}}};
+
 /// Sets the column's number of a disc by its 8 bytes.
 void set_bits(const Column& column, Disc& disc, std::uint64_t bits);
 hid_t type_of(const Column& column);

@@ -40,7 +40,7 @@ h5::Group create_frame(hid_t parent, const char* name, const CheckpointHeader& h
     return group;
 }
 
-void create_groups(hid_t file, const CheckpointHeader& header) {
+void create_groups(hid_t file, const CheckpointHeader& header, const StoredSamples& samples) {
     h5md::write_metadata(file, header.program_version);
     const h5::Group particles = h5::create_group(file, "particles");
     const h5::Group discs = h5::create_group(particles.id(), "discs");
@@ -56,6 +56,11 @@ void create_groups(hid_t file, const CheckpointHeader& header) {
     const h5::Group columns = h5::create_group(carrom.id(), "discs");
     for (const Column& column : checkpoint_columns)
         create_column(columns.id(), column.name, std::array<hsize_t, 1>{header.n_discs}, type_of(column));
+    if (samples.sums.empty()) return;
+    const h5::Group measurements = h5::create_group(carrom.id(), "measurements");
+    h5::write_whole(measurements.id(), "sums", std::array<hsize_t, 1>{samples.sums.size()}, H5T_NATIVE_INT64, samples.sums.data());
+    for (const SampleColumn& column : sample_columns)
+        if (samples.have_first_places) create_column(measurements.id(), column.name, std::array<hsize_t, 1>{header.n_discs}, H5T_NATIVE_DOUBLE);
 }
 
 /// Where a contiguous data set's numbers begin, counted from the front of the file.
@@ -67,7 +72,7 @@ std::uint64_t place_of(hid_t file, const std::string& name) {
 
 } // namespace
 
-std::vector<DiscTarget> disc_targets(const CheckpointHeader& header) {
+std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples) {
     std::vector<DiscTarget> targets;
     const Frame frame = header.frame;
     const double clock = header.clock(), k = static_cast<double>(header.micro_steps);
@@ -91,14 +96,20 @@ std::vector<DiscTarget> disc_targets(const CheckpointHeader& header) {
         add(std::string("/carrom/discs/") + column.name, sizeof(std::uint64_t), [&column](std::span<const Disc> discs, std::byte* out) {
             std::visit([&](auto field) { put_each(discs, out, [=](const Disc& disc) { return disc.*field; }); }, column.field);
         });
+    for (const SampleColumn& column : sample_columns) {
+        if (!samples.have_first_places) continue;
+        add(std::string("/carrom/measurements/") + column.name, sizeof(double), [&column, &places = samples.first_places](std::span<const Disc> discs, std::byte* out) {
+            put_each(discs, out, [&](const Disc& disc) { return places[disc.id - places.front().id].*column.field; });
+        });
+    }
     return targets;
 }
 
-HeaderPlaces create_structure(const std::string& path, CheckpointHeader header, std::vector<DiscTarget>& targets) {
+HeaderPlaces create_structure(const std::string& path, CheckpointHeader header, const StoredSamples& samples, std::vector<DiscTarget>& targets) {
     header.wall_collisions = header.pair_collisions = 0;
     header.state_hash = to_string(StateHash{});
     h5::File file = h5::create_file(path, seal_size);
-    create_groups(file.id(), header);
+    create_groups(file.id(), header, samples);
     for (DiscTarget& target : targets) target.part.begin = place_of(file.id(), target.part.name);
     const HeaderPlaces places = {place_of(file.id(), "/carrom/run/wall_collisions"), place_of(file.id(), "/carrom/run/pair_collisions"),
                                  place_of(file.id(), "/carrom/run/state_hash")};

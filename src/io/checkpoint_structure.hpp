@@ -24,7 +24,7 @@ struct DiscTarget {
 };
 
 /// The data sets of discs that a checkpoint has, in the order in which they stand in the file.
-std::vector<DiscTarget> disc_targets(const CheckpointHeader& header);
+std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples);
 
 /// What is known of a state only once all its discs have been seen.
 struct StateSums {
@@ -38,7 +38,7 @@ struct HeaderPlaces {
 };
 
 /// Makes the file and fills in where each target's rows begin. The header's counters and hash stay open. Of one rank; throws FileError.
-HeaderPlaces create_structure(const std::string& path, CheckpointHeader header, std::vector<DiscTarget>& targets);
+HeaderPlaces create_structure(const std::string& path, CheckpointHeader header, const StoredSamples& samples, std::vector<DiscTarget>& targets);
 
 /// Writes the values that were left open. Of one rank; throws FileError.
 void fill_in(const std::string& path, const HeaderPlaces& places, const StateSums& sums);

@@ -165,16 +165,16 @@ Sums write_discs(const std::string& path, const std::vector<DiscTarget>& targets
 } // namespace
 
 void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs, const Communicator& communicator,
-                      int n_threads) {
+                      int n_threads, const StoredSamples& samples) {
     header.n_discs = communicator.sum(std::uint64_t{discs.size()});
-    std::vector<DiscTarget> targets = disc_targets(header);
+    std::vector<DiscTarget> targets = disc_targets(header, samples);
     const PartialFile partial(path + ".partial", communicator);
     HeaderPlaces places;
     on_root(communicator, path, ExitCode::output_failure, [&] {
-        std::uint64_t bytes = bytes_of_structure;
+        std::uint64_t bytes = bytes_of_structure + samples.sums.size() * sizeof(std::int64_t);
         for (const DiscTarget& target : targets) bytes += target.part.rows * target.part.bytes_per_row;
         check_room(folder_of(path), bytes);
-        places = create_structure(partial.path(), header, targets);
+        places = create_structure(partial.path(), header, samples, targets);
         reserve(partial.path());
     });
     for (DiscTarget& target : targets) communicator.broadcast(target.part.begin);

@@ -80,4 +80,22 @@ std::optional<Choice> choice(const Check& check, std::string_view key, const Cho
     return std::nullopt;
 }
 
+/// True where the scene has a table of that name, or `--set` a key of it.
+inline bool has_table(const Check& check, std::string_view table) {
+    if (check.settings.is_mentioned(table)) return true;
+    for (const Setting& setting : check.settings.all())
+        if (setting.key.starts_with(table) && setting.key[table.size()] == '.') return true;
+    return false;
+}
+
+/// The name of a file or folder that an output cannot do without; empty after a problem.
+inline std::string destination(const Check& check, const std::string& key, std::string_view what) {
+    check.refuse_missing(key, what);
+    const Setting* setting = check.settings.find(key);
+    if (!setting) return {};
+    const std::string& path = std::get<std::string>(setting->value);
+    if (path.empty()) check.refuse(*setting, fmt::format("'{}' is empty", key));
+    return path;
+}
+
 } // namespace carrom

@@ -9,6 +9,7 @@
 #include "check.hpp"
 #include "checked_classes.hpp"
 #include "checked_effects.hpp"
+#include "checked_measurements.hpp"
 #include "limits.hpp"
 
 namespace carrom {
@@ -256,24 +257,6 @@ void fill_time(const Check& check) {
     }
 }
 
-/// True where the scene has a table of that name, or `--set` a key of it.
-bool has_table(const Check& check, std::string_view table) {
-    if (check.settings.is_mentioned(table)) return true;
-    for (const Setting& setting : check.settings.all())
-        if (setting.key.starts_with(table) && setting.key[table.size()] == '.') return true;
-    return false;
-}
-
-/// The name of a file or folder that an output cannot do without; empty after a problem.
-std::string destination(const Check& check, const std::string& key, std::string_view what) {
-    check.refuse_missing(key, what);
-    const Setting* setting = check.settings.find(key);
-    if (!setting) return {};
-    const std::string& path = std::get<std::string>(setting->value);
-    if (path.empty()) check.refuse(*setting, fmt::format("'{}' is empty", key));
-    return path;
-}
-
 void fill_trajectory(const Check& check) {
     static constexpr Choices<bool, 2> precisions = {{{"single", true}, {"double", false}}};
     if (!has_table(check, "output.trajectory")) return;
@@ -318,6 +301,7 @@ void fill_output(const Check& check) {
     const Setting* log = check.settings.find("output.collisions.file");
     if (log && check.scene.trajectory && check.scene.collisions && check.scene.trajectory->file == check.scene.collisions->file)
         check.refuse(*log, "'output.collisions.file' and 'output.trajectory.file' are the same file; each needs its own");
+    fill_measurements(check);
 }
 
 } // namespace
@@ -337,6 +321,7 @@ void fill_scene(Scene& scene, const Settings& settings, Problems& problems) {
         check_listed_discs(check);
         check_generator(check);
         check_room_for_effects(check);
+        check_measured_distance(check);
     } else {
         scene.box_size = scene.radius = 0; // unknown
     }

@@ -56,10 +56,17 @@ constexpr std::array keys = {
     Key{"output.trajectory.precision", ValueKind::text},
     Key{"output.trajectory.compression", ValueKind::integer},
     Key{"output.collisions.file", ValueKind::text},
+    Key{"output.measurements.folder", ValueKind::text},
+    Key{"output.measurements.quantities", ValueKind::words},
+    Key{"output.measurements.every_steps", ValueKind::integer},
+    Key{"output.measurements.from_step", ValueKind::integer},
+    Key{"output.measurements.bins", ValueKind::integer},
+    Key{"output.measurements.largest_distance", ValueKind::number},
+    Key{"output.measurements.largest_velocity", ValueKind::number},
 };
 
-constexpr std::array<std::string_view, 17> tables = {
-    "box", "discs", "time", "output", "output.checkpoint", "output.trajectory", "output.collisions", "effects", "effects.contact",
+constexpr std::array<std::string_view, 18> tables = {
+    "box", "discs", "time", "output", "output.checkpoint", "output.trajectory", "output.collisions", "output.measurements", "effects", "effects.contact",
     "effects.gravity", "effects.drag", "effects.thermal", "effects.obstacles", "box.left", "box.right", "box.bottom", "box.top"};
 
 std::string_view part_after(std::string_view key, std::size_t dot) { return key.substr(dot + 1, key.find('.', dot + 1) - dot - 1); }

@@ -27,8 +27,8 @@ double speed_unit_of(std::span<const Disc> own, int n_threads, const Communicato
     return std::ldexp(1.0, std::max(exponent, -1000) + 1);
 }
 
-/// The standard error of the mean of terms that follow each other in time. Terms may hang together over more than one
-/// block: the largest of the errors from single blocks and from joined ones (Flyvbjerg and Petersen 1989).
+} // namespace
+
 double standard_error(std::vector<double> terms) {
     double error = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t fewest = fewest_blocks; terms.size() >= fewest; fewest = fewest_joined_blocks) {
@@ -42,8 +42,6 @@ double standard_error(std::vector<double> terms) {
     }
     return error;
 }
-
-} // namespace
 
 Look look_at(std::span<const Disc> own, std::uint64_t n_discs, int n_threads, const Communicator& communicator) {
     Look look;

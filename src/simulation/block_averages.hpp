@@ -73,4 +73,9 @@ private:
 /// Gamma(n + 1/2) / Gamma(n), to a few ulp for any n >= 1.
 double gamma_ratio(double n);
 
+/// The standard error of the mean of terms that follow each other in time. Terms may hang together over more than one
+/// block: the largest of the errors from single blocks and from joined ones (Flyvbjerg and Petersen 1989); NaN
+/// where there are too few.
+double standard_error(std::vector<double> terms);
+
 } // namespace carrom

@@ -12,6 +12,7 @@
 #include "carrom/core/frame.hpp"
 #include "carrom/domain/strips.hpp"
 #include "carrom/simulation/simulation.hpp"
+#include "carrom/simulation/wall_impulses.hpp"
 
 namespace carrom {
 
@@ -34,8 +35,9 @@ public:
     virtual void advance_towards(std::int64_t last_step) = 0;
     /// Fills in what only the engine knows or finds: overlaps, rejected candidates, windows. **Collective.**
     virtual void add_to(Totals& totals) = 0;
-    /// Settles the discs where they are now, for a look at them; good until the next step. **Collective.**
-    virtual Settled settled() = 0;
+    /// Settles the discs where they are now, for a look at pairs within a diameter, or `reach` where that is more; good until
+    /// the next step. **Collective.**
+    virtual Settled settled(double reach = 0) = 0;
 
     /// **Collective.**
     virtual ReplayCounts replay_counts() const { return {}; }
@@ -49,9 +51,14 @@ public:
 
     /// See Simulation::log_to. Engines append what they carry out while `log_` is not null.
     void log_to(std::vector<Collision>* log) { log_ = log; }
+    /// See Simulation::add_impulses_to.
+    void add_impulses_to(WallImpulses* impulses) { impulses_ = impulses; }
 
 protected:
+    bool is_followed() const { return log_ != nullptr || impulses_ != nullptr; }
+
     std::vector<Collision>* log_ = nullptr;
+    WallImpulses* impulses_ = nullptr;
 };
 
 } // namespace carrom

@@ -206,7 +206,7 @@ template <class Law> void ExactEngine<Law>::make_blocks() {
 
 template <class Law> void ExactEngine<Law>::replay() {
     const PhaseClock::Scope scope(clock_, Phase::search);
-    const ReplayGround ground{discs_.all(), discs_.n_own(), &grid_, first_own_column_, end_own_column_, window_, log_ != nullptr};
+    const ReplayGround ground{discs_.all(), discs_.n_own(), &grid_, first_own_column_, end_own_column_, window_, is_followed()};
     const int n_reach = grid_.frame().n_reach;
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
     for (Block& block : blocks_) {
@@ -238,7 +238,7 @@ template <class Law> void ExactEngine<Law>::commit() {
     for (const Block& block : blocks_) {
         n_events_ += block.outcome.n_events;
         largest_speed_ = std::max(largest_speed_, block.outcome.largest_speed_at_end);
-        if (log_) log_events(block.outcome);
+        if (is_followed()) log_events(block.outcome);
     }
     for (Block& block : blocks_) block.is_replayed = false;
     last_duration_ = window_.duration();
@@ -249,9 +249,11 @@ template <class Law> void ExactEngine<Law>::log_events(const BlockOutcome& outco
     for (const LoggedEvent& event : outcome.log) {
         double mass = 1;
         if constexpr (Law::has_bodies) mass = law_.bodies().of(event.p).mass;
-        const double slowing = law_.sides().frame_at(event.time).slowing;
-        log_->push_back({last_sync, law_.sides().micro_steps_at(event.time), event.generation, event.p,
-                         event.is_wall ? Collision::wall : event.q, mass * event.impulse * slowing * static_cast<double>(micro_steps_)});
+        const double unit = mass * (law_.sides().frame_at(event.time).slowing * static_cast<double>(micro_steps_));
+        if (impulses_ && event.is_wall && event.q <= 1) impulses_->add(event.q, event.normal_impulse * unit);
+        if (log_)
+            log_->push_back({last_sync, law_.sides().micro_steps_at(event.time), event.generation, event.p,
+                             event.is_wall ? Collision::wall : event.q, event.impulse * unit});
     }
 }
 
@@ -295,9 +297,10 @@ template <class Law> Extent ExactEngine<Law>::extent() const { return law_.sides
 
 template <class Law> Frame ExactEngine<Law>::frame() const { return law_.sides().frame_at(time_); }
 
-template <class Law> void ExactEngine<Law>::settle_now() {
+template <class Law> void ExactEngine<Law>::settle_now(double least_reach) {
     migrate();
-    const double reach = reach_of({law_.box_size(), law_.radius() + law_.slack(), static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
+    const double touching = reach_of({law_.box_size(), law_.radius() + law_.slack(), static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
+    const double reach = std::max(touching, least_reach);
     discs_.fetch_halo(time_, reach, nullptr);
     const Extent box = extent();
     const double x_low = std::max(box.x_low, discs_.strips().low(communicator_.rank()) - reach);
@@ -313,8 +316,8 @@ template <class Law> ReplayCounts ExactEngine<Law>::replay_counts() const {
     return counts;
 }
 
-template <class Law> Settled ExactEngine<Law>::settled() {
-    settle_now();
+template <class Law> Settled ExactEngine<Law>::settled(double reach) {
+    settle_now(reach * (1 + 1e-6));
     return {discs_.population(), &grid_, &discs_.strips(), time_};
 }
 

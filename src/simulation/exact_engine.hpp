@@ -39,7 +39,7 @@ public:
 
     void advance_towards(std::int64_t last_step) override;
     void add_to(Totals& totals) override;
-    Settled settled() override;
+    Settled settled(double reach) override;
     ReplayCounts replay_counts() const override;
 
     std::int64_t micro_steps_done() const override { return n_micro_done_; }
@@ -80,7 +80,7 @@ private:
     void begin_interval();
     double clock_at(std::int64_t micro_steps) const;
     Extent extent() const;
-    void settle_now();
+    void settle_now(double least_reach = 0);
 
     Communicator communicator_;
     Tuning tuning_;

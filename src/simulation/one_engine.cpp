@@ -99,10 +99,11 @@ template <class Law> Window OneEngine<Law>::settle(int n_left) {
 
 template <class Law> void OneEngine<Law>::reorder() { grid_.reorder(discs_.all(), discs_.n_own(), tuning_.threads); }
 
-template <class Law> void OneEngine<Law>::settle_now() {
+template <class Law> void OneEngine<Law>::settle_now(double least_reach) {
     agree_on_speed();
     migrate(micro_);
-    const double reach = reach_of({law_.box_size(), law_.radius() + law_.slack(), static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
+    const double touching = reach_of({law_.box_size(), law_.radius() + law_.slack(), static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
+    const double reach = std::max(touching, least_reach);
     fetch_halo(micro_, reach);
     Window now;
     now.first_micro = micro_;
@@ -110,8 +111,8 @@ template <class Law> void OneEngine<Law>::settle_now() {
     build_grid(now, reach, reach);
 }
 
-template <class Law> Settled OneEngine<Law>::settled() {
-    settle_now();
+template <class Law> Settled OneEngine<Law>::settled(double reach) {
+    settle_now(reach * (1 + 1e-6));
     return {population(), &grid_, &discs_.strips(), static_cast<double>(micro_)};
 }
 
@@ -229,7 +230,7 @@ template <class Law> void OneEngine<Law>::apply(const Window& window, int m) {
     const bool is_last = m + 1 >= window.end_micro(); // nobody asks for these states any more
     {
         const PhaseClock::Scope scope(clock_, Phase::move);
-        if (log_) note_velocities(results);
+        if (is_followed()) note_velocities(results);
         const auto n_kept = static_cast<std::int64_t>(verdicts_.kept.size());
         double fastest = 0;
         hits_.resize(is_last ? 0 : 2 * verdicts_.kept.size());
@@ -267,7 +268,7 @@ template <class Law> void OneEngine<Law>::apply(const Window& window, int m) {
                 grid_.update_flight(index, results[index]);
             }
         }
-        if (log_) log_collisions(results, m);
+        if (is_followed()) log_collisions(results, m);
         largest_speed_ = std::max(largest_speed_, std::sqrt(fastest));
         speed_exceeded_ = largest_speed_ > window_speed_;
     }
@@ -292,7 +293,12 @@ template <class Law> void OneEngine<Law>::log_collisions(std::span<const Disc> r
         const double dx = (results[c.p].vx - unhit_[i].vx) * k, dy = (results[c.p].vy - unhit_[i].vy) * k;
         double mass = 1;
         if constexpr (Law::has_bodies) mass = law_.bodies().of(unhit_[i].id).mass;
-        log_->push_back({n_micro_done_ - micro_ + m, c.time, 0, unhit_[i].id,
+        if (impulses_ && c.is_wall()) {
+            const auto [at_x, at_y] = law_.met_walls(unhit_[i], m, c.time);
+            if (at_x) impulses_->add(0, mass * dx);
+            if (at_y) impulses_->add(1, mass * dy);
+        }
+        if (log_) log_->push_back({n_micro_done_ - micro_ + m, c.time, 0, unhit_[i].id,
                          c.is_wall() ? Collision::wall : results[c.q].id, mass * std::sqrt(dx * dx + dy * dy)});
     }
 }

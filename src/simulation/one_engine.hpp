@@ -32,7 +32,7 @@ public:
 
     void advance_towards(std::int64_t last_step) override;
     void add_to(Totals& totals) override;
-    Settled settled() override;
+    Settled settled(double reach) override;
 
     std::int64_t micro_steps_done() const override { return n_micro_done_; }
     std::span<const Disc> own() const override { return discs_.own(); }
@@ -42,8 +42,8 @@ public:
 
 private:
     Population population() const { return discs_.population(); }
-    /// Settles discs, halo and grid as they are now, for partners within a diameter. No state changes. **Collective.**
-    void settle_now();
+    /// Settles discs, halo and grid as they are now, for partners within a diameter or `reach`. No state changes. **Collective.**
+    void settle_now(double reach = 0);
     /// Brings the own discs into the order of the present grid's cells, which is then of no more use.
     void reorder();
     void run_window(int n_left);

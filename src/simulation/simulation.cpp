@@ -8,6 +8,7 @@
 #include "exact_engine.hpp"
 #include "measurements.hpp"
 #include "one_engine.hpp"
+#include "pair_distances.hpp"
 #include "state_check.hpp"
 
 namespace carrom {
@@ -98,6 +99,13 @@ double Simulation::clock() const { return engine_->clock(); }
 void Simulation::log_to(std::vector<Collision>* log) {
     log_ = log;
     engine_->log_to(log);
+}
+
+void Simulation::add_impulses_to(WallImpulses* impulses) { engine_->add_impulses_to(impulses); }
+
+void Simulation::count_pair_distances(double bin_width, std::span<std::uint64_t> counts) const {
+    const Settled now = engine_->settled(bin_width * static_cast<double>(counts.size()));
+    carrom::count_pair_distances(now, bin_width, n_threads_, counts);
 }
 
 Totals Simulation::totals() const {

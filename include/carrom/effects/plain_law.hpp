@@ -120,6 +120,16 @@ public:
         stop_at_wall(disc, m, t);
     }
 
+    struct MetWalls {
+        bool at_x = false, at_y = false;
+    };
+    /// Which walls that bounce is at, for those who ask; `disc` as it was before.
+    MetWalls met_walls(Disc disc, double m, double t) const {
+        const Real tx = axis_time(disc.x, disc.vx, disc.tau, m), ty = axis_time(disc.y, disc.vy, disc.tau, m);
+        advance(disc, real(m) + real(t));
+        return {tx == real(t) || touches_wall(disc.x, disc.vx), ty == real(t) || touches_wall(disc.y, disc.vy)};
+    }
+
     /// Collide the pair at in-step time t; `p` has the lower id.
     void collide(Disc& p, Disc& q, double m, double t) const {
         collide_at(p, q, real(m) + real(t));

@@ -17,6 +17,7 @@
 
 #include "carrom/core/disc.hpp"
 #include "carrom/core/frame.hpp"
+#include "carrom/core/stored_samples.hpp"
 #include "carrom/parallel/communicator.hpp"
 
 namespace carrom {
@@ -46,11 +47,12 @@ struct CheckpointHeader {
 /// disk, then renamed; with `n_threads` threads a rank, and one that writes. The header's last four numbers and its hash are filled in here. If it fails on any rank every
 /// rank throws CollectiveError, code 4, and an older file of that name is as it was. **Collective.**
 void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs, const Communicator& communicator,
-                      int n_threads = 1);
+                      int n_threads = 1, const StoredSamples& samples = {});
 
 struct Checkpoint {
     CheckpointHeader header;
     std::vector<Disc> discs; ///< this rank's share of the ids, see slabs.hpp
+    StoredSamples samples;
 };
 
 /// Reads a checkpoint. If it is damaged in any way, or none, every rank throws CollectiveError, code 2, with the reason

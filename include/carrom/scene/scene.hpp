@@ -62,6 +62,16 @@ struct CollisionOutput {
     std::string file;
 };
 
+/// `[output.measurements]`: what is sampled as the run goes on, and where the tables go.
+struct MeasurementOutput {
+    std::string folder;                     ///< as seen from where the program runs
+    std::int64_t every_steps = 10, from_step = 0;
+    bool wall_pressure = false, radial_distribution = false, velocities = false, density = false, displacement = false;
+    std::size_t bins = 100;
+    double largest_distance = 0;            ///< of the radial distribution
+    std::optional<double> largest_velocity; ///< of a component, per step; else five times its root mean square when sampling begins
+};
+
 struct Scene {
     std::string name;       ///< the file's name, "standard input" for `-`
     std::string text;       ///< the input's own text without the lines of discs, for checkpoints
@@ -96,6 +106,7 @@ struct Scene {
     std::optional<CheckpointOutput> checkpoint;
     std::optional<TrajectoryOutput> trajectory;
     std::optional<CollisionOutput> collisions;
+    std::optional<MeasurementOutput> measurements;
 
     std::vector<std::string> warnings; ///< legal but worth a line: K not a power of two, ...
 

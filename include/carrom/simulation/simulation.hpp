@@ -74,6 +74,7 @@ struct Collision {
 class BlockAverages;
 class Engine;
 class StateCheck;
+struct WallImpulses;
 
 class Simulation {
 public:
@@ -104,6 +105,12 @@ public:
 
     /// From now on every collision is appended to `log` of one rank, in no particular order; null ends that.
     void log_to(std::vector<Collision>* log);
+
+    /// From now on what discs hand over to the sides of the box is added to `impulses` of one rank; null ends that.
+    void add_impulses_to(WallImpulses* impulses);
+    /// Adds to counts[k] this rank's pairs of discs at distances from k to k + 1 times `bin_width`, now; over all ranks each
+    /// pair is counted once. The counts of all bins reach no further than half the box. **Collective.**
+    void count_pair_distances(double bin_width, std::span<std::uint64_t> counts) const;
 
     /// From now on every step is held to the invariants of check_failure.hpp: `advance_towards` goes one step at a time and
     /// throws CheckFailure on every rank when one is broken. `scene` must outlive the run, and be of the default precision

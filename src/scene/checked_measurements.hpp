@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The part of a scene's check that looks at `[output.measurements]`.
+#pragma once
+
+#include "check.hpp"
+
+namespace carrom {
+
+/// Keys whose quantity is not asked for are refused.
+void fill_measurements(const Check& check);
+/// How far the radial distribution may look, once the box and the discs' radius are known.
+void check_measured_distance(const Check& check);
+
+} // namespace carrom

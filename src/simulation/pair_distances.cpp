@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pair_distances.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "near_pairs.hpp"
+
+namespace carrom {
+
+void count_pair_distances(const Settled& settled, double bin_width, int n_threads, std::span<std::uint64_t> counts) {
+    const Population& population = settled.population;
+    const double bins_per_length = 1 / bin_width, n_bins = static_cast<double>(counts.size());
+    const int n_columns = settled.grid->frame().n_columns;
+#pragma omp parallel num_threads(n_threads)
+    {
+        std::vector<std::uint64_t> mine(counts.size(), 0);
+#pragma omp for schedule(dynamic, 1)
+        for (int column = 0; column < n_columns; ++column) {
+            visit_near_pairs_of(*settled.grid, column, [&](LocalIndex a, LocalIndex b) {
+                // The lower id comes first: a difference has the same bits on every rank, whose discs lie in any order.
+                if (population.discs[b].id < population.discs[a].id) std::swap(a, b);
+                if (a >= population.n_own) return; // the rank of the lower id counts the pair
+                const Disc &p = population.discs[a], &q = population.discs[b];
+                const double dx = q.x_at(settled.time) - p.x_at(settled.time), dy = q.y_at(settled.time) - p.y_at(settled.time);
+                const double bin = std::sqrt(dx * dx + dy * dy) * bins_per_length;
+                if (bin < n_bins) ++mine[static_cast<std::size_t>(bin)];
+            });
+        }
+#pragma omp critical(pair_distances)
+        for (std::size_t k = 0; k < counts.size(); ++k) counts[k] += mine[k];
+    }
+}
+
+} // namespace carrom
