@@ -11,6 +11,25 @@ namespace carrom {
 
 namespace {
 
+/// The scene's keys of effects, those that are not as they are by default.
+std::string effects_text(const Effects& effects) {
+    std::string text;
+    for (std::size_t k = 0; k < effects.sides.size(); ++k) {
+        const Side& side = effects.sides[k];
+        if (side.is_plain()) continue;
+        text += fmt::format("[box.{}]\n", side_names[k]);
+        if (side.kind == SideKind::thermal) text += fmt::format("kind = \"thermal\"\ntemperature = {}\n", side.temperature);
+        if (side.kind == SideKind::moving) text += fmt::format("kind = \"moving\"\nspeed = {} # and it has moved since the scene's start\n", side.speed);
+        if (side.restitution != 1) text += fmt::format("restitution = {}\n", side.restitution);
+    }
+    if (effects.gravity.is_any()) text += fmt::format("[effects.gravity]\nx = {}\ny = {}\n", effects.gravity.x, effects.gravity.y);
+    if (effects.drag != 0) text += fmt::format("[effects.drag]\nrate = {}\n", effects.drag);
+    if (effects.contact.kind == ContactKind::none) text += "[effects.contact]\nkind = \"none\"\n";
+    if (effects.contact.kind == ContactKind::restitution)
+        text += fmt::format("[effects.contact]\nkind = \"restitution\"\nrestitution = {}\ncontact_time = {}\n", effects.contact.restitution, effects.contact.contact_time);
+    return text;
+}
+
 std::string scene_text(const Scene& scene, const CheckFailure& failure, const std::string& discs_file) {
     std::string text = fmt::format("# {}\n# Discs as they were at step {}; their ids in {}:", failure.what(), failure.step - 1, scene.name);
     for (std::size_t i = 0; i < failure.neighbourhood.size(); ++i) text += fmt::format(" {} was {};", i, failure.neighbourhood[i].id);
@@ -18,7 +37,8 @@ std::string scene_text(const Scene& scene, const CheckFailure& failure, const st
     return text + fmt::format("\n[box]\nsize = {}\n[discs]\nradius = {}\ncount = {}\nfile = \"{}\"\n"
                               "[time]\nsteps = 1\nmicro_steps = {}\nsync_every = {}\ncollisions = \"{}\"\n",
                               scene.box_size, scene.radius, failure.neighbourhood.size(), discs_file, scene.micro_steps, scene.sync_every,
-                              scene.rule == CollisionRule::one ? "one" : "all");
+                              scene.rule == CollisionRule::one ? "one" : "all") +
+           effects_text(scene.effects);
 }
 
 std::string disc_lines(const std::vector<InputDisc>& discs) {

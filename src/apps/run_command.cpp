@@ -104,8 +104,6 @@ bool step_to_end(Simulation& simulation, RunResult& result, double& output_secon
 void check_every_step(Simulation& simulation, const Scene& scene) {
     if (scene.precision != Precision::double_ || scene.arithmetic != Arithmetic::stable)
         throw InputError({{"--check", 0, "its bounds are those of time.precision = \"double\" and time.arithmetic = \"stable\"; leave one out"}});
-    if (scene.effects.are_any())
-        throw InputError({{"--check", 0, "its invariants are those of scenes without effects; leave '[effects]' or --check out"}});
     simulation.check_every_step(scene);
 }
 

@@ -22,6 +22,7 @@ struct Settled {
     const CellGrid* grid = nullptr; ///< partners within a diameter are within its reach
     const Strips* strips = nullptr;
     double time = 0;                ///< since the last sync
+    Frame frame;                    ///< that the coordinates are in
 };
 
 class Engine {

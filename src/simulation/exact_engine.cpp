@@ -318,7 +318,7 @@ template <class Law> ReplayCounts ExactEngine<Law>::replay_counts() const {
 
 template <class Law> Settled ExactEngine<Law>::settled(double reach) {
     settle_now(reach * (1 + 1e-6));
-    return {discs_.population(), &grid_, &discs_.strips(), time_};
+    return {discs_.population(), &grid_, &discs_.strips(), time_, frame()};
 }
 
 template <class Law> void ExactEngine<Law>::add_to(Totals& totals) {

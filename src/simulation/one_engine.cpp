@@ -113,7 +113,7 @@ template <class Law> void OneEngine<Law>::settle_now(double least_reach) {
 
 template <class Law> Settled OneEngine<Law>::settled(double reach) {
     settle_now(reach * (1 + 1e-6));
-    return {population(), &grid_, &discs_.strips(), static_cast<double>(micro_)};
+    return {population(), &grid_, &discs_.strips(), static_cast<double>(micro_), {}};
 }
 
 template <class Law> void OneEngine<Law>::add_to(Totals& totals) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -95,7 +96,7 @@ void add_over(const Communicator& ranks, std::vector<std::uint64_t>&& mine, std:
 
 double share_of_ideal_pairs(double a, double b, double distance) {
     const double r = distance;
-    return 4 / (a * a * b * b) * r * r * (a * b * (0.25 * 3.14159265358979323846) - (a + b) * r / 3 + r * r / 8);
+    return 4 / (a * a * b * b) * r * r * (a * b * (0.25 * std::numbers::pi) - (a + b) * r / 3 + r * r / 8);
 }
 
 Sampler::Sampler(const Scene& scene, Simulation& simulation, const Communicator& ranks)

@@ -31,12 +31,12 @@ private:
 
 struct Sums {
     long double before = 0, change = 0;
-    double n_roundings = 0;
+    double n_roundings = 0, allowance = 0;
 };
 
 } // namespace
 
-std::optional<EnergyChange> worst_energy_change(std::span<const SharedEnergy> discs, std::span<const std::pair<DiscId, DiscId>> pairs) {
+std::optional<EnergyChange> worst_energy_change(std::span<const SharedEnergy> discs, std::span<const std::pair<DiscId, DiscId>> pairs, bool may_fall) {
     std::vector<SharedEnergy> sorted(discs.begin(), discs.end());
     std::sort(sorted.begin(), sorted.end(), [](const SharedEnergy& a, const SharedEnergy& b) { return a.disc < b.disc; });
     const auto place_of = [&](DiscId id) {
@@ -57,13 +57,14 @@ std::optional<EnergyChange> worst_energy_change(std::span<const SharedEnergy> di
         sum.before += sorted[i].before;
         sum.change += static_cast<long double>(sorted[i].after) - sorted[i].before;
         sum.n_roundings += 1 + n_collisions[i];
+        sum.allowance += sorted[i].allowance;
     }
     std::optional<EnergyChange> worst;
     for (std::size_t i = 0; i < sums.size(); ++i) {
         const double bound = 64 * 0x1p-53 * sums[i].n_roundings;
-        const auto change = static_cast<double>(std::fabs(sums[i].change));
+        const auto change = static_cast<double>(may_fall ? sums[i].change : std::fabs(sums[i].change));
         const auto before = static_cast<double>(sums[i].before);
-        if (change <= bound * before + std::numeric_limits<double>::min()) continue;
+        if (change <= bound * before + sums[i].allowance + std::numeric_limits<double>::min()) continue;
         const double share = change / before; // infinite where there was none
         if (!worst || share / bound > worst->share / worst->bound) worst = EnergyChange{sorted[i].disc, share, bound};
     }

@@ -59,7 +59,7 @@ void Simulation::advance_towards(std::int64_t last_step) {
 }
 
 void Simulation::check_every_step(const Scene& scene) {
-    check_ = std::make_unique<StateCheck>(scene, discs(), micro_steps_done(), communicator_);
+    check_ = std::make_unique<StateCheck>(scene, discs(), micro_steps_done(), communicator_, frame(), clock());
 }
 
 void Simulation::advance_checked() {

@@ -19,6 +19,7 @@ namespace carrom {
 namespace {
 
 constexpr double energy_bound = 1e-12;
+constexpr double motion_bound = 1e-13; // of speeds, by falling and by slowing down, from sync to sync
 constexpr double energy_bound_per_collision = 32 * 0x1p-53;
 
 /// One disc's part in a collision, for the rank that keeps its record.
@@ -34,16 +35,30 @@ bool is_finite(const Disc& disc) {
 
 double squared_speed(const Disc& disc) { return disc.vx * disc.vx + disc.vy * disc.vy; }
 
+/// The bits as they are stored where the box's coordinates are the discs' own.
+Disc as_seen(const Disc& disc, const Frame& frame, double time, double micro_steps_since_sync) {
+    if (!frame.is_moving) return disc;
+    Disc seen = frame.in_box(disc, time);
+    seen.tau = micro_steps_since_sync;
+    return seen;
+}
+
 } // namespace
 
-StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64_t micro_steps_done, const Communicator& communicator)
-    : scene_(scene), communicator_(communicator), first_id_(slab_begin(communicator.rank(), scene.n_discs, communicator.size())),
+StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64_t micro_steps_done, const Communicator& communicator,
+                       const Frame& frame, double time)
+    : scene_(scene), effects_(per_micro_step(scene.effects, static_cast<double>(scene.micro_steps))), communicator_(communicator), first_id_(slab_begin(communicator.rank(), scene.n_discs, communicator.size())),
       micro_steps_done_(micro_steps_done), micro_steps_before_(micro_steps_done),
       tolerance_(PlainLaw(scene.box_size, scene.radius).tolerance()) {
+    may_lose_energy_ = effects_.contact.kind == ContactKind::restitution;
+    for (const Side& side : effects_.sides) {
+        may_lose_energy_ = may_lose_energy_ || side.restitution < 1;
+        walls_give_energy_ = walls_give_energy_ || side.kind == SideKind::thermal || side.speed != 0;
+    }
     known_.resize(slab_begin(communicator.rank() + 1, scene.n_discs, communicator.size()) - first_id_);
     for (Known& known : known_) known.free_from = micro_steps_done;
     fail_if_found(first_not_finite(own), {});
-    fail_if_found(take_records(own), {});
+    fail_if_found(take_records(own, frame, time), {});
     before_ = known_;
     double square = 0;
     for (const Disc& disc : own) square = std::max(square, squared_speed(disc));
@@ -56,7 +71,8 @@ void StateCheck::look(const Settled& now, std::int64_t micro_steps_done, Log log
     micro_steps_before_ = std::exchange(micro_steps_done_, micro_steps_done);
     const std::span<const Disc> own = now.population.discs.first(now.population.n_own);
     fail_if_found(first_not_finite(own), log);
-    fail_if_found(take_records(own), log);
+    fail_if_found(take_records(own, now.frame, now.time), log);
+    note_speeds();
     take_log(log);
     fail_if_found(first_out_of_place(now), log);
     fail_if_found(first_wrong_count(), log);
@@ -73,7 +89,7 @@ StateCheck::Finding StateCheck::first_not_finite(std::span<const Disc> own) cons
 }
 
 /// Brings every disc to the rank that keeps its record. `value` of a finding: how many ranks, or places, own the disc.
-StateCheck::Finding StateCheck::take_records(std::span<const Disc> own) {
+StateCheck::Finding StateCheck::take_records(std::span<const Disc> own, const Frame& frame, double time) {
     std::vector<std::vector<Disc>> out(static_cast<std::size_t>(communicator_.size()));
     Finding finding;
     for (const Disc& disc : own) {
@@ -87,7 +103,7 @@ StateCheck::Finding StateCheck::take_records(std::span<const Disc> own) {
         for (const Disc& disc : in.from(k)) {
             const std::size_t i = disc.id - first_id_;
             ++n_owners[i];
-            known_[i].disc = disc;
+            known_[i].disc = as_seen(disc, frame, time, static_cast<double>(micro_steps_done_ % scene_.sync_every));
             known_[i].owner = static_cast<int>(k);
         }
     }
@@ -119,7 +135,8 @@ void StateCheck::take_log(Log log) {
 
 StateCheck::Finding StateCheck::first_out_of_place(const Settled& now) const {
     const GridFrame& frame = now.grid->frame();
-    const double allowed = blur(4);
+    const double allowed = scene_.effects.are_any() ? blur(64) : blur(4);
+    const Extent box = extent_at(effects_, scene_.box_size, static_cast<double>(micro_steps_done_));
     std::optional<Finding> first;
     const auto add = [&](Invariant invariant, DiscId id, double value, double bound) {
         if (!first || invariant < first->invariant) first = Finding{invariant, communicator_.rank(), 1, id, 0, value, bound};
@@ -128,7 +145,8 @@ StateCheck::Finding StateCheck::first_out_of_place(const Settled& now) const {
     for (std::size_t i = 0; i < now.population.n_own; ++i) {
         const Disc& disc = now.population.discs[i];
         const double x = disc.x_at(now.time), y = disc.y_at(now.time);
-        const double outside = std::max({scene_.radius - std::min(x, y), std::max(x, y) - (scene_.box_size - scene_.radius)});
+        const Disc seen = now.frame.in_box(disc, now.time);
+        const double outside = scene_.radius + std::max({box.x_low - seen.x, seen.x - box.x_high, box.y_low - seen.y, seen.y - box.y_high});
         if (outside > allowed) add(Invariant::in_box, disc.id, outside, allowed);
         if (now.strips->owner(x) != communicator_.rank()) add(Invariant::in_strip, disc.id, now.strips->owner(x), 0);
         const auto index = static_cast<LocalIndex>(i);
@@ -153,16 +171,23 @@ StateCheck::Finding StateCheck::first_wrong_count() const {
 }
 
 StateCheck::Finding StateCheck::first_other_motion() const {
+    const bool is_free = !effects_.gravity.is_any() && effects_.drag == 0; // velocities are rewritten by nothing then
+    const double left = slowing(), time = stretch();
+    const double gained = std::hypot(effects_.gravity.x, effects_.gravity.y) * (time + static_cast<double>(scene_.sync_every));
     for (std::size_t i = 0; i < known_.size(); ++i) {
         const Known& now = known_[i];
         const Disc &disc = now.disc, &then = before_[i].disc;
-        if (now.walls + now.pairs == 0 && (disc.vx != then.vx || disc.vy != then.vy))
-            return {Invariant::motion, now.owner, 1, first_id_ + i, 0, std::hypot(disc.vx - then.vx, disc.vy - then.vy), 0};
+        if (now.walls + now.pairs > 0) continue;
+        const double wx = disc.vx - (then.vx * left + effects_.gravity.x * time), wy = disc.vy - (then.vy * left + effects_.gravity.y * time);
+        const double bound = is_free ? 0 : motion_bound * (1 + n_syncs_since(micro_steps_before_)) * (std::sqrt(squared_speed(then)) + gained);
+        if (!(std::fabs(wx) <= bound && std::fabs(wy) <= bound))
+            return {Invariant::motion, now.owner, 1, first_id_ + i, 0, std::hypot(wx, wy), bound};
     }
     return {};
 }
 
 StateCheck::Finding StateCheck::first_overlap(const Settled& now) const {
+    if (effects_.contact.kind == ContactKind::none) return {}; // they pass through each other
     const bool is_one = scene_.rule == CollisionRule::one;
     const double bound = (is_one ? 1 : 2) * tolerance_ + blur(64);
     std::vector<Suspect> suspects;
@@ -200,19 +225,18 @@ StateCheck::Finding StateCheck::first_unexplained(std::vector<Suspect> suspects)
         const auto back = static_cast<double>(s.free_from - micro_steps_done_);
         const double dx = (s.q.x - s.p.x) + (s.q.vx - s.p.vx) * back, dy = (s.q.y - s.p.y) + (s.q.vy - s.p.vy) * back;
         const double gap = std::hypot(dx, dy) - 2 * scene_.radius;
-        const auto n_syncs = static_cast<double>(micro_steps_done_ / scene_.sync_every - s.free_from / scene_.sync_every);
-        if (gap <= blur(8 * (1 + n_syncs))) continue; // they were not apart yet, or their contact falls on that time
+        if (gap <= blur(8 * (1 + n_syncs_since(s.free_from)))) continue; // they were not apart yet, or their contact falls on that time
         const Finding next{Invariant::overlap, s.owner, 1, s.p.id, s.q.id, s.depth, s.bound};
         if (first.is_found == 0 || std::pair(next.disc, next.partner) < std::pair(first.disc, first.partner)) first = next;
     }
     return first;
 }
 
-StateCheck::Finding StateCheck::first_other_energy(std::span<const Disc> own, Log log) const {
+StateCheck::Finding StateCheck::first_other_energy(std::span<const Disc> own, Log log) {
     std::vector<SharedEnergy> mine, all;
     for (std::size_t i = 0; i < known_.size(); ++i) {
         if (known_[i].walls + known_[i].pairs == 0) continue;
-        mine.push_back({first_id_ + i, squared_speed(before_[i].disc), squared_speed(known_[i].disc)});
+        mine.push_back(shared_energy_of(i));
     }
     std::vector<std::pair<DiscId, DiscId>> pairs;
     stream_to_root(communicator_, mine, [&](std::span<const SharedEnergy> some) { all.insert(all.end(), some.begin(), some.end()); }, 10000);
@@ -223,24 +247,90 @@ StateCheck::Finding StateCheck::first_other_energy(std::span<const Disc> own, Lo
     }, 10000);
     Finding finding;
     if (communicator_.is_root()) {
-        if (const auto worst = worst_energy_change(all, pairs)) finding = {Invariant::energy, 0, 1, worst->disc, 0, worst->share, worst->bound};
+        if (const auto worst = worst_energy_change(all, pairs, may_lose_energy_)) finding = {Invariant::energy, 0, 1, worst->disc, 0, worst->share, worst->bound};
     }
-    const double n = static_cast<double>(scene_.n_discs);
-    const double bound = energy_bound + energy_bound_per_collision * (2 * static_cast<double>(n_pair_collisions_) / n);
-    const double drift = std::fabs(energy_of(own) / energy_ - 1);
-    if (energy_ > 0 && drift > bound && finding.is_found == 0) { // nobody in particular: the lowest disc that collided
-        const DiscId disc = mine.empty() ? first_id_ : mine.front().disc;
-        finding = {Invariant::energy, 0, known_.empty() ? 0 : 1, disc, 0, drift, bound};
-    }
+    const Finding of_all = first_other_total(own, mine);
+    if (finding.is_found == 0) finding = of_all;
     if (finding.is_found == 1) finding.rank = -1; // known to the rank that keeps the record
     return finding;
 }
 
+/// Of all discs together, since the check began; since the last look where effects take or give energy. **Collective.**
+StateCheck::Finding StateCheck::first_other_total(std::span<const Disc> own, const std::vector<SharedEnergy>& mine) {
+    if (walls_give_energy_) return {};
+    const double n = static_cast<double>(scene_.n_discs);
+    const double bound = energy_bound + energy_bound_per_collision * (2 * static_cast<double>(n_pair_collisions_) / n);
+    const double energy = energy_of(own);
+    double expected = energy_, scale = energy_, allowed = bound * energy_;
+    if (scene_.effects.are_any()) {
+        double gain = 0; // of few discs, if any: rounding has no say
+        for (const Known& known : known_) gain += resting_gain(known);
+        const double k = static_cast<double>(scene_.micro_steps);
+        const double fall = std::fabs(effects_.gravity.x) + std::fabs(effects_.gravity.y);
+        expected = energy_ * slowing() * slowing();
+        scale = energy_ + n * k * k * fall * scene_.box_size;
+        allowed = bound * scale + n * k * k * communicator_.max(gain);
+        energy_ = energy;
+    }
+    const double drift = may_lose_energy_ ? energy - expected : std::fabs(energy - expected);
+    if (!(scale > 0) || drift <= allowed) return {};
+    // Nobody in particular: the lowest disc that collided.
+    return {Invariant::energy, 0, known_.empty() ? 0 : 1, mine.empty() ? first_id_ : mine.front().disc, 0, drift / scale, allowed / scale};
+}
+
+/// A disc's energy before and after, with what effects explain taken out.
+SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
+    const Known& known = known_[i];
+    const double left = slowing();
+    SharedEnergy energy = {first_id_ + i, twice_energy(before_[i].disc) * left * left, twice_energy(known.disc)};
+    energy.allowance = resting_gain(known);
+    if (effects_.drag != 0) energy.allowance += energy_bound * energy.before;
+    if (walls_give_energy_ && known.walls > 0) energy.allowance = std::numeric_limits<double>::infinity();
+    return energy;
+}
+
+/// Under gravity with that of height, counted from far enough below that roundings of places are small against it.
+double StateCheck::twice_energy(const Disc& seen) const {
+    const double square = squared_speed(seen);
+    if (!effects_.gravity.is_any()) return square;
+    const double clock = seen.tau; // as it was seen
+    const auto height = [this](double place, double pull) { return (pull < 0 ? place : -place) + 2 * scene_.box_size; };
+    return square + 2 * (std::fabs(effects_.gravity.x) * height(seen.x_at(clock), effects_.gravity.x) +
+                         std::fabs(effects_.gravity.y) * height(seen.y_at(clock), effects_.gravity.y));
+}
+
+/// The guard of discs at rest: one that is pulled to a wall leaves it with half of what gravity gives in a contact time, at least.
+double StateCheck::resting_gain(const Known& known) const {
+    const double leaving = 0.5 * std::max(std::fabs(effects_.gravity.x), std::fabs(effects_.gravity.y)) * effects_.contact.contact_time;
+    return 1.01 * leaving * leaving * static_cast<double>(known.walls);
+}
+
+double StateCheck::slowing() const { return effects_.drag == 0 ? 1 : std::exp(-effects_.drag * stretch()); }
+
+double StateCheck::n_syncs_since(std::int64_t micro_step) const {
+    return static_cast<double>(micro_steps_done_ / scene_.sync_every - micro_step / scene_.sync_every);
+}
+
+/// Where effects make discs faster, what is known of the fastest grows with them. **Collective.**
+void StateCheck::note_speeds() {
+    if (!scene_.effects.are_any()) return;
+    double square = 0;
+    for (const Known& known : known_) square = std::max(square, squared_speed(known.disc));
+    fastest_ = std::max(fastest_, std::sqrt(communicator_.max(square)));
+}
+
+/// In the scene's units; with effects as the box sees the discs, height included.
 double StateCheck::energy_of(std::span<const Disc> own) const {
     Totals totals;
     totals.n_discs = scene_.n_discs;
+    std::vector<Disc> seen;
+    if (scene_.effects.are_any()) {
+        for (const Known& known : known_) seen.push_back(known.disc);
+        own = seen;
+    }
     measure_motion(own, nullptr, static_cast<double>(scene_.micro_steps), communicator_, totals);
-    return totals.kinetic_energy;
+    if (effects_.gravity.is_any()) measure_height(own, nullptr, scene_.effects.gravity, scene_.box_size, communicator_, totals);
+    return totals.kinetic_energy + totals.potential_energy;
 }
 
 int StateCheck::slab_of_disc(DiscId id) const { return slab_of(id, scene_.n_discs, communicator_.size()); }

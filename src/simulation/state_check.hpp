@@ -6,6 +6,9 @@
 // each other; an overlap is explained if the pair were closer than a diameter already when the last micro-step ended in
 // which one of the two had a collision, or when the check began. From then on both were free to collide, and flew
 // straight: had they been apart then, their contact was a candidate that nothing could have taken from them.
+// What effects do is allowed for: discs are looked at as the box sees them, fall and slow down as they should, may overlap
+// where they do not meet, and lose energy where collisions take some; what they have from thermal and moving walls is not known
+// beforehand, so the energy of discs that have met a wall is not held to anything there.
 // Price: 128 bytes a disc, every disc and collision sent once a step, collisions to rank 0.
 #pragma once
 
@@ -19,13 +22,15 @@
 #include "carrom/simulation/check_failure.hpp"
 #include "carrom/simulation/simulation.hpp"
 #include "engine.hpp"
+#include "shared_energy.hpp"
 
 namespace carrom {
 
 class StateCheck {
 public:
     /// Takes over what is there now as right. `scene` must outlive it; its arithmetic is the default's. **Collective.**
-    StateCheck(const Scene& scene, std::span<const Disc> own, std::int64_t micro_steps_done, const Communicator& communicator);
+    StateCheck(const Scene& scene, std::span<const Disc> own, std::int64_t micro_steps_done, const Communicator& communicator, const Frame& frame = {},
+               double time = 0);
 
     /// Looks at the end of a step; `log` has this rank's share of the collisions since the last look. If an invariant is
     /// broken every rank throws the same CheckFailure. **Collective.**
@@ -59,26 +64,37 @@ private:
     std::vector<InputDisc> around(const Finding& finding, Log log) const;
 
     Finding first_not_finite(std::span<const Disc> own) const;
-    Finding take_records(std::span<const Disc> own);
+    Finding take_records(std::span<const Disc> own, const Frame& frame, double time);
     void take_log(Log log);
     Finding first_out_of_place(const Settled& now) const;
     Finding first_wrong_count() const;
     Finding first_other_motion() const;
     Finding first_overlap(const Settled& now) const;
     Finding first_unexplained(std::vector<Suspect> suspects) const;
-    Finding first_other_energy(std::span<const Disc> own, Log log) const;
+    Finding first_other_energy(std::span<const Disc> own, Log log);
+    Finding first_other_total(std::span<const Disc> own, const std::vector<SharedEnergy>& mine);
+    SharedEnergy shared_energy_of(std::size_t i) const;
     double energy_of(std::span<const Disc> own) const;
+    double twice_energy(const Disc& seen) const;
+    double resting_gain(const Known& known) const;
+    /// What is left of a velocity after the last look's stretch of time, and how long that was.
+    double slowing() const;
+    double stretch() const { return static_cast<double>(micro_steps_done_ - micro_steps_before_); }
+    double n_syncs_since(std::int64_t micro_step) const;
+    void note_speeds();
 
     int slab_of_disc(DiscId id) const;
     /// How far rounding moves a disc: so many ulp(L), and what it flies while times are rounded.
     double blur(double n_ulps) const;
 
     const Scene& scene_;
+    Effects effects_; ///< times in micro-steps
+    bool may_lose_energy_ = false, walls_give_energy_ = false;
     Communicator communicator_;
     std::uint64_t first_id_ = 0;
     std::vector<Known> known_, before_; ///< of this rank's slab of ids: now, and at the last look
     std::int64_t micro_steps_done_ = 0, micro_steps_before_ = 0;
-    double tolerance_ = 0, fastest_ = 0, energy_ = 0; ///< no disc can become faster, for want of energy
+    double tolerance_ = 0, fastest_ = 0, energy_ = 0; ///< plain discs cannot become faster, for want of energy
     std::uint64_t n_pair_collisions_ = 0;             ///< logged on any rank since the check began
 };
 

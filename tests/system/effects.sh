@@ -79,8 +79,9 @@ run 2 run --restart mixed --steps 90 --quiet --report rest.json
 run 1 run mixture.toml --steps 90 --quiet --report whole.json
 [ "$(json_value rest.json state_hash)" = "$(json_value whole.json state_hash)" ] || complain 'a mixture has another state hash after a restart'
 
-run 3 run fall.toml --check
-expect_code 2 'a checked run with effects'
+run 3 run fall.toml --check --quiet --report checked.json
+expect_code 0 'a checked run with effects'
+[ "$(json_value checked.json state_hash)" = "$(json_value whole.json state_hash)" ] || complain 'another state hash with --check'
 run 1 accuracy fall.toml
 expect_code 2 'a study with effects'
 finish

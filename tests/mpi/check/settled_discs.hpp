@@ -16,8 +16,9 @@ struct SettledDiscs {
     CellGrid grid;
     Strips strips;
     double time = 0;
+    Frame frame;
 
-    Settled view() const { return {{discs, n_own}, &grid, &strips, time}; }
+    Settled view() const { return {{discs, n_own}, &grid, &strips, time, frame}; }
     /// Puts the discs into the cells they are in now; partners within a diameter are within reach.
     void sort_into_cells(double box_size, double radius);
 };

@@ -40,7 +40,7 @@ Scene checked_scene(const TestScene& test_scene, CollisionRule rule) {
 }
 
 std::unique_ptr<Engine> engine_of(const Scene& scene, StoredState state, const Communicator& world) {
-    if (scene.rule == CollisionRule::all) return std::make_unique<ExactEngine<PlainLaw>>(scene, std::move(state), world, Tuning{});
+    if (scene.rule == CollisionRule::all) return make_exact_engine(scene, std::move(state), world, {});
     return make_one_engine(scene, std::move(state), world, {});
 }
 
@@ -65,11 +65,40 @@ std::string failure_of(const TestScene& test_scene, CollisionRule rule, const Co
     return {};
 }
 
+TestScene gas_of(const Effects& effects) {
+    TestScene scene = gas(64, 0.4, 0.3, 901);
+    scene.setting.effects = effects;
+    return scene;
+}
+
+/// Effects that a check has to make allowance for; `is_for_one`: under the rule "one" too.
+struct NamedEffects {
+    const char* name;
+    Effects effects;
+    bool is_for_one;
+};
+std::vector<NamedEffects> all_effects() {
+    Effects none, lossy, lossy_walls, thermal, piston, falling, pile, slowed;
+    none.contact.kind = ContactKind::none;
+    lossy.contact = {ContactKind::restitution, 0.8, 0.001};
+    lossy_walls.sides[0].restitution = lossy_walls.sides[3].restitution = 0.6;
+    thermal.sides[1] = {SideKind::thermal, 1, 2, 0};
+    piston.sides[1] = {SideKind::moving, 1, 0, -0.05};
+    piston.sides[2] = {SideKind::moving, 0.9, 0, 0.03};
+    falling.gravity = {0.01, -0.03};
+    pile = lossy;
+    pile.gravity = {0, -0.1};
+    pile.sides[2].restitution = 0.3;
+    slowed.drag = 0.05;
+    return {{"no contact", none, true},  {"restitution", lossy, true},  {"lossy walls", lossy_walls, true}, {"a thermal wall", thermal, true},
+            {"pistons", piston, false}, {"gravity", falling, false}, {"a pile", pile, false},            {"drag", slowed, false}};
+}
+
 /// What the check sees after the first step of a gas, and what it says when that has been spoilt.
 class OneStep {
 public:
-    explicit OneStep(CollisionRule rule)
-        : world_(Communicator::world()), test_scene_(gas(64, 0.4, 0.3, 901)), scene_(checked_scene(test_scene_, rule)),
+    explicit OneStep(CollisionRule rule, const Effects& effects = {})
+        : world_(Communicator::world()), test_scene_(gas_of(effects)), scene_(checked_scene(test_scene_, rule)),
           engine_(engine_of(scene_, {share_of(test_scene_, world_), 0}, world_)), check_(scene_, engine_->own(), 0, world_) {
         engine_->log_to(&log);
         engine_->advance_towards(1);
@@ -174,6 +203,65 @@ TEST_CASE("check: nothing is wrong in the scenes of the tests") {
 
 TEST_CASE("check: nothing is wrong in a step that is not spoilt") {
     for (const CollisionRule rule : both) CHECK(!OneStep(rule).look().has_value());
+}
+
+TEST_CASE("check: nothing is wrong in scenes with effects") {
+    const Communicator world = Communicator::world();
+    for (const NamedEffects& named : all_effects()) {
+        for (const CollisionRule rule : both) {
+            if (rule == CollisionRule::one && !named.is_for_one) continue;
+            TestScene scene = gas_of(named.effects);
+            scene.steps = 60;
+            scene.setting.sync_every = 7;
+            scene.setting.micro_steps = 2;
+            Scene checked = checked_scene(scene, rule);
+            std::vector<InputDisc> mine;
+            for (const InputDisc& disc : scene.discs)
+                if (static_cast<int>(disc.id % static_cast<DiscId>(world.size())) == world.rank()) mine.push_back(disc);
+            Simulation simulation(checked, std::move(mine), world, {});
+            simulation.check_every_step(checked);
+            INFO(named.name << (rule == CollisionRule::one ? ", one" : ", all"));
+            CHECK_NOTHROW([&] { while (simulation.step() < scene.steps) simulation.advance_towards(scene.steps); }());
+        }
+    }
+}
+
+namespace {
+
+/// The invariant that a check of a step with effects finds broken once `spoil` has had its way; none if it finds nothing.
+std::optional<Invariant> found_in(const Effects& effects, const std::function<void(OneStep&)>& spoil) {
+    OneStep step(CollisionRule::all, effects);
+    spoil(step);
+    const auto failure = step.look();
+    return failure ? std::optional(failure->invariant) : std::nullopt;
+}
+
+} // namespace
+
+TEST_CASE("check: with effects, what is wrong is found all the same") {
+    const auto faster = [](DiscId id, double factor) {
+        return [=](OneStep& step) {
+            if (Disc* const disc = step.own(id)) disc->vx *= factor;
+        };
+    };
+    const auto free_disc_faster = [&](double factor) { return [=](OneStep& step) { faster(step.free_disc(), factor)(step); }; };
+    const auto collided_disc_faster = [&](double factor) { return [=](OneStep& step) { faster(step.first_pair().p, factor)(step); }; };
+    for (const NamedEffects& named : all_effects()) {
+        INFO(named.name);
+        CHECK(found_in(named.effects, [](OneStep&) {}) == std::nullopt);
+        CHECK(found_in(named.effects, free_disc_faster(1 + 1e-9)) == Invariant::motion);
+        CHECK(found_in(named.effects, [](OneStep& step) { if (step.own(7)) ++step.own(7)->wall_collisions; }) == Invariant::counters);
+        if (named.effects.contact.kind == ContactKind::none) continue;
+        CHECK(found_in(named.effects, collided_disc_faster(3)) == Invariant::energy);
+    }
+    Effects piston;
+    piston.sides[1] = {SideKind::moving, 1, 0, -0.5};
+    CHECK(found_in(piston, [](OneStep& step) { // inside the box as it was, outside as it is
+              if (Disc* const disc = step.own(7)) disc->x += step.scene().box_size - step.scene().radius - 0.2 - disc->x_at(step.settled.time);
+          }) == Invariant::in_box);
+    Effects falling;
+    falling.gravity.y = -0.03;
+    CHECK(found_in(falling, collided_disc_faster(1 + 1e-9)) == Invariant::energy);
 }
 
 TEST_CASE("check: a number that is not finite") {

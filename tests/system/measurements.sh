@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Tables of measurements: the same bytes on other ranks and threads and after a restart between two samples; what is
+# wrong with their keys; and nothing of them in the checkpoint of a run that does not ask.
+source "$CARROM_SOURCE_DIR/tests/system/common.sh"
+
+gas_scene 40 400 0.3 1 90 >gas.toml
+asked=(--set 'output.measurements.quantities=["wall_pressure","radial_distribution","velocities","density","displacement"]'
+       --set output.measurements.every_steps=7 --set output.measurements.from_step=10)
+for rule in one all; do
+    run 1 run gas.toml --quiet --set time.collisions=$rule "${asked[@]}" --set output.measurements.folder=whole_$rule --report $rule.json
+    expect_code 0 "rule $rule, one rank"
+    [ "$(ls whole_$rule | wc -l)" -eq 8 ] || complain "rule $rule: $(ls whole_$rule | tr '\n' ' ')"
+    grep -q '"radial_distribution": {' $rule.json || complain "rule $rule: no tables in the report"
+    run 3 run gas.toml --quiet --threads 2 --steps 50 --set time.collisions=$rule "${asked[@]}" --set output.measurements.folder=parts_$rule \
+        --set output.checkpoint.folder=kept_$rule
+    expect_code 0 "rule $rule, three ranks"
+    run 2 run gas.toml --quiet --set time.collisions=$rule "${asked[@]}" --set output.measurements.folder=parts_$rule \
+        --set output.checkpoint.folder=kept_$rule --restart latest
+    expect_code 0 "rule $rule, the second stretch"
+    diff -r whole_$rule parts_$rule >/dev/null || complain "rule $rule: other tables: $(diff -rq whole_$rule parts_$rule)"
+done
+run 1 verify kept_all/checkpoint-000000000050.h5
+expect_code 0 'a checkpoint with measurements'
+
+run 1 run gas.toml --quiet --steps 50 --set time.collisions=all --set output.checkpoint.folder=plain
+grep -q measurements plain/checkpoint-000000000050.h5 && complain 'a checkpoint knows of measurements that nobody asked for'
+
+run 3 run gas.toml --restart kept_all --set output.measurements.bins=10
+expect_code 2 'other bins'
+expect_told 'begin anew with output.measurements.from_step = 50' 'other bins'
+run 1 run gas.toml --set output.measurements.every_steps=5 --set 'output.measurements.quantities=["densty"]'
+expect_code 2 'wrong keys'
+expect_told "'output.measurements.folder' is missing" 'wrong keys'
+expect_told 'did you mean "density"?' 'wrong keys'
+run 1 run gas.toml --set output.measurements.folder=x --set 'output.measurements.quantities=["density"]' --set output.measurements.largest_distance=3
+expect_code 2 'a key of what is not asked for'
+run 1 run gas.toml --set output.measurements.folder=x --set 'output.measurements.quantities=["radial_distribution"]' --set output.measurements.largest_distance=30
+expect_code 2 'too far'
+expect_told 'cannot reach 30' 'too far'
+touch file
+run 1 run gas.toml "${asked[@]}" --set output.measurements.folder=file
+expect_code 2 'a file in the place of the folder'
+[ ! -e x ] || complain 'a refused run has made a folder'
+finish
