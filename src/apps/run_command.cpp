@@ -138,6 +138,7 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     result.end = simulation.totals();
     result.averages = simulation.averages();
     result.replays = simulation.replay_counts();
+    if (scene.effects.are_any() && ranks.is_root()) result.effect_costs = effect_costs(scene, simulation.discs());
 
     PhaseSeconds phases = simulation.phase_seconds();
     phases.emplace_back("set-up", setup_seconds);

@@ -91,6 +91,7 @@ std::string pressure_text(const Averages& averages) {
 
 std::string speeds_text(const Scene& scene, const Averages& averages) {
     const auto n = static_cast<double>(scene.n_discs);
+    if (scene.effects.are_any()) return fmt::format("mean {}; kurtosis {}", estimate_text(averages.mean_speed), estimate_text(averages.speed_kurtosis));
     return fmt::format("mean {}; kurtosis {}, {:.5g} in equilibrium", estimate_text(averages.mean_speed),
                        estimate_text(averages.speed_kurtosis), 2 * n / (n + 1));
 }
@@ -130,6 +131,30 @@ nlohmann::ordered_json tables_json(const std::vector<MeasuredTable>& tables) {
         all[table.name] = std::move(columns);
     }
     return all;
+}
+
+/// Of the processor time that stepping has taken.
+double time_share_of(const RunResult& result, const EffectCost& cost) {
+    return time_share(cost, result.end.wall_collisions - result.start.wall_collisions, result.end.pair_collisions - result.start.pair_collisions,
+                      result.wall_seconds * result.ranks * result.threads);
+}
+
+std::string effects_text(const RunResult& result) {
+    std::string text;
+    for (const EffectCost& cost : result.effect_costs)
+        text += fmt::format("{}{} ({:.2g} % of the time, {:g} bytes per disc)", text.empty() ? "" : "; ", cost.name, 100 * time_share_of(result, cost), cost.bytes_per_disc);
+    return text;
+}
+
+nlohmann::ordered_json effect_costs_json(const RunResult& result) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const EffectCost& cost : result.effect_costs)
+        list.push_back({{"effect", cost.name},
+                        {"time_share", time_share_of(result, cost)},
+                        {"nanoseconds_per_wall_collision", cost.nanoseconds_per_wall},
+                        {"nanoseconds_per_pair_collision", cost.nanoseconds_per_pair},
+                        {"bytes_per_disc", cost.bytes_per_disc}});
+    return list;
 }
 
 std::string measured_text(const Scene& scene, const std::vector<MeasuredTable>& tables) {
@@ -177,7 +202,7 @@ std::string summary_text(const Scene& scene, const RunResult& result) {
                                       scene.n_discs, scene.radius, scene.box_size, scene.packing()));
     text += line("rule", fmt::format("collisions = \"{}\", micro_steps = {}, sync_every = {}{}", name_of(scene.rule),
                                      scene.micro_steps, scene.sync_every, arithmetic_text(scene)));
-    if (scene.effects.are_any()) text += line("effects", description(scene.effects));
+    if (scene.effects.are_any()) text += line("effects", result.effect_costs.empty() ? description(scene.effects) : effects_text(result));
     text += line("steps", fmt::format("{} in {:.4g} s: {:.4g} steps/s, {:.4g} ns per disc-step", n_steps,
                                       result.wall_seconds, ratio(static_cast<double>(n_steps), result.wall_seconds),
                                       ns_per_disc_step(result)));
@@ -254,6 +279,7 @@ std::string report_text(const Scene& scene, const RunResult& result) {
     if (scene.effects.gravity.is_any()) report["potential_energy"] = result.end.potential_energy;
     if (scene.measurements) report["measurements"] = tables_json(result.tables);
     if (scene.effects.are_any()) report["effects"] = description(scene.effects);
+    if (scene.effects.are_any()) report["effect_costs"] = effect_costs_json(result);
     // A scene's name is whatever bytes the file system allows; replaced where they are not UTF-8.
     return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }

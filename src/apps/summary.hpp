@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "carrom/scene/scene.hpp"
+#include "carrom/simulation/effect_costs.hpp"
 #include "carrom/simulation/sampler.hpp"
 #include "carrom/simulation/simulation.hpp"
 
@@ -21,6 +22,7 @@ struct RunResult {
     double wall_seconds = 0;           ///< spent stepping, on the slowest rank; reading and writing are phases
     Averages averages;                 ///< since this process began
     std::vector<MeasuredTable> tables; ///< of what the scene asks to be measured
+    std::vector<EffectCost> effect_costs; ///< as rank 0 has timed them
     ReplayCounts replays;              ///< under the rule "all"
     PhaseSeconds phase_seconds;        ///< each on the rank where it took longest
     PhaseSeconds phase_imbalance;      ///< that over the mean of all ranks

@@ -69,18 +69,17 @@ StoredSamples read_samples(hid_t file, const std::string& path, std::uint64_t n,
     const std::uint64_t end = slab_begin(communicator.rank() + 1, n, communicator.size());
     on_all(communicator, path, ExitCode::bad_input, [&] {
         if (H5Lexists(file, "/carrom/measurements", H5P_DEFAULT) <= 0) return;
-        const h5::Dataset sums = h5::open_dataset(file, sums_name);
-        const std::vector<hsize_t> size = h5::dimensions_of(sums.id());
-        if (size.size() != 1 || size[0] == 0) throw FileError("its measurements are no list of sums");
-        samples.sums.resize(size[0]);
-        h5::read_rows(sums.id(), {0, size[0]}, H5T_NATIVE_INT64, samples.sums.data());
+        const h5::Dataset sums = h5::open_checked(file, sums_name, {std::nullopt});
+        const hsize_t size = h5::dimensions_of(sums.id()).front();
+        if (size == 0) throw FileError("its measurements are no list of sums");
+        samples.sums.resize(size);
+        h5::read_rows(sums.id(), {0, size}, H5T_NATIVE_INT64, samples.sums.data());
         samples.have_first_places = H5Lexists(file, "/carrom/measurements/first_x", H5P_DEFAULT) > 0;
         if (!samples.have_first_places) return;
         samples.first_places.resize(end - first);
         std::vector<double> numbers(end - first);
         for (const SampleColumn& column : sample_columns) {
-            const h5::Dataset places = h5::open_dataset(file, (std::string("/carrom/measurements/") + column.name).c_str());
-            if (h5::dimensions_of(places.id()) != std::vector<hsize_t>{n}) throw FileError(std::string(column.name) + " is of another length");
+            const h5::Dataset places = h5::open_checked(file, std::string("/carrom/measurements/") + column.name, {n});
             if (numbers.empty()) continue;
             h5::read_rows(places.id(), {first, end}, H5T_NATIVE_DOUBLE, numbers.data());
             for (std::size_t i = 0; i < numbers.size(); ++i) samples.first_places[i].*column.field = numbers[i];

@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What effects cost, against the same gas without: instructions, and time as interleaved ratios.
+
+  tests/performance/effects.py STEP_SCENE [--repeats 9] [--packing 0.1 0.3] [--only gravity ...]
+
+STEP_SCENE is the program of that name that is compiled with the tests (build/tests/step_scene). Instructions are those that
+valgrind counts below Simulation::advance_towards, divided by those of the plain gas; time is the processor time of a whole run, plain and
+with the effect in turns, and the median of their ratios with the quartiles. Prints a table of Markdown.
+"""
+import argparse
+import os
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+
+from instructions import SETTINGS, counted
+
+# name: (rule, lines that the scene has more, what the cost should stay below)
+EFFECTS = {
+    "restitution 0.999 of discs": ("all", '[effects.contact]\nkind = "restitution"\nrestitution = 0.999\n', 1.1),
+    "restitution 0.999 of discs, rule one": ("one", '[effects.contact]\nkind = "restitution"\nrestitution = 0.999\n', 1.1),
+    "two walls of restitution 0.99": ("all", "[box.left]\nrestitution = 0.99\n[box.right]\nrestitution = 0.99\n", 1.1),
+    "a thermal wall": ("all", '[box.left]\nkind = "thermal"\ntemperature = 0.045\n', 1.1),
+    "a thermal wall, rule one": ("one", '[box.left]\nkind = "thermal"\ntemperature = 0.045\n', 1.1),
+    "gravity": ("all", "[effects.gravity]\ny = -0.0001\n", 1.15),
+    "drag": ("all", "[effects.drag]\nrate = 0.0001\n", 1.1),
+    "a moving wall": ("all", '[box.right]\nkind = "moving"\nspeed = -0.0005\n', 1.1),
+    "discs that do not meet": ("all", '[effects.contact]\nkind = "none"\n', None),
+}
+
+
+def scene_text(packing, rule, lines):
+    return (f"[discs]\ncount = 3000\npacking = {packing}\nspeed = 0.3\n[time]\nsteps = 300\nsync_every = 32\ncollisions = \"{rule}\"\n"
+            f"[box]\nsize = 300\n{lines}")
+
+
+def processor_seconds(program, scene):
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    run = subprocess.run([program, scene], env={**os.environ, **SETTINGS}, capture_output=True, text=True, timeout=600, check=False)
+    if run.returncode != 0:
+        sys.exit(f"{program} {scene} failed:\n{run.stderr}")
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return (after.ru_utime + after.ru_stime) - (before.ru_utime + before.ru_stime)
+
+
+def ratios_of_times(program, plain, scene, repeats):
+    ratios = []
+    for _ in range(repeats):
+        base = processor_seconds(program, plain)
+        ratios.append(processor_seconds(program, scene) / base)
+    return statistics.quantiles(ratios, n=4)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program", metavar="STEP_SCENE")
+    parser.add_argument("--repeats", type=int, default=9)
+    parser.add_argument("--packing", type=float, nargs="+", default=[0.1, 0.3])
+    parser.add_argument("--only", nargs="+", help="effects whose name begins so")
+    options = parser.parse_args()
+    print("| effect | packing | instructions | time: median | quartiles | should stay below |\n|---|---|---|---|---|---|")
+    with tempfile.TemporaryDirectory() as folder:
+        plain_counts = {}
+
+        def stored(name, text):
+            path = os.path.join(folder, name)
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+            return path
+
+        for name, (rule, lines, bound) in EFFECTS.items():
+            if options.only and not any(name.startswith(word) for word in options.only):
+                continue
+            for packing in options.packing:
+                plain = stored("plain.toml", scene_text(packing, rule, ""))
+                scene = stored("effect.toml", scene_text(packing, rule, lines))
+                if (rule, packing) not in plain_counts:
+                    plain_counts[rule, packing] = counted(options.program, plain)
+                count = counted(options.program, scene) / plain_counts[rule, packing]
+                low, median, high = ratios_of_times(options.program, plain, scene, options.repeats)
+                print(f"| {name} | {packing} | {count:.3f} | {median:.2f} | {low:.2f} to {high:.2f} | {bound or ''} |", flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
