@@ -103,7 +103,7 @@ void check_places(Claims& claims, const Scene& scene, const std::vector<NamedFil
         claims.check(key, folder, may_try ? obstacle_to_folder(folder) : obstacle_to_making(folder));
     };
     if (scene.checkpoint) check_folder(folder_key, scene.checkpoint->folder);
-    if (scene.measurements) check_folder(tables_key, scene.measurements->folder);
+    if (scene.measurements && !scene.measurements->folder.empty()) check_folder(tables_key, scene.measurements->folder);
     if (!may_begin || !claims.is_clear()) return;
     const bool is_shared = scene.checkpoint && scene.measurements && same_place(scene.checkpoint->folder, scene.measurements->folder);
     if (scene.measurements && !is_shared) claims.lock(tables_key, scene.measurements->folder, (std::filesystem::path(scene.measurements->folder) / ".carrom.lock").string());

@@ -25,7 +25,7 @@ expect_code 0 'a checkpoint with measurements'
 run 1 run gas.toml --quiet --steps 50 --set time.collisions=all --set output.checkpoint.folder=plain
 grep -q measurements plain/checkpoint-000000000050.h5 && complain 'a checkpoint knows of measurements that nobody asked for'
 
-run 3 run gas.toml --restart kept_all --set output.measurements.bins=10
+run 3 run --restart kept_all --set output.measurements.bins=10
 expect_code 2 'other bins'
 expect_told 'begin anew with output.measurements.from_step = 50' 'other bins'
 run 1 run gas.toml --set output.measurements.every_steps=5 --set 'output.measurements.quantities=["densty"]'

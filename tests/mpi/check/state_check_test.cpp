@@ -241,7 +241,10 @@ std::optional<Invariant> found_in(const Effects& effects, const std::function<vo
 TEST_CASE("check: with effects, what is wrong is found all the same") {
     const auto faster = [](DiscId id, double factor) {
         return [=](OneStep& step) {
-            if (Disc* const disc = step.own(id)) disc->vx *= factor;
+            Disc* const disc = step.own(id);
+            if (!disc) return;
+            disc->x += disc->vx * (1 - factor) * (step.settled.time - disc->tau); // where it was
+            disc->vx *= factor;
         };
     };
     const auto free_disc_faster = [&](double factor) { return [=](OneStep& step) { faster(step.free_disc(), factor)(step); }; };
