@@ -22,6 +22,13 @@ std::string effects_text(const Effects& effects) {
         if (side.kind == SideKind::moving) text += fmt::format("kind = \"moving\"\nspeed = {} # and it has moved since the scene's start\n", side.speed);
         if (side.restitution != 1) text += fmt::format("restitution = {}\n", side.restitution);
     }
+    if (effects.obstacles.are_any()) {
+        text += fmt::format("[effects.obstacles]\nrestitution = {}\ndiscs = [", effects.obstacles.restitution);
+        for (const FixedDisc& disc : effects.obstacles.discs) text += fmt::format("[{}, {}, {}], ", disc.x, disc.y, disc.radius);
+        text += "]\nsegments = [";
+        for (const Segment& segment : effects.obstacles.segments) text += fmt::format("[{}, {}, {}, {}], ", segment.x0, segment.y0, segment.x1, segment.y1);
+        text += "]\n";
+    }
     if (effects.gravity.is_any()) text += fmt::format("[effects.gravity]\nx = {}\ny = {}\n", effects.gravity.x, effects.gravity.y);
     if (effects.drag != 0) text += fmt::format("[effects.drag]\nrate = {}\n", effects.drag);
     if (effects.contact.kind == ContactKind::none) text += "[effects.contact]\nkind = \"none\"\n";

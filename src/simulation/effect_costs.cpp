@@ -26,6 +26,7 @@ std::vector<Effects> single_effects(const Effects& all) {
                 one.thermal_seed = all.thermal_seed;
             });
     if (all.gravity.is_any()) add([&](Effects& one) { one.gravity = all.gravity; });
+    if (all.obstacles.are_any()) add([&](Effects& one) { one.obstacles = all.obstacles; });
     if (all.drag != 0) add([&](Effects& one) { one.drag = all.drag; });
     return singles;
 }
@@ -65,15 +66,20 @@ template <class Law> Nanoseconds measure(const Law& law, CollisionRule rule, std
         });
         return found;
     }
+    const auto look_for_obstacle = [&](const Disc& disc) { // after each collision of any kind
+        if constexpr (Law::may_have_obstacles)
+            if (law.has_obstacles()) return law.first_obstacle(disc, {disc.tau, disc.tau + 1, true, ObstacleContact::no_body}).time;
+        return 0.0;
+    };
     found.wall = nanoseconds_of(discs, [&](Disc disc, const Disc&) {
         const double x = law.x_wall_time(disc), y = law.y_wall_time(disc);
         if (x < y) law.bounce_x_at(disc, x);
         else if (y < std::numeric_limits<double>::infinity()) law.bounce_y_at(disc, y);
-        return disc.vx + disc.vy;
+        return std::min(disc.vx + disc.vy, look_for_obstacle(disc));
     });
     found.pair = nanoseconds_of(discs, [&](Disc p, Disc q) {
         law.collide_at(p, q, std::max(p.tau, q.tau));
-        return p.vx + q.vy;
+        return p.vx + q.vy + std::min(1.0, look_for_obstacle(p)) + std::min(1.0, look_for_obstacle(q));
     });
     return found;
 }

@@ -50,7 +50,7 @@ StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64
     : scene_(scene), effects_(per_micro_step(scene.effects, static_cast<double>(scene.micro_steps))), communicator_(communicator), first_id_(slab_begin(communicator.rank(), scene.n_discs, communicator.size())),
       micro_steps_done_(micro_steps_done), micro_steps_before_(micro_steps_done),
       tolerance_(PlainLaw(scene.box_size, scene.radius).tolerance()) {
-    may_lose_energy_ = effects_.contact.kind == ContactKind::restitution;
+    may_lose_energy_ = effects_.contact.kind == ContactKind::restitution || effects_.obstacles.restitution < 1;
     for (const Side& side : effects_.sides) {
         may_lose_energy_ = may_lose_energy_ || side.restitution < 1;
         walls_give_energy_ = walls_give_energy_ || side.kind == SideKind::thermal || side.speed != 0;

@@ -52,6 +52,12 @@ public:
     }
     void collide_at(Disc& p, Disc& q, double time) const { exchange_momentum(p, q, time, contact_.impulse_at(p, q, time)); }
 
+    /// As of plain discs, but for obstacles.
+    MetWalls met_walls(const Disc& disc, double m, double t) const {
+        if (has_obstacles() && t != PlainLaw::wall_time(disc, m)) return {};
+        return PlainLaw::met_walls(disc, m, t);
+    }
+
     /// A disc's one candidate with what stands still: a wall, or an obstacle if that comes before.
     double wall_time(const Disc& disc, double m) const {
         const double at_wall = wall_law(disc).wall_time(disc, m);

@@ -60,7 +60,7 @@ struct LoggedEvent {
     double time = 0;
     std::uint32_t generation = 0;
     bool is_wall = false;
-    DiscId p = 0, q = 0;       ///< q of a wall: 0 along x, 1 along y
+    DiscId p = 0, q = 0;       ///< q of a wall: 0 along x, 1 along y, else an obstacle
     double impulse = 0;
     double normal_impulse = 0; ///< of a wall: along x or y, with its sign
 };

@@ -13,6 +13,8 @@
 
 #include "carrom/core/random_numbers.hpp"
 #include "carrom/effects/drag.hpp"
+#include "carrom/effects/falling_contact.hpp"
+#include "carrom/effects/obstacles.hpp"
 #include "effect_runs.hpp"
 #include "event_driven.hpp"
 #include "one_rule.hpp"
@@ -70,6 +72,18 @@ Choice window(const char* name, std::optional<double> length) {
             }};
 }
 
+/// A few bodies, which the discs that are in their place leave.
+void put_obstacles(Plan& plan) {
+    reference::Setting& setting = plan.scene.setting;
+    const double size = setting.box_size;
+    setting.effects.obstacles = {{{0.3 * size, 0.4 * size, 0.05 * size}, {0.7 * size, 0.6 * size, 0}},
+                                 {{0, 0.3 * size, 0.25 * size, 0.2 * size}, {0.55 * size, 0.8 * size, 0.7 * size, 0.75 * size}}, 0.8};
+    const Obstacles obstacles(size, setting.radius, setting.effects);
+    const std::vector<InputDisc> discs = std::exchange(plan.scene.discs, {});
+    for (const InputDisc& disc : discs)
+        if (obstacles.deepest_overlap(disc.x, disc.y, 0).body == ObstacleContact::no_body) add_disc(plan.scene, disc.x, disc.y, disc.vx, disc.vy);
+}
+
 /// The first row makes the scene that the others change.
 std::vector<Row> table() {
     return {{shape(gas(200, 0.05, 0.8, 701)), shape(gas(144, 0.6, 0.3, 702)), shape(break_shot(5, 0.5, 3, 0.1))},
@@ -80,7 +94,8 @@ std::vector<Row> table() {
             sides_of(2),
             sides_of(3),
             {gravity("no gravity", 0, 0), gravity("gravity down", 0, -0.04), gravity("gravity aslant", 0.02, -0.03)},
-            {{"no drag", [](Plan&) {}}, {"drag", [](Plan& plan) { plan.scene.setting.effects.drag = 0.2; }}},
+            {{"undamped", [](Plan&) {}}, {"drag", [](Plan& plan) { plan.scene.setting.effects.drag = 0.2; }}},
+            {{"nothing in the way", [](Plan&) {}}, {"obstacles", put_obstacles}},
             {window("own windows", {}), window("short windows", 0.3), window("long windows", 2.7)},
             {{"uninterrupted", [](Plan&) {}}, {"restarted", [](Plan& plan) { plan.is_restarted = true; }}}};
 }
@@ -89,11 +104,11 @@ std::vector<Row> table() {
 bool is_excluded(const std::string& a, const std::string& b) {
     static const std::vector<std::pair<std::string, std::string>> excluded = {
         {"rule one", "moving"}, {"rule one", "gravity down"}, {"rule one", "gravity aslant"}, {"rule one", "drag"},
-        {"drag", "gravity down"}, {"drag", "gravity aslant"}, {"drag", "moving"}};
+        {"drag", "gravity down"}, {"drag", "gravity aslant"}, {"drag", "moving"}, {"obstacles", "moving"}};
     const auto is = [](const std::string& name, const std::string& end) { return name == end || name.ends_with(' ' + end); };
     return std::any_of(excluded.begin(), excluded.end(), [&](const auto& pair) {
         return (is(a, pair.first) && is(b, pair.second)) || (is(b, pair.first) && is(a, pair.second));
-    }) && a != "no drag" && b != "no drag";
+    });
 }
 
 using Picked = std::vector<std::size_t>; ///< by row, a choice
@@ -188,6 +203,7 @@ void hand_to_reference(reference::Setting& setting) {
         const double speed = std::sqrt(2 * side.temperature * random_exponential(random));
         return std::array{away, speed * random_direction(random).x};
     };
+    setting.falling_contact = falling_contact;
     const double per_micro_step = setting.effects.drag / static_cast<double>(setting.micro_steps);
     if (per_micro_step > 0) setting.drag_clock = [per_micro_step](double n) { return drag_clock(per_micro_step, n); };
 }
