@@ -27,7 +27,7 @@ grep -q measurements plain/checkpoint-000000000050.h5 && complain 'a checkpoint 
 
 run 3 run --restart kept_all --set output.measurements.bins=10
 expect_code 2 'other bins'
-expect_told 'begin anew with output.measurements.from_step = 50' 'other bins'
+expect_told 'begin anew with output.measurements.from_step = 90' 'other bins'
 run 1 run gas.toml --set output.measurements.every_steps=5 --set 'output.measurements.quantities=["densty"]'
 expect_code 2 'wrong keys'
 expect_told "'output.measurements.folder' is missing" 'wrong keys'
