@@ -104,6 +104,8 @@ bool step_to_end(Simulation& simulation, RunResult& result, double& output_secon
 void check_every_step(Simulation& simulation, const Scene& scene) {
     if (scene.precision != Precision::double_ || scene.arithmetic != Arithmetic::stable)
         throw InputError({{"--check", 0, "its bounds are those of time.precision = \"double\" and time.arithmetic = \"stable\"; leave one out"}});
+    if (!scene.effects.classes.empty())
+        throw InputError({{"--check", 0, "it knows discs of one radius and mass only; leave '[[discs.classes]]' or --check out"}});
     simulation.check_every_step(scene);
 }
 

@@ -89,6 +89,8 @@ void check_measured_distance(const Check& check) {
     double& distance = scene.measurements->largest_distance;
     const Setting* setting = check.settings.find(distance_key);
     if (!setting) distance = std::min(10 * scene.radius, largest);
+    if (const Setting* quantities = check.settings.find("output.measurements.quantities"); quantities && !scene.effects.classes.empty())
+        check.refuse(*quantities, "this version has no radial distribution of discs of several classes");
     if (distance <= largest && distance > 0) return;
     if (!setting) setting = check.settings.find("output.measurements.quantities");
     if (setting)

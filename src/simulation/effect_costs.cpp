@@ -26,6 +26,7 @@ std::vector<Effects> single_effects(const Effects& all) {
                 one.thermal_seed = all.thermal_seed;
             });
     if (all.gravity.is_any()) add([&](Effects& one) { one.gravity = all.gravity; });
+    if (!all.classes.empty()) add([&](Effects& one) { one.classes = all.classes; });
     if (all.obstacles.are_any()) add([&](Effects& one) { one.obstacles = all.obstacles; });
     if (all.drag != 0) add([&](Effects& one) { one.drag = all.drag; });
     return singles;
@@ -106,6 +107,7 @@ std::vector<EffectCost> effect_costs(const Scene& scene, std::span<const Disc> d
         cost.name = description(one);
         cost.nanoseconds_per_wall = with.wall - plain.wall;
         cost.nanoseconds_per_pair = with.pair - plain.pair;
+        if (one.classes.size() > 8) cost.bytes_per_disc = 16; // what the law keeps of each disc (disc_classes.hpp), on each rank
     }
     return costs;
 }

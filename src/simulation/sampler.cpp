@@ -72,7 +72,9 @@ std::uint64_t quantities_of(const MeasurementOutput& output) {
 double thermal_speed(const Scene& scene, const Totals& totals) {
     double temperature = totals.kinetic_energy / static_cast<double>(totals.n_discs);
     for (const Side& side : scene.effects.sides) temperature = std::max(temperature, side.temperature);
-    return std::sqrt(temperature);
+    double lightest = 1;
+    for (const DiscClass& each : scene.effects.classes) lightest = std::min(lightest, each.mass);
+    return std::sqrt(temperature / lightest);
 }
 
 /// How fast discs may become by falling or by being pushed.

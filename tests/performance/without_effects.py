@@ -22,6 +22,7 @@ TOLERANCE = 0.001
 PLAIN_LAWS = r"(?:PlainLaw|NaiveLaw|ContractedLaw|SingleLaw|SingleNaiveLaw|SingleContractedLaw)"
 INSTANCE = re.compile(r"^template class \w+<(\w+)>;\n", re.MULTILINE)
 CHOICE = re.compile(r"^    switch \(scene\.effects\.contact\.kind\) \{\n.*?^    \}\n", re.MULTILINE | re.DOTALL)
+OTHER_CHOICE = re.compile(r"^    if \(.*\) return make\.template operator\(\)<(?!BasicPlainLaw)\w+>\(\);\n", re.MULTILINE)
 INCLUDE = '#include "carrom/effects/effect_law.hpp"\n'
 
 
@@ -46,6 +47,7 @@ def take_out_effects(source):
     with open(path, encoding="utf-8") as file:
         text = file.read()
     text, n_choices = CHOICE.subn("", text)
+    text = OTHER_CHOICE.sub("", text)
     with open(path, "w", encoding="utf-8") as file:
         file.write(text.replace(INCLUDE, '#include "carrom/effects/effects.hpp"\n'))
     if n_choices != 1 or n_taken == 0:

@@ -55,7 +55,7 @@ public:
     /// As of plain discs, but for obstacles.
     MetWalls met_walls(const Disc& disc, double m, double t) const {
         if (has_obstacles() && t != PlainLaw::wall_time(disc, m)) return {};
-        return PlainLaw::met_walls(disc, m, t);
+        return wall_law(disc).met_walls(disc, m, t);
     }
 
     /// A disc's one candidate with what stands still: a wall, or an obstacle if that comes before.
