@@ -5,6 +5,7 @@
 #include <chrono>
 #include <limits>
 
+#include "carrom/effects/obstacles.hpp"
 #include "law_of_scene.hpp"
 
 namespace carrom {
