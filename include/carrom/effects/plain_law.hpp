@@ -188,7 +188,7 @@ public:
     // What wall_time, bounce and collide are made of, for other laws.
 
     /// Only the wall being approached counts; a slow disc inside the band bounces at t = 1 without touching.
-    Real axis_time(double x, double v, double tau, double m) const {
+    [[gnu::always_inline]] Real axis_time(double x, double v, double tau, double m) const {
         const Real at_end = real(x) + real(v) * ((real(m) + 1) - real(tau));
         if (v < 0 && at_end < radius_ + band_) return std::clamp((real(tau) - real(m)) + (low() - real(x)) / real(v), Real{0}, Real{1});
         if (v > 0 && at_end > high() - band_) return std::clamp((real(tau) - real(m)) + (high() - real(x)) / real(v), Real{0}, Real{1});
