@@ -5,7 +5,8 @@
 #   tests/performance/measure_all.sh [BUILD [FOLDER]]       BUILD: build; FOLDER: docs/performance
 #   tests/performance/page.py                               then draws the page anew
 #
-# Builds what is missing. MINUTES (6.5) is for the comparison with peers, the rest takes five; SHORT=1 runs everything for a
+# Builds what is missing. MINUTES (6.5) is for the comparison with peers, the rest takes five; MOST_RANKS=1024 takes much longer
+# on the simulated cluster (256). SHORT=1 runs everything for a
 # fraction of its time, to see that it works: the numbers mean nothing then. What needs SimGrid or Google Benchmark is left out,
 # and named, where they are missing.
 set -euo pipefail
@@ -43,6 +44,6 @@ say 'beside peers'
 python3 "$here/compare.py" --build "$build" --output "$folder/rates.csv" --minutes "${MINUTES:-6.5}" ${SHORT:+--short}
 if [ -x "$build/tests/simulated_cluster" ]; then
     say 'simulated cluster'
-    python3 "$here/simulate.py" "$build/tests/simulated_cluster" --study "$folder/cluster.csv" --jobs "$(nproc)" ${SHORT:+--largest 140000}
+    python3 "$here/simulate.py" "$build/tests/simulated_cluster" --study "$folder/cluster.csv" --jobs "$(nproc)" --most-ranks "${MOST_RANKS:-256}" ${SHORT:+--largest 140000}
 fi
 say 'done; tests/performance/page.py draws the page'

@@ -91,9 +91,9 @@ def cases():
         yield "strong, 1e6", ranks, 1_000_000, 0.2, 1
 
 
-def study(program, path, largest, n_workers):
+def study(program, path, largest, n_workers, most_ranks):
     fields = ("n_discs", "steps", "messages", "most_messages", "bytes", "collectives", "any_to_any", "network_messages", "step_seconds", "own_seconds", "efficiency")
-    chosen = [case for case in cases() if case[2] <= largest]
+    chosen = [case for case in cases() if case[2] <= largest and case[1] <= most_ranks]
 
     def run(case):
         name, ranks, n_discs, packing, stands_for = case
@@ -120,10 +120,11 @@ def main():
     parser.add_argument("--record", action="store_true")
     parser.add_argument("--study", metavar="FILE")
     parser.add_argument("--largest", type=float, default=5.2e6, help="of the study: leave out what has more discs; 5e6 take 1.5 GB")
+    parser.add_argument("--most-ranks", type=int, default=1024, help="of the study; 1024 take many minutes")
     parser.add_argument("--jobs", type=int, default=2, help="of the study: so many simulations side by side")
     options = parser.parse_args()
     if options.study:
-        study(options.program, options.study, options.largest, options.jobs)
+        study(options.program, options.study, options.largest, options.jobs, options.most_ranks)
     elif options.record:
         record(options.program)
     else:
