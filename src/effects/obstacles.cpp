@@ -33,7 +33,7 @@ double fall_delay(double distance, double rate, double pull, bool is_on_side) {
 } // namespace
 
 Obstacles::Obstacles(double box_size, double disc_radius, const Effects& effects)
-    : disc_radius_(disc_radius), restitution_(effects.obstacles.restitution), contact_time_(effects.contact.contact_time),
+    : restitution_(effects.obstacles.restitution), contact_time_(effects.contact.contact_time),
       gravity_{effects.gravity.x, effects.gravity.y}, n_fixed_discs_(effects.obstacles.discs.size()) {
     for (const FixedDisc& disc : effects.obstacles.discs) bodies_.push_back({disc.x, disc.y, disc.radius + disc_radius});
     for (const Segment& segment : effects.obstacles.segments) {

@@ -84,7 +84,7 @@ private:
     void sort_into_cells();
     double fallen(std::size_t axis, double time) const { return (0.5 * gravity_[axis] * time) * time; }
 
-    double disc_radius_, restitution_, contact_time_;
+    double restitution_, contact_time_;
     std::array<double, 2> gravity_;
     std::size_t n_fixed_discs_;
     std::vector<Body> bodies_; ///< fixed discs, then a line and its two ends for each segment
