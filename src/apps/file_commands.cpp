@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <functional>
 #include <memory>
 
@@ -118,9 +119,12 @@ ExitCode info(const std::string& path, const Communicator& ranks) {
     return ExitCode::success;
 }
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 /// What no state of a run can be; empty if all is well.
 std::string flaw_of(const Disc& disc, double radius, const CheckpointHeader& header, const Extent& box) {
     const double clock = header.clock();
+    if (disc.is_gone()) return disc.tau == Disc::gone && disc.vx == 0 && disc.vy == 0 ? "" : fmt::format("disc {} has left the box, yet moves", disc.id);
     const Disc shown = header.frame.in_box(disc, clock);
     const double x = shown.x, y = shown.y;
     // A disc may stand a little beyond its wall for the rest of a micro-step, or by the rounding of L - r.
@@ -138,8 +142,15 @@ std::string flaw_of(const Disc& disc, double radius, const CheckpointHeader& hea
 void verify_checkpoint(const std::string& path, const Communicator& ranks) {
     const Checkpoint checkpoint = read_checkpoint(path, ranks);
     const Effects effects = scene_of(checkpoint.header, {}).effects; // a scene that cannot be read is no use either
-    const Extent box = extent_at(effects, checkpoint.header.box_size, static_cast<double>(checkpoint.header.step));
+    Extent box = extent_at(effects, checkpoint.header.box_size, static_cast<double>(checkpoint.header.step));
     const DiscBodies bodies(effects.classes, checkpoint.header.radius);
+    const auto open = [&effects](std::size_t side, double& line, double outside) { // discs may be on their way out
+        if (effects.sides[side].kind == SideKind::open) line = outside;
+    };
+    open(0, box.x_low, -infinity);
+    open(1, box.x_high, infinity);
+    open(2, box.y_low, -infinity);
+    open(3, box.y_high, infinity);
     std::string flaw;
     std::uint64_t sums[] = {0, 0};
     for (const Disc& disc : checkpoint.discs) {

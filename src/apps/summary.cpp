@@ -164,6 +164,18 @@ std::string measured_text(const Scene& scene, const std::vector<MeasuredTable>& 
     return fmt::format("{} in {} ({})", names, scene.measurements->folder, tables.front().remarks.front());
 }
 
+/// "120 of 400 discs: left 70, top 50" where a side is open.
+std::string gone_text(const Scene& scene, const Totals& totals) {
+    std::uint64_t all = 0;
+    std::string sides;
+    for (std::size_t side = 0; side < side_names.size(); ++side) {
+        if (scene.effects.sides[side].kind != SideKind::open) continue;
+        all += totals.gone[side];
+        sides += fmt::format("{}{} {}", sides.empty() ? "" : ", ", side_names[side], totals.gone[side]);
+    }
+    return sides.empty() ? sides : fmt::format("{} of {} discs: {}", all, totals.n_discs, sides);
+}
+
 std::string plural(int count, const char* what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); }
 
 } // namespace
@@ -225,6 +237,7 @@ std::string summary_text(const Scene& scene, const RunResult& result) {
                                             result.end.overlapping_pairs, overlapping_pairs_per_disc(result),
                                             deepest_overlap(scene, result), result.start.overlapping_pairs));
     const std::string height = scene.effects.gravity.is_any() ? fmt::format(" of motion, {:.17g} of height; the sum has", result.end.potential_energy) : ",";
+    if (const std::string gone = gone_text(scene, result.end); !gone.empty()) text += line("gone", gone);
     text += line("energy", fmt::format("{:.17g}{} changed by {:.2g} of itself", result.end.kinetic_energy, height, energy_drift(result)));
     if (scene.measurements) text += line("measured", measured_text(scene, result.tables));
     text += line("momentum", fmt::format("{:.17g} {:.17g}", result.end.momentum_x, result.end.momentum_y));
@@ -242,6 +255,7 @@ std::string report_text(const Scene& scene, const RunResult& result) {
         {"scene", scene.name},
         {"state_hash", to_string(result.end.hash)},
         {"n_discs", result.end.n_discs},
+        {"gone", result.end.gone},
         {"packing", scene.packing()},
         {"rule", name_of(scene.rule)},
         {"micro_steps", scene.micro_steps},

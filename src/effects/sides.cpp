@@ -58,6 +58,7 @@ double Sides::delay_of(const Approach& approach) {
 }
 
 Sides::Meeting Sides::meeting(const Disc& disc, Axis axis) const {
+    if (disc.is_gone()) return {};
     const std::size_t low = 2 * static_cast<std::size_t>(axis);
     const double to_low = delay_of(approach(disc, low)), to_high = delay_of(approach(disc, low + 1));
     if (to_low <= to_high) return {disc.tau + to_low, low};
@@ -66,6 +67,7 @@ Sides::Meeting Sides::meeting(const Disc& disc, Axis axis) const {
 
 /// Straight flight and a pull towards the wall alone: what pulls away from it is left out, to be on the safe side.
 bool Sides::may_meet(const Disc& disc, double time, double margin) const {
+    if (disc.is_gone()) return false;
     const double rest = time - disc.tau;
     for (std::size_t side = 0; side < 4; ++side) {
         const auto [distance, rate, pull] = approach(disc, side);
@@ -81,7 +83,16 @@ void Sides::bounce_at(Disc& disc, Axis axis, double time) const {
     disc.x = disc.x_at(time);
     disc.y = disc.y_at(time);
     disc.tau = time;
+    if (is_open(side)) return depart(disc, side, time);
     rebound(disc, side, restitution, time);
+    disc.wall_collisions += 1;
+}
+
+void Sides::depart(Disc& disc, std::size_t side, double time) const {
+    disc = frame_at(time).in_box(disc, time);
+    (side / 2 == 0 ? disc.x : disc.y) = departure(side);
+    disc.vx = disc.vy = 0;
+    disc.tau = Disc::gone;
     disc.wall_collisions += 1;
 }
 

@@ -275,6 +275,7 @@ template <class Law> void BlockReplay<Law>::Scratch::happen(const Event& event) 
         other_side.generation += 1;
         carry_out(other_side);
     }
+    if (Law::may_lose_discs && discs[event.p].is_gone()) return;
     predict_walls(event.p);
     predict_pairs(event.p, Past::nobody);
     if (is_wall(event.q)) return;
@@ -299,7 +300,8 @@ template <class Law> void BlockReplay<Law>::Scratch::carry_out(const Event& even
     note(event.p, event.q, event);
     if (is_own[event.p] != 0) {
         outcome->n_events += 1;
-        if (ground.is_logged) log_event(event, p.vx - vx_before, p.vy - vy_before);
+        const bool is_pushed = !Law::may_lose_discs || !p.is_gone();
+        if (ground.is_logged) log_event(event, is_pushed ? p.vx - vx_before : 0, is_pushed ? p.vy - vy_before : 0);
     }
 }
 

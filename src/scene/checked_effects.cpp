@@ -53,12 +53,14 @@ void fill_contact(const Check& check) {
 }
 
 void fill_side(const Check& check, std::size_t number) {
-    static constexpr Choices<SideKind, 3> kinds = {{{"wall", SideKind::fixed}, {"thermal", SideKind::thermal}, {"moving", SideKind::moving}}};
+    static constexpr Choices<SideKind, 4> kinds = {
+        {{"wall", SideKind::fixed}, {"thermal", SideKind::thermal}, {"moving", SideKind::moving}, {"open", SideKind::open}}};
     Side& side = check.scene.effects.sides[number];
     const std::string table = std::string("box.") + side_names[number];
     if (const auto kind = choice(check, table + ".kind", kinds)) side.kind = *kind;
     const bool is_thermal = side.kind == SideKind::thermal, is_moving = side.kind == SideKind::moving;
     if (is_thermal) refuse_without(check, table + ".restitution", table + ".kind = \"wall\" or \"moving\": what leaves a thermal wall has forgotten how it came");
+    else if (side.kind == SideKind::open) refuse_without(check, table + ".restitution", table + ".kind = \"wall\" or \"moving\": nothing comes back from an open side");
     else if (const auto restitution = number_within(check, table + ".restitution", 0, 1)) side.restitution = *restitution;
 
     if (!is_thermal) refuse_without(check, table + ".temperature", table + ".kind = \"thermal\"");
@@ -133,6 +135,14 @@ void fill_obstacles(const Check& check) {
 bool lose_energy_or_fall(const Effects& effects) {
     const bool is_lossy = std::any_of(effects.sides.begin(), effects.sides.end(), [](const Side& side) { return side.restitution < 1; });
     return is_lossy || effects.contact.kind == ContactKind::restitution || effects.gravity.is_any() || effects.obstacles.restitution < 1;
+}
+
+void check_open_sides(const Check& check) {
+    const auto& sides = check.scene.effects.sides;
+    const auto has = [&sides](SideKind kind) { return std::any_of(sides.begin(), sides.end(), [kind](const Side& side) { return side.kind == kind; }); };
+    for (std::size_t side = 0; side < sides.size() && has(SideKind::moving); ++side)
+        if (sides[side].kind == SideKind::open)
+            check.refuse(*check.settings.find(std::string("box.") + side_names[side] + ".kind"), "this version has no open sides together with moving walls");
 }
 
 /// The falling frame must not leave the box far behind: its coordinates would be coarser than the box's.
@@ -219,6 +229,12 @@ void fill_effects(const Check& check) {
         check.refuse(*check.settings.find("effects.contact.kind"), "this version has no discs of several classes that pass through each other");
     if (are_mixed && effects.obstacles.are_any())
         add_problem(check.problems, {check.scene.name, 0}, "this version has no obstacles together with discs of several classes");
+    for (const Side& side : effects.sides)
+        if (side.kind == SideKind::open && check.settings.is_mentioned("output.measurements"))
+            add_problem(check.problems, {check.scene.name, 0}, "this version measures nothing ('output.measurements') in boxes with open sides");
+    for (const Side& side : effects.sides)
+        if (are_mixed && side.kind == SideKind::open)
+            add_problem(check.problems, {check.scene.name, 0}, "this version has no open sides together with discs of several classes");
     for (const std::string_view key : {"time.precision", "time.arithmetic", "time.accuracy"}) {
         const Setting* setting = check.settings.find(key);
         const bool is_default = setting && std::holds_alternative<std::string>(setting->value) &&
@@ -229,6 +245,7 @@ void fill_effects(const Check& check) {
 
 void check_room_for_effects(const Check& check) {
     check_fall(check);
+    check_open_sides(check);
     check_moving_walls(check);
     check_obstacles(check);
 }

@@ -67,6 +67,7 @@ std::string_view name_of(SideKind kind) {
     case SideKind::fixed: return "\"wall\"";
     case SideKind::thermal: return "\"thermal\"";
     case SideKind::moving: return "\"moving\"";
+    case SideKind::open: return "\"open\"";
     }
     return "";
 }

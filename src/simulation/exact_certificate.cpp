@@ -108,7 +108,8 @@ template <class Law> bool ExactEngine<Law>::sees_all(const Block& block) const {
     const bool has_all_cells = block.cells.first_column <= halo && block.cells.end_column + halo >= frame.n_columns &&
                                block.cells.first_row <= halo && block.cells.end_row + halo >= frame.n_rows;
     const double reach = exact_reach(window_, law_.search_diameter(), law_.box_size());
-    const bool rank_has_all = communicator_.size() == 1 || halo_depth_ * reach > law_.box_size();
+    const Extent box = extent();
+    const bool rank_has_all = communicator_.size() == 1 || halo_depth_ * reach > box.x_high - box.x_low;
     return has_all_cells && rank_has_all;
 }
 

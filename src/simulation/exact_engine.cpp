@@ -46,6 +46,7 @@ ExactEngine<Law>::ExactEngine(const Scene& scene, StoredState state, const Commu
       time_(static_cast<double>(n_micro_done_ % sync_every_)) {
     for (int thread = 0; thread < tuning_.threads; ++thread) replays_.emplace_back(law_);
     begin_interval();
+    set_gone_aside();
     time_ = clock_at(n_micro_done_ % sync_every_);
     if constexpr (!Law::is_double) {
         for (Disc& disc : discs_.all()) Law::round(disc);
@@ -78,6 +79,7 @@ template <class Law> void ExactEngine<Law>::run_window(double target) {
         const PhaseClock::Scope scope(clock_, Phase::settle);
         grid_.reorder(discs_.all(), discs_.n_own(), tuning_.threads);
     }
+    set_gone_aside();
     migrate();
     window_ = choose(target);
     halo_depth_ = first_halo_depth();
@@ -95,6 +97,11 @@ template <class Law> void ExactEngine<Law>::run_window(double target) {
     time_ = window_.end;
     ++n_windows_;
     ++counts_.windows;
+}
+
+/// Discs that have left the box stay where they are in the arrays until those are put in order anyway.
+template <class Law> void ExactEngine<Law>::set_gone_aside() {
+    if (law_.sides().are_any_open()) discs_.set_gone_aside();
 }
 
 template <class Law> void ExactEngine<Law>::migrate() {
@@ -118,7 +125,7 @@ template <class Law> ReplayWindow ExactEngine<Law>::choose(double target) {
     ExactNeeds needs{law_.box_size(), law_.radius() + law_.slack(), n, window.speed_bound, 0, time_, exact_.halo, false};
     is_one_block_ = communicator_.size() == 1 && tuning_.threads == 1 && n <= most_discs_alone;
     needs.is_one_block = is_one_block_;
-    if (n_windows_ > 0) collision_rate_ = static_cast<double>(communicator_.sum(n_events_)) / (n * last_duration_);
+    if (n_windows_ > 0) collision_rate_ = static_cast<double>(communicator_.sum(n_events_)) / (std::max(n, 1.0) * last_duration_);
     needs.collision_rate = n_windows_ > 0 ? collision_rate_ : guessed_collision_rate(needs);
     const double longest = target - time_;
     choice_ = choose_exact_window(needs, longest, tuning_.window);
@@ -265,6 +272,7 @@ template <class Law> void ExactEngine<Law>::sync() {
 #pragma omp parallel for num_threads(tuning_.threads) schedule(static)
     for (std::int64_t i = 0; i < n; ++i) {
         Disc& disc = discs[static_cast<std::size_t>(i)];
+        if (Law::may_lose_discs && disc.is_gone()) continue;
         Law::advance(disc, time_);
         law_.sides().restart_frame(disc, time_);
         disc.tau = 0;
@@ -298,6 +306,7 @@ template <class Law> Extent ExactEngine<Law>::extent() const { return law_.sides
 template <class Law> Frame ExactEngine<Law>::frame() const { return law_.sides().frame_at(time_); }
 
 template <class Law> void ExactEngine<Law>::settle_now(double least_reach) {
+    set_gone_aside();
     migrate();
     const double touching = reach_of({law_.box_size(), law_.radius() + law_.slack(), static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
     const double reach = std::max(touching, least_reach);

@@ -46,7 +46,8 @@ public:
     std::span<const Disc> own() const override { return discs_.own(); }
     double clock() const override { return time_; }
     Frame frame() const override;
-    std::uint64_t n_discs() const override { return discs_.n_total(); }
+    std::span<const Disc> gone() const override { return discs_.gone(); }
+    std::uint64_t n_discs() const override { return discs_.n_with_gone(); }
     PhaseSeconds phase_seconds() const override { return clock_.seconds(); }
 
 private:
@@ -60,6 +61,7 @@ private:
     enum class Verdict { exact, repeat, too_fast };
 
     void run_window(double target);
+    void set_gone_aside();
     void migrate();
     ReplayWindow choose(double target);
     void shorten();

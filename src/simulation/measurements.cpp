@@ -2,6 +2,7 @@
 #include "measurements.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "carrom/core/exact_sum.hpp"
@@ -20,6 +21,16 @@ void measure_collisions(std::span<const Disc> own, const Communicator& communica
     totals.wall_collisions = sums[0];
     totals.pair_collisions = sums[1] / 2;
     totals.hash = {sums[2], sums[3]};
+}
+
+/// What has left stands a radius outside its side, exactly: the one coordinate that is furthest out tells which.
+void measure_departures(std::span<const Disc> own, double box_size, const Communicator& communicator, Totals& totals) {
+    for (const Disc& disc : own) {
+        if (!disc.is_gone()) continue;
+        const std::array<double, 4> outside{-disc.x, disc.x - box_size, -disc.y, disc.y - box_size};
+        totals.gone[static_cast<std::size_t>(std::max_element(outside.begin(), outside.end()) - outside.begin())] += 1;
+    }
+    communicator.sum(totals.gone);
 }
 
 namespace {
@@ -58,7 +69,8 @@ void measure_height(std::span<const Disc> own, const DiscBodies* bodies, const G
     const auto height = [box_size](double place, double pull) { return pull < 0 ? place : box_size - place; };
     const double gx = std::fabs(gravity.x), gy = std::fabs(gravity.y);
     ExactSum energy(2 * static_cast<double>(totals.n_discs) * largest_mass(own, bodies, communicator) * (gx + gy) * box_size);
-    for (const Disc& disc : own) energy.add(mass_of(disc, bodies) * (gx * height(disc.x, gravity.x) + gy * height(disc.y, gravity.y)));
+    for (const Disc& disc : own)
+        if (!disc.is_gone()) energy.add(mass_of(disc, bodies) * (gx * height(disc.x, gravity.x) + gy * height(disc.y, gravity.y)));
     communicator.sum(energy);
     totals.potential_energy = energy.value();
 }

@@ -16,6 +16,9 @@ namespace carrom {
 /// Fills in the collision counts and the state hash. **Collective.**
 void measure_collisions(std::span<const Disc> own, const Communicator& communicator, Totals& totals);
 
+/// Fills in how many discs have left through which side. **Collective.**
+void measure_departures(std::span<const Disc> own, double box_size, const Communicator& communicator, Totals& totals);
+
 /// Fills in energy and momentum; `velocity_unit` turns stored velocities into those per step. `bodies`: null for masses of 1. **Collective.**
 void measure_motion(std::span<const Disc> own, const DiscBodies* bodies, double velocity_unit, const Communicator& communicator, Totals& totals);
 

@@ -41,7 +41,13 @@ OneEngine<Law>::OneEngine(const Scene& scene, StoredState state, const Communica
     for (const Disc& disc : own()) largest_speed_ = std::max(largest_speed_, std::sqrt(squared_speed_of(disc)));
     const double density = static_cast<double>(discs_.n_total()) / (law_.box_size() * law_.box_size());
     hits_per_micro_step_ = std::min(1.0, 2 * density * law_.diameter() * communicator_.max(largest_speed_)); // a first guess
+    set_gone_aside();
     discs_.rebalance(micro_, tuning_.rebalance_above);
+}
+
+/// Discs that have left the box stay where they are in the arrays until those are put in order anyway.
+template <class Law> void OneEngine<Law>::set_gone_aside() {
+    if (law_.sides().are_any_open()) discs_.set_gone_aside();
 }
 
 template <class Law> void OneEngine<Law>::advance_towards(std::int64_t last_step) {
@@ -85,6 +91,7 @@ template <class Law> void OneEngine<Law>::run_window(int n_left) {
 template <class Law> Window OneEngine<Law>::settle(int n_left) {
     const PhaseClock::Scope scope(clock_, Phase::settle);
     if (part_ == 0 && n_windows_ % windows_per_reorder == 0 && n_windows_ > 0) reorder();
+    if (part_ == 0) set_gone_aside();
     if (part_ == 0) {
         agree_on_speed();
         if (n_windows_ == 0 || n_parts_ > 1) survey_speeds();
@@ -100,6 +107,7 @@ template <class Law> Window OneEngine<Law>::settle(int n_left) {
 template <class Law> void OneEngine<Law>::reorder() { grid_.reorder(discs_.all(), discs_.n_own(), tuning_.threads); }
 
 template <class Law> void OneEngine<Law>::settle_now(double least_reach) {
+    set_gone_aside();
     agree_on_speed();
     migrate(micro_);
     const double touching = reach_of({law_.box_size(), law_.radius() + law_.slack(), static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
@@ -290,6 +298,7 @@ template <class Law> void OneEngine<Law>::log_collisions(std::span<const Disc> r
     for (std::size_t i = 0; i < unhit_.size(); ++i) {
         const Candidate& c = verdicts_.kept[i];
         if (c.p >= discs_.n_own()) continue;
+        if (results[c.p].is_gone()) unhit_[i].vx = unhit_[i].vy = 0; // nothing has pushed it
         const double dx = (results[c.p].vx - unhit_[i].vx) * k, dy = (results[c.p].vy - unhit_[i].vy) * k;
         double mass = 1;
         if constexpr (Law::has_bodies) mass = law_.bodies().of(unhit_[i].id).mass;
@@ -340,6 +349,7 @@ template <class Law> void OneEngine<Law>::sync() {
 #pragma omp parallel for num_threads(tuning_.threads) schedule(static) reduction(max : fastest)
     for (std::int64_t i = 0; i < n; ++i) {
         Disc& disc = discs[static_cast<std::size_t>(i)];
+        if (Law::may_lose_discs && disc.is_gone()) continue;
         Law::advance(disc, time);
         disc.tau = 0;
         fastest = std::max(fastest, squared_speed_of(disc));
@@ -350,7 +360,7 @@ template <class Law> void OneEngine<Law>::sync() {
     const PhaseClock::Scope wait(clock_, Phase::wait);
     refreshed_speed_ = communicator_.max(std::sqrt(fastest));
     const std::uint64_t n_kept = communicator_.sum(n_kept_ - std::exchange(n_kept_at_sync_, n_kept_));
-    hits_per_micro_step_ = 2 * static_cast<double>(n_kept) / (static_cast<double>(discs_.n_total()) * static_cast<double>(sync_every_));
+    hits_per_micro_step_ = 2 * static_cast<double>(n_kept) / (std::max(static_cast<double>(discs_.n_total()), 1.0) * static_cast<double>(sync_every_));
     micro_ = 0;
     ++n_syncs_;
     if (tuning_.rebalance_every > 0 && n_syncs_ % tuning_.rebalance_every == 0) {

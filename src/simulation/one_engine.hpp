@@ -37,13 +37,15 @@ public:
     std::int64_t micro_steps_done() const override { return n_micro_done_; }
     std::span<const Disc> own() const override { return discs_.own(); }
     double clock() const override { return micro_; }
-    std::uint64_t n_discs() const override { return discs_.n_total(); }
+    std::span<const Disc> gone() const override { return discs_.gone(); }
+    std::uint64_t n_discs() const override { return discs_.n_with_gone(); }
     PhaseSeconds phase_seconds() const override { return clock_.seconds(); }
 
 private:
     Population population() const { return discs_.population(); }
     /// Settles discs, halo and grid as they are now, for partners within a diameter or `reach`. No state changes. **Collective.**
     void settle_now(double reach = 0);
+    void set_gone_aside();
     /// Brings the own discs into the order of the present grid's cells, which is then of no more use.
     void reorder();
     void run_window(int n_left);

@@ -82,7 +82,12 @@ std::int64_t Simulation::step() const { return micro_steps_done() / static_cast<
 
 std::int64_t Simulation::micro_steps_done() const { return engine_->micro_steps_done(); }
 
-std::span<const Disc> Simulation::discs() const { return engine_->own(); }
+std::span<const Disc> Simulation::discs() const {
+    if (engine_->gone().empty()) return engine_->own();
+    stored_.assign(engine_->own().begin(), engine_->own().end());
+    stored_.insert(stored_.end(), engine_->gone().begin(), engine_->gone().end());
+    return stored_;
+}
 
 Frame Simulation::frame() const { return engine_->frame(); }
 
@@ -111,7 +116,8 @@ void Simulation::count_pair_distances(double bin_width, std::span<std::uint64_t>
 Totals Simulation::totals() const {
     Totals totals;
     totals.n_discs = engine_->n_discs();
-    measure_collisions(engine_->own(), communicator_, totals);
+    measure_collisions(discs(), communicator_, totals);
+    measure_departures(discs(), box_size_, communicator_, totals);
     const DiscBodies* const bodies = effects_.classes.empty() ? nullptr : &bodies_;
     measure_motion(shown(), bodies, velocity_unit_, communicator_, totals);
     if (effects_.gravity.is_any()) measure_height(shown(), bodies, effects_.gravity, box_size_, communicator_, totals);

@@ -36,7 +36,16 @@ StripDiscs::StripDiscs(const Communicator& communicator, double box_size, std::v
         discs_ = send_to_owners(communicator, to_owner).items;
     }
     n_own_ = discs_.size();
-    n_total_ = communicator.sum(std::uint64_t{n_own_});
+    n_total_ = n_with_gone_ = communicator.sum(std::uint64_t{n_own_});
+}
+
+void StripDiscs::set_gone_aside() {
+    forget_halo();
+    const auto first_gone = std::stable_partition(discs_.begin(), discs_.end(), [](const Disc& disc) { return !disc.is_gone(); });
+    gone_.insert(gone_.end(), first_gone, discs_.end());
+    discs_.erase(first_gone, discs_.end());
+    n_own_ = discs_.size();
+    n_total_ = communicator_.sum(std::uint64_t{n_own_});
 }
 
 void StripDiscs::migrate(double time, double farthest, std::vector<Disc>* companion) {
@@ -128,8 +137,12 @@ void StripDiscs::rebalance(double time, double above) {
 }
 
 bool StripDiscs::is_valid(double time) const {
-    std::uint64_t sums[] = {n_own_, 0, 0};
+    std::uint64_t sums[] = {n_own_ + gone_.size(), 0, 0};
     bool in_strip = true;
+    for (const Disc& disc : gone_) {
+        sums[1] += disc.id;
+        sums[2] += disc.id * disc.id;
+    }
     for (const Disc& disc : own()) {
         sums[1] += disc.id;
         sums[2] += disc.id * disc.id;
@@ -137,11 +150,11 @@ bool StripDiscs::is_valid(double time) const {
     }
     communicator_.sum(sums);
     std::uint64_t id_sum = 0, square_sum = 0; // modulo 2^64, as the sums
-    for (std::uint64_t id = 0; id < n_total_; ++id) {
+    for (std::uint64_t id = 0; id < n_with_gone_; ++id) {
         id_sum += id;
         square_sum += id * id;
     }
-    return communicator_.all(in_strip) && sums[0] == n_total_ && sums[1] == id_sum && sums[2] == square_sum;
+    return communicator_.all(in_strip) && sums[0] == n_with_gone_ && sums[1] == id_sum && sums[2] == square_sum;
 }
 
 } // namespace carrom

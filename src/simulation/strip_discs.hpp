@@ -60,10 +60,15 @@ public:
     const Strips& strips() const { return strips_; }
     std::span<const int> neighbours() const { return halo_plan_.partners; } ///< since the halo was fetched
 
+    /// Takes discs that have left the box out of the own ones, for good, and forgets the halo. **Collective.**
+    void set_gone_aside();
+    std::span<const Disc> gone() const { return gone_; }
+    std::uint64_t n_with_gone() const { return n_with_gone_; } ///< over all ranks
+
     /// Drops the halo's discs.
     void forget_halo() { discs_.resize(n_own_); }
 
-    /// Each own disc lies in its strip at `time`, and all ranks together own each of 0 .. n-1 once. **Collective.**
+    /// Each own disc lies in its strip at `time`, and all ranks together own each of 0 .. n-1 once, those that are gone too. **Collective.**
     bool is_valid(double time) const;
 
 private:
@@ -71,7 +76,8 @@ private:
     double box_size_;
     std::vector<Disc> discs_; ///< own, then halo
     std::size_t n_own_ = 0;
-    std::uint64_t n_total_ = 0;
+    std::uint64_t n_total_ = 0, n_with_gone_ = 0;
+    std::vector<Disc> gone_;  ///< where they have left
     Strips strips_, settled_strips_; ///< wanted, and those that the discs were last settled in
     NeighbourExchange exchange_;
     TransferPlan halo_plan_;

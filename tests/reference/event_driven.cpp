@@ -24,6 +24,7 @@ void EventDrivenReference::run_micro_steps(std::int64_t count) {
         micro_step_ = until;
         if (until < next_sync) continue;
         for (Disc& disc : discs_) {
+            if (has_left(disc)) continue;
             advance(disc, setting_.clock_at(setting_.sync_every));
             if (setting_.drag_clock) {
                 disc.vx *= 1 - setting_.effects.drag / static_cast<double>(setting_.micro_steps) * disc.tau;
@@ -65,6 +66,7 @@ void EventDrivenReference::predict_all() {
 
 void EventDrivenReference::predict_walls(DiscId p) {
     const Disc& disc = discs_[p];
+    if (has_left(disc)) return;
     for (const DiscId axis : {Event::wall_x, Event::wall_y}) push({meeting(disc, axis).time, 0, p, false, axis, 0});
     predict_obstacle(p);
 }
@@ -84,7 +86,9 @@ void EventDrivenReference::predict_obstacle(DiscId p) {
 EventDrivenReference::Wall EventDrivenReference::wall_at(DiscId disc, DiscId axis, bool is_high, double time) const {
     const double k = static_cast<double>(setting_.micro_steps), g = gravity(axis);
     const double speed = setting_.effects.sides[2 * axis + (is_high ? 1 : 0)].speed / k;
-    const double start = is_high ? setting_.box_size - setting_.radius_of(disc) : setting_.radius_of(disc);
+    const bool is_open = setting_.effects.sides[2 * axis + (is_high ? 1 : 0)].kind == SideKind::open;
+    const double from_line = is_open ? -setting_.radius_of(disc) : setting_.radius_of(disc);
+    const double start = is_high ? setting_.box_size - from_line : from_line;
     const double at_sync = start + speed * static_cast<double>(micro_step_ / setting_.sync_every * setting_.sync_every);
     return {(at_sync + speed * time) - (0.5 * g * time) * time, speed - g * time};
 }
@@ -149,7 +153,7 @@ void EventDrivenReference::restart_frame(Disc& disc, double time) const {
 }
 
 void EventDrivenReference::predict_pair(DiscId p, DiscId q) {
-    if (!setting_.discs_meet()) return;
+    if (!setting_.discs_meet() || has_left(discs_[p]) || has_left(discs_[q])) return;
     if (p > q) std::swap(p, q);
     const Contact found = contact(discs_[p], discs_[q], setting_.radius_of(p) + setting_.radius_of(q), std::numeric_limits<double>::infinity());
     if (found.delay < 0) return;
@@ -219,8 +223,12 @@ void EventDrivenReference::carry_out(const Event& event) {
         pair_collisions_ += 1;
         note(event.q, event.p, event);
     } else {
-        if (event.is_obstacle) bodies_->reflect(p, event.q, event.time, is_touched);
-        else rebound(p, event.q, is_high, event.time, is_touched);
+        if (event.is_obstacle) {
+            bodies_->reflect(p, event.q, event.time, is_touched);
+        } else if (setting_.effects.sides[2 * event.q + (is_high ? 1 : 0)].kind == SideKind::open) {
+            restart_frame(p, event.time);
+            set_left(setting_, p, 2 * event.q + (is_high ? 1 : 0));
+        } else rebound(p, event.q, is_high, event.time, is_touched);
         p.wall_collisions += 1;
         wall_collisions_ += 1;
     }

@@ -46,6 +46,15 @@ Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance) {
     return {base, c / (std::sqrt(discriminant) - b)};
 }
 
+bool has_left(const Disc& disc) { return disc.tau == -1; }
+
+void set_left(const Setting& setting, Disc& disc, std::size_t side) {
+    const double line = side % 2 == 0 ? -setting.radius : setting.box_size + setting.radius;
+    (side < 2 ? disc.x : disc.y) = line;
+    disc.vx = disc.vy = 0;
+    disc.tau = -1;
+}
+
 void advance(Disc& disc, double time) {
     const double elapsed = time - disc.tau;
     disc.x = disc.x + disc.vx * elapsed;
@@ -130,9 +139,11 @@ void OneRuleReference::run_micro_step() {
 void OneRuleReference::find_candidates(double m) {
     candidates_.clear();
     for (const Disc& p : discs_) {
+        if (has_left(p)) continue;
         const double t = wall_time(p, m);
         if (t != never) candidates_.push_back({micro_step_, t, p.id, Collision::wall});
         for (DiscId id = p.id + 1; id < discs_.size() && setting_.discs_meet(); ++id) {
+            if (has_left(discs_[id])) continue;
             const Contact found = contact(p, discs_[id], setting_.radius_of(p.id) + setting_.radius_of(id), tolerance_);
             if (found.delay < 0) continue;
             const double in_step = (found.base - m) + found.delay;
@@ -149,6 +160,7 @@ void OneRuleReference::keep(const Collision& candidate, double m) {
         if (candidate.t != axes_time(p, m)) return bounce_off(p, m, candidate.t);
         bounce(p, m, candidate.t);
         p.wall_collisions += 1;
+        if (has_left(p)) return;
         stop_at_wall(p, m, candidate.t, FixedBodies::none);
         return;
     }
@@ -173,14 +185,23 @@ void OneRuleReference::bounce_off(Disc& disc, double m, double t) const {
 
 void OneRuleReference::synchronize() {
     for (Disc& disc : discs_) {
+        if (has_left(disc)) continue;
         advance(disc, static_cast<double>(setting_.sync_every));
         disc.tau = 0;
     }
 }
 
-double OneRuleReference::axis_time(DiscId id, double x, double v, double tau, double m) const {
+bool OneRuleReference::leads_out(double v, std::size_t low_side) const {
+    return v != 0 && setting_.effects.sides[low_side + (v > 0)].kind == SideKind::open;
+}
+
+double OneRuleReference::axis_time(DiscId id, double x, double v, double tau, double m, std::size_t low_side) const {
     double wall = 0;
-    if (v < 0 && x + v * ((m + 1) - tau) < low(id) + band_) {
+    if (leads_out(v, low_side)) {
+        wall = v < 0 ? -setting_.radius : setting_.box_size + setting_.radius;
+        const double at_end = x + v * ((m + 1) - tau);
+        if (v < 0 ? at_end >= wall : at_end <= wall) return never;
+    } else if (v < 0 && x + v * ((m + 1) - tau) < low(id) + band_) {
         wall = low(id);
     } else if (v > 0 && x + v * ((m + 1) - tau) > high(id) - band_) {
         wall = high(id);
@@ -199,20 +220,23 @@ double OneRuleReference::wall_time(const Disc& disc, double m) const {
 }
 
 double OneRuleReference::axes_time(const Disc& disc, double m) const {
-    const double tx = axis_time(disc.id, disc.x, disc.vx, disc.tau, m);
-    const double ty = axis_time(disc.id, disc.y, disc.vy, disc.tau, m);
+    const double tx = axis_time(disc.id, disc.x, disc.vx, disc.tau, m, 0);
+    const double ty = axis_time(disc.id, disc.y, disc.vy, disc.tau, m, 2);
     return tx < ty ? tx : ty;
 }
 
 void OneRuleReference::bounce(Disc& disc, double m, double t) const {
-    const bool x_is_due = axis_time(disc.id, disc.x, disc.vx, disc.tau, m) == t;
-    const bool y_is_due = axis_time(disc.id, disc.y, disc.vy, disc.tau, m) == t;
+    const bool x_is_due = axis_time(disc.id, disc.x, disc.vx, disc.tau, m, 0) == t;
+    const bool y_is_due = axis_time(disc.id, disc.y, disc.vy, disc.tau, m, 2) == t;
     advance(disc, m + t);
-    const auto is_at_wall = [&](double x, double v) {
+    if (x_is_due && leads_out(disc.vx, 0)) return set_left(setting_, disc, disc.vx < 0 ? 0 : 1);
+    if (y_is_due && leads_out(disc.vy, 2)) return set_left(setting_, disc, disc.vy < 0 ? 2 : 3);
+    const auto is_at_wall = [&](double x, double v, std::size_t low_side) {
+        if (leads_out(v, low_side)) return false;
         return (v < 0 && x <= low(disc.id) + band_) || (v > 0 && x >= high(disc.id) - band_);
     };
-    const bool x_reverses = x_is_due || is_at_wall(disc.x, disc.vx);
-    const bool y_reverses = y_is_due || is_at_wall(disc.y, disc.vy);
+    const bool x_reverses = x_is_due || is_at_wall(disc.x, disc.vx, 0);
+    const bool y_reverses = y_is_due || is_at_wall(disc.y, disc.vy, 2);
     const auto& sides = setting_.effects.sides;
     const auto reverse = [&](std::size_t number, double& normal, double& along) {
         const double away = number % 2 == 0 ? 1 : -1;
@@ -228,8 +252,9 @@ void OneRuleReference::bounce(Disc& disc, double m, double t) const {
     if (y_reverses && still_comes) reverse(disc.vy < 0 ? 2 : 3, disc.vy, disc.vx);
 }
 
-double OneRuleReference::stop_time(DiscId id, double x, double v, double t) const {
+double OneRuleReference::stop_time(DiscId id, double x, double v, double t, std::size_t low_side) const {
     double ts = never;
+    if (leads_out(v, low_side)) return never;
     if (v < 0 && x + v * (1 - t) < low(id)) ts = (low(id) - x) / v;
     if (v > 0 && x + v * (1 - t) > high(id)) ts = (high(id) - x) / v;
     return ts < 0 ? 0 : ts;
@@ -237,8 +262,8 @@ double OneRuleReference::stop_time(DiscId id, double x, double v, double t) cons
 
 /// `left` is the body that it has just been reflected from.
 void OneRuleReference::stop_at_wall(Disc& disc, double m, double t, std::size_t left) const {
-    const double sx = stop_time(disc.id, disc.x, disc.vx, t);
-    const double sy = stop_time(disc.id, disc.y, disc.vy, t);
+    const double sx = stop_time(disc.id, disc.x, disc.vx, t, 0);
+    const double sy = stop_time(disc.id, disc.y, disc.vy, t, 2);
     const double ts = sx < sy ? sx : sy;
     const BodyMeeting meeting = bodies_->first_meeting(disc, disc.tau, left);
     if (meeting.time < m + 1 && meeting.time - disc.tau < ts) {

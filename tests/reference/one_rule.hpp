@@ -80,6 +80,10 @@ struct Contact {
 /// The predicate of section 4. `tolerance` is the deepest overlap that still collides; infinity under the rule "all".
 Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance);
 
+/// What stands for a disc that has left the box: at rest where it left, with a time that no other has.
+bool has_left(const Disc& disc);
+void set_left(const Setting& setting, Disc& disc, std::size_t side);
+
 /// The two states' positions at `time`, the impulse of a pair; p has the lower id.
 void advance(Disc& disc, double time);
 void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitution);
@@ -109,11 +113,12 @@ private:
 
     double wall_time(const Disc& disc, double m) const;
     double axes_time(const Disc& disc, double m) const;
-    double axis_time(DiscId id, double x, double v, double tau, double m) const;
+    double axis_time(DiscId id, double x, double v, double tau, double m, std::size_t low_side) const;
     void bounce(Disc& disc, double m, double t) const;
     void bounce_off(Disc& disc, double m, double t) const;
     void stop_at_wall(Disc& disc, double m, double t, std::size_t left) const;
-    double stop_time(DiscId id, double x, double v, double t) const;
+    double stop_time(DiscId id, double x, double v, double t, std::size_t low_side) const;
+    bool leads_out(double v, std::size_t low_side) const;
 
     Setting setting_;
     std::shared_ptr<const FixedBodies> bodies_;

@@ -46,6 +46,20 @@ expect_code 0 'the second stretch'
 [ "$(json_value rest.json state_hash)" = "$(json_value whole.json state_hash)" ] || complain 'another state hash after a restart'
 tail -n 400 "$test_folder/out" | cmp - "$test_folder/end" || complain 'other lines after a restart'
 
+sed 's/^left = .*/left = { kind = "open" }/; s/^right = .*/right = { kind = "open" }/' fall.toml >leak.toml
+run 2 run leak.toml --quiet --report leak.json --set output.text=ends
+expect_code 0 'open sides'
+tail -n 400 "$test_folder/out" >"$test_folder/end"
+run 3 run leak.toml --steps 70 --quiet --set output.checkpoint.folder=leaking
+expect_code 0 'open sides, the first stretch'
+run 1 verify leaking/checkpoint-000000000070.h5
+expect_code 0 'a checkpoint of a box that some have left'
+run 1 run --restart leaking --steps 150 --report leak_rest.json --set output.text=ends
+expect_code 0 'open sides, the second stretch'
+expect_told ' of 400 discs: left ' 'the summary of open sides'
+[ "$(json_value leak_rest.json state_hash)" = "$(json_value leak.json state_hash)" ] || complain 'open sides: another state hash after a restart'
+tail -n 400 "$test_folder/out" | cmp - "$test_folder/end" || complain 'open sides: other lines after a restart'
+
 run 1 run fall.toml --restart kept --set effects.gravity.y=-0.01
 expect_code 2 'another gravity'
 expect_told "'effects.gravity.y' is -0.005 there and -0.01 here" 'another gravity'

@@ -24,6 +24,11 @@ struct alignas(64) Disc {
     std::uint64_t wall_collisions = 0;
     std::uint64_t pair_collisions = 0;
 
+    /// Has left the box at (x, y) through an open side: at rest there, it takes part in nothing any more. No other state has
+    /// such a time.
+    static constexpr double gone = -1;
+    bool is_gone() const { return tau < 0; }
+
     double x_at(double time) const { return x + vx * (time - tau); }
     double y_at(double time) const { return y + vy * (time - tau); }
 

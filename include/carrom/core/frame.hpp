@@ -17,8 +17,9 @@ struct Frame {
     double slowing = 1;     ///< how fast its clock goes
     double clock = 0;       ///< its time
 
-    /// The disc at `time`, which is the frame's, as the box sees it.
+    /// The disc at `time`, which is the frame's, as the box sees it. One that has left the box is stored so.
     Disc in_box(const Disc& stored, double time) const {
+        if (stored.is_gone()) return stored;
         Disc disc = stored;
         disc.x = stored.x_at(time);
         disc.y = stored.y_at(time);

@@ -15,13 +15,14 @@
 
 namespace carrom {
 
-/// `is_mixed`: discs are of several radii and masses (and there are no obstacles then). Then the plain law's radius is the largest, and so are its bands and tolerances.
+/// `is_mixed`: discs are of several radii and masses (and there are neither obstacles nor open sides then). Then the plain law's radius is the largest, and so are its bands and tolerances.
 template <class Contact, bool is_mixed = false> class EffectLaw : public PlainLaw {
 public:
     static constexpr bool has_pairs = Contact::has_pairs;
     static constexpr bool has_bodies = is_mixed;
     static constexpr bool has_mirror_walls = false;
     static constexpr bool may_have_obstacles = true;
+    static constexpr bool may_lose_discs = true;
 
     /// `effects` per micro-step.
     EffectLaw(double box_size, double radius, const Effects& effects)
@@ -37,11 +38,15 @@ public:
     const DiscBodies& bodies() const { return bodies_; }
 
     PairContact<double> contact(const Disc& p, const Disc& q) const {
-        if constexpr (has_pairs) return pair_law(p, q).contact(p, q);
+        if constexpr (has_pairs) {
+            if (!p.is_gone() && !q.is_gone()) return pair_law(p, q).contact(p, q);
+        }
         return {};
     }
     PairContact<double> exact_contact(const Disc& p, const Disc& q) const {
-        if constexpr (has_pairs) return pair_law(p, q).exact_contact(p, q);
+        if constexpr (has_pairs) {
+            if (!p.is_gone() && !q.is_gone()) return pair_law(p, q).exact_contact(p, q);
+        }
         return {};
     }
 
@@ -60,18 +65,20 @@ public:
 
     /// A disc's one candidate with what stands still: a wall, or an obstacle if that comes before.
     double wall_time(const Disc& disc, double m) const {
-        const double at_wall = wall_law(disc).wall_time(disc, m);
+        const double at_wall = side_time(disc, m);
         return has_obstacles() ? std::min(at_wall, obstacle_contact(disc, m).time - m) : at_wall;
     }
 
     /// The plain law's times; what happens at them is the sides' business. Walls are at rest under the rule "one".
     void bounce(Disc& disc, double m, double t) const {
-        if (has_obstacles() && t != PlainLaw::wall_time(disc, m)) return bounce_off(disc, m, t);
+        if (has_obstacles() && t != side_time(disc, m)) return bounce_off(disc, m, t);
         const PlainLaw walls = wall_law(disc);
-        const double tx = walls.axis_time(disc.x, disc.vx, disc.tau, m), ty = walls.axis_time(disc.y, disc.vy, disc.tau, m);
+        const double tx = side_time(disc, Axis::x, m), ty = side_time(disc, Axis::y, m);
         advance(disc, m + t);
-        const bool x_reverses = tx == t || walls.touches_wall(disc.x, disc.vx);
-        const bool y_reverses = ty == t || walls.touches_wall(disc.y, disc.vy);
+        if (tx == t && is_open(disc, Axis::x)) return sides_.depart(disc, Sides::side_ahead(disc, Axis::x), m + t);
+        if (ty == t && is_open(disc, Axis::y)) return sides_.depart(disc, Sides::side_ahead(disc, Axis::y), m + t);
+        const bool x_reverses = tx == t || (walls.touches_wall(disc.x, disc.vx) && !is_open(disc, Axis::x));
+        const bool y_reverses = ty == t || (walls.touches_wall(disc.y, disc.vy) && !is_open(disc, Axis::y));
         const bool goes_down = disc.vy < 0;
         if (x_reverses) sides_.reverse(disc, Axis::x);
         // A thermal wall may have turned the disc away from the other one.
@@ -90,7 +97,9 @@ public:
     void bounce_x_at(Disc& disc, double time) const { sides_.bounce_at(disc, Axis::x, time); }
     void bounce_y_at(Disc& disc, double time) const { sides_.bounce_at(disc, Axis::y, time); }
     /// The first obstacle that the disc comes to.
-    ObstacleContact first_obstacle(const Disc& disc, const ContactTimes& times) const { return obstacles_->first_contact(disc, times); }
+    ObstacleContact first_obstacle(const Disc& disc, const ContactTimes& times) const {
+        return disc.is_gone() ? ObstacleContact{} : obstacles_->first_contact(disc, times);
+    }
     void bounce_off_at(Disc& disc, std::uint32_t body, double time) const {
         const bool is_touched = time - disc.tau < contact_time_;
         advance(disc, time);
@@ -99,7 +108,23 @@ public:
     }
 
 private:
-    ObstacleContact obstacle_contact(const Disc& disc, double m) const { return obstacles_->first_contact(disc, {m, m + 1}); }
+    ObstacleContact obstacle_contact(const Disc& disc, double m) const { return first_obstacle(disc, {m, m + 1}); }
+
+    bool is_open(const Disc& disc, Axis axis) const { return sides_.is_open(Sides::side_ahead(disc, axis)); }
+
+    /// As the plain law's, but that through an open side a disc leaves when its centre is a radius beyond it.
+    double side_time(const Disc& disc, Axis axis, double m) const {
+        const double x = axis == Axis::x ? disc.x : disc.y, v = axis == Axis::x ? disc.vx : disc.vy;
+        if (v == 0 || !is_open(disc, axis)) return wall_law(disc).axis_time(x, v, disc.tau, m);
+        const double line = sides_.departure(Sides::side_ahead(disc, axis)), at_end = x + v * ((m + 1) - disc.tau);
+        if (v < 0 ? !(at_end < line) : !(at_end > line)) return never;
+        return std::clamp((disc.tau - m) + (line - x) / v, 0.0, 1.0);
+    }
+    double side_time(const Disc& disc, double m) const { return std::min(side_time(disc, Axis::x, m), side_time(disc, Axis::y, m)); }
+    double side_stop(const Disc& disc, Axis axis, double rest) const {
+        const double x = axis == Axis::x ? disc.x : disc.y, v = axis == Axis::x ? disc.vx : disc.vy;
+        return v == 0 || is_open(disc, axis) ? never : axis_stop(x, v, rest);
+    }
 
     void bounce_off(Disc& disc, double m, double t) const {
         const ObstacleContact contact = obstacle_contact(disc, m);
@@ -111,11 +136,15 @@ private:
 
     /// As at walls: what would run into an obstacle before the micro-step ends waits there. `left` is one just left.
     void stop(Disc& disc, double m, double t, std::uint32_t left = ObstacleContact::no_body) const {
-        if (!has_obstacles()) return wall_law(disc).stop_at_wall(disc, m, t);
-        const double at_wall = std::min(axis_stop(disc.x, disc.vx, 1 - t), axis_stop(disc.y, disc.vy, 1 - t));
-        const ObstacleContact contact = obstacles_->first_contact(disc, {disc.tau, m + 1, true, left});
-        if (!(contact.time < m + 1) || !(contact.time - disc.tau < at_wall)) return stop_at_wall(disc, m, t);
-        advance(disc, contact.time);
+        if (!has_obstacles() && !sides_.are_any_open()) return wall_law(disc).stop_at_wall(disc, m, t);
+        const double at_wall = std::min(side_stop(disc, Axis::x, 1 - t), side_stop(disc, Axis::y, 1 - t));
+        const ObstacleContact contact = has_obstacles() ? first_obstacle(disc, {disc.tau, m + 1, true, left}) : ObstacleContact{};
+        if (contact.time < m + 1 && contact.time - disc.tau < at_wall) {
+            advance(disc, contact.time);
+        } else if (at_wall != never) {
+            disc.x += disc.vx * at_wall;
+            disc.y += disc.vy * at_wall;
+        } else return;
         disc.tau = m + 1;
     }
 

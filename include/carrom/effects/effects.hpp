@@ -25,7 +25,7 @@ struct ContactEffect {
 };
 
 /// What a side of the box is.
-enum class SideKind { fixed, thermal, moving };
+enum class SideKind { fixed, thermal, moving, open };
 
 struct Side {
     SideKind kind = SideKind::fixed;

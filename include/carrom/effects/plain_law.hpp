@@ -49,6 +49,8 @@ public:
     /// Whether there may be bodies in the box beside its walls.
     static constexpr bool may_have_obstacles = false;
     static constexpr bool has_obstacles() { return false; }
+    /// Whether discs may leave the box.
+    static constexpr bool may_lose_discs = false;
     /// Whether a wall reverses a velocity across it and does nothing else to a disc.
     static constexpr bool has_mirror_walls = true;
     /// Whether discs differ in radius and mass.

@@ -21,6 +21,7 @@ public:
     static Frame frame_at(double /*time*/) { return {}; }
     Extent extent_at(double /*time*/) const { return {0, box_size_, 0, box_size_}; }
     static constexpr double jump_at(double /*time*/) { return 0; }
+    static constexpr bool are_any_open() { return false; }
     static constexpr double speed_gained_at(double /*time*/) { return 0; }
 
 private:

@@ -51,6 +51,15 @@ public:
     /// False only if no wall is met by `time`, with room to spare for a rounding `margin`.
     bool may_meet(const Disc& disc, double time, double margin) const;
 
+    /// The side that a velocity along `axis` leads to, not 0.
+    static std::size_t side_ahead(const Disc& disc, Axis axis) { return 2 * static_cast<std::size_t>(axis) + (velocity_of(disc, static_cast<std::size_t>(axis)) < 0 ? 0 : 1); }
+    bool is_open(std::size_t side) const { return effects_.sides[side].kind == SideKind::open; }
+    bool are_any_open() const { return is_open(0) || is_open(1) || is_open(2) || is_open(3); }
+    /// Where a disc's centre is that is just outside an open side, in the box.
+    double departure(std::size_t side) const { return departure_or_touch(side, radius_); }
+    /// What becomes of a disc that has come there, advanced to `time`.
+    void depart(Disc& disc, std::size_t side, double time) const;
+
     /// The rule "one", walls at rest: reverses the velocity on `axis`, the disc being where it touches.
     void reverse(Disc& disc, Axis axis) const;
 
@@ -68,9 +77,13 @@ private:
     static double velocity_of(const Disc& disc, std::size_t axis) { return axis == 0 ? disc.vx : disc.vy; }
     static double sign_of(std::size_t side) { return side % 2 == 0 ? 1 : -1; }
 
-    /// For the centre of a disc of that radius that touches.
+    double departure_or_touch(std::size_t side, double radius) const {
+        const double from_line = is_open(side) ? -radius : radius;
+        return side % 2 == 0 ? from_line : box_size_ - from_line;
+    }
+    /// For the centre of a disc of that radius that touches, or has just left an open side.
     double wall_at(std::size_t side, double time, double radius) const {
-        const double place = (side % 2 == 0 ? radius : box_size_ - radius) + moved_[side];
+        const double place = departure_or_touch(side, radius) + moved_[side];
         return (place + speeds_[side] * time) - (0.5 * gravity_[side / 2] * time) * time;
     }
     /// Of the clock: exp(-c t) = 1 - c s.

@@ -2,6 +2,7 @@
 // The state of a run and how it moves forward in time. It opens no file and prints nothing.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -41,6 +42,7 @@ struct Totals {
     double kinetic_energy = 0;
     double potential_energy = 0;            ///< under gravity, above the walls that it pulls to at the start
     double momentum_x = 0, momentum_y = 0;
+    std::array<std::uint64_t, 4> gone{};    ///< discs that have left, by the side they left through
     StateHash hash;
 };
 
@@ -92,7 +94,8 @@ public:
     std::int64_t step() const;
     std::int64_t micro_steps_done() const;
 
-    /// Own discs in no particular order: velocities per micro-step, times on `clock()`.
+    /// Own discs in no particular order: velocities per micro-step, times on `clock()`. Those that have left the box are
+    /// among them (Disc::gone). Good until the next call.
     std::span<const Disc> discs() const;
     /// The present time in micro-steps since the last sync, to evaluate Disc::x_at with.
     double clock() const;
@@ -139,7 +142,8 @@ private:
     std::unique_ptr<Engine> engine_;
     std::unique_ptr<BlockAverages> averages_;
     std::unique_ptr<StateCheck> check_;
-    mutable std::vector<Disc> shown_; ///< under gravity
+    mutable std::vector<Disc> shown_;  ///< under gravity
+    mutable std::vector<Disc> stored_; ///< once discs have left
     std::vector<Collision>* log_ = nullptr; ///< the user's, while the check has a log of its own
 };
 

@@ -102,6 +102,22 @@ TEST_CASE("effects: obstacles have the references' bits, with restitution, gravi
     }
 }
 
+TEST_CASE("effects: open sides have the references' bits, with obstacles and gravity too") {
+    const Side open{SideKind::open, 1, 0, 0};
+    for (TestScene scene : {base_scenes()[0], base_scenes()[1], obstructed_scenes()[1]}) {
+        scene.steps = 24;
+        Effects& effects = scene.setting.effects;
+        effects.sides = {open, Side{}, Side{}, Side{}};
+        check_bits(scene, CollisionRule::one);
+        effects.sides = {open, open, open, open};
+        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
+        effects.sides = {Side{}, open, open, Side{}};
+        effects.gravity = {0.02, -0.05};
+        scene.setting.falling_contact = falling_contact;
+        check_bits(scene, CollisionRule::all);
+    }
+}
+
 TEST_CASE("effects: drag has the reference's bits") {
     for (TestScene scene : base_scenes()) {
         const double rate = 0.2, per_micro_step = rate / static_cast<double>(scene.setting.micro_steps);

@@ -122,3 +122,50 @@ TEST_CASE("effects: an ideal gas is compressed adiabatically, and its energy is 
     CHECK(end * now * now == Approx(start * length * length).epsilon(0.01));
     CHECK(end > 1.7 * start);
 }
+
+// Discs that do not meet leave when each one's flight, unfolded at the closed walls, says; they stand where they left.
+TEST_CASE("effects: discs leave through open sides when their flights say, and are counted") {
+    const Communicator world = Communicator::world();
+    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+        TestScene scene = gas(300, 0.05, 0.8, 608);
+        Effects& effects = scene.setting.effects;
+        effects.contact.kind = ContactKind::none;
+        effects.sides[1] = effects.sides[2] = {SideKind::open, 1, 0, 0};
+        scene.steps = 60;
+        const long double r = scene.setting.radius, size = scene.setting.box_size;
+        std::array<std::uint64_t, 4> known{};
+        for (const InputDisc& disc : scene.discs) {
+            const long double way_x = disc.vx > 0 ? size + r - disc.x : (disc.x - r) + (size + r - r);
+            const long double way_y = disc.vy < 0 ? disc.y + r : (size - r - disc.y) + (size - r + r);
+            const long double tx = disc.vx == 0 ? 1e9L : way_x / std::fabs(static_cast<long double>(disc.vx));
+            const long double ty = disc.vy == 0 ? 1e9L : way_y / std::fabs(static_cast<long double>(disc.vy));
+            if (std::min(tx, ty) <= 60) known[tx < ty ? 1 : 2] += 1;
+        }
+        Simulation simulation = simulation_of(scene, rule, world);
+        advance_to(simulation, 60);
+        const Totals totals = simulation.totals();
+        INFO((rule == CollisionRule::one ? "one" : "all"));
+        CHECK(totals.gone == known);
+        CHECK(known[1] > 20);
+        CHECK(known[2] > 20);
+        CHECK(totals.n_discs == 300);
+        for (const Disc& disc : simulation.shown()) {
+            if (!disc.is_gone()) continue;
+            CHECK((disc.x == scene.setting.box_size + scene.setting.radius || disc.y == -scene.setting.radius));
+            CHECK((disc.vx == 0 && disc.vy == 0));
+        }
+    }
+}
+
+TEST_CASE("effects: a box without sides empties, and time goes on") {
+    const Communicator world = Communicator::world();
+    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+        TestScene scene = gas(100, 0.3, 0.5, 609);
+        for (Side& side : scene.setting.effects.sides) side = {SideKind::open, 1, 0, 0};
+        scene.steps = 3000;
+        const Totals end = run(scene, rule, world);
+        CHECK(end.gone[0] + end.gone[1] + end.gone[2] + end.gone[3] == 100);
+        CHECK(end.kinetic_energy == 0);
+        CHECK(end.overlapping_pairs == 0);
+    }
+}

@@ -69,6 +69,9 @@ TEST_CASE("Sides are read, and contradictions explained") {
     CHECK(has(problems_with({"effects.thermal.seed=1"}), "no meaning without a side of kind = \"thermal\""));
     CHECK(has(problems_with({"effects.contact.contact_time=0.1"}), "no meaning without discs, walls or obstacles of restitution, or gravity"));
     CHECK(has(problems_with({"box.middle.kind=wall"}), "no such key"));
+    CHECK(read_scene(good, "s.toml", {"box.left.kind=open"}).effects.sides[0] == Side{SideKind::open, 1, 0, 0});
+    CHECK(has(problems_with({"box.left.kind=open", "box.left.restitution=0.5"}), "nothing comes back from an open side"));
+    CHECK(has(problems_with({"box.left.kind=open", "box.top.kind=moving", "box.top.speed=1", all}), "no open sides together with moving walls"));
 }
 
 TEST_CASE("Obstacles are read, each wrong one is named") {
