@@ -89,9 +89,9 @@ run 1 info mixed/checkpoint-000000000060.h5
 grep -q '5 discs of radius 4 and mass 20, 300 discs of radius 0.5 and mass 1' "$test_folder/out" || complain 'no classes in info'
 run 3 run --restart mixed --steps 90 --set time.collisions=all
 expect_code 2 'another rule'
-run 2 run --restart mixed --steps 90 --quiet --report rest.json
-run 1 run mixture.toml --steps 90 --quiet --report whole.json
-[ "$(json_value rest.json state_hash)" = "$(json_value whole.json state_hash)" ] || complain 'a mixture has another state hash after a restart'
+run 2 run --restart mixed --steps 90 --quiet --report mixed_rest.json
+run 1 run mixture.toml --steps 90 --quiet --report mixed_whole.json
+[ "$(json_value mixed_rest.json state_hash)" = "$(json_value mixed_whole.json state_hash)" ] || complain 'a mixture has another state hash after a restart'
 
 run 3 run fall.toml --check --quiet --report checked.json
 expect_code 0 'a checked run with effects'
