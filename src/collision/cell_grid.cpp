@@ -214,7 +214,7 @@ std::vector<std::int64_t> CellGrid::column_shares(int n_shares) const {
     return bounds;
 }
 
-void CellGrid::reorder(std::span<Disc> discs, std::size_t n_own, int n_threads) {
+void CellGrid::reorder(std::span<Disc> discs, std::size_t n_own, int n_threads, std::span<double> column) {
     ensure(order_.size() >= n_own && discs.size() >= n_own, "discs are brought into the order of a grid that holds them");
     std::size_t n_placed = 0; // slot_of_ becomes the list of own discs by slot
     for (const LocalIndex index : order_) {
@@ -238,6 +238,10 @@ void CellGrid::reorder(std::span<Disc> discs, std::size_t n_own, int n_threads) 
             const auto slot = static_cast<std::size_t>(k);
             std::memcpy(states + slot * sizeof(Disc) + part * quarter, lent + slot * quarter, quarter);
         }
+    }
+    if (!column.empty()) {
+        const std::vector<double> before(column.begin(), column.begin() + n);
+        for (std::size_t slot = 0; slot < n_own; ++slot) column[slot] = before[slot_of_[slot]];
     }
     order_.clear();
 }

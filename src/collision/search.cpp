@@ -245,5 +245,6 @@ template class Search<ElasticLaw>;
 template class Search<IdealGasLaw>;
 template class Search<InelasticLaw>;
 template class Search<MixedLaw>;
+template class Search<RoughLaw>;
 
 } // namespace carrom

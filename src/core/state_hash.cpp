@@ -31,6 +31,12 @@ StateHash hash_of(std::span<const Disc> discs) {
     return sum;
 }
 
+StateHash hash_of_spin(DiscId id, double spin) {
+    const std::array<std::uint64_t, 2> record = {id, std::bit_cast<std::uint64_t>(spin + 0.0)};
+    const XXH128_hash_t hash = XXH3_128bits(record.data(), sizeof record);
+    return {hash.low64, hash.high64};
+}
+
 std::string to_string(const StateHash& hash) {
     std::array<char, 33> text{};
     std::snprintf(text.data(), text.size(), "%016llx%016llx", static_cast<unsigned long long>(hash.high),

@@ -14,6 +14,9 @@ std::string description(const ContactEffect& contact) {
     case ContactKind::elastic: return {};
     case ContactKind::none: return "discs pass through each other";
     case ContactKind::restitution: return fmt::format("restitution {:g} of pairs", contact.restitution);
+    case ContactKind::rough:
+        return fmt::format("rough discs of restitution {:g}, tangential {:g}, friction {:g}", contact.restitution, contact.tangential_restitution,
+                           contact.friction);
     }
     return {};
 }

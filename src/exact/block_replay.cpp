@@ -40,6 +40,7 @@ void BlockReplay<Law>::run(const ReplayGround& ground, const CellBlock& block, i
     s.outcome = &outcome;
     outcome.hit.clear();
     outcome.states.clear();
+    outcome.spins.clear();
     outcome.ring.clear();
     outcome.log.clear();
     outcome.n_events = 0;
@@ -84,6 +85,10 @@ void BlockReplay<Law>::Scratch::gather(const ReplayGround& of_rank, const CellBl
     row_limit = static_cast<float>(cells.end_row - cells.first_row - 1);
     discs.resize(n);
     pasts.assign(n, Past{});
+    if constexpr (Law::has_spin) {
+        spins.resize(n);
+        for (std::size_t slot = 0; slot < n; ++slot) spins[slot] = ground.spins[indices[slot]];
+    }
     for (std::vector<float>* lane : {&x, &y, &vx, &vy}) {
         if (lane->size() < n + filter_padding) lane->resize(2 * n + filter_padding);
     }
@@ -294,7 +299,8 @@ template <class Law> void BlockReplay<Law>::Scratch::carry_out(const Event& even
     } else if (Law::may_have_obstacles && is_wall(event.q)) {
         if constexpr (Law::may_have_obstacles) law.bounce_off_at(p, event.q - first_obstacle, event.time);
     } else {
-        law.collide_at(p, discs[event.q], event.time);
+        if constexpr (Law::has_spin) law.collide_at(p, discs[event.q], event.time, spins[event.p], spins[event.q]);
+        else law.collide_at(p, discs[event.q], event.time);
         note(event.q, event.p, event);
     }
     note(event.p, event.q, event);
@@ -317,7 +323,8 @@ void BlockReplay<Law>::Scratch::note(std::uint32_t slot, std::uint32_t partner, 
     const std::uint64_t sum = rotated_product(bits(event.time), 0x9e3779b97f4a7c15u) +
                               rotated_product(bits(disc.vx), 0xbf58476d1ce4e5b9u) +
                               rotated_product(bits(disc.vy), 0x94d049bb133111ebu) + partner_id;
-    const std::uint64_t hash = (std::rotl(past.history, 17) ^ sum) * 0xff51afd7ed558ccdu;
+    std::uint64_t hash = (std::rotl(past.history, 17) ^ sum) * 0xff51afd7ed558ccdu;
+    if constexpr (Law::has_spin) hash = (std::rotl(hash, 23) ^ bits(spins[slot])) * 0xc4ceb9fe1a85ec53u;
     past.history = (hash ^ (hash >> 32)) | 1;
     if (is_own[slot] != 0) {
         const float before = vx[slot] * vx[slot] + vy[slot] * vy[slot];
@@ -382,6 +389,7 @@ void BlockReplay<Law>::Scratch::report(const CellBlock& own, std::span<std::uint
             if (past.history == 0) continue;
             outcome->hit.push_back(indices[slot]);
             outcome->states.emplace_back(discs[slot]);
+            if constexpr (Law::has_spin) outcome->spins.push_back(spins[slot]);
         }
     }
     outcome->largest_speed_at_end = std::sqrt(end_squared) * (1 + 0x1p-50);
@@ -402,5 +410,6 @@ template class BlockReplay<ElasticLaw>;
 template class BlockReplay<IdealGasLaw>;
 template class BlockReplay<InelasticLaw>;
 template class BlockReplay<MixedLaw>;
+template class BlockReplay<RoughLaw>;
 
 } // namespace carrom

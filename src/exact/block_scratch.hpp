@@ -68,6 +68,7 @@ template <class Law> struct BlockReplay<Law>::Scratch {
     std::vector<std::uint32_t> cell_starts; ///< by column and row, and one more to each column
     std::vector<LocalIndex> indices;   ///< by slot, as all that follows
     std::vector<Disc> discs;
+    std::vector<double> spins; ///< of rough discs
     std::vector<Past> pasts;
     std::vector<std::uint8_t> is_own;
     std::vector<float> x, y, vx, vy;

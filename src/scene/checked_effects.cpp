@@ -39,13 +39,33 @@ void fill_contact_time(const Check& check) {
                                  key, longest, *time));
 }
 
+void fill_roughness(const Check& check) {
+    ContactEffect& contact = check.scene.effects.contact;
+    if (contact.kind != ContactKind::rough) {
+        for (const std::string_view key : {"effects.contact.tangential_restitution", "effects.contact.friction", "effects.contact.moment_of_inertia"})
+            refuse_without(check, key, "effects.contact.kind = \"rough\"");
+        return;
+    }
+    check.refuse_missing("effects.contact.tangential_restitution", "of surfaces that stick, from -1 (smooth) to 1 (perfectly rough)");
+    if (const auto share = number_within(check, "effects.contact.tangential_restitution", -1, 1)) contact.tangential_restitution = *share;
+    if (const auto friction = number_within(check, "effects.contact.friction", 0, 1e6)) contact.friction = *friction;
+    if (const auto inertia = number_within(check, "effects.contact.moment_of_inertia", 1e-6, 1)) contact.inertia = *inertia;
+    const Setting& kind = *check.settings.find("effects.contact.kind");
+    for (const std::string_view table : {"output.checkpoint", "output.checkpoint.folder"}) {
+        if (!check.settings.is_mentioned(table) && !check.settings.has(table)) continue;
+        check.refuse(kind, "this version keeps no spins in checkpoints: rough discs go without output.checkpoint");
+        break;
+    }
+}
+
 void fill_contact(const Check& check) {
-    static constexpr Choices<ContactKind, 3> kinds = {
-        {{"elastic", ContactKind::elastic}, {"none", ContactKind::none}, {"restitution", ContactKind::restitution}}};
+    static constexpr Choices<ContactKind, 4> kinds = {{{"elastic", ContactKind::elastic}, {"none", ContactKind::none},
+                                                         {"restitution", ContactKind::restitution}, {"rough", ContactKind::rough}}};
     ContactEffect& contact = check.scene.effects.contact;
     if (const auto kind = choice(check, "effects.contact.kind", kinds)) contact.kind = *kind;
-    if (contact.kind != ContactKind::restitution) {
-        refuse_without(check, "effects.contact.restitution", "effects.contact.kind = \"restitution\"");
+    fill_roughness(check);
+    if (contact.kind != ContactKind::restitution && contact.kind != ContactKind::rough) {
+        refuse_without(check, "effects.contact.restitution", "effects.contact.kind = \"restitution\" or \"rough\"");
         return;
     }
     check.refuse_missing("effects.contact.restitution", "what is left of the normal relative velocity of two discs, from 0 to 1");
@@ -99,6 +119,7 @@ void fill_drag(const Check& check) {
     if (check.scene.rule == CollisionRule::one) check.refuse(setting, "drag needs time.collisions = \"all\": under the rule \"one\" discs keep their speed");
     if (effects.drag * interval > 4)
         check.refuse(setting, fmt::format("'{}' = {} leaves less than a fiftieth of a velocity from sync to sync; take a smaller time.sync_every", key, *rate));
+    if (effects.contact.kind == ContactKind::rough) check.refuse(setting, "this version has no drag together with rough discs");
     if (effects.gravity.is_any()) check.refuse(setting, "this version has no drag together with gravity");
     for (const Side& side : effects.sides)
         if (side.kind == SideKind::moving) check.refuse(setting, "this version has no drag together with moving walls");
@@ -134,7 +155,8 @@ void fill_obstacles(const Check& check) {
 
 bool lose_energy_or_fall(const Effects& effects) {
     const bool is_lossy = std::any_of(effects.sides.begin(), effects.sides.end(), [](const Side& side) { return side.restitution < 1; });
-    return is_lossy || effects.contact.kind == ContactKind::restitution || effects.gravity.is_any() || effects.obstacles.restitution < 1;
+    return is_lossy || effects.contact.kind == ContactKind::restitution || effects.contact.kind == ContactKind::rough ||
+           effects.gravity.is_any() || effects.obstacles.restitution < 1;
 }
 
 void check_open_sides(const Check& check) {

@@ -58,6 +58,7 @@ std::string_view name_of(ContactKind kind) {
     case ContactKind::elastic: return "\"elastic\"";
     case ContactKind::none: return "\"none\"";
     case ContactKind::restitution: return "\"restitution\"";
+    case ContactKind::rough: return "\"rough\"";
     }
     return "";
 }
@@ -75,6 +76,9 @@ std::string_view name_of(SideKind kind) {
 void compare_effects(Comparison& c, const Effects& there, const Effects& here) {
     c.compare("effects.contact.kind", name_of(there.contact.kind), name_of(here.contact.kind));
     c.compare("effects.contact.restitution", there.contact.restitution, here.contact.restitution);
+    c.compare("effects.contact.tangential_restitution", there.contact.tangential_restitution, here.contact.tangential_restitution);
+    c.compare("effects.contact.friction", there.contact.friction, here.contact.friction);
+    c.compare("effects.contact.moment_of_inertia", there.contact.inertia, here.contact.inertia);
     c.compare("effects.contact.contact_time", there.contact.contact_time, here.contact.contact_time);
     for (std::size_t k = 0; k < side_names.size(); ++k) {
         const Side &a = there.sides[k], &b = here.sides[k];

@@ -46,6 +46,7 @@ public:
     virtual std::int64_t micro_steps_done() const = 0; ///< since the scene's start
     virtual std::span<const Disc> own() const = 0;
     virtual std::span<const Disc> gone() const = 0; ///< of this rank, those that have left the box and are no more among its own
+    virtual std::span<const double> spins() const { return {}; } ///< along `own()`; empty where discs do not turn
     virtual double clock() const = 0;
     virtual Frame frame() const { return {}; } ///< of the own discs' coordinates, at `clock()`
     virtual std::uint64_t n_discs() const = 0; ///< over all ranks, those that are gone too

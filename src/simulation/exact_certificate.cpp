@@ -144,5 +144,6 @@ template class ExactEngine<ElasticLaw>;
 template class ExactEngine<IdealGasLaw>;
 template class ExactEngine<InelasticLaw>;
 template class ExactEngine<MixedLaw>;
+template class ExactEngine<RoughLaw>;
 
 } // namespace carrom

@@ -42,7 +42,7 @@ ExactEngine<Law>::ExactEngine(const Scene& scene, StoredState state, const Commu
                               const ExactTuning& exact)
     : communicator_(communicator), tuning_(tuning), exact_(exact), law_(law_of<Law>(scene)),
       micro_steps_(scene.micro_steps), sync_every_(scene.sync_every),
-      discs_(communicator, scene.box_size, std::move(state.discs)), n_micro_done_(state.micro_steps_done),
+      discs_(communicator, scene.box_size, std::move(state.discs), Law::has_spin, std::move(state.spins)), n_micro_done_(state.micro_steps_done),
       time_(static_cast<double>(n_micro_done_ % sync_every_)) {
     for (int thread = 0; thread < tuning_.threads; ++thread) replays_.emplace_back(law_);
     begin_interval();
@@ -77,7 +77,7 @@ template <class Law> void ExactEngine<Law>::advance_towards(std::int64_t last_st
 template <class Law> void ExactEngine<Law>::run_window(double target) {
     if (n_windows_ % windows_per_reorder == 0 && n_windows_ > 0) {
         const PhaseClock::Scope scope(clock_, Phase::settle);
-        grid_.reorder(discs_.all(), discs_.n_own(), tuning_.threads);
+        grid_.reorder(discs_.all(), discs_.n_own(), tuning_.threads, discs_.spins());
     }
     set_gone_aside();
     migrate();
@@ -213,7 +213,7 @@ template <class Law> void ExactEngine<Law>::make_blocks() {
 
 template <class Law> void ExactEngine<Law>::replay() {
     const PhaseClock::Scope scope(clock_, Phase::search);
-    const ReplayGround ground{discs_.all(), discs_.n_own(), &grid_, first_own_column_, end_own_column_, window_, is_followed()};
+    const ReplayGround ground{discs_.all(), discs_.n_own(), &grid_, first_own_column_, end_own_column_, window_, is_followed(), discs_.spins()};
     const int n_reach = grid_.frame().n_reach;
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
     for (Block& block : blocks_) {
@@ -239,6 +239,9 @@ template <class Law> void ExactEngine<Law>::commit() {
     for (std::int64_t k = 0; k < n_blocks; ++k) {
         const BlockOutcome& outcome = blocks_[static_cast<std::size_t>(k)].outcome;
         for (std::size_t i = 0; i < outcome.hit.size(); ++i) outcome.states[i].overwrite(discs[outcome.hit[i]]);
+        if constexpr (Law::has_spin) {
+            for (std::size_t i = 0; i < outcome.hit.size(); ++i) discs_.spins()[outcome.hit[i]] = outcome.spins[i];
+        }
     }
     n_events_ = 0;
     largest_speed_ = 0;
@@ -346,6 +349,7 @@ template class ExactEngine<ElasticLaw>;
 template class ExactEngine<IdealGasLaw>;
 template class ExactEngine<InelasticLaw>;
 template class ExactEngine<MixedLaw>;
+template class ExactEngine<RoughLaw>;
 
 std::unique_ptr<Engine> make_exact_engine(const Scene& scene, StoredState state, const Communicator& communicator,
                                           const Tuning& tuning) {

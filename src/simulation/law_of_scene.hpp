@@ -13,10 +13,12 @@ namespace carrom {
 /// Calls `make.template operator()<Law>()` with the scene's law and returns what it gives, the same type for every law.
 /// Effects have the default precision and arithmetic: the reader of scenes sees to that.
 template <class Make> auto with_law_of(const Scene& scene, const Make& make) {
+    if (scene.effects.contact.kind == ContactKind::rough) return make.template operator()<RoughLaw>();
     if (!scene.effects.classes.empty()) return make.template operator()<MixedLaw>();
     switch (scene.effects.contact.kind) {
     case ContactKind::none: return make.template operator()<IdealGasLaw>();
     case ContactKind::restitution: return make.template operator()<InelasticLaw>();
+    case ContactKind::rough: // above
     case ContactKind::elastic:
         if (scene.effects.are_any()) return make.template operator()<ElasticLaw>();
     }

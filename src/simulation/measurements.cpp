@@ -9,13 +9,14 @@
 
 namespace carrom {
 
-void measure_collisions(std::span<const Disc> own, const Communicator& communicator, Totals& totals) {
+void measure_collisions(std::span<const Disc> own, std::span<const double> spins, const Communicator& communicator, Totals& totals) {
     std::uint64_t walls = 0, pairs = 0;
     for (const Disc& disc : own) {
         walls += disc.wall_collisions;
         pairs += disc.pair_collisions;
     }
-    const StateHash hash = hash_of(own);
+    StateHash hash = hash_of(own);
+    for (std::size_t i = 0; i < spins.size(); ++i) hash += hash_of_spin(own[i].id, spins[i]);
     std::uint64_t sums[] = {walls, pairs, hash.low, hash.high};
     communicator.sum(sums);
     totals.wall_collisions = sums[0];
@@ -63,6 +64,21 @@ void measure_motion(std::span<const Disc> own, const DiscBodies* bodies, double 
     totals.kinetic_energy = energy.value();
     totals.momentum_x = momentum_x.value();
     totals.momentum_y = momentum_y.value();
+}
+
+void measure_rotation(std::span<const Disc> own, std::span<const double> spins, const DiscBodies& bodies, double inertia, double velocity_unit,
+                      const Communicator& communicator, Totals& totals) {
+    const auto energy_of = [&](std::size_t i) {
+        const Body& body = bodies.of(own[i].id);
+        const double speed = spins[i] * velocity_unit * body.radius;
+        return 0.5 * inertia * body.mass * speed * speed;
+    };
+    double largest = 0;
+    for (std::size_t i = 0; i < spins.size(); ++i) largest = std::max(largest, energy_of(i));
+    ExactSum energy(static_cast<double>(totals.n_discs) * communicator.max(largest));
+    for (std::size_t i = 0; i < spins.size(); ++i) energy.add(energy_of(i));
+    communicator.sum(energy);
+    totals.rotational_energy = energy.value();
 }
 
 void measure_height(std::span<const Disc> own, const DiscBodies* bodies, const Gravity& gravity, double box_size, const Communicator& communicator, Totals& totals) {

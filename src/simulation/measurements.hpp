@@ -13,14 +13,18 @@
 
 namespace carrom {
 
-/// Fills in the collision counts and the state hash. **Collective.**
-void measure_collisions(std::span<const Disc> own, const Communicator& communicator, Totals& totals);
+/// Fills in the collision counts and the state hash; `spins` run along the discs or are empty. **Collective.**
+void measure_collisions(std::span<const Disc> own, std::span<const double> spins, const Communicator& communicator, Totals& totals);
 
 /// Fills in how many discs have left through which side. **Collective.**
 void measure_departures(std::span<const Disc> own, double box_size, const Communicator& communicator, Totals& totals);
 
 /// Fills in energy and momentum; `velocity_unit` turns stored velocities into those per step. `bodies`: null for masses of 1. **Collective.**
 void measure_motion(std::span<const Disc> own, const DiscBodies* bodies, double velocity_unit, const Communicator& communicator, Totals& totals);
+
+/// Fills in the energy of spins; moments of inertia are `inertia` m r^2. **Collective.**
+void measure_rotation(std::span<const Disc> own, std::span<const double> spins, const DiscBodies& bodies, double inertia, double velocity_unit,
+                      const Communicator& communicator, Totals& totals);
 
 /// Fills in the potential energy of discs as the box sees them. **Collective.**
 void measure_height(std::span<const Disc> own, const DiscBodies* bodies, const Gravity& gravity, double box_size, const Communicator& communicator, Totals& totals);

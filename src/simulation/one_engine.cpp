@@ -32,7 +32,7 @@ double squared_speed_of(const Disc& disc) { return disc.vx * disc.vx + disc.vy *
 template <class Law>
 OneEngine<Law>::OneEngine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning)
     : communicator_(communicator), tuning_(with_useful_threads(tuning, scene, communicator)), law_(law_of<Law>(scene)), micro_steps_(scene.micro_steps),
-      sync_every_(scene.sync_every), last_micro_step_(scene.steps * scene.micro_steps), discs_(communicator, scene.box_size, std::move(state.discs)),
+      sync_every_(scene.sync_every), last_micro_step_(scene.steps * scene.micro_steps), discs_(communicator, scene.box_size, std::move(state.discs), Law::has_spin, std::move(state.spins)),
       n_micro_done_(state.micro_steps_done), micro_(static_cast<int>(n_micro_done_ % sync_every_)),
       search_(law_, tuning_.threads), local_(tuning_.threads), across_strips_(communicator) {
     if constexpr (!Law::is_double) {
@@ -104,7 +104,7 @@ template <class Law> Window OneEngine<Law>::settle(int n_left) {
     return window;
 }
 
-template <class Law> void OneEngine<Law>::reorder() { grid_.reorder(discs_.all(), discs_.n_own(), tuning_.threads); }
+template <class Law> void OneEngine<Law>::reorder() { grid_.reorder(discs_.all(), discs_.n_own(), tuning_.threads, discs_.spins()); }
 
 template <class Law> void OneEngine<Law>::settle_now(double least_reach) {
     set_gone_aside();
@@ -263,7 +263,9 @@ template <class Law> void OneEngine<Law>::apply(const Window& window, int m) {
                 law_.bounce(results[c.p], m, c.time);
                 if constexpr (!Law::has_mirror_walls) fastest = std::max(fastest, squared_speed_of(results[c.p]));
             } else {
-                law_.collide(results[c.p], results[c.q], m, c.time);
+                // A spin has no say in what is found, so it need not wait for the micro-step's end as states in parts do.
+                if constexpr (Law::has_spin) law_.collide(results[c.p], results[c.q], m, c.time, discs_.spins()[c.p], discs_.spins()[c.q]);
+                else law_.collide(results[c.p], results[c.q], m, c.time);
                 fastest = std::max({fastest, squared_speed_of(results[c.p]), squared_speed_of(results[c.q])});
             }
             if (is_last) continue;

@@ -36,6 +36,7 @@ public:
 
     std::int64_t micro_steps_done() const override { return n_micro_done_; }
     std::span<const Disc> own() const override { return discs_.own(); }
+    std::span<const double> spins() const override { return discs_.own_spins(); }
     double clock() const override { return micro_; }
     std::span<const Disc> gone() const override { return discs_.gone(); }
     std::uint64_t n_discs() const override { return discs_.n_with_gone(); }

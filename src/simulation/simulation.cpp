@@ -89,6 +89,8 @@ std::span<const Disc> Simulation::discs() const {
     return stored_;
 }
 
+std::span<const double> Simulation::spins() const { return engine_->spins(); }
+
 Frame Simulation::frame() const { return engine_->frame(); }
 
 std::span<const Disc> Simulation::shown() const {
@@ -116,10 +118,12 @@ void Simulation::count_pair_distances(double bin_width, std::span<std::uint64_t>
 Totals Simulation::totals() const {
     Totals totals;
     totals.n_discs = engine_->n_discs();
-    measure_collisions(discs(), communicator_, totals);
+    measure_collisions(discs(), engine_->spins(), communicator_, totals);
     measure_departures(discs(), box_size_, communicator_, totals);
     const DiscBodies* const bodies = effects_.classes.empty() ? nullptr : &bodies_;
     measure_motion(shown(), bodies, velocity_unit_, communicator_, totals);
+    if (effects_.contact.kind == ContactKind::rough)
+        measure_rotation(discs(), spins(), bodies_, effects_.contact.inertia, velocity_unit_, communicator_, totals);
     if (effects_.gravity.is_any()) measure_height(shown(), bodies, effects_.gravity, box_size_, communicator_, totals);
     engine_->add_to(totals);
     return totals;

@@ -24,14 +24,22 @@ Strips equal_strips(double box_size, int n_ranks) {
 
 } // namespace
 
-StripDiscs::StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs)
+StripDiscs::StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs, bool has_spins, std::vector<double> spins)
     : communicator_(communicator), box_size_(box_size), strips_(equal_strips(box_size, communicator.size())),
       settled_strips_(strips_), exchange_(communicator) {
+    has_spins_ = has_spins;
+    if (has_spins) spins.resize(discs.size(), 0); // discs begin without spin
     if (communicator.size() == 1) {
         discs_ = std::move(discs);
+        spins_ = std::move(spins);
     } else {
         std::vector<std::vector<Disc>> to_owner(static_cast<std::size_t>(communicator.size()));
         for (const Disc& disc : discs) to_owner[static_cast<std::size_t>(strips_.owner(disc.x))].push_back(disc);
+        if (has_spins) {
+            std::vector<std::vector<double>> spins_to_owner(to_owner.size());
+            for (std::size_t i = 0; i < discs.size(); ++i) spins_to_owner[static_cast<std::size_t>(strips_.owner(discs[i].x))].push_back(spins[i]);
+            spins_ = send_to_owners(communicator, spins_to_owner).items;
+        }
         discs = {};
         discs_ = send_to_owners(communicator, to_owner).items;
     }
@@ -60,6 +68,12 @@ void StripDiscs::migrate(double time, double farthest, std::vector<Disc>* compan
             remove_leaving(plan, *values);
             values->insert(values->end(), arrived.items.begin(), arrived.items.end());
         }
+        if (has_spins_) {
+            Received<double> spins;
+            transfer(exchange_, plan, std::span<const double>(spins_), spins);
+            remove_leaving(plan, spins_);
+            spins_.insert(spins_.end(), spins.items.begin(), spins.items.end());
+        }
         n_own_ = discs_.size();
     }
     settled_strips_ = strips_;
@@ -74,6 +88,7 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* compan
         transfer(exchange_, halo_plan_, std::span<const Disc>(*values), halo);
         values->insert(values->end(), halo.items.begin(), halo.items.end());
     }
+    if (has_spins_) show(spins_);
     halo_offsets_.clear();
     for (const std::size_t offset : halo.offsets) halo_offsets_.push_back(n_own_ + offset);
     is_shown_.assign(n_own_, 0);
@@ -85,6 +100,7 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* compan
 void StripDiscs::tell_neighbours(std::span<const LocalIndex> changed, std::vector<LocalIndex>& news) {
     if (communicator_.size() == 1) return;
     std::vector<std::vector<News>> out(halo_plan_.partners.size());
+    std::vector<std::vector<double>> spins_out(has_spins_ ? out.size() : 0);
     for (const LocalIndex index : changed) {
         if (index >= n_own_ || is_shown_[index] == 0) continue;
         for (std::size_t k = 0; k < out.size(); ++k) {
@@ -92,13 +108,18 @@ void StripDiscs::tell_neighbours(std::span<const LocalIndex> changed, std::vecto
             const auto place = std::lower_bound(shown.begin(), shown.end(), index);
             if (place == shown.end() || *place != index) continue;
             out[k].push_back({discs_[index], static_cast<std::uint64_t>(place - shown.begin())});
+            if (has_spins_) spins_out[k].push_back(spins_[index]);
         }
     }
     Received<News> in;
     exchange_.exchange(std::span<const int>(halo_plan_.partners), out, in);
+    Received<double> spins;
+    if (has_spins_) exchange_.exchange(std::span<const int>(halo_plan_.partners), spins_out, spins);
+    std::size_t n_heard = 0;
     for (std::size_t k = 0; k < in.n_senders(); ++k) {
         for (const News& item : in.from(k)) {
             const auto index = static_cast<LocalIndex>(halo_offsets_[k] + item.place);
+            if (has_spins_) spins_[index] = spins.items[n_heard++];
             ensure(discs_[index].id == item.disc.id, "a neighbour's news is about another disc than the halo has there");
             discs_[index] = item.disc;
             news.push_back(index);

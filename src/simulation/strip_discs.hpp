@@ -21,7 +21,8 @@ namespace carrom {
 class StripDiscs {
 public:
     /// Takes discs that lie anywhere on any rank and gives them to the owners of equal strips. **Collective.**
-    StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs);
+    /// `spins` run along the discs; without `has_spins` there are none, and empty ones are 0.
+    StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs, bool has_spins = false, std::vector<double> spins = {});
 
     /// Forgets the halo and sends each own disc to the rank whose strip holds it at `time`. No disc has moved by more
     /// than `farthest` since it was last settled. `companion` runs along the own discs, or is null. **Collective.**
@@ -55,6 +56,9 @@ public:
     std::vector<Disc>& all() { return discs_; }
     std::span<const Disc> own() const { return std::span(discs_).first(n_own_); }
     std::span<Disc> own() { return std::span(discs_).first(n_own_); }
+    /// By disc, own and halo; empty where discs do not turn.
+    std::vector<double>& spins() { return spins_; }
+    std::span<const double> own_spins() const { return std::span(spins_).first(has_spins_ ? n_own_ : 0); }
     std::size_t n_own() const { return n_own_; }
     std::uint64_t n_total() const { return n_total_; } ///< over all ranks
     const Strips& strips() const { return strips_; }
@@ -66,7 +70,10 @@ public:
     std::uint64_t n_with_gone() const { return n_with_gone_; } ///< over all ranks
 
     /// Drops the halo's discs.
-    void forget_halo() { discs_.resize(n_own_); }
+    void forget_halo() {
+        discs_.resize(n_own_);
+        if (has_spins_) spins_.resize(n_own_);
+    }
 
     /// Each own disc lies in its strip at `time`, and all ranks together own each of 0 .. n-1 once, those that are gone too. **Collective.**
     bool is_valid(double time) const;
@@ -75,6 +82,8 @@ private:
     Communicator communicator_;
     double box_size_;
     std::vector<Disc> discs_; ///< own, then halo
+    std::vector<double> spins_; ///< likewise
+    bool has_spins_ = false;
     std::size_t n_own_ = 0;
     std::uint64_t n_total_ = 0, n_with_gone_ = 0;
     std::vector<Disc> gone_;  ///< where they have left

@@ -69,7 +69,8 @@ public:
 
     /// Brings the first `n_own` of `discs`, those that the grid was built for, into the order of their slots, in place,
     /// and makes the grid unusable until it is built again. Neighbours in space become neighbours in memory.
-    void reorder(std::span<Disc> discs, std::size_t n_own, int n_threads);
+    /// `column`, if it is not empty, runs along the discs and goes with them.
+    void reorder(std::span<Disc> discs, std::size_t n_own, int n_threads, std::span<double> column = {});
 
     /// Takes the flights of discs that are faster than `speed`, in lengths per unit of time, out of the lanes: no disc that
     /// looks at their slots will find them there. They are listed in `apart()` until the grid is built again.

@@ -76,5 +76,6 @@ extern template class Search<ElasticLaw>;
 extern template class Search<IdealGasLaw>;
 extern template class Search<InelasticLaw>;
 extern template class Search<MixedLaw>;
+extern template class Search<RoughLaw>;
 
 } // namespace carrom

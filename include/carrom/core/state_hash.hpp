@@ -28,6 +28,9 @@ struct StateHash {
 StateHash hash_of(const Disc& disc);
 StateHash hash_of(std::span<const Disc> discs);
 
+/// What a disc's spin adds, where discs turn.
+StateHash hash_of_spin(DiscId id, double spin);
+
 /// 32 hexadecimal digits, the high half first.
 std::string to_string(const StateHash& hash);
 

@@ -3,6 +3,9 @@
 // impulse is, along the line of centres, in units of that of an elastic contact.
 #pragma once
 
+#include <cmath>
+#include <type_traits>
+
 #include "carrom/core/disc.hpp"
 #include "carrom/effects/effects.hpp"
 
@@ -50,6 +53,31 @@ public:
 
 private:
     double impulse_, contact_time_;
+};
+
+/// Discs with spin: normal and tangential restitution and Coulomb's friction (Walton and Braun, J. Rheol. 30, 949 (1986);
+/// Luding, Phys. Rev. E 52, 4442 (1995), equations (4) to (8)). Where the surfaces stick their relative velocity along them is
+/// multiplied by minus `tangential_restitution`; where that takes more than `friction` times the normal impulse, they slide.
+class RoughContact {
+public:
+    static constexpr bool has_pairs = true;
+
+    explicit RoughContact(const ContactEffect& effect)
+        : normal_((1 + effect.restitution) / 2), tangential_((1 + effect.tangential_restitution) / 2 * (effect.inertia / (1 + effect.inertia))),
+          friction_(effect.friction), inertia_(effect.inertia), contact_time_(effect.contact_time) {}
+
+    /// Within the contact time discs part elastically, as smooth ones: see InelasticContact.
+    bool is_guarded(const Disc& p, const Disc& q, double time) const { return time - p.tau < contact_time_ || time - q.tau < contact_time_; }
+    double normal() const { return normal_; }
+    /// The tangential impulse for the surfaces' relative velocity `slip` and the normal impulse `k`, all in one unit.
+    double tangential(double slip, double k) const {
+        const double sticking = tangential_ * slip, most = friction_ * std::fabs(k);
+        return std::fabs(sticking) > most ? std::copysign(most, sticking) : sticking;
+    }
+    double inertia() const { return inertia_; }
+
+private:
+    double normal_, tangential_, friction_, inertia_, contact_time_;
 };
 
 } // namespace carrom

@@ -20,6 +20,7 @@ template <class Contact, bool is_mixed = false> class EffectLaw : public PlainLa
 public:
     static constexpr bool has_pairs = Contact::has_pairs;
     static constexpr bool has_bodies = is_mixed;
+    static constexpr bool has_spin = std::is_same_v<Contact, RoughContact>;
     static constexpr bool has_mirror_walls = false;
     static constexpr bool may_have_obstacles = true;
     static constexpr bool may_lose_discs = true;
@@ -61,6 +62,16 @@ public:
     MetWalls met_walls(const Disc& disc, double m, double t) const {
         if (has_obstacles() && t != PlainLaw::wall_time(disc, m)) return {};
         return wall_law(disc).met_walls(disc, m, t);
+    }
+
+    /// Rough discs: spins are angles per micro-step, counterclockwise.
+    void collide(Disc& p, Disc& q, double m, double t, double& p_spin, double& q_spin) const {
+        exchange_spin(p, q, m + t, false, p_spin, q_spin);
+        stop(p, m, t);
+        stop(q, m, t);
+    }
+    void collide_at(Disc& p, Disc& q, double time, double& p_spin, double& q_spin) const {
+        exchange_spin(p, q, time, contact_.is_guarded(p, q, time), p_spin, q_spin);
     }
 
     /// A disc's one candidate with what stands still: a wall, or an obstacle if that comes before.
@@ -169,6 +180,29 @@ private:
         }
     }
 
+    /// As exchange_momentum, with an impulse s along the surfaces, which acts on both spins alike; in units of the distance of centres,
+    /// as k is. With s = 0 its bits.
+    [[gnu::always_inline]] void exchange_spin(Disc& p, Disc& q, double time, bool is_guarded, double& p_spin, double& q_spin) const {
+        const Body &p_body = bodies_.of(p.id), &q_body = bodies_.of(q.id);
+        advance(p, time);
+        advance(q, time);
+        const double ex = q.x - p.x, ey = q.y - p.y, wx = q.vx - p.vx, wy = q.vy - p.vy;
+        const double square = ex * ex + ey * ey, distance = std::sqrt(square);
+        const double k = (is_guarded ? 1 : contact_.normal()) * ((wx * ex + wy * ey) / square);
+        const double slip = (wy * ex - wx * ey) / square - (p_spin * p_body.radius + q_spin * q_body.radius) / distance;
+        const double s = is_guarded ? 0 : contact_.tangential(slip, k);
+        const double half = (p_body.mass + q_body.mass) / 2, p_share = q_body.mass / half, q_share = p_body.mass / half;
+        p.vx = p.vx + (k * p_share * ex - s * p_share * ey);
+        p.vy = p.vy + (k * p_share * ey + s * p_share * ex);
+        q.vx = q.vx - (k * q_share * ex - s * q_share * ey);
+        q.vy = q.vy - (k * q_share * ey + s * q_share * ex);
+        const double turn = s * distance / contact_.inertia();
+        p_spin = p_spin + turn * p_share / p_body.radius;
+        q_spin = q_spin + turn * q_share / q_body.radius;
+        p.pair_collisions += 1;
+        q.pair_collisions += 1;
+    }
+
     Contact contact_;
     double contact_time_; ///< for obstacles under the rule "all"
     DiscBodies bodies_;
@@ -180,5 +214,6 @@ using IdealGasLaw = EffectLaw<NoContact>;
 using ElasticLaw = EffectLaw<ElasticContact>; ///< with sides or gravity that are not plain
 using InelasticLaw = EffectLaw<InelasticContact>;
 using MixedLaw = EffectLaw<InelasticContact, true>; ///< of any restitution, 1 included
+using RoughLaw = EffectLaw<RoughContact, true>;     ///< of one class or several
 
 } // namespace carrom

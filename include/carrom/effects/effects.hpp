@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,16 @@
 namespace carrom {
 
 /// What two discs that touch do to each other.
-enum class ContactKind { elastic, none, restitution };
+enum class ContactKind { elastic, none, restitution, rough };
 
 struct ContactEffect {
     ContactKind kind = ContactKind::elastic;
     double restitution = 1;      ///< what is left of the normal relative velocity, 0 to 1
     double contact_time = 0.001; ///< a disc that has collided within this time collides elastically; rule "all" only
+    // Of rough discs:
+    double tangential_restitution = -1; ///< minus what is left of the surfaces' relative velocity where they stick, -1 (smooth) to 1
+    double friction = std::numeric_limits<double>::infinity(); ///< Coulomb's: the tangential impulse is at most this times the normal one
+    double inertia = 0.5;               ///< moment of inertia in m r^2; that of a uniform disc
 
     friend bool operator==(const ContactEffect&, const ContactEffect&) = default;
 };

@@ -55,6 +55,8 @@ public:
     static constexpr bool has_mirror_walls = true;
     /// Whether discs differ in radius and mass.
     static constexpr bool has_bodies = false;
+    /// Whether they turn, and `collide` and `collide_at` take their spins as well.
+    static constexpr bool has_spin = false;
     /// Under the rule "all": more than some thousand collisions of a disc in so many micro-steps are without end. Where discs
     /// have no room, loose laws move them on by a rounding of time now and then, which is not at one time and has no end either.
     static constexpr double one_time = is_loose ? 0x1p-3 : 0x1p-40;

@@ -47,6 +47,7 @@ struct ReplayGround {
     int first_own_column = 0, end_own_column = 0; ///< own discs that rounding puts outside belong to the nearest one
     ReplayWindow window;
     bool is_logged = false;
+    std::span<const double> spins{}; ///< by disc, of rough ones
 };
 
 /// What a block has seen happen to a disc of its ring: 0 for nothing, else a hash of times, partners and results.
@@ -93,6 +94,7 @@ static_assert(sizeof(NewState) == 48);
 struct BlockOutcome {
     std::vector<LocalIndex> hit; ///< own discs that have collided
     std::vector<NewState> states; ///< what has become of them
+    std::vector<double> spins; ///< likewise, of rough discs
     std::vector<Witness> ring;
     std::vector<LoggedEvent> log;
     std::uint64_t n_events = 0;        ///< whose first disc is own
@@ -135,5 +137,6 @@ extern template class BlockReplay<ElasticLaw>;
 extern template class BlockReplay<IdealGasLaw>;
 extern template class BlockReplay<InelasticLaw>;
 extern template class BlockReplay<MixedLaw>;
+extern template class BlockReplay<RoughLaw>;
 
 } // namespace carrom

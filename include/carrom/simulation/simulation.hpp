@@ -39,7 +39,8 @@ struct Totals {
     std::uint64_t rejected_candidates = 0;  ///< since this process started stepping
     std::uint64_t overlapping_pairs = 0;    ///< now, deeper than the tolerance
     double deepest_overlap = 0;             ///< of these; 2 r where two discs are in one place
-    double kinetic_energy = 0;
+    double kinetic_energy = 0;              ///< of motion, not of spin
+    double rotational_energy = 0;           ///< of rough discs
     double potential_energy = 0;            ///< under gravity, above the walls that it pulls to at the start
     double momentum_x = 0, momentum_y = 0;
     std::array<std::uint64_t, 4> gone{};    ///< discs that have left, by the side they left through
@@ -60,6 +61,7 @@ using PhaseSeconds = std::vector<std::pair<std::string, double>>;
 struct StoredState {
     std::vector<Disc> discs;
     std::int64_t micro_steps_done = 0;
+    std::vector<double> spins{}; ///< along the discs, of rough ones; empty: no disc turns yet
 };
 
 /// A collision that has happened. Order: micro_step, time, generation, p, wall before pair, q.
@@ -97,6 +99,8 @@ public:
     /// Own discs in no particular order: velocities per micro-step, times on `clock()`. Those that have left the box are
     /// among them (Disc::gone). Good until the next call.
     std::span<const Disc> discs() const;
+    /// Along `discs()`, in angles per micro-step; empty where discs are not rough.
+    std::span<const double> spins() const;
     /// The present time in micro-steps since the last sync, to evaluate Disc::x_at with.
     double clock() const;
     /// What the coordinates of `discs()` are in at `clock()`; the box's own unless there is gravity.
