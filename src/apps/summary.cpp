@@ -290,6 +290,7 @@ std::string report_text(const Scene& scene, const RunResult& result) {
         {"imbalance", result.imbalance},
         {"peak_bytes_per_disc", result.peak_bytes_per_disc},
     };
+    if (scene.effects.contact.kind == ContactKind::rough) report["rotational_energy"] = result.end.rotational_energy;
     if (scene.effects.gravity.is_any()) report["potential_energy"] = result.end.potential_energy;
     if (scene.measurements) report["measurements"] = tables_json(result.tables);
     if (scene.effects.are_any()) report["effects"] = description(scene.effects);

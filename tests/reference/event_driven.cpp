@@ -11,7 +11,8 @@
 namespace carrom::reference {
 
 EventDrivenReference::EventDrivenReference(const Setting& setting, std::span<const InputDisc> discs, std::size_t most_events)
-    : setting_(setting), bodies_(std::make_shared<FixedBodies>(setting)), discs_(stored_states(setting, discs)), past_(discs.size()), most_events_(most_events) {
+    : setting_(setting), bodies_(std::make_shared<FixedBodies>(setting)), discs_(stored_states(setting, discs)),
+      spins_(setting.are_rough() ? discs.size() : 0, 0.0), past_(discs.size()), most_events_(most_events) {
     predict_all();
 }
 
@@ -217,7 +218,8 @@ void EventDrivenReference::carry_out(const Event& event) {
     if (event.is_pair) {
         Disc& q = discs_[event.q];
         advance(q, event.time);
-        exchange_momentum(setting_, p, q, is_touched ? 1 : setting_.restitution());
+        if (setting_.are_rough()) collide_rough(setting_, p, q, spins_[event.p], spins_[event.q], is_touched);
+        else exchange_momentum(setting_, p, q, is_touched ? 1 : setting_.restitution());
         p.pair_collisions += 1;
         q.pair_collisions += 1;
         pair_collisions_ += 1;

@@ -45,6 +45,8 @@ public:
     void run_steps(std::int64_t count) { run_micro_steps(count * setting_.micro_steps); }
 
     std::span<const Disc> discs() const { return discs_; }
+    /// By id, angles per micro-step; empty where discs are not rough.
+    std::span<const double> spins() const { return spins_; }
     double clock() const { return static_cast<double>(micro_step_ % setting_.sync_every); }
     std::uint64_t wall_collisions() const { return wall_collisions_; }
     std::uint64_t pair_collisions() const { return pair_collisions_; }
@@ -94,6 +96,7 @@ private:
     Setting setting_;
     std::shared_ptr<const FixedBodies> bodies_;
     std::vector<Disc> discs_;
+    std::vector<double> spins_;
     std::vector<Past> past_;
     std::vector<Prediction> heap_;
     std::size_t most_predictions_ = 1000000; ///< in the heap, before it is gone through

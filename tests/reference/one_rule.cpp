@@ -73,6 +73,31 @@ void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitut
     q.vy -= k * (mp / mean) * ey;
 }
 
+void collide_rough(const Setting& setting, Disc& p, Disc& q, double& p_spin, double& q_spin, bool is_touched) {
+    const ContactEffect& contact = setting.effects.contact;
+    const double ex = q.x - p.x, ey = q.y - p.y;
+    const double wx = q.vx - p.vx, wy = q.vy - p.vy;
+    const double rp = setting.radius_of(p.id), rq = setting.radius_of(q.id);
+    const double mp = setting.mass_of(p.id), mq = setting.mass_of(q.id), mean = (mp + mq) / 2;
+    const double square = ex * ex + ey * ey, distance = std::sqrt(square);
+    double k = (wx * ex + wy * ey) / square, s = 0;
+    if (!is_touched) {
+        k = (1 + contact.restitution) / 2 * k;
+        const double slip = (wy * ex - wx * ey) / square - (p_spin * rp + q_spin * rq) / distance;
+        s = (1 + contact.tangential_restitution) / 2 * (contact.inertia / (1 + contact.inertia)) * slip;
+        const double most = contact.friction * std::fabs(k);
+        if (s > most) s = most;
+        if (s < -most) s = -most;
+    }
+    const double to_p = mq / mean, to_q = mp / mean;
+    p.vx += k * to_p * ex - s * to_p * ey;
+    p.vy += k * to_p * ey + s * to_p * ex;
+    q.vx -= k * to_q * ex - s * to_q * ey;
+    q.vy -= k * to_q * ey + s * to_q * ex;
+    p_spin += s * distance / contact.inertia * to_p / rp;
+    q_spin += s * distance / contact.inertia * to_q / rq;
+}
+
 DiscClass Setting::class_of(DiscId id) const {
     for (const DiscClass& one : effects.classes) {
         if (id < one.count) return one;
@@ -108,7 +133,7 @@ std::vector<Disc> stored_states(const Setting& setting, std::span<const InputDis
 OneRuleReference::OneRuleReference(const Setting& setting, std::span<const InputDisc> discs)
     : setting_(setting), bodies_(std::make_shared<FixedBodies>(setting)), band_(1e-8 * setting.radius),
       tolerance_(std::max(1e-12 * (2 * setting.radius), 32 * 0x1p-53 * setting.box_size)),
-      discs_(stored_states(setting, discs)) {}
+      discs_(stored_states(setting, discs)), spins_(setting.are_rough() ? discs.size() : 0, 0.0) {}
 
 void OneRuleReference::run_micro_steps(std::int64_t count) {
     for (std::int64_t i = 0; i < count; ++i) run_micro_step();
@@ -167,7 +192,8 @@ void OneRuleReference::keep(const Collision& candidate, double m) {
     Disc& q = discs_[candidate.q];
     advance(p, m + candidate.t);
     advance(q, m + candidate.t);
-    exchange_momentum(setting_, p, q, setting_.restitution());
+    if (setting_.are_rough()) collide_rough(setting_, p, q, spins_[p.id], spins_[q.id], false);
+    else exchange_momentum(setting_, p, q, setting_.restitution());
     p.pair_collisions += 1;
     q.pair_collisions += 1;
     counters_.pair_collisions += 1;

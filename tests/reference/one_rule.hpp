@@ -43,6 +43,7 @@ struct Setting {
     double radius_of(DiscId id) const { return class_of(id).radius; }
     double mass_of(DiscId id) const { return class_of(id).mass; }
     DiscClass class_of(DiscId id) const;
+    bool are_rough() const { return effects.contact.kind == ContactKind::rough; }
     bool discs_meet() const { return effects.contact.kind != ContactKind::none; }
     double restitution() const { return effects.contact.kind == ContactKind::restitution ? effects.contact.restitution : 1; }
     double contact_time() const { return effects.contact.contact_time * static_cast<double>(micro_steps); }
@@ -87,6 +88,8 @@ void set_left(const Setting& setting, Disc& disc, std::size_t side);
 /// The two states' positions at `time`, the impulse of a pair; p has the lower id.
 void advance(Disc& disc, double time);
 void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitution);
+/// The same of rough discs, by the page's formulas; `is_touched` ones part as elastic and smooth.
+void collide_rough(const Setting& setting, Disc& p, Disc& q, double& p_spin, double& q_spin, bool is_touched);
 
 /// Numbers the discs 0 .. N-1 as given (ids must be a permutation of that) and divides velocities by `micro_steps`.
 std::vector<Disc> stored_states(const Setting& setting, std::span<const InputDisc> discs);
@@ -100,6 +103,8 @@ public:
 
     /// In id order; velocities per micro-step, times on `clock()`.
     std::span<const Disc> discs() const { return discs_; }
+    /// By id, angles per micro-step; empty where discs are not rough.
+    std::span<const double> spins() const { return spins_; }
     /// Micro-steps since the last sync.
     double clock() const { return static_cast<double>(micro_step_ % setting_.sync_every); }
     const Counters& counters() const { return counters_; }
@@ -127,6 +132,7 @@ private:
 
     double band_, tolerance_;
     std::vector<Disc> discs_;
+    std::vector<double> spins_;
     std::vector<Collision> candidates_;
     std::int64_t micro_step_ = 0;
     Counters counters_;

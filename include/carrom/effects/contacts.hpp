@@ -56,7 +56,7 @@ private:
 };
 
 /// Discs with spin: normal and tangential restitution and Coulomb's friction (Walton and Braun, J. Rheol. 30, 949 (1986);
-/// Luding, Phys. Rev. E 52, 4442 (1995), equations (4) to (8)). Where the surfaces stick their relative velocity along them is
+/// Luding, Phys. Rev. E 52, 4442 (1995)). Where the surfaces stick their relative velocity along them is
 /// multiplied by minus `tangential_restitution`; where that takes more than `friction` times the normal impulse, they slide.
 class RoughContact {
 public:

@@ -18,6 +18,7 @@ template <class Reference> StateHash reference_hash(const TestScene& scene, cons
         Reference reference(scene.setting, scene.discs);
         reference.run_steps(scene.steps);
         hash = hash_of(reference.discs());
+        for (DiscId id = 0; id < reference.spins().size(); ++id) hash += hash_of_spin(id, reference.spins()[id]);
     }
     world.broadcast(hash);
     return hash;
@@ -40,7 +41,7 @@ void check_bits(const TestScene& scene, CollisionRule rule) {
     advance_to(first, scene.steps / 2);
     Scene again = scene_of(scene);
     again.rule = rule;
-    Simulation second(again, {{first.discs().begin(), first.discs().end()}, first.micro_steps_done()}, world, {});
+    Simulation second(again, {{first.discs().begin(), first.discs().end()}, first.micro_steps_done(), {first.spins().begin(), first.spins().end()}}, world, {});
     advance_to(second, scene.steps);
     CHECK(to_string(second.totals().hash) == to_string(expected));
 }

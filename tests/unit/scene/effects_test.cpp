@@ -2,6 +2,7 @@
 // Effects in a scene: what is read, and what is refused for which reason.
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -43,7 +44,7 @@ TEST_CASE("Effects are read, parameters of others are refused by name") {
     CHECK(has(problems_with({"effects.contact.kind=restitution"}), "'effects.contact.restitution' is missing"));
     CHECK(has(problems_with({"effects.contact.kind=restitution", "effects.contact.restitution=1.5"}), "from 0 to 1, not 1.5"));
     CHECK(has(problems_with({"effects.contact.kind=restitution", "effects.contact.restitution=0.5", "effects.contact.contact_time=17"}), "at most 16 steps"));
-    CHECK(has(problems_with({"effects.contact.kind=bouncy"}), "\"elastic\", \"none\" or \"restitution\""));
+    CHECK(has(problems_with({"effects.contact.kind=bouncy"}), "\"elastic\", \"none\", \"restitution\" or \"rough\""));
     CHECK(has(problems_with({"effects.contact.restitutoin=0.5"}), "did you mean 'effects.contact.restitution'?"));
     CHECK(has(problems_with({"effects.contact.kind=none", "time.precision=single"}), "for scenes without effects"));
     CHECK(has(problems_with({"effects.contact.kind=none", "time.accuracy=0.1"}), "for scenes without effects"));
@@ -107,6 +108,22 @@ TEST_CASE("Drag is read, and refused beside what it does not go with yet") {
     CHECK(has(problems_with({"effects.drag.rate=0.1", all}), "a smaller time.sync_every"));
     CHECK(has(problems_with({"effects.drag.rate=0.02", "effects.gravity.y=-0.01", all}), "no drag together with gravity"));
     CHECK(has(problems_with({"effects.drag.rate=0.02", "box.right.kind=moving", "box.right.speed=1", all}), "no drag together with moving walls"));
+}
+
+TEST_CASE("Rough discs are read, and refused beside what does not know of spins") {
+    const Texts rough{"effects.contact.kind=rough", "effects.contact.restitution=0.9", "effects.contact.tangential_restitution=0.5"};
+    const auto with = [&](Texts more) {
+        more.insert(more.begin(), rough.begin(), rough.end());
+        return more;
+    };
+    const ContactEffect contact = read_scene(good, "s.toml", with({"effects.contact.friction=0.3", "effects.contact.moment_of_inertia=0.8"})).effects.contact;
+    CHECK(contact == ContactEffect{ContactKind::rough, 0.9, 0.001, 0.5, 0.3, 0.8});
+    CHECK(std::isinf(read_scene(good, "s.toml", rough).effects.contact.friction));
+    CHECK(has(problems_with({"effects.contact.friction=0.3"}), "no meaning without effects.contact.kind = \"rough\""));
+    CHECK(has(problems_with({"effects.contact.kind=rough"}), "'effects.contact.tangential_restitution' is missing"));
+    CHECK(has(problems_with(with({"effects.contact.tangential_restitution=1.5"})), "from -1 to 1, not 1.5"));
+    CHECK(has(problems_with(with({"effects.drag.rate=0.01", "time.collisions=all"})), "no drag together with rough discs"));
+    CHECK(has(problems_with(with({"output.checkpoint.folder=kept"})), "no spins in checkpoints"));
 }
 
 TEST_CASE("Classes of discs are read, by table and by list") {
