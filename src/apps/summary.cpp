@@ -189,7 +189,7 @@ double busy_seconds(const PhaseSeconds& phases) {
 }
 
 double energy_drift(const RunResult& result) {
-    const auto all = [](const Totals& totals) { return totals.kinetic_energy + totals.potential_energy; };
+    const auto all = [](const Totals& totals) { return totals.kinetic_energy + totals.rotational_energy + totals.potential_energy; };
     return ratio(all(result.end) - all(result.start), all(result.start));
 }
 
@@ -236,9 +236,12 @@ std::string summary_text(const Scene& scene, const RunResult& result) {
     text += line("overlapping", fmt::format("{} pairs at the end, {:.3g} per disc, by up to {:.2g} diameters; {} at the start",
                                             result.end.overlapping_pairs, overlapping_pairs_per_disc(result),
                                             deepest_overlap(scene, result), result.start.overlapping_pairs));
-    const std::string height = scene.effects.gravity.is_any() ? fmt::format(" of motion, {:.17g} of height; the sum has", result.end.potential_energy) : ",";
     if (const std::string gone = gone_text(scene, result.end); !gone.empty()) text += line("gone", gone);
-    text += line("energy", fmt::format("{:.17g}{} changed by {:.2g} of itself", result.end.kinetic_energy, height, energy_drift(result)));
+    std::string others;
+    if (scene.effects.contact.kind == ContactKind::rough) others += fmt::format(", {:.17g} of spin", result.end.rotational_energy);
+    if (scene.effects.gravity.is_any()) others += fmt::format(", {:.17g} of height", result.end.potential_energy);
+    const std::string what = others.empty() ? "," : " of motion" + others + "; the sum has";
+    text += line("energy", fmt::format("{:.17g}{} changed by {:.2g} of itself", result.end.kinetic_energy, what, energy_drift(result)));
     if (scene.measurements) text += line("measured", measured_text(scene, result.tables));
     text += line("momentum", fmt::format("{:.17g} {:.17g}", result.end.momentum_x, result.end.momentum_y));
     text += line("state hash", to_string(result.end.hash));

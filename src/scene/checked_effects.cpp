@@ -255,8 +255,9 @@ void fill_effects(const Check& check) {
         if (side.kind == SideKind::open && check.settings.is_mentioned("output.measurements"))
             add_problem(check.problems, {check.scene.name, 0}, "this version measures nothing ('output.measurements') in boxes with open sides");
     for (const Side& side : effects.sides)
-        if (check.scene.effects.contact.kind == ContactKind::rough && side.kind == SideKind::open)
+        if (effects.contact.kind == ContactKind::rough && side.kind == SideKind::open)
             add_problem(check.problems, {check.scene.name, 0}, "this version has no open sides together with rough discs");
+    for (const Side& side : effects.sides)
         if (are_mixed && side.kind == SideKind::open)
             add_problem(check.problems, {check.scene.name, 0}, "this version has no open sides together with discs of several classes");
     for (const std::string_view key : {"time.precision", "time.arithmetic", "time.accuracy"}) {
