@@ -135,7 +135,7 @@ TEST_CASE("effects: smooth discs are the plain law to the bit, whatever their sp
 TEST_CASE("effects: a collision of rough discs conserves what it must, and loses what its coefficients say") {
     const Communicator world = Communicator::world();
     for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
-        for (const ContactEffect& contact : {rough(0.8, 0.3, no_limit), rough(1, 1, no_limit), rough(0.5, -0.4, no_limit, 1), rough(0.9, 0.9, 0.1, 0.25)}) {
+        for (const ContactEffect& contact : {rough(0.8, 0.3, no_limit), rough(1, 1, no_limit), rough(0.5, -0.4, no_limit, 1), rough(0.9, 0.9, 0.02, 0.25)}) {
             const auto [before, after] = meet(contact, rule, world);
             const long double ex = before[1].x - before[0].x, ey = before[1].y - before[0].y, length = std::sqrt(ex * ex + ey * ey);
             CHECK(static_cast<double>(length) == Approx(4).epsilon(1e-13));
