@@ -63,8 +63,10 @@ template <class Law> Nanoseconds measure(const Law& law, CollisionRule rule, std
             return disc.vx + disc.vy;
         });
         found.pair = nanoseconds_of(discs, [&](Disc p, Disc q) {
-            law.collide(p, q, 0, 1);
-            return p.vx + q.vy;
+            double p_spin = 0, q_spin = 0;
+            if constexpr (Law::has_spin) law.collide(p, q, 0, 1, p_spin, q_spin);
+            else law.collide(p, q, 0, 1);
+            return p.vx + q.vy + p_spin + q_spin;
         });
         return found;
     }
@@ -80,8 +82,10 @@ template <class Law> Nanoseconds measure(const Law& law, CollisionRule rule, std
         return std::min(disc.vx + disc.vy, look_for_obstacle(disc));
     });
     found.pair = nanoseconds_of(discs, [&](Disc p, Disc q) {
-        law.collide_at(p, q, std::max(p.tau, q.tau));
-        return p.vx + q.vy + std::min(1.0, look_for_obstacle(p)) + std::min(1.0, look_for_obstacle(q));
+        double p_spin = 0, q_spin = 0;
+        if constexpr (Law::has_spin) law.collide_at(p, q, std::max(p.tau, q.tau), p_spin, q_spin);
+        else law.collide_at(p, q, std::max(p.tau, q.tau));
+        return p.vx + q.vy + p_spin + q_spin + std::min(1.0, look_for_obstacle(p)) + std::min(1.0, look_for_obstacle(q));
     });
     return found;
 }
@@ -108,6 +112,7 @@ std::vector<EffectCost> effect_costs(const Scene& scene, std::span<const Disc> d
         cost.name = description(one);
         cost.nanoseconds_per_wall = with.wall - plain.wall;
         cost.nanoseconds_per_pair = with.pair - plain.pair;
+        if (one.contact.kind == ContactKind::rough) cost.bytes_per_disc = sizeof(double); // the spin
         if (one.classes.size() > 8) cost.bytes_per_disc = 16; // what the law keeps of each disc (disc_classes.hpp), on each rank
     }
     return costs;
