@@ -88,7 +88,7 @@ address() {
     build_preset fuzz scene_fuzzer checkpoint_fuzzer check_mpi_test
     local tests=$top/build-fuzz/tests
     try 'address, undefined: both engines, 1 rank x 2 threads' env OMP_NUM_THREADS=2 CARROM_TEST_SECONDS=300 "$tests/check_mpi_test"
-    try 'address, undefined: both engines, 3 ranks' env OMP_NUM_THREADS=1 CARROM_TEST_SECONDS=300 mpiexec -n 3 "$tests/check_mpi_test"
+    try 'address, undefined: both engines, 2 ranks' env OMP_NUM_THREADS=1 CARROM_TEST_SECONDS=300 mpiexec -n 2 "$tests/check_mpi_test"
 }
 scenes() { fuzz scene $([ $is_short = yes ] && echo 8 || echo 1200); }
 checkpoints() { fuzz checkpoint $([ $is_short = yes ] && echo 8 || echo 600); }

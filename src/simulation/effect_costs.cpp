@@ -57,12 +57,14 @@ template <class Work> double nanoseconds_of(std::span<const Disc> discs, const W
 template <class Law> Nanoseconds measure(const Law& law, CollisionRule rule, std::span<const Disc> discs) {
     Nanoseconds found;
     if (rule == CollisionRule::one) {
-        found.wall = nanoseconds_of(discs, [&](Disc disc, const Disc&) {
+        found.wall = nanoseconds_of(discs, [&](const Disc& before, const Disc&) {
+            Disc disc = before;
             const double t = std::min(law.wall_time(disc, 0), 1.0);
             law.bounce(disc, 0, t);
             return disc.vx + disc.vy;
         });
-        found.pair = nanoseconds_of(discs, [&](Disc p, Disc q) {
+        found.pair = nanoseconds_of(discs, [&](const Disc& first, const Disc& second) {
+            Disc p = first, q = second;
             double p_spin = 0, q_spin = 0;
             if constexpr (Law::has_spin) law.collide(p, q, 0, 1, p_spin, q_spin);
             else law.collide(p, q, 0, 1);
@@ -75,13 +77,15 @@ template <class Law> Nanoseconds measure(const Law& law, CollisionRule rule, std
             if (law.has_obstacles()) return law.first_obstacle(disc, {disc.tau, disc.tau + 1, true, ObstacleContact::no_body}).time;
         return 0.0;
     };
-    found.wall = nanoseconds_of(discs, [&](Disc disc, const Disc&) {
+    found.wall = nanoseconds_of(discs, [&](const Disc& before, const Disc&) {
+        Disc disc = before;
         const double x = law.x_wall_time(disc), y = law.y_wall_time(disc);
         if (x < y) law.bounce_x_at(disc, x);
         else if (y < std::numeric_limits<double>::infinity()) law.bounce_y_at(disc, y);
         return std::min(disc.vx + disc.vy, look_for_obstacle(disc));
     });
-    found.pair = nanoseconds_of(discs, [&](Disc p, Disc q) {
+    found.pair = nanoseconds_of(discs, [&](const Disc& first, const Disc& second) {
+        Disc p = first, q = second;
         double p_spin = 0, q_spin = 0;
         if constexpr (Law::has_spin) law.collide_at(p, q, std::max(p.tau, q.tau), p_spin, q_spin);
         else law.collide_at(p, q, std::max(p.tau, q.tau));
