@@ -145,7 +145,7 @@ def draw_roofline(kernels, peaks, folder):
         name = kernel.get("run_name", kernel["name"]).removesuffix("_median")
         axes.plot([x], [y], marker=STYLES[index % len(STYLES)][0], color="black", linestyle="none", markersize=6, markerfacecolor="white")
         is_right = x > 1
-        axes.annotate(name, (x, y), textcoords="offset points", xytext=(-7 if is_right else 7, 3 if index % 2 else -9), ha="right" if is_right else "left", fontsize=8,
+        axes.annotate(name, (x, y), textcoords="offset points", xytext=(-7 if is_right else 7, 3 if index < 2 else -9), ha="right" if is_right else "left", fontsize=8,
                       bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8})
     axes.set(xscale="log", yscale="log", xlim=(low, high))
     axes.legend(frameon=False, fontsize=8, loc="lower right")
