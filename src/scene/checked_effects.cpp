@@ -252,7 +252,7 @@ void fill_effects(const Check& check) {
     if (are_mixed && effects.obstacles.are_any())
         add_problem(check.problems, {check.scene.name, 0}, "this version has no obstacles together with discs of several classes");
     for (const Side& side : effects.sides)
-        if (side.kind == SideKind::open && check.settings.is_mentioned("output.measurements"))
+        if (side.kind == SideKind::open && has_table(check, "output.measurements"))
             add_problem(check.problems, {check.scene.name, 0}, "this version measures nothing ('output.measurements') in boxes with open sides");
     for (const Side& side : effects.sides)
         if (effects.contact.kind == ContactKind::rough && side.kind == SideKind::open)

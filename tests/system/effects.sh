@@ -60,6 +60,10 @@ expect_told ' of 400 discs: left ' 'the summary of open sides'
 [ "$(json_value leak_rest.json state_hash)" = "$(json_value leak.json state_hash)" ] || complain 'open sides: another state hash after a restart'
 tail -n 400 "$test_folder/out" | cmp - "$test_folder/end" || complain 'open sides: other lines after a restart'
 
+run 1 run leak.toml --set output.measurements.folder=measured
+expect_code 2 'measurements in an open box'
+expect_told 'in boxes with open sides' 'measurements in an open box'
+
 run 1 run fall.toml --restart kept --set effects.gravity.y=-0.01
 expect_code 2 'another gravity'
 expect_told "'effects.gravity.y' is -0.005 there and -0.01 here" 'another gravity'
