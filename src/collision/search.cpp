@@ -235,16 +235,8 @@ template <class Law> std::size_t Search<Law>::bytes() const {
     return total;
 }
 
-template class Search<PlainLaw>;
-template class Search<NaiveLaw>;
-template class Search<ContractedLaw>;
-template class Search<SingleLaw>;
-template class Search<SingleNaiveLaw>;
-template class Search<SingleContractedLaw>;
-template class Search<ElasticLaw>;
-template class Search<IdealGasLaw>;
-template class Search<InelasticLaw>;
-template class Search<MixedLaw>;
-template class Search<RoughLaw>;
+#define CARROM_DEFINE(Law) template class Search<Law>;
+CARROM_FOR_EACH_LAW(CARROM_DEFINE)
+#undef CARROM_DEFINE
 
 } // namespace carrom

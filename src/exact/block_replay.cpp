@@ -400,16 +400,8 @@ template <class Law> std::size_t BlockReplay<Law>::bytes() const {
     return s.discs.capacity() * (sizeof(Disc) + sizeof(Past) + 4 * sizeof(float)) + s.queue.bytes();
 }
 
-template class BlockReplay<PlainLaw>;
-template class BlockReplay<NaiveLaw>;
-template class BlockReplay<ContractedLaw>;
-template class BlockReplay<SingleLaw>;
-template class BlockReplay<SingleNaiveLaw>;
-template class BlockReplay<SingleContractedLaw>;
-template class BlockReplay<ElasticLaw>;
-template class BlockReplay<IdealGasLaw>;
-template class BlockReplay<InelasticLaw>;
-template class BlockReplay<MixedLaw>;
-template class BlockReplay<RoughLaw>;
+#define CARROM_DEFINE(Law) template class BlockReplay<Law>;
+CARROM_FOR_EACH_LAW(CARROM_DEFINE)
+#undef CARROM_DEFINE
 
 } // namespace carrom

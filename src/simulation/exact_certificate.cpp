@@ -134,16 +134,8 @@ template <class Law> void ExactEngine<Law>::fail_if_endless() const {
     agree(communicator_, text.empty(), text);
 }
 
-template class ExactEngine<PlainLaw>;
-template class ExactEngine<NaiveLaw>;
-template class ExactEngine<ContractedLaw>;
-template class ExactEngine<SingleLaw>;
-template class ExactEngine<SingleNaiveLaw>;
-template class ExactEngine<SingleContractedLaw>;
-template class ExactEngine<ElasticLaw>;
-template class ExactEngine<IdealGasLaw>;
-template class ExactEngine<InelasticLaw>;
-template class ExactEngine<MixedLaw>;
-template class ExactEngine<RoughLaw>;
+#define CARROM_DEFINE(Law) template class ExactEngine<Law>;
+CARROM_FOR_EACH_LAW(CARROM_DEFINE)
+#undef CARROM_DEFINE
 
 } // namespace carrom

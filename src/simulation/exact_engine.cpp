@@ -339,17 +339,9 @@ template <class Law> void ExactEngine<Law>::add_to(Totals& totals) {
         measure_overlaps(discs_.population(), grid_, time_, touching_of(law_), communicator_, tuning_.threads, totals);
 }
 
-template class ExactEngine<PlainLaw>;
-template class ExactEngine<NaiveLaw>;
-template class ExactEngine<ContractedLaw>;
-template class ExactEngine<SingleLaw>;
-template class ExactEngine<SingleNaiveLaw>;
-template class ExactEngine<SingleContractedLaw>;
-template class ExactEngine<ElasticLaw>;
-template class ExactEngine<IdealGasLaw>;
-template class ExactEngine<InelasticLaw>;
-template class ExactEngine<MixedLaw>;
-template class ExactEngine<RoughLaw>;
+#define CARROM_DEFINE(Law) template class ExactEngine<Law>;
+CARROM_FOR_EACH_LAW(CARROM_DEFINE)
+#undef CARROM_DEFINE
 
 std::unique_ptr<Engine> make_exact_engine(const Scene& scene, StoredState state, const Communicator& communicator,
                                           const Tuning& tuning) {

@@ -4,7 +4,7 @@
 
   tests/performance/without_effects.py STEP_SCENE SOURCE CMAKE [ARGUMENT ...]
 
-Copies the source tree, takes out all laws but the plain ones (their explicit instances, and the choice between them), compiles
+Copies the source tree, takes out all laws but the plain ones (from the list of those that are compiled, and the choice between them), compiles
 step_scene from that and runs fixed plain scenes with both programs. State hashes must be equal, and instructions of
 stepping (callgrind, as in instructions.py) within 0.1 %. Bytes of a disc are the size of its state, the same line of code in both. Takes some minutes: CMAKE builds with two
 processes. ARGUMENTs go to its configuration. Code 1 if anything differs, 77 where there is no valgrind.
@@ -19,30 +19,21 @@ import tempfile
 from instructions import SCENES, SETTINGS, counted
 
 TOLERANCE = 0.001
-PLAIN_LAWS = r"(?:PlainLaw|NaiveLaw|ContractedLaw|SingleLaw|SingleNaiveLaw|SingleContractedLaw)"
-INSTANCE = re.compile(r"^template class \w+<(\w+)>;\n", re.MULTILINE)
+PLAIN_LAWS = {"PlainLaw", "NaiveLaw", "ContractedLaw", "SingleLaw", "SingleNaiveLaw", "SingleContractedLaw"}
+LISTED = re.compile(r" ?make\((\w+)\)")
 CHOICE = re.compile(r"^    switch \(scene\.effects\.contact\.kind\) \{\n.*?^    \}\n", re.MULTILINE | re.DOTALL)
 OTHER_CHOICE = re.compile(r"^    if \(.*\) return make\.template operator\(\)<(?!BasicPlainLaw)\w+>\(\);\n", re.MULTILINE)
 INCLUDE = '#include "carrom/effects/effect_law.hpp"\n'
 
 
 def take_out_effects(source):
-    """Returns how many instances of laws were taken out."""
-    n_taken = 0
-    for folder, _, files in os.walk(os.path.join(source, "src")):
-        for name in files:
-            path = os.path.join(folder, name)
-            if not name.endswith((".cpp", ".hpp")):
-                continue
-            with open(path, encoding="utf-8") as file:
-                text = file.read()
-            taken = [law for law in INSTANCE.findall(text) if law.endswith("Law") and not re.fullmatch(PLAIN_LAWS, law)]
-            if not taken:
-                continue
-            n_taken += len(taken)
-            text = INSTANCE.sub(lambda m: "" if m.group(1) in taken else m.group(0), text)
-            with open(path, "w", encoding="utf-8") as file:
-                file.write(text)
+    """Returns how many laws were taken out of the list that kernels and engines are compiled for."""
+    path = os.path.join(source, "include/carrom/effects/effect_law.hpp")
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    taken = [law for law in LISTED.findall(text) if law.endswith("Law") and law not in PLAIN_LAWS]
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(LISTED.sub(lambda m: "" if m.group(1) in taken else m.group(0), text))
     path = os.path.join(source, "src/simulation/law_of_scene.hpp")
     with open(path, encoding="utf-8") as file:
         text = file.read()
@@ -50,15 +41,15 @@ def take_out_effects(source):
     text = OTHER_CHOICE.sub("", text)
     with open(path, "w", encoding="utf-8") as file:
         file.write(text.replace(INCLUDE, '#include "carrom/effects/effects.hpp"\n'))
-    if n_choices != 1 or n_taken == 0:
-        sys.exit(f"did not find what to take out: {n_choices} choices, {n_taken} instances")
-    return n_taken
+    if n_choices != 1 or not taken:
+        sys.exit(f"did not find what to take out: {n_choices} choices, {len(taken)} laws")
+    return len(taken)
 
 
 def build_without(source, cmake, arguments, folder):
     copy, build = os.path.join(folder, "source"), os.path.join(folder, "build")
     shutil.copytree(source, copy, ignore=shutil.ignore_patterns("build*", ".git", "docs"))
-    print(f"taken out: {take_out_effects(copy)} instances of laws")
+    print(f"taken out: {take_out_effects(copy)} laws")
     for command in ([cmake, "-S", copy, "-B", build, *arguments], [cmake, "--build", build, "-j", "2", "--target", "step_scene"]):
         run = subprocess.run(command, capture_output=True, text=True, check=False)
         if run.returncode != 0:

@@ -66,16 +66,8 @@ private:
     std::vector<SearchLists> lists_; ///< by thread
 };
 
-extern template class Search<PlainLaw>;
-extern template class Search<NaiveLaw>;
-extern template class Search<ContractedLaw>;
-extern template class Search<SingleLaw>;
-extern template class Search<SingleNaiveLaw>;
-extern template class Search<SingleContractedLaw>;
-extern template class Search<ElasticLaw>;
-extern template class Search<IdealGasLaw>;
-extern template class Search<InelasticLaw>;
-extern template class Search<MixedLaw>;
-extern template class Search<RoughLaw>;
+#define CARROM_DECLARE(Law) extern template class Search<Law>;
+CARROM_FOR_EACH_LAW(CARROM_DECLARE)
+#undef CARROM_DECLARE
 
 } // namespace carrom

@@ -216,4 +216,9 @@ using InelasticLaw = EffectLaw<InelasticContact>;
 using MixedLaw = EffectLaw<InelasticContact, true>; ///< of any restitution, 1 included
 using RoughLaw = EffectLaw<RoughContact, true>;     ///< of one class or several
 
+/// make(law) for every law that kernels and engines are compiled for.
+#define CARROM_FOR_EACH_LAW(make) \
+    make(PlainLaw) make(NaiveLaw) make(ContractedLaw) make(SingleLaw) make(SingleNaiveLaw) make(SingleContractedLaw) \
+    make(ElasticLaw) make(IdealGasLaw) make(InelasticLaw) make(MixedLaw) make(RoughLaw)
+
 } // namespace carrom

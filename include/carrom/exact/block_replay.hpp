@@ -127,16 +127,8 @@ private:
     std::unique_ptr<Scratch> scratch_;
 };
 
-extern template class BlockReplay<PlainLaw>;
-extern template class BlockReplay<NaiveLaw>;
-extern template class BlockReplay<ContractedLaw>;
-extern template class BlockReplay<SingleLaw>;
-extern template class BlockReplay<SingleNaiveLaw>;
-extern template class BlockReplay<SingleContractedLaw>;
-extern template class BlockReplay<ElasticLaw>;
-extern template class BlockReplay<IdealGasLaw>;
-extern template class BlockReplay<InelasticLaw>;
-extern template class BlockReplay<MixedLaw>;
-extern template class BlockReplay<RoughLaw>;
+#define CARROM_DECLARE(Law) extern template class BlockReplay<Law>;
+CARROM_FOR_EACH_LAW(CARROM_DECLARE)
+#undef CARROM_DECLARE
 
 } // namespace carrom
