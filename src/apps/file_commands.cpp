@@ -144,13 +144,14 @@ void verify_checkpoint(const std::string& path, const Communicator& ranks) {
     const Effects effects = scene_of(checkpoint.header, {}).effects; // a scene that cannot be read is no use either
     Extent box = extent_at(effects, checkpoint.header.box_size, static_cast<double>(checkpoint.header.step));
     const DiscBodies bodies(effects.classes, checkpoint.header.radius);
-    const auto open = [&effects](std::size_t side, double& line, double outside) { // discs may be on their way out
-        if (effects.sides[side].kind == SideKind::open) line = outside;
+    const auto make_room = [&](std::size_t side, double& line, double outwards) {
+        if (effects.sides[side].kind == SideKind::open) line = outwards * infinity; // discs may be on their way out
+        if (effects.sides[side].kind == SideKind::periodic) line += outwards * checkpoint.header.radius; // centres are anywhere in the box
     };
-    open(0, box.x_low, -infinity);
-    open(1, box.x_high, infinity);
-    open(2, box.y_low, -infinity);
-    open(3, box.y_high, infinity);
+    make_room(0, box.x_low, -1);
+    make_room(1, box.x_high, 1);
+    make_room(2, box.y_low, -1);
+    make_room(3, box.y_high, 1);
     std::string flaw;
     std::uint64_t sums[] = {0, 0};
     for (const Disc& disc : checkpoint.discs) {

@@ -29,6 +29,8 @@ TrajectoryLayout layout_of(const Scene& scene) {
         layout.radii.insert(layout.radii.end(), one.count, one.radius);
         layout.masses.insert(layout.masses.end(), one.count, one.mass);
     }
+    layout.is_periodic_x = scene.effects.is_periodic_x();
+    layout.is_periodic_y = scene.effects.is_periodic_y();
     layout.velocity_unit = static_cast<double>(scene.micro_steps);
     layout.has_position = wanted.has_position;
     layout.has_velocity = wanted.has_velocity;

@@ -27,6 +27,12 @@ void resize_close(std::vector<std::uint32_t>& numbers, std::size_t size) {
     numbers.resize(size);
 }
 
+/// Where discs are without periodic sides.
+struct StoredPlaces {
+    static double x_of(const Disc& disc, double time) { return disc.x_at(time); }
+    static double y_of(const Disc& disc, double time) { return disc.y_at(time); }
+};
+
 int cells_along(double length, double width) {
     return static_cast<int>(std::clamp(std::ceil(length / width), 1.0, 1e9));
 }
@@ -51,8 +57,10 @@ GridFrame make_frame(double x_low, double x_high, double y_low, double y_high, d
     return frame;
 }
 
-void CellGrid::build(std::span<const Disc> discs, const GridFrame& frame, double anchor, double time, double duration, int n_threads) {
+void CellGrid::build(std::span<const Disc> discs, const GridFrame& frame, double anchor, double time, double duration, int n_threads,
+                     const Periods& periods) {
     frame_ = frame;
+    periods_ = periods;
     time_ = time;
     duration_ = duration;
     apart_.clear();
@@ -65,25 +73,30 @@ void CellGrid::build(std::span<const Disc> discs, const GridFrame& frame, double
     lane_length_ = n + filter_padding;
     lanes_.resize(4 * lane_length_);
     resize_close(cell_start_, static_cast<std::size_t>(frame.n_columns) * rows() + 1);
-    if (n_threads == 1) sort_alone(discs, anchor);
-    else sort_together(discs, anchor, n_threads);
+    if (periods.are_any()) sort(periods, discs, anchor, n_threads);
+    else sort(StoredPlaces{}, discs, anchor, n_threads);
     for (std::size_t lane = 1; lane <= 4; ++lane) {
         std::fill_n(lanes_.begin() + static_cast<std::ptrdiff_t>(lane * lane_length_ - filter_padding), filter_padding, 0.0f);
     }
 }
 
-std::uint32_t CellGrid::cell_at(const Disc& disc, double time) const {
-    const auto column = static_cast<std::uint32_t>(frame_.column_of(disc.x_at(time)));
-    const auto row = static_cast<std::uint32_t>(frame_.row_of(disc.y_at(time)));
+template <class Places> void CellGrid::sort(const Places& places, std::span<const Disc> discs, double anchor, int n_threads) {
+    if (n_threads == 1) sort_alone(places, discs, anchor);
+    else sort_together(places, discs, anchor, n_threads);
+}
+
+template <class Places> std::uint32_t CellGrid::cell_at(const Places& places, const Disc& disc, double time) const {
+    const auto column = static_cast<std::uint32_t>(frame_.column_of(places.x_of(disc, time)));
+    const auto row = static_cast<std::uint32_t>(frame_.row_of(places.y_of(disc, time)));
     return column * rows() + row;
 }
 
 // One counting sort: states are read in the order in which they lie.
-void CellGrid::sort_alone(std::span<const Disc> discs, double anchor) {
+template <class Places> void CellGrid::sort_alone(const Places& places, std::span<const Disc> discs, double anchor) {
     std::fill(cell_start_.begin(), cell_start_.end(), 0u);
     std::uint32_t* next = cell_start_.data() + 1; // by cell: how many discs, then the slot of the next one
     for (std::size_t i = 0; i < discs.size(); ++i) {
-        cell_of_[i] = cell_at(discs[i], anchor);
+        cell_of_[i] = cell_at(places, discs[i], anchor);
         ++next[cell_of_[i]];
     }
     std::uint32_t start = 0;
@@ -96,13 +109,14 @@ void CellGrid::sort_alone(std::span<const Disc> discs, double anchor) {
         const std::uint32_t slot = next[cell_of_[i]]++;
         order_[slot] = static_cast<LocalIndex>(i);
         slot_of_[i] = slot;
-        place(slot, discs[i]);
+        place(places, slot, discs[i]);
     }
 }
 
 // Two counting sorts, first by column over equal shares of the discs, then by row inside each column: no atomics,
 // and the scattered writes of the second stay within one column.
-void CellGrid::sort_together(std::span<const Disc> discs, double anchor, int n_threads) {
+template <class Places>
+void CellGrid::sort_together(const Places& places, std::span<const Disc> discs, double anchor, int n_threads) {
     const std::size_t n = discs.size(), n_columns = static_cast<std::size_t>(frame_.n_columns);
     column_start_.resize(n_columns + 1);
     thread_column_start_.assign(n_columns * static_cast<std::size_t>(n_threads), 0);
@@ -112,7 +126,7 @@ void CellGrid::sort_together(std::span<const Disc> discs, double anchor, int n_t
         std::uint32_t* counts = thread_column_start_.data() + n_columns * static_cast<std::size_t>(thread);
         const std::size_t begin = share(n, thread, n_threads), end = share(n, thread + 1, n_threads);
         for (std::size_t i = begin; i < end; ++i) {
-            cell_of_[i] = cell_at(discs[i], anchor);
+            cell_of_[i] = cell_at(places, discs[i], anchor);
             ++counts[column_of_cell(cell_of_[i])];
         }
 #pragma omp barrier
@@ -137,14 +151,14 @@ void CellGrid::sort_together(std::span<const Disc> discs, double anchor, int n_t
         }
 #pragma omp barrier
 #pragma omp for schedule(static)
-        for (int column = 0; column < frame_.n_columns; ++column) sort_column(discs, column);
+        for (int column = 0; column < frame_.n_columns; ++column) sort_column(places, discs, column);
         // slot_of_ is free again once every column is sorted (the loop ends with a barrier).
 #pragma omp for schedule(static)
         for (std::size_t slot = 0; slot < n; ++slot) slot_of_[order_[slot]] = static_cast<std::uint32_t>(slot);
     }
 }
 
-void CellGrid::sort_column(std::span<const Disc> discs, int column) {
+template <class Places> void CellGrid::sort_column(const Places& places, std::span<const Disc> discs, int column) {
     const std::size_t base = static_cast<std::size_t>(column) * rows();
     const std::uint32_t begin = column_start_[static_cast<std::size_t>(column)];
     const std::uint32_t end = column_start_[static_cast<std::size_t>(column) + 1];
@@ -162,18 +176,18 @@ void CellGrid::sort_column(std::span<const Disc> discs, int column) {
         const LocalIndex index = slot_of_[k];
         const std::uint32_t slot = starts[cell_of_[index] - base]++;
         order_[slot] = index;
-        place(slot, discs[index]);
+        place(places, slot, discs[index]);
     }
     // Each start has moved to its cell's end, which is the next cell's start: shift them back by one cell.
     for (std::uint32_t row = rows() - 1; row > 0; --row) starts[row] = starts[row - 1];
     starts[0] = begin;
 }
 
-void CellGrid::place(std::uint32_t slot, const Disc& disc) {
+template <class Places> void CellGrid::place(const Places& places, std::uint32_t slot, const Disc& disc) {
     const double cells = frame_.cells_per_length();
     float* lane = lanes_.data() + slot;
-    lane[0] = static_cast<float>((disc.x_at(time_) - frame_.x_low) * cells);
-    lane[lane_length_] = static_cast<float>((disc.y_at(time_) - frame_.y_low) * cells);
+    lane[0] = static_cast<float>((places.x_of(disc, time_) - frame_.x_low) * cells);
+    lane[lane_length_] = static_cast<float>((places.y_of(disc, time_) - frame_.y_low) * cells);
     lane[2 * lane_length_] = static_cast<float>(disc.vx * duration_ * cells);
     lane[3 * lane_length_] = static_cast<float>(disc.vy * duration_ * cells);
 }
@@ -246,7 +260,9 @@ void CellGrid::reorder(std::span<Disc> discs, std::size_t n_own, int n_threads, 
     order_.clear();
 }
 
-void CellGrid::update_flight(LocalIndex index, const Disc& disc) { place(slot_of_[index], disc); }
+void CellGrid::update_flight(LocalIndex index, const Disc& disc) { place(StoredPlaces{}, slot_of_[index], disc); }
+
+void CellGrid::update_flight_of_image(LocalIndex index, const Disc& disc) { place(periods_, slot_of_[index], disc); }
 
 float CellGrid::touching_squared(double diameter) const {
     // Positions and velocities carry an error of 2^-24 of the frame's size; the filter allows for its own rounding.

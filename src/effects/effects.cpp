@@ -28,6 +28,7 @@ std::string description(const Side& side, const char* name) {
     case SideKind::thermal: return fmt::format("{} wall of temperature {:g}", name, side.temperature);
     case SideKind::moving: return fmt::format("{} wall{} moving at {:g}", name, loss, side.speed);
     case SideKind::open: return fmt::format("{} side open", name);
+    case SideKind::periodic: return fmt::format("{} side periodic", name);
     }
     return {};
 }

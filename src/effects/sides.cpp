@@ -10,12 +10,16 @@ namespace carrom {
 
 Sides::Sides(double box_size, double radius, const Effects& effects)
     : effects_(effects), box_size_(box_size), radius_(radius), bodies_(effects.classes, radius), gravity_{effects.gravity.x, effects.gravity.y} {
-    for (std::size_t side = 0; side < 4; ++side) speeds_[side] = effects.sides[side].speed;
     effects_.obstacles = {}; // laws are copied for each thread
+    for (std::size_t side = 0; side < 4; ++side) {
+        speeds_[side] = effects.sides[side].speed;
+        if (effects.sides[side].kind == SideKind::periodic) away_[side] = -sign_of(side) * never;
+    }
+    moved_ = away_;
 }
 
 void Sides::begin_interval(std::int64_t n) {
-    for (std::size_t side = 0; side < 4; ++side) moved_[side] = speeds_[side] * static_cast<double>(n);
+    for (std::size_t side = 0; side < 4; ++side) moved_[side] = away_[side] + speeds_[side] * static_cast<double>(n);
 }
 
 Frame Sides::frame_at(double time) const {
@@ -109,7 +113,9 @@ void Sides::rebound(Disc& disc, std::size_t side, double restitution, double tim
     double away = restitution * std::fabs(normal - wall);
     if (effects_.sides[side].kind == SideKind::thermal) {
         // What leaves a wall of temperature T: v_n with the density v_n / T exp(-v_n^2 / 2 T), the other part Maxwell's.
-        DiscRandom random(effects_.thermal_seed, Purpose::thermal_wall, disc.id, 4 * disc.wall_collisions + side);
+        // All images of a disc draw the same.
+        const std::uint64_t n_before = effects_.are_periodic() ? count_without_image(disc) : disc.wall_collisions;
+        DiscRandom random(effects_.thermal_seed, Purpose::thermal_wall, disc.id, 4 * n_before + side);
         const double temperature = effects_.sides[side].temperature / bodies_.of(disc.id).mass;
         away = std::sqrt(2 * temperature * random_exponential(random)) / slowing_at(time);
         const double speed = std::sqrt(2 * temperature * random_exponential(random)) / slowing_at(time);

@@ -34,7 +34,7 @@ template <class Law> BlockReplay<Law>::~BlockReplay() = default;
 template <class Law> BlockReplay<Law>::BlockReplay(BlockReplay&&) noexcept = default;
 
 template <class Law>
-void BlockReplay<Law>::run(const ReplayGround& ground, const CellBlock& block, int halo,
+void BlockReplay<Law>::run(const ReplayGround& ground, const CellBlock& block, int halo, [[maybe_unused]] bool is_whole,
                            std::span<std::uint64_t> histories, BlockOutcome& outcome) {
     Scratch& s = *scratch_;
     s.outcome = &outcome;
@@ -47,6 +47,10 @@ void BlockReplay<Law>::run(const ReplayGround& ground, const CellBlock& block, i
     outcome.is_endless = false;
     s.gather(ground, block, halo);
     s.mark_own(block);
+    if constexpr (Law::is_periodic) {
+        s.next_image.clear();
+        if (is_whole) s.link_images();
+    }
     s.predict_all();
     const EventOrder before(s.discs);
     const auto is_current = [&s](const Event& event) {
@@ -125,8 +129,8 @@ void BlockReplay<Law>::Scratch::gather(const ReplayGround& of_rank, const CellBl
 /// Takes over a disc's flight: where it would have been at the window's start, in cells.
 template <class Law> void BlockReplay<Law>::Scratch::place(std::uint32_t slot, double start) {
     const Disc& disc = discs[slot];
-    x[slot] = static_cast<float>((disc.x_at(start) - x_corner) * cells_per_length);
-    y[slot] = static_cast<float>((disc.y_at(start) - y_corner) * cells_per_length);
+    x[slot] = static_cast<float>((x_of(disc, start) - x_corner) * cells_per_length);
+    y[slot] = static_cast<float>((y_of(disc, start) - y_corner) * cells_per_length);
     vx[slot] = static_cast<float>(disc.vx * cells_per_speed);
     vy[slot] = static_cast<float>(disc.vy * cells_per_speed);
 }
@@ -139,10 +143,12 @@ template <class Law> void BlockReplay<Law>::Scratch::mark_own(const CellBlock& o
     too_fast = 0;
     crowd_begin = -1;
     crowd = 0;
+    const int first_row = own.first_row == ground.first_own_row ? cells.first_row : own.first_row;
+    const int end_row = own.end_row == ground.end_own_row ? cells.end_row : own.end_row;
     for (int column = cells.first_column; column < cells.end_column; ++column) {
         const int owner = owning_column(column);
         if (owner < own.first_column || owner >= own.end_column) continue;
-        const SlotRange run = grid_run(column, own.first_row, own.end_row - 1);
+        const SlotRange run = grid_run(column, first_row, end_row - 1);
         for (std::uint32_t slot = run.begin; slot < run.end; ++slot) {
             if (indices[slot] >= ground.n_own) continue;
             is_own[slot] = 1;
@@ -154,8 +160,9 @@ template <class Law> void BlockReplay<Law>::Scratch::mark_own(const CellBlock& o
 template <class Law> Flight BlockReplay<Law>::Scratch::flight_of(std::uint32_t slot) const {
     const Disc& disc = discs[slot];
     Flight flight;
-    flight.x = static_cast<float>((disc.x - x_corner) * cells_per_length);
-    flight.y = static_cast<float>((disc.y - y_corner) * cells_per_length);
+    const double x_now = Law::is_periodic ? x_of(disc, disc.tau) : disc.x, y_now = Law::is_periodic ? y_of(disc, disc.tau) : disc.y;
+    flight.x = static_cast<float>((x_now - x_corner) * cells_per_length);
+    flight.y = static_cast<float>((y_now - y_corner) * cells_per_length);
     flight.vx = vx[slot];
     flight.vy = vy[slot];
     flight.now = static_cast<float>((disc.tau - ground.window.begin) * windows_per_time);
@@ -218,7 +225,7 @@ template <class Law> void BlockReplay<Law>::Scratch::predict_pair(std::uint32_t 
     const double time = contact.base + contact.delay;
     // Two discs that have just collided with each other do not collide again at the same time: what rounding has left of
     // their approach is too little for an impulse to mend.
-    if (pasts[a].partner == b && pasts[b].partner == a && time == discs[a].tau) return;
+    if (have_just_collided(a, b, time)) return;
     push(time, a, b);
 }
 
@@ -281,11 +288,17 @@ template <class Law> void BlockReplay<Law>::Scratch::happen(const Event& event) 
         carry_out(other_side);
     }
     if (Law::may_lose_discs && discs[event.p].is_gone()) return;
+    if constexpr (Law::is_periodic) {
+        mirror(event.p, event.time);
+        if (!is_wall(event.q)) mirror(event.q, event.time);
+    }
     predict_walls(event.p);
     predict_pairs(event.p, Past::nobody);
+    if constexpr (Law::is_periodic) predict_images(event.p);
     if (is_wall(event.q)) return;
     predict_walls(event.q);
     predict_pairs(event.q, event.p);
+    if constexpr (Law::is_periodic) predict_images(event.q);
 }
 
 /// Rewrites the states of an event's discs and writes down what has happened to them.
@@ -304,7 +317,7 @@ template <class Law> void BlockReplay<Law>::Scratch::carry_out(const Event& even
         note(event.q, event.p, event);
     }
     note(event.p, event.q, event);
-    if (is_own[event.p] != 0) {
+    if (is_own_image(event.p)) {
         outcome->n_events += 1;
         const bool is_pushed = !Law::may_lose_discs || !p.is_gone();
         if (ground.is_logged) log_event(event, is_pushed ? p.vx - vx_before : 0, is_pushed ? p.vy - vy_before : 0);
@@ -348,19 +361,6 @@ template <class Law> void BlockReplay<Law>::Scratch::hold_to_schedule(std::uint3
     const bool will_be_seen = speed > window.speed_bound * (1 + 1e-5); // by its next collision
     if (will_be_seen && speed < 2 * window.speed_bound && away + speed * (window.end - time) <= window.speed_bound * window.duration()) return;
     too_fast = std::max({too_fast, speed, window.speed_bound * (1 + 1e-6)});
-}
-
-template <class Law> void BlockReplay<Law>::Scratch::give_up(const Event& event) {
-    outcome->is_endless = true;
-    outcome->endless_disc = discs[event.p].id;
-    outcome->endless_partner = is_wall(event.q) ? discs[event.p].id : discs[event.q].id;
-    outcome->endless_time = event.time;
-}
-
-template <class Law> void BlockReplay<Law>::Scratch::log_event(const Event& event, double wx, double wy) {
-    const bool at_wall = is_wall(event.q);
-    outcome->log.push_back({event.time, event.generation, at_wall, discs[event.p].id, at_wall ? event.q - x_wall : discs[event.q].id,
-                            std::sqrt(wx * wx + wy * wy), event.q == x_wall ? wx : event.q == y_wall ? wy : 0});
 }
 
 template <class Law>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -30,11 +31,12 @@ template <class Law> struct BlockReplay<Law>::Scratch {
     void place(std::uint32_t slot, double time);
     void predict_all();
     void happen(const Event& event);
+    void link_images();
+    void mirror(std::uint32_t slot, double time);
+    void predict_images(std::uint32_t slot);
     void carry_out(const Event& event);
     void note(std::uint32_t slot, std::uint32_t partner, const Event& event);
     void hold_to_schedule(std::uint32_t slot, double time);
-    void give_up(const Event& event);
-    void log_event(const Event& event, double wx, double wy);
     void look_around(const Flight& flight);
     void predict_pairs(std::uint32_t slot, std::uint32_t except);
     void predict_pair(std::uint32_t a, std::uint32_t b);
@@ -44,6 +46,33 @@ template <class Law> struct BlockReplay<Law>::Scratch {
     void report(const CellBlock& own, std::span<std::uint64_t> histories);
 
     Flight flight_of(std::uint32_t slot) const;
+    /// Whether the disc, as one of its images, is the block's own.
+    bool is_own_image(std::uint32_t slot) const {
+        if (is_own[slot] != 0) return true;
+        if constexpr (Law::is_periodic) {
+            if (next_image.empty()) return false;
+            for (std::uint32_t other = next_image[slot]; other != slot; other = next_image[other])
+                if (is_own[other] != 0) return true;
+        }
+        return false;
+    }
+    /// With each other, at this time, and with nobody since; perhaps as other images.
+    bool have_just_collided(std::uint32_t a, std::uint32_t b, double time) const {
+        if constexpr (Law::is_periodic) {
+            const auto was = [this](std::uint32_t partner, std::uint32_t disc) { return partner < discs.size() && discs[partner].id == discs[disc].id; };
+            return was(pasts[a].partner, b) && was(pasts[b].partner, a) && time == discs[a].tau;
+        } else {
+            return pasts[a].partner == b && pasts[b].partner == a && time == discs[a].tau;
+        }
+    }
+    double x_of(const Disc& disc, double time) const {
+        if constexpr (Law::is_periodic) return law.periods().x_of(disc, time);
+        else return disc.x_at(time);
+    }
+    double y_of(const Disc& disc, double time) const {
+        if constexpr (Law::is_periodic) return law.periods().y_of(disc, time);
+        else return disc.y_at(time);
+    }
     int owning_column(int column) const {
         return std::clamp(column, ground.first_own_column, ground.end_own_column - 1);
     }
@@ -55,6 +84,19 @@ template <class Law> struct BlockReplay<Law>::Scratch {
     /// The same for cells of the grid.
     SlotRange grid_run(int column, int first_row, int last_row) const {
         return cell_run(column - cells.first_column, first_row - cells.first_row, last_row - cells.first_row);
+    }
+
+    [[gnu::noinline]] void give_up(const Event& event) {
+        outcome->is_endless = true;
+        outcome->endless_disc = discs[event.p].id;
+        outcome->endless_partner = is_wall(event.q) ? discs[event.p].id : discs[event.q].id;
+        outcome->endless_time = event.time;
+    }
+
+    [[gnu::noinline]] void log_event(const Event& event, double wx, double wy) {
+        const bool at_wall = is_wall(event.q);
+        outcome->log.push_back({event.time, event.generation, at_wall, discs[event.p].id, at_wall ? event.q - x_wall : discs[event.q].id,
+                                std::sqrt(wx * wx + wy * wy), event.q == x_wall ? wx : event.q == y_wall ? wy : 0});
     }
 
     Law law;
@@ -71,6 +113,8 @@ template <class Law> struct BlockReplay<Law>::Scratch {
     std::vector<double> spins; ///< of rough discs
     std::vector<Past> pasts;
     std::vector<std::uint8_t> is_own;
+    std::vector<std::uint32_t> next_image; ///< of the same disc, in a ring; empty where images go their own ways
+    std::vector<std::uint32_t> image_table; ///< scratch
     std::vector<float> x, y, vx, vy;
     FlightLanes lanes;
     EventQueue queue;

@@ -42,7 +42,7 @@ public:
 private:
     bool before_at_one_time(const Event& a, const Event& b) const {
         if (a.generation != b.generation) return a.generation < b.generation;
-        if (a.p != b.p) return discs_[a.p].id < discs_[b.p].id;
+        if (a.p != b.p && discs_[a.p].id != discs_[b.p].id) return discs_[a.p].id < discs_[b.p].id; // or two images of one
         if (is_wall(a.q) || is_wall(b.q)) return is_wall(a.q) && (!is_wall(b.q) || a.q < b.q);
         return discs_[a.q].id < discs_[b.q].id;
     }

@@ -19,6 +19,8 @@ void write_header(hid_t group, const CheckpointHeader& header) {
         std::visit([&](auto field) { h5::write_scalar(group, entry.name, header.*field); }, entry.field);
     if (!header.frame.is_moving) return;
     for (const FrameField& entry : checkpoint_frame) h5::write_scalar(group, entry.name, header.frame.*entry.field);
+    if (header.frame.period_x == 0 && header.frame.period_y == 0) return;
+    for (const FrameField& entry : checkpoint_periods) h5::write_scalar(group, entry.name, header.frame.*entry.field);
 }
 
 CheckpointHeader read_header(hid_t group) {
@@ -28,6 +30,8 @@ CheckpointHeader read_header(hid_t group) {
     header.frame.is_moving = H5Lexists(group, checkpoint_frame[0].name, H5P_DEFAULT) > 0;
     if (header.frame.is_moving)
         for (const FrameField& entry : checkpoint_frame) h5::read_scalar(group, entry.name, header.frame.*entry.field);
+    if (H5Lexists(group, checkpoint_periods[0].name, H5P_DEFAULT) > 0)
+        for (const FrameField& entry : checkpoint_periods) h5::read_scalar(group, entry.name, header.frame.*entry.field);
     return header;
 }
 

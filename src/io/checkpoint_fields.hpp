@@ -73,6 +73,8 @@ struct SampleColumn {
     double FirstPlace::*field;
 };
 inline constexpr std::array<SampleColumn, 2> sample_columns = {{{"first_x", &FirstPlace::x}, {"first_y", &FirstPlace::y}}};
+/// And for one of a periodic box.
+inline constexpr std::array<FrameField, 2> checkpoint_periods = {{{"period_x", &Frame::period_x}, {"period_y", &Frame::period_y}}};
 
 /// Sets the column's number of a disc by its 8 bytes.
 void set_bits(const Column& column, Disc& disc, std::uint64_t bits);

@@ -44,7 +44,7 @@ void create_groups(hid_t file, const CheckpointHeader& header, const StoredSampl
     h5md::write_metadata(file, header.program_version);
     const h5::Group particles = h5::create_group(file, "particles");
     const h5::Group discs = h5::create_group(particles.id(), "discs");
-    const h5::Group box = h5md::create_box(discs.id());
+    const h5::Group box = h5md::create_box(discs.id(), header.frame.period_x != 0, header.frame.period_y != 0);
     const std::array<double, 3> edges = {header.box_size, header.box_size, 1};
     h5::write_whole(create_frame(box.id(), "edges", header).id(), "value", std::array<hsize_t, 2>{1, 3}, H5T_NATIVE_DOUBLE, edges.data());
     const std::array<hsize_t, 3> vectors = {1, header.n_discs, 3};

@@ -13,7 +13,7 @@ namespace carrom::h5md {
 /// /h5md: who wrote the file with what.
 void write_metadata(hid_t file, const std::string& program_version);
 
-/// `parent`/box with walls on its sides; the caller adds its edges.
-h5::Group create_box(hid_t parent);
+/// `parent`/box with periodic sides along x and y, or walls; the caller adds its edges.
+h5::Group create_box(hid_t parent, bool is_periodic_x, bool is_periodic_y);
 
 } // namespace carrom::h5md

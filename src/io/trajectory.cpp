@@ -82,7 +82,7 @@ void create_structure(hid_t file, const TrajectoryLayout& layout) {
     const h5::Group discs = h5::create_group(particles.id(), "discs");
     write_fixed(discs.id(), "radius", layout.radii);
     write_fixed(discs.id(), "mass", layout.masses);
-    const h5::Group box = h5md::create_box(discs.id()), edges = h5::create_group(box.id(), "edges");
+    const h5::Group box = h5md::create_box(discs.id(), layout.is_periodic_x, layout.is_periodic_y), edges = h5::create_group(box.id(), "edges");
     create_growing(edges.id(), "step", H5T_STD_I64LE, {}, std::array<hsize_t, 1>{256}, 0);
     create_growing(edges.id(), "time", H5T_IEEE_F64LE, {}, std::array<hsize_t, 1>{256}, 0);
     create_growing(edges.id(), "value", H5T_IEEE_F64LE, std::array<hsize_t, 1>{3}, std::array<hsize_t, 2>{256, 3}, 0);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <tuple>
 
 #include "limits.hpp"
 
@@ -73,14 +74,15 @@ void fill_contact(const Check& check) {
 }
 
 void fill_side(const Check& check, std::size_t number) {
-    static constexpr Choices<SideKind, 4> kinds = {
-        {{"wall", SideKind::fixed}, {"thermal", SideKind::thermal}, {"moving", SideKind::moving}, {"open", SideKind::open}}};
+    static constexpr Choices<SideKind, 5> kinds = {
+        {{"wall", SideKind::fixed}, {"thermal", SideKind::thermal}, {"moving", SideKind::moving}, {"open", SideKind::open}, {"periodic", SideKind::periodic}}};
     Side& side = check.scene.effects.sides[number];
     const std::string table = std::string("box.") + side_names[number];
     if (const auto kind = choice(check, table + ".kind", kinds)) side.kind = *kind;
     const bool is_thermal = side.kind == SideKind::thermal, is_moving = side.kind == SideKind::moving;
     if (is_thermal) refuse_without(check, table + ".restitution", table + ".kind = \"wall\" or \"moving\": what leaves a thermal wall has forgotten how it came");
     else if (side.kind == SideKind::open) refuse_without(check, table + ".restitution", table + ".kind = \"wall\" or \"moving\": nothing comes back from an open side");
+    else if (side.kind == SideKind::periodic) refuse_without(check, table + ".restitution", "a wall: discs that leave by a periodic side come in by the opposite one, as they were");
     else if (const auto restitution = number_within(check, table + ".restitution", 0, 1)) side.restitution = *restitution;
 
     if (!is_thermal) refuse_without(check, table + ".temperature", table + ".kind = \"thermal\"");
@@ -97,10 +99,41 @@ void fill_side(const Check& check, std::size_t number) {
         check.refuse(*check.settings.find(table + ".kind"), "a moving wall needs time.collisions = \"all\": the rule \"one\" has walls at rest");
 }
 
+/// What boxes with periodic sides go without.
+void check_beside_periodic_sides(const Check& check) {
+    const Effects& effects = check.scene.effects;
+    if (!effects.are_periodic()) return;
+    const Setting& kind = *check.settings.find(std::string("box.") + side_names[effects.is_periodic_x() ? 0 : 2] + ".kind");
+    const auto refuse = [&](std::string_view other) { check.refuse(kind, fmt::format("this version has no periodic sides together with {}", other)); };
+    if (std::any_of(effects.sides.begin(), effects.sides.end(), [](const Side& side) { return side.kind == SideKind::open; })) refuse("open sides");
+    if (effects.contact.kind == ContactKind::rough) refuse("rough discs");
+    if (!effects.classes.empty()) refuse("discs of several classes");
+    if (effects.obstacles.are_any()) refuse("obstacles");
+    if (effects.drag != 0) refuse("drag");
+    if (has_table(check, "output.measurements"))
+        check.refuse(kind, "this version measures nothing ('output.measurements') in boxes with periodic sides");
+}
+
+/// Sides are periodic in pairs.
+void check_periodic_sides(const Check& check) {
+    const auto& sides = check.scene.effects.sides;
+    for (const std::size_t low : {0u, 2u}) {
+        const bool is_low = sides[low].kind == SideKind::periodic, is_high = sides[low + 1].kind == SideKind::periodic;
+        if (is_low == is_high) continue;
+        const std::size_t periodic = is_low ? low : low + 1, other = is_low ? low + 1 : low;
+        check.refuse(*check.settings.find(std::string("box.") + side_names[periodic] + ".kind"),
+                     fmt::format("what leaves by a periodic side comes in by the opposite one: box.{}.kind must be \"periodic\" too, or neither", side_names[other]));
+    }
+}
+
 void fill_gravity(const Check& check) {
     Gravity& gravity = check.scene.effects.gravity;
     if (const auto x = finite_number(check, "effects.gravity.x")) gravity.x = *x;
     if (const auto y = finite_number(check, "effects.gravity.y")) gravity.y = *y;
+    for (const auto& [key, g, is_periodic] : {std::tuple("effects.gravity.x", gravity.x, check.scene.effects.is_periodic_x()),
+                                              {"effects.gravity.y", gravity.y, check.scene.effects.is_periodic_y()}}) {
+        if (g != 0 && is_periodic) check.refuse(*check.settings.find(key), "gravity along an axis with periodic sides: discs would fall for ever, faster and faster");
+    }
     if (!gravity.is_any() || check.scene.rule == CollisionRule::all) return;
     const Setting* setting = check.settings.find(gravity.y != 0 ? "effects.gravity.y" : "effects.gravity.x");
     check.refuse(*setting, "gravity needs time.collisions = \"all\": under the rule \"one\" discs fly straight");
@@ -220,6 +253,12 @@ void check_moving_walls(const Check& check) {
     };
     for (const std::size_t low : {0u, 2u})
         if (sides[low].speed < 0) refuse(low, fmt::format("the {} wall would leave the box; let the {} one move out", side_names[low], side_names[low + 1]));
+    if (scene.effects.are_periodic() && scene.box_size < 4 * scene.radius * (1 + 1e-6)) {
+        const std::size_t side = scene.effects.is_periodic_x() ? 0 : 2;
+        check.refuse(*check.settings.find(std::string("box.") + side_names[side] + ".kind"),
+                     fmt::format("a box of side {} is too small to be periodic: below two diameters ({}) a disc could touch another one on both sides at once",
+                                 scene.box_size, 4 * scene.radius));
+    }
     const Extent end = extent_at(scene.effects, scene.box_size, static_cast<double>(scene.steps));
     const double width = end.x_high - end.x_low, height = end.y_high - end.y_low;
     const double largest = std::max(end.x_high, end.y_high), covered = scene.packing() * scene.box_size * scene.box_size;
@@ -238,10 +277,12 @@ void check_moving_walls(const Check& check) {
 void fill_effects(const Check& check) {
     fill_contact(check);
     for (std::size_t side = 0; side < 4; ++side) fill_side(check, side);
+    check_periodic_sides(check);
     fill_gravity(check);
     fill_drag(check);
     fill_thermal(check);
     fill_obstacles(check);
+    check_beside_periodic_sides(check);
     const Effects& effects = check.scene.effects;
     if (lose_energy_or_fall(effects)) fill_contact_time(check);
     else refuse_without(check, "effects.contact.contact_time", "discs, walls or obstacles of restitution, or gravity");

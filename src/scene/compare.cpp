@@ -69,6 +69,7 @@ std::string_view name_of(SideKind kind) {
     case SideKind::thermal: return "\"thermal\"";
     case SideKind::moving: return "\"moving\"";
     case SideKind::open: return "\"open\"";
+    case SideKind::periodic: return "\"periodic\"";
     }
     return "";
 }

@@ -2,6 +2,7 @@
 #include "limits.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -22,17 +23,18 @@ std::string disc_problem(const InputDisc& disc, const Scene& scene, double radiu
     };
     // L - r and whatever wrote the input round to within an ulp of L, at most 2^-52 L.
     const double slack = 0x1p-52 * scene.box_size;
-    const double low = radius - slack, high = (scene.box_size - radius) + slack;
     bool is_finite = true, is_inside = true;
-    for (const double centre : {disc.x, disc.y}) {
+    for (const auto& [centre, is_periodic] : {std::pair(disc.x, scene.effects.is_periodic_x()), {disc.y, scene.effects.is_periodic_y()}}) {
+        const double low = is_periodic ? 0 : radius - slack, high = is_periodic ? scene.box_size : (scene.box_size - radius) + slack;
         if (!std::isfinite(centre)) add(fmt::format("the position {} is not a finite number", centre));
         is_finite = is_finite && std::isfinite(centre);
         is_inside = is_inside && centre >= low && centre <= high;
     }
     const bool is_box_known = scene.box_size > 0;
     if (is_finite && !is_inside && is_box_known)
-        add(fmt::format("disc {} at ({}, {}) is not inside the box: centres lie between r = {} and L - r = {}", disc.id,
-                        disc.x, disc.y, radius, scene.box_size - radius));
+        add(fmt::format("disc {} at ({}, {}) is not inside the box: centres lie between r = {} and L - r = {}{}", disc.id,
+                        disc.x, disc.y, radius, scene.box_size - radius,
+                        scene.effects.are_periodic() ? fmt::format(", between periodic sides 0 and L = {}", scene.box_size) : ""));
     for (const double component : {disc.vx, disc.vy}) add(velocity_problem(component));
     return all;
 }

@@ -21,10 +21,16 @@ std::vector<Effects> single_effects(const Effects& all) {
     const auto add = [&singles](auto&& set) { set(singles.emplace_back()); };
     if (all.contact.kind != ContactKind::elastic) add([&](Effects& one) { one.contact = all.contact; });
     for (std::size_t k = 0; k < all.sides.size(); ++k)
-        if (!all.sides[k].is_plain())
+        if (!all.sides[k].is_plain() && all.sides[k].kind != SideKind::periodic)
             add([&](Effects& one) {
                 one.sides[k] = all.sides[k];
                 one.thermal_seed = all.thermal_seed;
+            });
+    for (const std::size_t low : {0u, 2u}) // one side alone is not periodic
+        if (all.sides[low].kind == SideKind::periodic)
+            add([&](Effects& one) {
+                one.sides[low] = all.sides[low];
+                one.sides[low + 1] = all.sides[low + 1];
             });
     if (all.gravity.is_any()) add([&](Effects& one) { one.gravity = all.gravity; });
     if (!all.classes.empty()) add([&](Effects& one) { one.classes = all.classes; });

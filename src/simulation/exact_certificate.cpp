@@ -71,7 +71,8 @@ template <class Law> void ExactEngine<Law>::compare_histories(std::vector<LocalI
 
 template <class Law> void ExactEngine<Law>::mark_owner(LocalIndex own_index) {
     const int column = std::clamp(grid_.column_of(own_index), first_own_column_, end_own_column_ - 1) - first_own_column_;
-    const int k = column / block_columns_ * n_block_rows_ + grid_.row_of(own_index) / block_rows_;
+    const int row = std::clamp(grid_.row_of(own_index), first_own_row_, end_own_row_ - 1) - first_own_row_;
+    const int k = column / block_columns_ * n_block_rows_ + row / block_rows_;
     std::atomic_ref(blocks_[static_cast<std::size_t>(k)].is_marked).store(1, std::memory_order_relaxed);
 }
 
@@ -79,7 +80,9 @@ template <class Law> void ExactEngine<Law>::mark_owner(LocalIndex own_index) {
 /// all blocks are to be replayed then. **Collective.**
 template <class Law> bool ExactEngine<Law>::widen_marked() {
     const int n_reach = grid_.frame().n_reach;
-    const bool has_left = communicator_.rank() > 0, has_right = communicator_.rank() + 1 < communicator_.size(); // else: a wall
+    const Periods& periods = discs_.periods();
+    const bool has_left = periods.x != 0 || communicator_.rank() > 0; // else: a wall
+    const bool has_right = periods.x != 0 || communicator_.rank() + 1 < communicator_.size();
     int deepest = halo_depth_;
     std::uint64_t n_widened = 0;
     for (Block& block : blocks_) {
@@ -93,9 +96,16 @@ template <class Law> bool ExactEngine<Law>::widen_marked() {
         const int to_left = block.cells.first_column - first_own_column_, to_right = end_own_column_ - block.cells.end_column;
         if (has_left) deepest = std::max(deepest, (block.halo * n_reach - to_left + n_reach - 1) / n_reach);
         if (has_right) deepest = std::max(deepest, (block.halo * n_reach - to_right + n_reach - 1) / n_reach);
+        if (periods.y == 0) continue;
+        const int to_rows = std::min(block.cells.first_row - first_own_row_, end_own_row_ - block.cells.end_row);
+        deepest = std::max(deepest, (block.halo * n_reach - to_rows + n_reach - 1) / n_reach);
+    }
+    if (periods.are_any()) { // once around there is nothing new
+        const double reach = exact_reach(window_, law_.search_diameter(), law_.box_size());
+        deepest = std::max(halo_depth_, std::min(deepest, static_cast<int>(std::ceil(law_.box_size() / reach)) + 3));
     }
     ensure(communicator_.sum(n_widened) > 0, "blocks that have seen the whole box disagree");
-    if (communicator_.size() == 1) return false;
+    if (discs_.has_no_halo()) return false;
     const auto wanted = static_cast<int>(communicator_.max(std::int64_t{deepest}));
     if (wanted == halo_depth_) return false;
     halo_depth_ = wanted;
@@ -103,6 +113,7 @@ template <class Law> bool ExactEngine<Law>::widen_marked() {
 }
 
 template <class Law> bool ExactEngine<Law>::sees_all(const Block& block) const {
+    if (Law::is_periodic) return sees_all_images(block);
     const GridFrame& frame = grid_.frame();
     const int halo = block.halo * frame.n_reach;
     const bool has_all_cells = block.cells.first_column <= halo && block.cells.end_column + halo >= frame.n_columns &&
@@ -111,6 +122,24 @@ template <class Law> bool ExactEngine<Law>::sees_all(const Block& block) const {
     const Extent box = extent();
     const bool rank_has_all = communicator_.size() == 1 || halo_depth_ * reach > box.x_high - box.x_low;
     return has_all_cells && rank_has_all;
+}
+
+/// Along a periodic axis: once around from the block's own cells, and one reach more at both ends.
+template <class Law> bool ExactEngine<Law>::sees_all_images(const Block& block) const {
+    const GridFrame& frame = grid_.frame();
+    const int halo = block.halo * frame.n_reach;
+    const double reach = exact_reach(window_, law_.search_diameter(), law_.box_size());
+    const int around = static_cast<int>(std::ceil(law_.box_size() / frame.cell_width)) + 1 + frame.n_reach;
+    const bool rank_has_all = communicator_.size() == 1 || halo_depth_ * reach > law_.box_size() + 2 * reach;
+    const auto has_all = [&](int first, int end, int first_own, int end_own, int n_cells, bool goes_round, bool own_is_all) {
+        const int seen_first = std::max(0, first - halo), seen_end = std::min(n_cells, end + halo);
+        if (!goes_round) return seen_first == 0 && seen_end == n_cells;
+        const bool has_own = seen_first <= first_own - frame.n_reach && seen_end >= end_own + frame.n_reach;
+        return has_own && (own_is_all || seen_end >= first_own + around);
+    };
+    return rank_has_all &&
+           has_all(block.cells.first_column, block.cells.end_column, first_own_column_, end_own_column_, frame.n_columns, discs_.periods().x != 0, communicator_.size() == 1) &&
+           has_all(block.cells.first_row, block.cells.end_row, first_own_row_, end_own_row_, frame.n_rows, discs_.periods().y != 0, true);
 }
 
 /// Ends the run on all ranks if a block that has seen the whole box has found no end. **Collective.**

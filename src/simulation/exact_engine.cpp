@@ -42,7 +42,8 @@ ExactEngine<Law>::ExactEngine(const Scene& scene, StoredState state, const Commu
                               const ExactTuning& exact)
     : communicator_(communicator), tuning_(tuning), exact_(exact), law_(law_of<Law>(scene)),
       micro_steps_(scene.micro_steps), sync_every_(scene.sync_every),
-      discs_(communicator, scene.box_size, std::move(state.discs), Law::has_spin, std::move(state.spins)), n_micro_done_(state.micro_steps_done),
+      discs_(communicator, scene.box_size, std::move(state.discs), scene.effects.periods(scene.box_size), Law::has_spin, std::move(state.spins)),
+      n_micro_done_(state.micro_steps_done),
       time_(static_cast<double>(n_micro_done_ % sync_every_)) {
     for (int thread = 0; thread < tuning_.threads; ++thread) replays_.emplace_back(law_);
     begin_interval();
@@ -56,7 +57,8 @@ ExactEngine<Law>::ExactEngine(const Scene& scene, StoredState state, const Commu
     discs_.rebalance(time_, tuning_.rebalance_above);
     settle_now();
     if (Law::has_pairs && (Law::parts_overlaps || n_micro_done_ == 0)) // else the run itself may have come to them
-        refuse_overlaps(discs_.population(), grid_, time_, touching_of(law_), communicator_, scene.name);
+        refuse_overlaps(discs_.population(), grid_, time_, touching_of(law_, discs_.periods()), communicator_, scene.name);
+    discs_.forget_images();
 }
 
 template <class Law> void ExactEngine<Law>::advance_towards(std::int64_t last_step) {
@@ -71,6 +73,7 @@ template <class Law> void ExactEngine<Law>::advance_towards(std::int64_t last_st
         n_micro_done_ = target;
         if (target == sync_at) sync();
     }
+    discs_.forget_images();
 }
 
 /// One window, to `target` at most.
@@ -129,6 +132,7 @@ template <class Law> ReplayWindow ExactEngine<Law>::choose(double target) {
     needs.collision_rate = n_windows_ > 0 ? collision_rate_ : guessed_collision_rate(needs);
     const double longest = target - time_;
     choice_ = choose_exact_window(needs, longest, tuning_.window);
+    if (Law::is_periodic && is_one_block_ && !exact_.halo && !exact_.block_side) choice_.halo = 1; // as far as images have to be seen
     // Equal windows up to the target; the last one ends there exactly.
     const double n_windows = std::ceil(longest / choice_.duration * (1 - 1e-9));
     window.end = n_windows > 1 ? time_ + longest / n_windows : target;
@@ -164,17 +168,18 @@ template <class Law> void ExactEngine<Law>::settle() {
     const double least_width = std::max(reach / cells_per_reach(reach, spacing), 0.7 * spacing);
     frame.set_cell_width(std::max(least_width, (x_to - x_from) / std::max(1.0, std::floor((x_to - x_from) / least_width))));
     frame.n_reach = static_cast<int>(std::ceil(reach / frame.cell_width * (1 - 1e-9)));
-    const int n_own = cells_along(x_to - x_from, frame.cell_width);
-    const int n_halo = communicator_.size() > 1 ? halo_depth_ * frame.n_reach : 0;
-    const int n_left = std::min(n_halo, cells_along(x_from - box.x_low, frame.cell_width));
-    const int n_right = std::min(n_halo, cells_along(box.x_high - x_to, frame.cell_width));
-    frame.n_columns = n_left + n_own + n_right;
-    frame.n_rows = cells_along(box.y_high - box.y_low, frame.cell_width);
-    frame.x_low = x_from - n_left * frame.cell_width;
-    frame.y_low = box.y_low;
-    first_own_column_ = n_left;
-    end_own_column_ = n_left + n_own;
-    grid_.build(discs_.all(), frame, time_, time_, window_.duration(), tuning_.threads);
+    const int n_halo = halo_depth_ * frame.n_reach, n_beside = communicator_.size() > 1 ? n_halo : 0;
+    const int n_own_columns = cells_along(x_to - x_from, frame.cell_width), n_own_rows = cells_along(box.y_high - box.y_low, frame.cell_width);
+    const bool goes_round_x = discs_.periods().x != 0, goes_round_y = discs_.periods().y != 0;
+    first_own_column_ = goes_round_x ? n_halo : std::min(n_beside, cells_along(x_from - box.x_low, frame.cell_width));
+    end_own_column_ = first_own_column_ + n_own_columns;
+    frame.n_columns = end_own_column_ + (goes_round_x ? n_halo : std::min(n_beside, cells_along(box.x_high - x_to, frame.cell_width)));
+    first_own_row_ = goes_round_y ? n_halo : 0;
+    end_own_row_ = first_own_row_ + n_own_rows;
+    frame.n_rows = end_own_row_ + first_own_row_;
+    frame.x_low = x_from - first_own_column_ * frame.cell_width;
+    frame.y_low = box.y_low - first_own_row_ * frame.cell_width;
+    grid_.build(discs_.all(), frame, time_, time_, window_.duration(), tuning_.threads, discs_.periods());
     histories_.resize(discs_.all().size());
     make_blocks();
 }
@@ -182,8 +187,8 @@ template <class Law> void ExactEngine<Law>::settle() {
 /// Cuts the own cells into blocks of about equal size. A block that exists already keeps its halo.
 template <class Law> void ExactEngine<Law>::make_blocks() {
     const GridFrame& frame = grid_.frame();
-    const int n_columns = end_own_column_ - first_own_column_;
-    const double width = n_columns * frame.cell_width, height = frame.n_rows * frame.cell_width;
+    const int n_columns = end_own_column_ - first_own_column_, n_rows = end_own_row_ - first_own_row_;
+    const double width = n_columns * frame.cell_width, height = n_rows * frame.cell_width;
     double side = exact_.block_side ? *exact_.block_side * frame.cell_width * frame.n_reach : choice_.block_side;
     if (is_one_block_ && !exact_.block_side) side = 2 * std::max(width, height);
     if (tuning_.threads > 1) side = std::min(side, std::sqrt(width * height / (blocks_per_thread * tuning_.threads)));
@@ -192,9 +197,9 @@ template <class Law> void ExactEngine<Law>::make_blocks() {
     };
     const auto cells_each = [](int n_cells, int n_parts) { return (n_cells + n_parts - 1) / n_parts; };
     block_columns_ = cells_each(n_columns, parts(width, n_columns));
-    block_rows_ = cells_each(frame.n_rows, parts(height, frame.n_rows));
+    block_rows_ = cells_each(n_rows, parts(height, n_rows));
     const int n_block_columns = cells_each(n_columns, block_columns_);
-    n_block_rows_ = cells_each(frame.n_rows, block_rows_);
+    n_block_rows_ = cells_each(n_rows, block_rows_);
     const auto n_blocks = static_cast<std::size_t>(n_block_columns) * static_cast<std::size_t>(n_block_rows_);
     const bool is_new = halo_depth_ == first_halo_depth() || blocks_.size() != n_blocks;
     blocks_.resize(n_blocks);
@@ -203,8 +208,8 @@ template <class Law> void ExactEngine<Law>::make_blocks() {
             Block& block = blocks_[static_cast<std::size_t>(k) * static_cast<std::size_t>(n_block_rows_) + static_cast<std::size_t>(j)];
             block.cells.first_column = first_own_column_ + k * block_columns_;
             block.cells.end_column = std::min(block.cells.first_column + block_columns_, end_own_column_);
-            block.cells.first_row = j * block_rows_;
-            block.cells.end_row = std::min(block.cells.first_row + block_rows_, frame.n_rows);
+            block.cells.first_row = first_own_row_ + j * block_rows_;
+            block.cells.end_row = std::min(block.cells.first_row + block_rows_, end_own_row_);
             block.is_marked = 1;
             if (is_new) block.halo = choice_.halo;
         }
@@ -213,7 +218,7 @@ template <class Law> void ExactEngine<Law>::make_blocks() {
 
 template <class Law> void ExactEngine<Law>::replay() {
     const PhaseClock::Scope scope(clock_, Phase::search);
-    const ReplayGround ground{discs_.all(), discs_.n_own(), &grid_, first_own_column_, end_own_column_, window_, is_followed(), discs_.spins()};
+    const ReplayGround ground{discs_.all(), discs_.n_own(), &grid_, first_own_column_, end_own_column_, first_own_row_, end_own_row_, window_, is_followed(), discs_.spins()};
     const int n_reach = grid_.frame().n_reach;
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
     for (Block& block : blocks_) {
@@ -226,7 +231,7 @@ template <class Law> void ExactEngine<Law>::replay() {
         Block& block = blocks_[static_cast<std::size_t>(k)];
         if (block.is_marked == 0) continue;
         BlockReplay<Law>& replay = replays_[static_cast<std::size_t>(omp_get_thread_num())];
-        replay.run(ground, block.cells, block.halo * n_reach, histories_, block.outcome);
+        replay.run(ground, block.cells, block.halo * n_reach, Law::is_periodic && sees_all(block), histories_, block.outcome);
         block.is_marked = 0;
     }
 }
@@ -278,6 +283,7 @@ template <class Law> void ExactEngine<Law>::sync() {
         if (Law::may_lose_discs && disc.is_gone()) continue;
         Law::advance(disc, time_);
         law_.sides().restart_frame(disc, time_);
+        if constexpr (Law::is_periodic) law_.wrap(disc);
         disc.tau = 0;
     }
     jumped_ += law_.sides().jump_at(time_);
@@ -304,9 +310,23 @@ template <class Law> double ExactEngine<Law>::clock_at(std::int64_t micro_steps)
 }
 
 /// The walls in the coordinates of states, now.
-template <class Law> Extent ExactEngine<Law>::extent() const { return law_.sides().extent_at(time_); }
+template <class Law> Extent ExactEngine<Law>::extent() const {
+    Extent box = law_.sides().extent_at(time_);
+    const Periods& periods = discs_.periods();
+    if (periods.x != 0) box.x_low = 0, box.x_high = periods.x;
+    if (periods.y != 0) box.y_low = 0, box.y_high = periods.y;
+    return box;
+}
 
-template <class Law> Frame ExactEngine<Law>::frame() const { return law_.sides().frame_at(time_); }
+template <class Law> Frame ExactEngine<Law>::frame() const {
+    Frame frame = law_.sides().frame_at(time_);
+    if (!discs_.periods().are_any()) return frame;
+    frame.period_x = discs_.periods().x;
+    frame.period_y = discs_.periods().y;
+    frame.clock = time_;
+    frame.is_moving = true;
+    return frame;
+}
 
 template <class Law> void ExactEngine<Law>::settle_now(double least_reach) {
     set_gone_aside();
@@ -315,10 +335,9 @@ template <class Law> void ExactEngine<Law>::settle_now(double least_reach) {
     const double reach = std::max(touching, least_reach);
     discs_.fetch_halo(time_, reach, nullptr);
     const Extent box = extent();
-    const double x_low = std::max(box.x_low, discs_.strips().low(communicator_.rank()) - reach);
-    const double x_high = std::min(box.x_high, discs_.strips().high(communicator_.rank()) + reach);
-    const GridFrame frame = make_frame(x_low, x_high, box.y_low, box.y_high, reach, discs_.all().size(), 0);
-    grid_.build(discs_.all(), frame, time_, time_, 1, tuning_.threads);
+    const Extent seen = discs_.extent_seen(box, reach);
+    const GridFrame frame = make_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high, reach, discs_.all().size(), 0);
+    grid_.build(discs_.all(), frame, time_, time_, 1, tuning_.threads, discs_.periods());
 }
 
 template <class Law> ReplayCounts ExactEngine<Law>::replay_counts() const {
@@ -336,7 +355,8 @@ template <class Law> Settled ExactEngine<Law>::settled(double reach) {
 template <class Law> void ExactEngine<Law>::add_to(Totals& totals) {
     settle_now();
     if constexpr (Law::has_pairs)
-        measure_overlaps(discs_.population(), grid_, time_, touching_of(law_), communicator_, tuning_.threads, totals);
+        measure_overlaps(discs_.population(), grid_, time_, touching_of(law_, discs_.periods()), communicator_, tuning_.threads, totals);
+    discs_.forget_images();
 }
 
 #define CARROM_DEFINE(Law) template class ExactEngine<Law>;

@@ -74,8 +74,9 @@ private:
     void mark_owner(LocalIndex own_index);
     bool widen_marked();
     /// With room for blocks at the strip's ends to look further: to fetch more is to replay all ranks' blocks again.
-    int first_halo_depth() const { return 2 * choice_.halo; }
+    int first_halo_depth() const { return Law::is_periodic && is_one_block_ ? choice_.halo : 2 * choice_.halo; }
     bool sees_all(const Block& block) const;
+    bool sees_all_images(const Block& block) const;
     void fail_if_endless() const;
     void commit();
     void log_events(const BlockOutcome& outcome);
@@ -109,6 +110,7 @@ private:
     int halo_depth_ = 0;          ///< reaches that the halo covers
     CellGrid grid_;
     int first_own_column_ = 0, end_own_column_ = 1;
+    int first_own_row_ = 0, end_own_row_ = 1;
     int block_columns_ = 1, block_rows_ = 1; ///< cells to a block
     int n_block_rows_ = 1;
     std::vector<Block> blocks_;

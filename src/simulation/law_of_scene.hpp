@@ -4,8 +4,7 @@
 
 #include <type_traits>
 
-#include "carrom/effects/effect_law.hpp"
-#include "carrom/effects/plain_law.hpp"
+#include "carrom/effects/laws.hpp"
 #include "carrom/scene/scene.hpp"
 
 namespace carrom {
@@ -15,6 +14,14 @@ namespace carrom {
 template <class Make> auto with_law_of(const Scene& scene, const Make& make) {
     if (scene.effects.contact.kind == ContactKind::rough) return make.template operator()<RoughLaw>();
     if (!scene.effects.classes.empty()) return make.template operator()<MixedLaw>();
+    if (scene.effects.are_periodic()) {
+        switch (scene.effects.contact.kind) {
+        case ContactKind::none: return make.template operator()<PeriodicIdealGasLaw>();
+        case ContactKind::restitution: return make.template operator()<PeriodicInelasticLaw>();
+        case ContactKind::rough: // above
+        case ContactKind::elastic: return make.template operator()<PeriodicElasticLaw>();
+        }
+    }
     switch (scene.effects.contact.kind) {
     case ContactKind::none: return make.template operator()<IdealGasLaw>();
     case ContactKind::restitution: return make.template operator()<InelasticLaw>();

@@ -97,7 +97,11 @@ void measure_overlaps(const Population& population, const CellGrid& grid, double
         return (population.discs[a].id < population.discs[b].id ? a : b) < population.n_own;
     };
     const auto depth = [&](const Disc& p, const Disc& q) {
-        const double dx = q.x_at(time) - p.x_at(time), dy = q.y_at(time) - p.y_at(time);
+        double dx = q.x_at(time) - p.x_at(time), dy = q.y_at(time) - p.y_at(time);
+        if (touching.periods.are_any()) {
+            dx += touching.periods.x_between(p, q);
+            dy += touching.periods.y_between(p, q);
+        }
         return touching.diameter_of(p, q) - std::sqrt(dx * dx + dy * dy);
     };
     std::uint64_t n_pairs = 0;

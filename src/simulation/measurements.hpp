@@ -37,10 +37,11 @@ struct Touching {
     double diameter_of(const Disc& p, const Disc& q) const {
         return bodies ? bodies->of(p.id).radius + bodies->of(q.id).radius : diameter;
     }
+    Periods periods = {}; ///< of the discs' images
 };
-template <class Law> Touching touching_of(const Law& law) {
-    if constexpr (Law::has_bodies) return {law.diameter(), law.tolerance(), &law.bodies()};
-    else return {law.diameter(), law.tolerance()};
+template <class Law> Touching touching_of(const Law& law, const Periods& periods = {}) {
+    if constexpr (Law::has_bodies) return {law.diameter(), law.tolerance(), &law.bodies(), periods};
+    else return {law.diameter(), law.tolerance(), nullptr, periods};
 }
 
 /// Fills in the pairs that overlap at `time`, each counted once, and how far the deepest overlaps. The grid holds the

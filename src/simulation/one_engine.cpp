@@ -32,7 +32,8 @@ double squared_speed_of(const Disc& disc) { return disc.vx * disc.vx + disc.vy *
 template <class Law>
 OneEngine<Law>::OneEngine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning)
     : communicator_(communicator), tuning_(with_useful_threads(tuning, scene, communicator)), law_(law_of<Law>(scene)), micro_steps_(scene.micro_steps),
-      sync_every_(scene.sync_every), last_micro_step_(scene.steps * scene.micro_steps), discs_(communicator, scene.box_size, std::move(state.discs), Law::has_spin, std::move(state.spins)),
+      sync_every_(scene.sync_every), last_micro_step_(scene.steps * scene.micro_steps),
+      discs_(communicator, scene.box_size, std::move(state.discs), scene.effects.periods(scene.box_size), Law::has_spin, std::move(state.spins)),
       n_micro_done_(state.micro_steps_done), micro_(static_cast<int>(n_micro_done_ % sync_every_)),
       search_(law_, tuning_.threads), local_(tuning_.threads), across_strips_(communicator) {
     if constexpr (!Law::is_double) {
@@ -63,6 +64,7 @@ template <class Law> void OneEngine<Law>::advance_towards(std::int64_t last_step
         run_window(static_cast<int>(std::min(stop - n_micro_done_, sync_every_ - micro_)));
         if (micro_ == sync_every_) sync();
     }
+    discs_.forget_images();
     if (n_micro_done_ == last_micro_step_) grid_ = {}; // memory for what follows a run
 }
 
@@ -121,23 +123,33 @@ template <class Law> void OneEngine<Law>::settle_now(double least_reach) {
 
 template <class Law> Settled OneEngine<Law>::settled(double reach) {
     settle_now(reach * (1 + 1e-6));
-    return {population(), &grid_, &discs_.strips(), static_cast<double>(micro_), {}};
+    return {population(), &grid_, &discs_.strips(), static_cast<double>(micro_), frame()};
+}
+
+/// Under this rule nothing falls: a frame that moves stands for places to be brought into the box.
+template <class Law> Frame OneEngine<Law>::frame() const {
+    Frame frame;
+    frame.is_moving = discs_.periods().are_any();
+    frame.clock = micro_;
+    frame.period_x = discs_.periods().x;
+    frame.period_y = discs_.periods().y;
+    return frame;
 }
 
 template <class Law> void OneEngine<Law>::add_to(Totals& totals) {
     totals.rejected_candidates = communicator_.sum(n_candidates_ - n_kept_);
     settle_now();
     if constexpr (Law::has_pairs)
-        measure_overlaps(population(), grid_, micro_, touching_of(law_), communicator_, tuning_.threads, totals);
+        measure_overlaps(population(), grid_, micro_, touching_of(law_, discs_.periods()), communicator_, tuning_.threads, totals);
+    discs_.forget_images();
 }
 
 /// Halo discs come from within `reach`. Cells are made for `usual_reach`; discs that are too fast for it are set apart.
 template <class Law> void OneEngine<Law>::build_grid(const Window& window, double reach, double usual_reach) {
-    const double x_low = std::max(0.0, discs_.strips().low(communicator_.rank()) - reach);
-    const double x_high = std::min(law_.box_size(), discs_.strips().high(communicator_.rank()) + reach);
+    const Extent seen = discs_.extent_seen({0, law_.box_size(), 0, law_.box_size()}, reach);
     const std::span<const Disc> all = population().discs;
-    const GridFrame frame = make_frame(x_low, x_high, 0, law_.box_size(), usual_reach, all.size(), tuning_.cell_width.value_or(0));
-    grid_.build(all, frame, window.anchor(), window.begin(), std::max(window.duration(), 1e-6), tuning_.threads);
+    const GridFrame frame = make_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high, usual_reach, all.size(), tuning_.cell_width.value_or(0));
+    grid_.build(all, frame, window.anchor(), window.begin(), std::max(window.duration(), 1e-6), tuning_.threads, discs_.periods());
     if (usual_reach < reach) grid_.set_apart(usual_speed_ * (1 - 1e-6));
     states_.assign(all.size(), 0);
 }
@@ -197,7 +209,7 @@ template <class Law> bool OneEngine<Law>::run_micro_step(const Window& window, i
     const std::uint64_t n_candidates = count_ours(live_);
     if (in_parts_) strike_taken(live_);
     local_.resolve(population(), live_, verdicts_);
-    if (communicator_.size() > 1) {
+    if (!discs_.has_no_halo()) {
         const PhaseClock::Scope scope(clock_, Phase::contested);
         across_strips_.negotiate(population(), discs_.neighbours(), verdicts_.undecided, verdicts_.kept);
     }
@@ -220,7 +232,7 @@ template <class Law> bool OneEngine<Law>::run_micro_step(const Window& window, i
 
 /// Two ranks may know of a candidate; it is ours if its first disc is.
 template <class Law> std::uint64_t OneEngine<Law>::count_ours(std::span<const Candidate> candidates) const {
-    if (communicator_.size() == 1) return candidates.size();
+    if (discs_.has_no_halo()) return candidates.size();
     std::uint64_t n = 0;
     for (const Candidate& candidate : candidates) n += candidate.p < discs_.n_own();
     return n;
@@ -275,7 +287,7 @@ template <class Law> void OneEngine<Law>::apply(const Window& window, int m) {
             for (const LocalIndex index : {c.p, c.q}) {
                 if (index == wall) continue;
                 states_[index] = window.state_after(m);
-                grid_.update_flight(index, results[index]);
+                update_flight(index, results[index]);
             }
         }
         if (is_followed()) log_collisions(results, m);
@@ -287,6 +299,11 @@ template <class Law> void OneEngine<Law>::apply(const Window& window, int m) {
     const PhaseClock::Scope scope(clock_, Phase::search);
     const double reach = reach_of(window_needs(), window.duration());
     search_.predict_again(population(), grid_, window, m + 1, reach, hits_, states_);
+}
+
+template <class Law> void OneEngine<Law>::update_flight(LocalIndex index, const Disc& disc) {
+    if constexpr (Law::is_periodic) grid_.update_flight_of_image(index, disc);
+    else grid_.update_flight(index, disc);
 }
 
 template <class Law> void OneEngine<Law>::note_velocities(std::span<const Disc> results) {
@@ -316,7 +333,7 @@ template <class Law> void OneEngine<Law>::log_collisions(std::span<const Disc> r
 
 /// Exchanges new states with the neighbours; `hits_` grows by those discs of the halo that this rank has not struck itself.
 template <class Law> void OneEngine<Law>::hear_of_hits(const Window& window, int m) {
-    if (communicator_.size() == 1) return;
+    if (discs_.has_no_halo()) return;
     const PhaseClock::Scope scope(clock_, Phase::exchange);
     std::erase(hits_, wall);
     news_.clear();
@@ -324,7 +341,7 @@ template <class Law> void OneEngine<Law>::hear_of_hits(const Window& window, int
     for (const LocalIndex index : news_) {
         if (states_[index] == window.state_after(m)) continue;
         states_[index] = window.state_after(m);
-        grid_.update_flight(index, discs_.all()[index]);
+        update_flight(index, discs_.all()[index]);
         hits_.push_back(index);
     }
 }
@@ -353,6 +370,7 @@ template <class Law> void OneEngine<Law>::sync() {
         Disc& disc = discs[static_cast<std::size_t>(i)];
         if (Law::may_lose_discs && disc.is_gone()) continue;
         Law::advance(disc, time);
+        if constexpr (Law::is_periodic) law_.wrap(disc);
         disc.tau = 0;
         fastest = std::max(fastest, squared_speed_of(disc));
     }

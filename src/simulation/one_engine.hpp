@@ -38,6 +38,7 @@ public:
     std::span<const Disc> own() const override { return discs_.own(); }
     std::span<const double> spins() const override { return discs_.own_spins(); }
     double clock() const override { return micro_; }
+    Frame frame() const override;
     std::span<const Disc> gone() const override { return discs_.gone(); }
     std::uint64_t n_discs() const override { return discs_.n_with_gone(); }
     PhaseSeconds phase_seconds() const override { return clock_.seconds(); }
@@ -60,6 +61,7 @@ private:
     std::uint64_t count_ours(std::span<const Candidate> candidates) const;
     void strike_taken(std::vector<Candidate>& live) const;
     void apply(const Window& window, int m);
+    void update_flight(LocalIndex index, const Disc& disc);
     void hear_of_hits(const Window& window, int m);
     void note_velocities(std::span<const Disc> results);
     void log_collisions(std::span<const Disc> results, int m);

@@ -35,7 +35,7 @@ class Insertion {
 public:
     Insertion(const Scene& scene, const Communicator& communicator, std::uint64_t start)
         : scene_(scene), communicator_(communicator), start_(start), diameter_(2 * scene.radius),
-          bodies_(scene.effects.classes, scene.radius), placed_grid_(grid()), proposal_grid_(grid()) {
+          bodies_(scene.effects.classes, scene.radius), periods_(scene.effects.periods(scene.box_size)), placed_grid_(grid()), proposal_grid_(grid()) {
         if (scene.effects.obstacles.are_any()) obstacles_.emplace(scene.box_size, scene.radius, scene.effects);
         placed_.reserve(static_cast<std::size_t>(1.1 * share()) + 100);
     }
@@ -89,10 +89,25 @@ private:
 
     Point proposal(DiscId id, std::uint64_t round) const {
         const auto words = random_words(scene_.seed, Purpose::position, id, round, start_);
-        const double radius = bodies_.of(id).radius, low = radius, high = scene_.box_size - radius;
-        return {std::min(low + (high - low) * unit_number(words[0]), high),
-                std::min(low + (high - low) * unit_number(words[1]), high)};
+        const double radius = bodies_.of(id).radius;
+        const auto place = [this, radius](double period, double number) {
+            const double low = period == 0 ? radius : 0, high = period == 0 ? scene_.box_size - radius : period;
+            return std::min(low + (high - low) * number, high);
+        };
+        return {place(periods_.x, unit_number(words[0])), place(periods_.y, unit_number(words[1]))};
     }
+
+    /// Calls `visit(rank)` for each rank whose strip is within the margin of `x` or one of its images.
+    template <class Visit> void visit_concerned(double x, const Visit& visit) const {
+        const std::size_t first = owner(x - margin()), last = owner(x + margin());
+        for (std::size_t k = first; k <= last; ++k) visit(k);
+        if (periods_.x == 0) return;
+        if (x < margin())
+            for (std::size_t k = std::max(last + 1, owner(x + periods_.x - margin())); k < n_ranks(); ++k) visit(k);
+        if (x > periods_.x - margin())
+            for (std::size_t k = 0; k < first && k <= owner(x - periods_.x + margin()); ++k) visit(k);
+    }
+    std::size_t n_ranks() const { return static_cast<std::size_t>(communicator_.size()); }
 
     /// Brings the round's proposals to whom they concern, together with the last round's news. **Collective.**
     void exchange(std::uint64_t round) {
@@ -100,13 +115,13 @@ private:
         const auto me = static_cast<std::size_t>(communicator_.rank());
         if (out.size() == 1) out[0].reserve(unplaced_.size());
         for (const Notice& news : news_)
-            for (std::size_t k = owner(news.x - margin()); k <= owner(news.x + margin()); ++k)
+            visit_concerned(news.x, [&](std::size_t k) {
                 if (k != me) out[k].push_back(news);
+            });
         news_.clear();
         for (const std::uint32_t id : unplaced_) {
             const Point place = proposal(id, round);
-            for (std::size_t k = owner(place.x - margin()); k <= owner(place.x + margin()); ++k)
-                out[k].push_back({place.x, place.y, id, 0});
+            visit_concerned(place.x, [&](std::size_t k) { out[k].push_back({place.x, place.y, id, 0}); });
         }
         proposals_ = out.size() == 1 ? std::move(out[0]) : send_to_owners(communicator_, out).items;
         unplaced_.clear();
@@ -134,8 +149,24 @@ private:
     /// Whether discs accepted earlier in this round are seen here makes no difference: they have lower ids and overlap,
     /// or they do not overlap.
     bool is_refused(const Notice& notice) const {
-        const Point at{notice.x, notice.y};
-        if (obstacles_ && obstacles_->deepest_overlap(at.x, at.y, 0).body != ObstacleContact::no_body) return true;
+        if (obstacles_ && obstacles_->deepest_overlap(notice.x, notice.y, 0).body != ObstacleContact::no_body) return true;
+        if (is_refused_at({notice.x, notice.y}, notice)) return true;
+        if (!periods_.are_any()) return false;
+        // Discs across a seam are near its images; grids file what is beyond their ends with what is at them.
+        for (const double dx : {-periods_.x, 0.0, periods_.x}) {
+            for (const double dy : {-periods_.y, 0.0, periods_.y}) {
+                const Point image{notice.x + dx, notice.y + dy};
+                const bool is_near = image.x > -margin() && image.x < scene_.box_size + margin() && image.y > -margin() &&
+                                     image.y < scene_.box_size + margin();
+                if ((dx != 0 || dy != 0) && is_near && is_refused_at(image, notice)) return true;
+            }
+        }
+        return false;
+    }
+
+    bool is_refused_at(Point at, Notice notice) const {
+        notice.x = at.x;
+        notice.y = at.y;
         return placed_grid_.any_near(at, [&](std::uint32_t k) { return overlaps(notice, placed_[k].id & ~copy_mark, placed_[k].x, placed_[k].y); }) ||
                proposal_grid_.any_near(at, [&](std::uint32_t k) {
                    return proposals_[k].id < notice.id && overlaps(notice, proposals_[k].id, proposals_[k].x, proposals_[k].y);
@@ -153,7 +184,9 @@ private:
     }
 
     void note_news(Notice notice) {
-        if (owner(notice.x - margin()) == owner(notice.x + margin())) return;
+        std::size_t n_concerned = 0;
+        visit_concerned(notice.x, [&n_concerned](std::size_t) { ++n_concerned; });
+        if (n_concerned == 1) return;
         notice.is_placed = 1;
         news_.push_back(notice);
     }
@@ -164,6 +197,7 @@ private:
     std::uint64_t start_;
     double diameter_; ///< the largest
     DiscBodies bodies_;
+    Periods periods_;
     PointGrid placed_grid_, proposal_grid_;
     std::vector<InputDisc> placed_;        ///< own discs and, with the mark, those within a diameter of the strip
     std::vector<std::uint32_t> unplaced_;  ///< discs whose last proposal was refused here

@@ -24,8 +24,9 @@ Strips equal_strips(double box_size, int n_ranks) {
 
 } // namespace
 
-StripDiscs::StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs, bool has_spins, std::vector<double> spins)
-    : communicator_(communicator), box_size_(box_size), strips_(equal_strips(box_size, communicator.size())),
+StripDiscs::StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs, const Periods& periods, bool has_spins,
+                       std::vector<double> spins)
+    : communicator_(communicator), box_size_(box_size), periods_(periods), strips_(equal_strips(box_size, communicator.size())),
       settled_strips_(strips_), exchange_(communicator) {
     has_spins_ = has_spins;
     if (has_spins) spins.resize(discs.size(), 0); // discs begin without spin
@@ -34,10 +35,11 @@ StripDiscs::StripDiscs(const Communicator& communicator, double box_size, std::v
         spins_ = std::move(spins);
     } else {
         std::vector<std::vector<Disc>> to_owner(static_cast<std::size_t>(communicator.size()));
-        for (const Disc& disc : discs) to_owner[static_cast<std::size_t>(strips_.owner(disc.x))].push_back(disc);
+        for (const Disc& disc : discs) to_owner[static_cast<std::size_t>(strips_.owner(wrapped(disc.x, periods.x)))].push_back(disc);
         if (has_spins) {
             std::vector<std::vector<double>> spins_to_owner(to_owner.size());
-            for (std::size_t i = 0; i < discs.size(); ++i) spins_to_owner[static_cast<std::size_t>(strips_.owner(discs[i].x))].push_back(spins[i]);
+            for (std::size_t i = 0; i < discs.size(); ++i)
+                spins_to_owner[static_cast<std::size_t>(strips_.owner(wrapped(discs[i].x, periods.x)))].push_back(spins[i]);
             spins_ = send_to_owners(communicator, spins_to_owner).items;
         }
         discs = {};
@@ -59,8 +61,9 @@ void StripDiscs::set_gone_aside() {
 void StripDiscs::migrate(double time, double farthest, std::vector<Disc>* companion) {
     forget_halo();
     if (companion) companion->resize(n_own_);
+    if (periods_.are_any()) set_home_images(time, companion);
     if (communicator_.size() > 1) {
-        const TransferPlan plan = plan_migration(settled_strips_, strips_, communicator_.rank(), own(), time, farthest);
+        const TransferPlan plan = migration_plan(time, farthest);
         Received<Disc> arrived;
         for (std::vector<Disc>* values : {&discs_, companion}) {
             if (!values) continue;
@@ -79,13 +82,53 @@ void StripDiscs::migrate(double time, double farthest, std::vector<Disc>* compan
     settled_strips_ = strips_;
 }
 
+TransferPlan StripDiscs::migration_plan(double time, double farthest) const {
+    const int rank = communicator_.rank();
+    return periods_.are_any() ? plan_periodic_migration(settled_strips_, strips_, rank, own(), time, farthest, periods_)
+                              : plan_migration(settled_strips_, strips_, rank, own(), time, farthest);
+}
+
+/// The companion of a disc stands for the same image, wherever its own state takes it.
+void StripDiscs::set_home_images(double time, std::vector<Disc>* companion) {
+    for (std::size_t i = 0; i < n_own_; ++i) {
+        const Image home = periods_.home(discs_[i], time);
+        if (!(image_of(discs_[i]) == home)) set_image(discs_[i], home); // nearly all have it
+        if (companion) set_image((*companion)[i], home);
+    }
+}
+
+Extent StripDiscs::extent_seen(const Extent& box, double reach) const {
+    Extent seen = box;
+    const double low = strips_.low(communicator_.rank()), high = strips_.high(communicator_.rank());
+    if (periods_.x == 0) {
+        seen.x_low = std::max(box.x_low, low - reach);
+        seen.x_high = std::min(box.x_high, high + reach);
+    } else {
+        seen.x_low = std::max(0.0, low) - reach;
+        seen.x_high = std::min(periods_.x, high) + reach;
+    }
+    if (periods_.y != 0) seen.y_low = -reach, seen.y_high = periods_.y + reach;
+    return seen;
+}
+
+void StripDiscs::forget_images() {
+    if (!periods_.are_any()) return;
+    for (Disc& disc : own()) set_image(disc, {});
+}
+
 void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* companion) {
-    if (communicator_.size() == 1) return;
-    halo_plan_ = plan_halo(strips_, communicator_.rank(), own(), time, reach);
+    if (has_no_halo()) return;
+    halo_plan_ = periods_.are_any() ? plan_periodic_halo(strips_, communicator_.rank(), own(), time, reach, periods_)
+                                    : plan_halo(strips_, communicator_.rank(), own(), time, reach);
+    if (periods_.are_any()) {
+        other_partners_ = halo_plan_.partners;
+        std::erase(other_partners_, communicator_.rank());
+    }
     Received<Disc> halo;
     for (std::vector<Disc>* values : {&discs_, companion}) {
         if (!values) continue;
-        transfer(exchange_, halo_plan_, std::span<const Disc>(*values), halo);
+        if (periods_.are_any()) transfer_images(exchange_, halo_plan_, std::span<const Disc>(*values), halo);
+        else transfer(exchange_, halo_plan_, std::span<const Disc>(*values), halo);
         values->insert(values->end(), halo.items.begin(), halo.items.end());
     }
     if (has_spins_) show(spins_);
@@ -98,17 +141,17 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* compan
 }
 
 void StripDiscs::tell_neighbours(std::span<const LocalIndex> changed, std::vector<LocalIndex>& news) {
-    if (communicator_.size() == 1) return;
+    if (has_no_halo()) return;
     std::vector<std::vector<News>> out(halo_plan_.partners.size());
     std::vector<std::vector<double>> spins_out(has_spins_ ? out.size() : 0);
     for (const LocalIndex index : changed) {
         if (index >= n_own_ || is_shown_[index] == 0) continue;
         for (std::size_t k = 0; k < out.size(); ++k) {
             const std::vector<LocalIndex>& shown = halo_plan_.leaving[k];
-            const auto place = std::lower_bound(shown.begin(), shown.end(), index);
-            if (place == shown.end() || *place != index) continue;
-            out[k].push_back({discs_[index], static_cast<std::uint64_t>(place - shown.begin())});
-            if (has_spins_) spins_out[k].push_back(spins_[index]);
+            for (auto place = std::lower_bound(shown.begin(), shown.end(), index); place != shown.end() && *place == index; ++place) {
+                out[k].push_back({discs_[index], static_cast<std::uint64_t>(place - shown.begin())});
+                if (has_spins_) spins_out[k].push_back(spins_[index]);
+            }
         }
     }
     Received<News> in;
@@ -121,14 +164,16 @@ void StripDiscs::tell_neighbours(std::span<const LocalIndex> changed, std::vecto
             const auto index = static_cast<LocalIndex>(halo_offsets_[k] + item.place);
             if (has_spins_) spins_[index] = spins.items[n_heard++];
             ensure(discs_[index].id == item.disc.id, "a neighbour's news is about another disc than the halo has there");
+            const Image image = periods_.are_any() ? image_of(discs_[index]) : Image{};
             discs_[index] = item.disc;
+            if (periods_.are_any()) set_image(discs_[index], image);
             news.push_back(index);
         }
     }
 }
 
 void StripDiscs::name_to_owners(std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& named) {
-    if (communicator_.size() == 1) return;
+    if (has_no_halo()) return;
     std::vector<std::vector<std::uint64_t>> out(halo_plan_.partners.size());
     for (const LocalIndex index : of_halo) {
         const auto behind = std::upper_bound(halo_offsets_.begin(), halo_offsets_.end(), std::size_t{index});
@@ -150,7 +195,7 @@ void StripDiscs::rebalance(double time, double above) {
     std::vector<std::uint64_t> weights(std::clamp<std::size_t>(256 * n_ranks, 4096, 65536), 0);
     const auto n_bins = static_cast<double>(weights.size());
     for (const Disc& disc : own()) {
-        const double bin = disc.x_at(time) / box_size_ * n_bins;
+        const double bin = wrapped(disc.x_at(time), periods_.x) / box_size_ * n_bins;
         weights[static_cast<std::size_t>(std::clamp(bin, 0.0, n_bins - 1))] += 1;
     }
     communicator_.sum(weights);
@@ -167,7 +212,7 @@ bool StripDiscs::is_valid(double time) const {
     for (const Disc& disc : own()) {
         sums[1] += disc.id;
         sums[2] += disc.id * disc.id;
-        in_strip = in_strip && settled_strips_.owner(disc.x_at(time)) == communicator_.rank();
+        in_strip = in_strip && settled_strips_.owner(wrapped(disc.x_at(time), periods_.x)) == communicator_.rank();
     }
     communicator_.sum(sums);
     std::uint64_t id_sum = 0, square_sum = 0; // modulo 2^64, as the sums

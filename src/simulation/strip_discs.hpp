@@ -13,6 +13,7 @@
 #include "carrom/core/disc.hpp"
 #include "carrom/domain/strips.hpp"
 #include "carrom/domain/transfer.hpp"
+#include "carrom/effects/effects.hpp"
 #include "carrom/parallel/communicator.hpp"
 #include "carrom/parallel/neighbour_exchange.hpp"
 
@@ -21,8 +22,10 @@ namespace carrom {
 class StripDiscs {
 public:
     /// Takes discs that lie anywhere on any rank and gives them to the owners of equal strips. **Collective.**
+    /// Where there are periods, own discs get the images in the box when they migrate, and the halo has images of own discs, too.
     /// `spins` run along the discs; without `has_spins` there are none, and empty ones are 0.
-    StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs, bool has_spins = false, std::vector<double> spins = {});
+    StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs, const Periods& periods = {}, bool has_spins = false,
+               std::vector<double> spins = {});
 
     /// Forgets the halo and sends each own disc to the rank whose strip holds it at `time`. No disc has moved by more
     /// than `farthest` since it was last settled. `companion` runs along the own discs, or is null. **Collective.**
@@ -39,7 +42,7 @@ public:
     /// discs behind the own ones. **Collective.**
     template <Message T> void show(std::vector<T>& values) {
         values.resize(n_own_);
-        if (communicator_.size() == 1) return;
+        if (has_no_halo()) return;
         Received<T> in;
         transfer(exchange_, halo_plan_, std::span<const T>(values), in);
         values.insert(values.end(), in.items.begin(), in.items.end());
@@ -62,7 +65,17 @@ public:
     std::size_t n_own() const { return n_own_; }
     std::uint64_t n_total() const { return n_total_; } ///< over all ranks
     const Strips& strips() const { return strips_; }
-    std::span<const int> neighbours() const { return halo_plan_.partners; } ///< since the halo was fetched
+    /// Other ranks in whose halo own discs are, since it was fetched.
+    std::span<const int> neighbours() const { return periods_.are_any() ? other_partners_ : halo_plan_.partners; }
+
+    const Periods& periods() const { return periods_; }
+    /// Whether no rank has a halo, for want of neighbours.
+    bool has_no_halo() const { return communicator_.size() == 1 && !periods_.are_any(); }
+    /// Makes own discs plain states again, for whoever looks at them.
+    void forget_images();
+
+    /// What a rank looks at that has a halo of `reach`, in a box of this extent where it is not periodic.
+    Extent extent_seen(const Extent& box, double reach) const;
 
     /// Takes discs that have left the box out of the own ones, for good, and forgets the halo. **Collective.**
     void set_gone_aside();
@@ -79,8 +92,12 @@ public:
     bool is_valid(double time) const;
 
 private:
+    void set_home_images(double time, std::vector<Disc>* companion);
+    TransferPlan migration_plan(double time, double farthest) const;
+
     Communicator communicator_;
     double box_size_;
+    Periods periods_;
     std::vector<Disc> discs_; ///< own, then halo
     std::vector<double> spins_; ///< likewise
     bool has_spins_ = false;
@@ -90,6 +107,7 @@ private:
     Strips strips_, settled_strips_; ///< wanted, and those that the discs were last settled in
     NeighbourExchange exchange_;
     TransferPlan halo_plan_;
+    std::vector<int> other_partners_; ///< of a periodic box, where a rank is its own partner
     std::vector<std::size_t> halo_offsets_; ///< of each partner's discs behind the own ones
     std::vector<std::uint8_t> is_shown_;    ///< by own disc: whether a partner has it in its halo
 };

@@ -211,9 +211,9 @@ void exact_block_replay(benchmark::State& state) {
     std::vector<std::uint64_t> histories(gas.discs.size());
     BlockReplay<PlainLaw> replay(law);
     BlockOutcome outcome;
-    const ReplayGround ground{gas.discs, gas.discs.size(), &grid, 0, frame.n_columns, window, false};
+    const ReplayGround ground{gas.discs, gas.discs.size(), &grid, 0, frame.n_columns, 0, frame.n_rows, window, false};
     for (auto _ : state) {
-        replay.run(ground, {0, frame.n_columns, 0, frame.n_rows}, 0, histories, outcome);
+        replay.run(ground, {0, frame.n_columns, 0, frame.n_rows}, 0, false, histories, outcome);
         benchmark::DoNotOptimize(outcome.n_events);
     }
     tell(state, static_cast<double>(outcome.n_events), 0, 0);

@@ -21,14 +21,12 @@ from instructions import SCENES, SETTINGS, counted
 TOLERANCE = 0.001
 PLAIN_LAWS = {"PlainLaw", "NaiveLaw", "ContractedLaw", "SingleLaw", "SingleNaiveLaw", "SingleContractedLaw"}
 LISTED = re.compile(r" ?make\((\w+)\)")
-CHOICE = re.compile(r"^    switch \(scene\.effects\.contact\.kind\) \{\n.*?^    \}\n", re.MULTILINE | re.DOTALL)
-OTHER_CHOICE = re.compile(r"^    if \(.*\) return make\.template operator\(\)<(?!BasicPlainLaw)\w+>\(\);\n", re.MULTILINE)
-INCLUDE = '#include "carrom/effects/effect_law.hpp"\n'
+CHOICE = re.compile(r"^    if \(scene\.effects\..*?(?=^    const auto with )", re.MULTILINE | re.DOTALL)
 
 
 def take_out_effects(source):
     """Returns how many laws were taken out of the list that kernels and engines are compiled for."""
-    path = os.path.join(source, "include/carrom/effects/effect_law.hpp")
+    path = os.path.join(source, "include/carrom/effects/laws.hpp")
     with open(path, encoding="utf-8") as file:
         text = file.read()
     taken = [law for law in LISTED.findall(text) if law.endswith("Law") and law not in PLAIN_LAWS]
@@ -38,9 +36,8 @@ def take_out_effects(source):
     with open(path, encoding="utf-8") as file:
         text = file.read()
     text, n_choices = CHOICE.subn("", text)
-    text = OTHER_CHOICE.sub("", text)
     with open(path, "w", encoding="utf-8") as file:
-        file.write(text.replace(INCLUDE, '#include "carrom/effects/effects.hpp"\n'))
+        file.write(text)
     if n_choices != 1 or not taken:
         sys.exit(f"did not find what to take out: {n_choices} choices, {len(taken)} laws")
     return len(taken)

@@ -32,6 +32,7 @@ void EventDrivenReference::run_micro_steps(std::int64_t count) {
                 disc.vy *= 1 - setting_.effects.drag / static_cast<double>(setting_.micro_steps) * disc.tau;
             }
             restart_frame(disc, disc.tau);
+            bring_inside(setting_, disc);
             disc.tau = 0;
         }
         predict_all();
@@ -103,6 +104,7 @@ double EventDrivenReference::gravity(DiscId axis) const {
 EventDrivenReference::Meeting EventDrivenReference::meeting(const Disc& disc, DiscId axis) const {
     constexpr double never = std::numeric_limits<double>::infinity();
     Meeting first{never, false};
+    if (axis == Event::wall_x ? setting_.effects.is_periodic_x() : setting_.effects.is_periodic_y()) return first;
     for (const bool is_high : {false, true}) {
         const Wall wall = wall_at(disc.id, axis, is_high, disc.tau);
         const double x = axis == Event::wall_x ? disc.x : disc.y, v = axis == Event::wall_x ? disc.vx : disc.vy;
@@ -156,11 +158,16 @@ void EventDrivenReference::restart_frame(Disc& disc, double time) const {
 void EventDrivenReference::predict_pair(DiscId p, DiscId q) {
     if (!setting_.discs_meet() || has_left(discs_[p]) || has_left(discs_[q])) return;
     if (p > q) std::swap(p, q);
-    const Contact found = contact(discs_[p], discs_[q], setting_.radius_of(p) + setting_.radius_of(q), std::numeric_limits<double>::infinity());
-    if (found.delay < 0) return;
-    const double time = found.base + found.delay;
-    if (past_[p].partner == q && past_[q].partner == p && time == past_[p].time) return;
-    push({time, 0, p, true, q, 0});
+    const auto look = [&](Copy copy) {
+        const Contact found = contact(discs_[p], discs_[q], setting_.radius_of(p) + setting_.radius_of(q), std::numeric_limits<double>::infinity(), copy, setting_.box_size);
+        if (found.delay < 0) return;
+        const double time = found.base + found.delay;
+        if (past_[p].partner == q && past_[q].partner == p && time == past_[p].time) return;
+        push({time, 0, p, true, q, 0, false, copy});
+    };
+    if (!setting_.effects.are_periodic()) return look({});
+    const double begin = std::max(discs_[p].tau, discs_[q].tau), end = static_cast<double>(setting_.sync_every);
+    for (const Copy copy : copies_near(setting_, discs_[p], discs_[q], begin, end)) look(copy);
 }
 
 /// Later events than the next sync are dropped: the sync rewrites the states that they follow from.
@@ -219,7 +226,7 @@ void EventDrivenReference::carry_out(const Event& event) {
         Disc& q = discs_[event.q];
         advance(q, event.time);
         if (setting_.are_rough()) collide_rough(setting_, p, q, spins_[event.p], spins_[event.q], is_touched);
-        else exchange_momentum(setting_, p, q, is_touched ? 1 : setting_.restitution());
+        else exchange_momentum(setting_, p, q, is_touched ? 1 : setting_.restitution(), event.copy, setting_.box_size);
         p.pair_collisions += 1;
         q.pair_collisions += 1;
         pair_collisions_ += 1;

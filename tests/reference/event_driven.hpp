@@ -33,6 +33,7 @@ struct Event {
     DiscId q = wall_x;
     std::int64_t sync = 0;
     bool is_obstacle = false; ///< comes before walls
+    Copy copy{}; ///< which image of q it is
 
     friend bool operator==(const Event&, const Event&) = default;
 };

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 #include "fixed_bodies.hpp"
 
@@ -22,11 +23,11 @@ bool before(const Collision& a, const Collision& b) {
 
 } // namespace
 
-Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance) {
+Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance, Copy copy, double period) {
     const double base = p.tau > q.tau ? p.tau : q.tau;
     const double px = p.x + p.vx * (base - p.tau), py = p.y + p.vy * (base - p.tau);
     const double qx = q.x + q.vx * (base - q.tau), qy = q.y + q.vy * (base - q.tau);
-    const double dx = qx - px, dy = qy - py;
+    const double dx = (qx - px) + copy.x * period, dy = (qy - py) + copy.y * period;
     const double wx = q.vx - p.vx, wy = q.vy - p.vy;
 
     const double b = dx * wx + dy * wy;
@@ -62,8 +63,39 @@ void advance(Disc& disc, double time) {
     disc.tau = time;
 }
 
-void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitution) {
-    const double ex = q.x - p.x, ey = q.y - p.y;
+std::vector<Copy> copies_near(const Setting& setting, const Disc& p, const Disc& q, double begin, double end) {
+    const double length = setting.box_size, sigma = 2 * setting.radius;
+    const bool is_x = setting.effects.is_periodic_x(), is_y = setting.effects.is_periodic_y();
+    const double away = (std::fabs(p.vx) + std::fabs(q.vx) + std::fabs(p.vy) + std::fabs(q.vy)) * (end - begin) + 1.01 * sigma;
+    const auto range = [&](bool is_periodic, double distance) { // of n with |distance + n L| within reach
+        if (!is_periodic) return std::pair(0, 0);
+        return std::pair(static_cast<int>(std::floor((-away - distance) / length)), static_cast<int>(std::ceil((away - distance) / length)));
+    };
+    const auto place = [begin](double x, double v, double tau) { return x + v * (begin - tau); };
+    const auto [x_low, x_high] = range(is_x, place(q.x, q.vx, q.tau) - place(p.x, p.vx, p.tau));
+    const auto [y_low, y_high] = range(is_y, place(q.y, q.vy, q.tau) - place(p.y, p.vy, p.tau));
+    std::vector<Copy> copies;
+    for (int x = x_low; x <= x_high; ++x)
+        for (int y = y_low; y <= y_high; ++y) copies.push_back({x, y});
+    return copies;
+}
+
+void bring_inside(const Setting& setting, Disc& disc) {
+    const double length = setting.box_size;
+    const auto inside = [length](double place) {
+        if (place >= 0 && place < length) return place;
+        const double periods = std::floor(place / length);
+        double rest = std::fma(-periods, length, place); // exactly rounded once
+        if (rest < 0) rest = rest + length;
+        if (rest >= length) rest = rest - length;
+        return rest;
+    };
+    if (setting.effects.is_periodic_x()) disc.x = inside(disc.x);
+    if (setting.effects.is_periodic_y()) disc.y = inside(disc.y);
+}
+
+void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitution, Copy copy, double period) {
+    const double ex = (q.x - p.x) + copy.x * period, ey = (q.y - p.y) + copy.y * period;
     const double wx = q.vx - p.vx, wy = q.vy - p.vy;
     const double k = (1 + restitution) / 2 * ((wx * ex + wy * ey) / (ex * ex + ey * ey));
     const double mp = setting.mass_of(p.id), mq = setting.mass_of(q.id), mean = (mp + mq) / 2;
@@ -169,10 +201,14 @@ void OneRuleReference::find_candidates(double m) {
         if (t != never) candidates_.push_back({micro_step_, t, p.id, Collision::wall});
         for (DiscId id = p.id + 1; id < discs_.size() && setting_.discs_meet(); ++id) {
             if (has_left(discs_[id])) continue;
-            const Contact found = contact(p, discs_[id], setting_.radius_of(p.id) + setting_.radius_of(id), tolerance_);
-            if (found.delay < 0) continue;
-            const double in_step = (found.base - m) + found.delay;
-            if (in_step >= 0 && in_step <= 1) candidates_.push_back({micro_step_, in_step, p.id, id});
+            const auto look = [&](Copy copy) {
+                const Contact found = contact(p, discs_[id], setting_.radius_of(p.id) + setting_.radius_of(id), tolerance_, copy, setting_.box_size);
+                if (found.delay < 0) return;
+                const double in_step = (found.base - m) + found.delay;
+                if (in_step >= 0 && in_step <= 1) candidates_.push_back({micro_step_, in_step, p.id, id, copy});
+            };
+            if (!setting_.effects.are_periodic()) look({});
+            else for (const Copy copy : copies_near(setting_, p, discs_[id], m, m + 1)) look(copy);
         }
     }
 }
@@ -193,7 +229,7 @@ void OneRuleReference::keep(const Collision& candidate, double m) {
     advance(p, m + candidate.t);
     advance(q, m + candidate.t);
     if (setting_.are_rough()) collide_rough(setting_, p, q, spins_[p.id], spins_[q.id], false);
-    else exchange_momentum(setting_, p, q, setting_.restitution());
+    else exchange_momentum(setting_, p, q, setting_.restitution(), candidate.copy, setting_.box_size);
     p.pair_collisions += 1;
     q.pair_collisions += 1;
     counters_.pair_collisions += 1;
@@ -213,6 +249,7 @@ void OneRuleReference::synchronize() {
     for (Disc& disc : discs_) {
         if (has_left(disc)) continue;
         advance(disc, static_cast<double>(setting_.sync_every));
+        bring_inside(setting_, disc);
         disc.tau = 0;
     }
 }
@@ -246,14 +283,15 @@ double OneRuleReference::wall_time(const Disc& disc, double m) const {
 }
 
 double OneRuleReference::axes_time(const Disc& disc, double m) const {
-    const double tx = axis_time(disc.id, disc.x, disc.vx, disc.tau, m, 0);
-    const double ty = axis_time(disc.id, disc.y, disc.vy, disc.tau, m, 2);
+    const double tx = setting_.effects.is_periodic_x() ? never : axis_time(disc.id, disc.x, disc.vx, disc.tau, m, 0);
+    const double ty = setting_.effects.is_periodic_y() ? never : axis_time(disc.id, disc.y, disc.vy, disc.tau, m, 2);
     return tx < ty ? tx : ty;
 }
 
 void OneRuleReference::bounce(Disc& disc, double m, double t) const {
-    const bool x_is_due = axis_time(disc.id, disc.x, disc.vx, disc.tau, m, 0) == t;
-    const bool y_is_due = axis_time(disc.id, disc.y, disc.vy, disc.tau, m, 2) == t;
+    const bool has_x = !setting_.effects.is_periodic_x(), has_y = !setting_.effects.is_periodic_y();
+    const bool x_is_due = has_x && axis_time(disc.id, disc.x, disc.vx, disc.tau, m, 0) == t;
+    const bool y_is_due = has_y && axis_time(disc.id, disc.y, disc.vy, disc.tau, m, 2) == t;
     advance(disc, m + t);
     if (x_is_due && leads_out(disc.vx, 0)) return set_left(setting_, disc, disc.vx < 0 ? 0 : 1);
     if (y_is_due && leads_out(disc.vy, 2)) return set_left(setting_, disc, disc.vy < 0 ? 2 : 3);
@@ -261,8 +299,8 @@ void OneRuleReference::bounce(Disc& disc, double m, double t) const {
         if (leads_out(v, low_side)) return false;
         return (v < 0 && x <= low(disc.id) + band_) || (v > 0 && x >= high(disc.id) - band_);
     };
-    const bool x_reverses = x_is_due || is_at_wall(disc.x, disc.vx, 0);
-    const bool y_reverses = y_is_due || is_at_wall(disc.y, disc.vy, 2);
+    const bool x_reverses = x_is_due || (has_x && is_at_wall(disc.x, disc.vx, 0));
+    const bool y_reverses = y_is_due || (has_y && is_at_wall(disc.y, disc.vy, 2));
     const auto& sides = setting_.effects.sides;
     const auto reverse = [&](std::size_t number, double& normal, double& along) {
         const double away = number % 2 == 0 ? 1 : -1;
@@ -288,8 +326,8 @@ double OneRuleReference::stop_time(DiscId id, double x, double v, double t, std:
 
 /// `left` is the body that it has just been reflected from.
 void OneRuleReference::stop_at_wall(Disc& disc, double m, double t, std::size_t left) const {
-    const double sx = stop_time(disc.id, disc.x, disc.vx, t, 0);
-    const double sy = stop_time(disc.id, disc.y, disc.vy, t, 2);
+    const double sx = setting_.effects.is_periodic_x() ? never : stop_time(disc.id, disc.x, disc.vx, t, 0);
+    const double sy = setting_.effects.is_periodic_y() ? never : stop_time(disc.id, disc.y, disc.vy, t, 2);
     const double ts = sx < sy ? sx : sy;
     const BodyMeeting meeting = bodies_->first_meeting(disc, disc.tau, left);
     if (meeting.time < m + 1 && meeting.time - disc.tau < ts) {

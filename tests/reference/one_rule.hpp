@@ -60,6 +60,13 @@ struct Counters {
     friend bool operator==(const Counters&, const Counters&) = default;
 };
 
+/// An image of a disc: so many periods of the box further.
+struct Copy {
+    int x = 0, y = 0;
+
+    friend bool operator==(const Copy&, const Copy&) = default;
+};
+
 /// One kept collision: disc p with a wall, or the pair p < q. Sorted by (t, p, wall before pair, q) in a micro-step.
 struct Collision {
     static constexpr DiscId wall = ~DiscId{0};
@@ -68,6 +75,7 @@ struct Collision {
     double t = 0;                ///< in-step time, 0 to 1
     DiscId p = 0;
     DiscId q = wall;
+    Copy copy{}; ///< which image of q it is, in a box with periodic sides
 
     friend bool operator==(const Collision&, const Collision&) = default;
 };
@@ -78,8 +86,15 @@ struct Contact {
     double delay = -1;
 };
 
-/// The predicate of section 4. `tolerance` is the deepest overlap that still collides; infinity under the rule "all".
-Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance);
+/// The predicate of section 4, of p and that copy of q in a box of the given periods. `tolerance` is the deepest overlap that
+/// still collides; infinity under the rule "all".
+Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance, Copy copy = {}, double period = 0);
+
+/// The copies of q that p may come near until `end`, both flying on from their states: all others stay farther than sigma.
+std::vector<Copy> copies_near(const Setting& setting, const Disc& p, const Disc& q, double begin, double end);
+
+/// Of a sync: the state's place in the box where sides are periodic, one rounding away.
+void bring_inside(const Setting& setting, Disc& disc);
 
 /// What stands for a disc that has left the box: at rest where it left, with a time that no other has.
 bool has_left(const Disc& disc);
@@ -87,7 +102,7 @@ void set_left(const Setting& setting, Disc& disc, std::size_t side);
 
 /// The two states' positions at `time`, the impulse of a pair; p has the lower id.
 void advance(Disc& disc, double time);
-void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitution);
+void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitution, Copy copy = {}, double period = 0);
 /// The same of rough discs, by the page's formulas; `is_touched` ones part as elastic and smooth.
 void collide_rough(const Setting& setting, Disc& p, Disc& q, double& p_spin, double& q_spin, bool is_touched);
 

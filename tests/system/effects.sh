@@ -100,6 +100,24 @@ run 1 run mixture.toml --steps 90 --quiet --report mixed_whole.json
 run 3 run fall.toml --check --quiet --report checked.json
 expect_code 0 'a checked run with effects'
 [ "$(json_value checked.json state_hash)" = "$(json_value whole.json state_hash)" ] || complain 'another state hash with --check'
+
+sed 's/^left = .*/left = { kind = "periodic" }/; s/^right = .*/right = { kind = "periodic" }/' fall.toml >ring.toml
+run 2 run ring.toml --quiet --report ring.json --set output.text=ends
+expect_code 0 'periodic sides'
+tail -n 400 "$test_folder/out" >"$test_folder/end"
+run 3 run ring.toml --steps 70 --quiet --set output.checkpoint.folder=around
+expect_code 0 'periodic sides, the first stretch'
+run 1 verify around/checkpoint-000000000070.h5
+expect_code 0 "the checkpoint of a periodic box"
+run 1 run --restart around --steps 150 --report ring_rest.json --set output.text=ends
+expect_code 0 'periodic sides, the second stretch'
+expect_told 'left side periodic' 'the summary of periodic sides'
+[ "$(json_value ring_rest.json state_hash)" = "$(json_value ring.json state_hash)" ] || complain 'periodic sides: another state hash after a restart'
+tail -n 400 "$test_folder/out" | cmp - "$test_folder/end" || complain 'periodic sides: other lines after a restart'
+run 1 run ring.toml --check
+expect_code 2 'a checked run between periodic sides'
+expect_told '--check: it knows boxes with walls only' 'a checked run between periodic sides'
+
 run 1 accuracy fall.toml
 expect_code 2 'a study with effects'
 finish

@@ -32,7 +32,7 @@ public:
 
     bool operator()(const Candidate& a, const Candidate& b) const {
         if (a.time != b.time) return a.time < b.time;
-        if (a.p != b.p) return discs_[a.p].id < discs_[b.p].id;
+        if (a.p != b.p && discs_[a.p].id != discs_[b.p].id) return discs_[a.p].id < discs_[b.p].id; // or two images of one
         if (a.is_wall() || b.is_wall()) return a.is_wall() && !b.is_wall();
         return discs_[a.q].id < discs_[b.q].id;
     }

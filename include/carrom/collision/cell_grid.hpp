@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "carrom/core/disc.hpp"
+#include "carrom/core/image.hpp"
 
 namespace carrom {
 
@@ -64,8 +65,10 @@ inline constexpr std::size_t filter_padding = 64;
 
 class CellGrid {
 public:
-    /// Sorts `discs` by their cells at `anchor`; flights begin at `time` and last for `duration`.
-    void build(std::span<const Disc> discs, const GridFrame& frame, double anchor, double time, double duration, int n_threads);
+    /// Sorts `discs` by their cells at `anchor`; flights begin at `time` and last for `duration`. Where there are periods
+    /// discs are where their images are.
+    void build(std::span<const Disc> discs, const GridFrame& frame, double anchor, double time, double duration, int n_threads,
+               const Periods& periods = {});
 
     /// Brings the first `n_own` of `discs`, those that the grid was built for, into the order of their slots, in place,
     /// and makes the grid unusable until it is built again. Neighbours in space become neighbours in memory.
@@ -83,6 +86,7 @@ public:
 
     /// Takes over a disc's new free flight. Its cell stays what it was.
     void update_flight(LocalIndex index, const Disc& disc);
+    void update_flight_of_image(LocalIndex index, const Disc& disc);
 
     const GridFrame& frame() const { return frame_; }
     FlightLanes lanes() const {
@@ -151,13 +155,16 @@ private:
         return n_rows_inverse_ == 0 ? cell : static_cast<std::uint32_t>((static_cast<Wide>(n_rows_inverse_) * cell) >> 64);
     }
     std::uint32_t rows() const { return static_cast<std::uint32_t>(frame_.n_rows); }
-    std::uint32_t cell_at(const Disc& disc, double time) const;
-    void sort_alone(std::span<const Disc> discs, double anchor);
-    void sort_together(std::span<const Disc> discs, double anchor, int n_threads);
-    void sort_column(std::span<const Disc> discs, int column);
-    void place(std::uint32_t slot, const Disc& disc);
+    /// `Places` says where discs are: their states, or their images.
+    template <class Places> void sort(const Places& places, std::span<const Disc> discs, double anchor, int n_threads);
+    template <class Places> std::uint32_t cell_at(const Places& places, const Disc& disc, double time) const;
+    template <class Places> void sort_alone(const Places& places, std::span<const Disc> discs, double anchor);
+    template <class Places> void sort_together(const Places& places, std::span<const Disc> discs, double anchor, int n_threads);
+    template <class Places> void sort_column(const Places& places, std::span<const Disc> discs, int column);
+    template <class Places> void place(const Places& places, std::uint32_t slot, const Disc& disc);
 
     GridFrame frame_;
+    Periods periods_;
     std::uint64_t n_rows_inverse_ = 0; ///< 2^64 / rows, rounded up; 0 for one row
     double time_ = 0, duration_ = 1;
     std::vector<std::uint32_t> cell_start_;  ///< by cell, and one more

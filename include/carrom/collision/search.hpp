@@ -14,8 +14,7 @@
 #include "carrom/collision/cell_grid.hpp"
 #include "carrom/collision/window.hpp"
 #include "carrom/core/disc.hpp"
-#include "carrom/effects/effect_law.hpp"
-#include "carrom/effects/plain_law.hpp"
+#include "carrom/effects/laws.hpp"
 
 namespace carrom {
 

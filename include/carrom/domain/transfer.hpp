@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "carrom/core/disc.hpp"
+#include "carrom/core/image.hpp"
 #include "carrom/domain/strips.hpp"
 #include "carrom/parallel/neighbour_exchange.hpp"
 
@@ -19,6 +20,7 @@ namespace carrom {
 struct TransferPlan {
     std::vector<int> partners;                     ///< ranks, each once
     std::vector<std::vector<LocalIndex>> leaving;  ///< by partner, ascending
+    std::vector<std::vector<Image>> images;        ///< along `leaving`: what goes there; of halos of periodic boxes only
 };
 
 /// Discs whose place at `time` lies in another rank's strip. They were in `old_strips`' own strip at most `farthest` away.
@@ -27,6 +29,13 @@ TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int 
 
 /// Discs that at `time` lie within `reach` of another rank's strip. Empty strips get none.
 TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own, double time, double reach);
+
+/// The same in a box with periodic sides, for the places of the discs' images; those are the ones in the box. In a halo a disc
+/// goes to its own rank as well, as other images, and may go to a rank several times.
+TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& strips, int rank, std::span<const Disc> own,
+                                     double time, double farthest, const Periods& periods);
+TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const Disc> own, double time, double reach,
+                                const Periods& periods);
 
 /// Sends what `plan` says of an array that runs along the own discs; returns what came, grouped by partner.
 /// **Collective.**
@@ -39,6 +48,9 @@ void transfer(NeighbourExchange& exchange, const TransferPlan& plan, std::span<c
     }
     exchange.exchange(std::span<const int>(plan.partners), out, in);
 }
+
+/// The same of discs, as the images that the plan says. **Collective.**
+void transfer_images(NeighbourExchange& exchange, const TransferPlan& plan, std::span<const Disc> values, Received<Disc>& in);
 
 /// Takes out what has left and closes the gaps from the end.
 template <class T> void remove_leaving(const TransferPlan& plan, std::vector<T>& values) {

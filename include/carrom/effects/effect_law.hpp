@@ -203,7 +203,10 @@ private:
         q.pair_collisions += 1;
     }
 
+protected:
     Contact contact_;
+
+private:
     double contact_time_; ///< for obstacles under the rule "all"
     DiscBodies bodies_;
     Sides sides_;
@@ -215,10 +218,5 @@ using ElasticLaw = EffectLaw<ElasticContact>; ///< with sides or gravity that ar
 using InelasticLaw = EffectLaw<InelasticContact>;
 using MixedLaw = EffectLaw<InelasticContact, true>; ///< of any restitution, 1 included
 using RoughLaw = EffectLaw<RoughContact, true>;     ///< of one class or several
-
-/// make(law) for every law that kernels and engines are compiled for.
-#define CARROM_FOR_EACH_LAW(make) \
-    make(PlainLaw) make(NaiveLaw) make(ContractedLaw) make(SingleLaw) make(SingleNaiveLaw) make(SingleContractedLaw) \
-    make(ElasticLaw) make(IdealGasLaw) make(InelasticLaw) make(MixedLaw) make(RoughLaw)
 
 } // namespace carrom

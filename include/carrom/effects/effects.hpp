@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "carrom/effects/disc_classes.hpp"
+#include "carrom/core/image.hpp"
 
 namespace carrom {
 
@@ -30,7 +31,7 @@ struct ContactEffect {
 };
 
 /// What a side of the box is.
-enum class SideKind { fixed, thermal, moving, open };
+enum class SideKind { fixed, thermal, moving, open, periodic };
 
 struct Side {
     SideKind kind = SideKind::fixed;
@@ -86,6 +87,11 @@ struct Effects {
     std::vector<DiscClass> classes{}; ///< in the order of ids; empty where all discs are of one radius and mass 1
 
     bool have_plain_sides() const;
+    /// The reader of scenes makes opposite sides periodic together.
+    bool is_periodic_x() const { return sides[0].kind == SideKind::periodic; }
+    bool is_periodic_y() const { return sides[2].kind == SideKind::periodic; }
+    bool are_periodic() const { return is_periodic_x() || is_periodic_y(); }
+    Periods periods(double box_size) const { return {is_periodic_x() ? box_size : 0, is_periodic_y() ? box_size : 0}; }
     bool are_any() const {
         return contact.kind != ContactKind::elastic || !have_plain_sides() || gravity.is_any() || drag != 0 || obstacles.are_any() ||
                !classes.empty();

@@ -57,6 +57,8 @@ public:
     static constexpr bool has_bodies = false;
     /// Whether they turn, and `collide` and `collide_at` take their spins as well.
     static constexpr bool has_spin = false;
+    /// Whether discs have images (periodic_law.hpp).
+    static constexpr bool is_periodic = false;
     /// Under the rule "all": more than some thousand collisions of a disc in so many micro-steps are without end. Where discs
     /// have no room, loose laws move them on by a rounding of time now and then, which is not at one time and has no end either.
     static constexpr double one_time = is_loose ? 0x1p-3 : 0x1p-40;
@@ -127,8 +129,9 @@ public:
     struct MetWalls {
         bool at_x = false, at_y = false;
     };
-    /// Which walls that bounce is at, for those who ask; `disc` as it was before.
-    MetWalls met_walls(Disc disc, double m, double t) const {
+    /// Which walls that bounce is at, for those who ask.
+    MetWalls met_walls(const Disc& before, double m, double t) const {
+        Disc disc = before;
         const Real tx = axis_time(disc.x, disc.vx, disc.tau, m), ty = axis_time(disc.y, disc.vy, disc.tau, m);
         advance(disc, real(m) + real(t));
         return {tx == real(t) || touches_wall(disc.x, disc.vx), ty == real(t) || touches_wall(disc.y, disc.vy)};
@@ -219,7 +222,11 @@ protected:
     [[gnu::always_inline]] static void collide_with(Disc& p, Disc& q, double time, Real impulse, Real p_share = 1, Real q_share = 1) {
         advance(p, time);
         advance(q, time);
-        const Real ex = real(q.x) - real(p.x), ey = real(q.y) - real(p.y);
+        push_apart(p, q, real(q.x) - real(p.x), real(q.y) - real(p.y), impulse, p_share, q_share);
+    }
+
+    /// What a contact does to the velocities of discs at the separation (ex, ey), and to their counters.
+    [[gnu::always_inline]] static void push_apart(Disc& p, Disc& q, Real ex, Real ey, Real impulse, Real p_share = 1, Real q_share = 1) {
         const Real wx = real(q.vx) - real(p.vx), wy = real(q.vy) - real(p.vy);
         const Real k = impulse * ((wx * ex + wy * ey) / (ex * ex + ey * ey));
         p.vx = real(p.vx) + k * p_share * ex;

@@ -4,6 +4,7 @@
 // Times count from the last sync, at which the falling frame (frame.hpp) is at rest in the box. In it discs fly straight and
 // a wall at w0 that moves with u is at w(t) = (w0 + u t) - (g/2 t) t with the velocity u - g t: its distance to a disc
 // is a quadratic, solved without subtracting like numbers. For g = 0 and u = 0 the plain law's formulas are left, bit for bit.
+// Periodic sides are walls infinitely far.
 #pragma once
 
 #include <array>
@@ -101,6 +102,7 @@ private:
     Effects effects_;
     double box_size_, radius_;
     DiscBodies bodies_;
+    std::array<double, 4> away_{}; ///< infinite for periodic sides
     std::array<double, 4> moved_{}, speeds_{}; ///< moved: from the scene's start to the last sync
     std::array<double, 2> gravity_;
 };

@@ -15,8 +15,7 @@
 
 #include "carrom/collision/cell_grid.hpp"
 #include "carrom/core/disc.hpp"
-#include "carrom/effects/effect_law.hpp"
-#include "carrom/effects/plain_law.hpp"
+#include "carrom/effects/laws.hpp"
 
 namespace carrom {
 
@@ -45,6 +44,7 @@ struct ReplayGround {
     std::size_t n_own = 0;
     const CellGrid* grid = nullptr;
     int first_own_column = 0, end_own_column = 0; ///< own discs that rounding puts outside belong to the nearest one
+    int first_own_row = 0, end_own_row = 0;       ///< the same
     ReplayWindow window;
     bool is_logged = false;
     std::span<const double> spins{}; ///< by disc, of rough ones
@@ -113,8 +113,10 @@ public:
     BlockReplay(BlockReplay&&) noexcept;
 
     /// Replays the own discs in `block` and what lies `halo` cells around it. Writes the history of each own disc of the
-    /// block to its place in `histories`. **Not collective**: blocks may be replayed by many threads at once.
-    void run(const ReplayGround& ground, const CellBlock& block, int halo, std::span<std::uint64_t> histories,
+    /// block to its place in `histories`. `is_whole`: in a periodic box, that every disc is there with all that is within one
+    /// reach of it; what happens to one of its images happens to all then, and the replay is right. **Not collective**:
+    /// blocks may be replayed by many threads at once.
+    void run(const ReplayGround& ground, const CellBlock& block, int halo, bool is_whole, std::span<std::uint64_t> histories,
              BlockOutcome& outcome);
 
     /// Another one of the same kind from now on: walls that move are elsewhere after a sync.

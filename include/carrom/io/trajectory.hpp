@@ -22,6 +22,7 @@ struct TrajectoryLayout {
     std::uint64_t n_discs = 0;
     double box_size = 0, radius = 0;
     std::vector<double> radii, masses; ///< by id; empty where all are of one radius and mass 1
+    bool is_periodic_x = false, is_periodic_y = false;
     double velocity_unit = 1; ///< what stored velocities are multiplied by to be per step
     bool has_position = true, has_velocity = true, has_collisions = false;
     bool is_single = true;    ///< float32, else float64

@@ -86,17 +86,25 @@ void check_arrangement(const Discs& mine, const Scene& scene) {
     CHECK(nearest >= 2 * scene.radius * (1 - 1e-15));
 }
 
-/// The rule of random insertion, word for word: all pairs, round after round.
+/// The rule of random insertion, word for word: all pairs, round after round. Where sides are periodic, with all images.
 Discs inserted_by_the_rule(const Scene& scene) {
-    const double r = scene.radius, span = scene.box_size - 2 * r;
-    const auto overlap = [r](Point a, Point b) { return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) < (2 * r) * (2 * r); };
+    const double r = scene.radius, l = scene.box_size;
+    const double lx = scene.effects.is_periodic_x() ? l : 0, ly = scene.effects.is_periodic_y() ? l : 0;
+    const auto place = [r, l](double period, double number) { return period > 0 ? l * number : r + ((l - r) - r) * number; };
+    const auto overlap = [r, lx, ly](Point a, Point b) {
+        double nearest = INFINITY;
+        for (const double dx : {-lx, 0.0, lx})
+            for (const double dy : {-ly, 0.0, ly})
+                nearest = std::min(nearest, (a.x + dx - b.x) * (a.x + dx - b.x) + (a.y + dy - b.y) * (a.y + dy - b.y));
+        return nearest < (2 * r) * (2 * r);
+    };
     std::vector<Point> places(scene.n_discs), proposals(scene.n_discs);
     std::vector<int> placed_in(scene.n_discs, -1);
     std::uint64_t n_placed = 0;
     for (int round = 0; n_placed < scene.n_discs; ++round) {
         for (DiscId id = 0; id < scene.n_discs; ++id) {
             const auto words = random_words(scene.seed, Purpose::position, id, static_cast<std::uint64_t>(round));
-            proposals[id] = {r + span * unit_number(words[0]), r + span * unit_number(words[1])};
+            proposals[id] = {place(lx, unit_number(words[0])), place(ly, unit_number(words[1]))};
         }
         for (DiscId id = 0; id < scene.n_discs; ++id) {
             if (placed_in[id] >= 0) continue;
@@ -164,7 +172,11 @@ Listing listing_of(const std::string& text) {
 TEST_CASE("Random insertion follows its rule on any number of ranks") {
     for (const Texts& overrides : {Texts{"discs.packing=0.3"}, Texts{"discs.packing=0.45", "discs.seed=9"}, Texts{"discs.packing=0.01"},
                                    Texts{"discs.packing=0.4", "discs.count=7"}, Texts{"discs.packing=0.1", "discs.count=1"},
-                                   Texts{"discs.packing=0.35", "discs.count=600", "discs.velocities=uniform"}}) {
+                                   Texts{"discs.packing=0.35", "discs.count=600", "discs.velocities=uniform"},
+                                   Texts{"discs.packing=0.45", "box.left.kind=periodic", "box.right.kind=periodic"},
+                                   Texts{"discs.packing=0.4", "discs.count=9", "box.bottom.kind=periodic", "box.top.kind=periodic"},
+                                   Texts{"discs.packing=0.4", "discs.count=600", "box.left.kind=periodic", "box.right.kind=periodic",
+                                         "box.bottom.kind=periodic", "box.top.kind=periodic"}}) {
         CAPTURE(overrides);
         const Scene scene = scene_of(overrides);
         check_same(initial_state(scene, nullptr, ranks()), inserted_by_the_rule(scene));

@@ -161,6 +161,36 @@ TEST_CASE("Classes of discs are read, by table and by list") {
     CHECK(physical_differences(scene, read_scene(box + two + "[[discs.classes]]\ncount = 1\nradius = 1\n", "s.toml")).size() == 2);
 }
 
+TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
+    const Texts along_y{"box.bottom.kind=periodic", "box.top.kind=periodic"};
+    const Effects effects = read_scene(good, "s.toml", along_y).effects;
+    CHECK(effects.is_periodic_y());
+    CHECK_FALSE(effects.is_periodic_x());
+    const auto with = [&along_y](std::initializer_list<std::string> more) {
+        Texts texts = along_y;
+        texts.insert(texts.end(), more);
+        return problems_with(texts);
+    };
+    CHECK(has(problems_with({"box.left.kind=periodic"}), "box.right.kind must be \"periodic\" too"));
+    CHECK(has(problems_with({"box.top.kind=periodic"}), "box.bottom.kind must be \"periodic\" too"));
+    CHECK(has(with({"box.top.restitution=0.5"}), "no meaning without a wall"));
+    CHECK(has(with({"box.top.temperature=1"}), "no meaning without box.top.kind = \"thermal\""));
+    CHECK(has(with({"box.top.speed=1"}), "no meaning without box.top.kind = \"moving\""));
+    CHECK(has(with({"effects.gravity.y=-0.01", "time.collisions=all"}), "would fall for ever"));
+    CHECK_FALSE(has(with({"effects.gravity.x=-0.01", "time.collisions=all"}), "would fall for ever"));
+    CHECK(has(with({"effects.obstacles.discs=[[50,50,5]]"}), "no periodic sides together with obstacles"));
+    CHECK(has(with({"box.left.kind=open"}), "no periodic sides together with open sides"));
+    CHECK(has(with({"effects.contact.kind=rough", "effects.contact.restitution=0.9", "effects.contact.tangential_restitution=0.5"}),
+              "no periodic sides together with rough discs"));
+    CHECK(has(with({"effects.drag.rate=0.02", "time.collisions=all"}), "no periodic sides together with drag"));
+    CHECK(has(with({"output.measurements.folder=tables"}), "measures nothing ('output.measurements') in boxes with periodic sides"));
+    const std::string two = "[[discs.classes]]\ncount = 3\nradius = 2\nmass = 7\n[[discs.classes]]\ncount = 40\nradius = 0.5\n";
+    std::string all;
+    for (const Problem& problem : problems_of([&] { read_scene("[box]\nsize = 100\n[time]\nsteps = 10\n" + two, "s.toml", along_y); })) all += problem.text + '\n';
+    CHECK(has(all, "no periodic sides together with discs of several classes"));
+    CHECK(has(with({"discs.radius=26", "discs.count=1"}), "too small to be periodic"));
+}
+
 TEST_CASE("A restart cannot change effects") {
     const Texts there{"effects.gravity.y=-0.02", "time.collisions=all", "box.top.restitution=0.5"};
     const Texts here{"effects.gravity.y=-0.01", "time.collisions=all", "box.top.kind=thermal", "box.top.temperature=1"};

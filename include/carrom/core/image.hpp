@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Images of discs in a box with periodic sides.
+//
+// A stored state is never shifted: between syncs a disc may fly out of the box and on. What an engine looks at is the
+// state and by how many box lengths it is meant to be displaced, its image. Two entries of the same disc differ in
+// that alone. A pair's contact depends on the difference of its two images, a whole number, which is the same for
+// everybody who sees the pair. Images are kept in the upper half of the wall counter, so that they go where the disc
+// goes and nothing grows; only engines see them, and a scene without periodic sides has none.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "carrom/core/disc.hpp"
+#include "carrom/core/errors.hpp"
+
+namespace carrom {
+
+/// In box lengths.
+struct Image {
+    int x = 0, y = 0;
+
+    friend bool operator==(const Image&, const Image&) = default;
+};
+
+inline Image image_of(const Disc& disc) {
+    return {static_cast<std::int16_t>(disc.wall_collisions >> 48), static_cast<std::int16_t>(disc.wall_collisions >> 32)};
+}
+
+/// Of collisions with walls, below 2^32 where there are images.
+inline std::uint64_t count_without_image(const Disc& disc) { return disc.wall_collisions & 0xffffffffu; }
+
+/// That count stays what it is.
+inline void set_image(Disc& disc, Image image) {
+    const std::uint64_t x = static_cast<std::uint16_t>(image.x), y = static_cast<std::uint16_t>(image.y);
+    disc.wall_collisions = count_without_image(disc) | x << 48 | y << 32;
+}
+
+/// The lengths after which a box repeats itself along x and y; 0 where it does not.
+struct Periods {
+    double x = 0, y = 0;
+
+    bool are_any() const { return x != 0 || y != 0; }
+
+    /// Where the disc's image is.
+    double x_of(const Disc& disc, double time) const { return disc.x_at(time) + image_of(disc).x * x; }
+    double y_of(const Disc& disc, double time) const { return disc.y_at(time) + image_of(disc).y * y; }
+
+    /// How much further the difference of two stored places is for their images: the same number with the other sign for (q, p).
+    double x_between(const Disc& p, const Disc& q) const { return (image_of(q).x - image_of(p).x) * x; }
+    double y_between(const Disc& p, const Disc& q) const { return (image_of(q).y - image_of(p).y) * y; }
+
+    /// The image that is in the box, to within a rounding.
+    Image home(const Disc& disc, double time) const { return {lengths(disc.x_at(time), x), lengths(disc.y_at(time), y)}; }
+
+private:
+    static int lengths(double place, double period) {
+        if (period == 0 || (place >= 0 && place < period)) return 0;
+        const double n = std::floor(place / period);
+        ensure(std::fabs(n) < 16000, "a disc flies through the box thousands of times from sync to sync; take a smaller time.sync_every");
+        return -static_cast<int>(n);
+    }
+};
+
+/// A place in [0, period) for one anywhere: a function of the two alone, one rounding away. Unchanged where there is no period.
+inline double wrapped(double place, double period) {
+    if (period == 0 || (place >= 0 && place < period)) return place;
+    double inside = std::fma(-std::floor(place / period), period, place);
+    if (inside < 0) inside += period; // what is left of it may be less than a rounding of the period
+    return inside < period ? inside : inside - period;
+}
+
+} // namespace carrom

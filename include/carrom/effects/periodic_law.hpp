@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The laws of boxes with periodic sides: another law, for images of discs (core/image.hpp).
+//
+// The separation of two discs is that of their stored places and a whole number of box lengths, added in one fixed
+// association; all else is the other law's. An axis has walls or is periodic; a walled one is as in the other law.
+#pragma once
+
+#include "carrom/core/image.hpp"
+#include "carrom/effects/effect_law.hpp"
+
+namespace carrom {
+
+template <class Walled> class PeriodicLaw : public Walled {
+public:
+    static constexpr bool is_periodic = true;
+    static constexpr bool may_lose_discs = false; // a side is periodic or open
+
+    /// `effects` per micro-step.
+    PeriodicLaw(double box_size, double radius, const Effects& effects)
+        : Walled(box_size, radius, effects), periods_(effects.periods(box_size)) {}
+
+    const Periods& periods() const { return periods_; }
+    /// Places are rounded as coarsely as stored ones are far from the box.
+    double slack() const { return 0x1p-36 * this->box_size(); }
+    double search_diameter() const { return this->diameter() + 2 * slack(); }
+
+    PairContact<double> contact(const Disc& p, const Disc& q) const { return contact(p, q, this->tolerance()); }
+    PairContact<double> exact_contact(const Disc& p, const Disc& q) const { return contact(p, q, Walled::never); }
+
+    void collide(Disc& p, Disc& q, double m, double t) const {
+        collide_with(p, q, m + t, this->contact_.impulse());
+        stop_at_wall(p, m, t);
+        stop_at_wall(q, m, t);
+    }
+    void collide_at(Disc& p, Disc& q, double time) const { collide_with(p, q, time, this->contact_.impulse_at(p, q, time)); }
+
+    double wall_time(const Disc& disc, double m) const {
+        if (periods_.x == 0) return this->axis_time(disc.x, disc.vx, disc.tau, m);
+        return periods_.y == 0 ? this->axis_time(disc.y, disc.vy, disc.tau, m) : Walled::never;
+    }
+    PlainLaw::MetWalls met_walls(const Disc& /*disc*/, double /*m*/, double /*t*/) const { return {periods_.x == 0, periods_.y == 0}; }
+    /// There is one axis with walls at most, and so no corner.
+    void bounce(Disc& disc, double m, double t) const {
+        this->advance(disc, m + t);
+        this->sides().reverse(disc, periods_.x == 0 ? Axis::x : Axis::y);
+        disc.wall_collisions += 1;
+        stop_at_wall(disc, m, t);
+    }
+
+    /// Brings a state that a sync has just rewritten into the box.
+    void wrap(Disc& disc) const {
+        disc.x = wrapped(disc.x, periods_.x);
+        disc.y = wrapped(disc.y, periods_.y);
+    }
+
+private:
+    PairContact<double> contact(const Disc& p, const Disc& q, double deepest_overlap) const {
+        if constexpr (Walled::has_pairs) {
+            const double base = std::max(p.tau, q.tau);
+            const double dx = (q.x_at(base) - p.x_at(base)) + periods_.x_between(p, q);
+            const double dy = (q.y_at(base) - p.y_at(base)) + periods_.y_between(p, q);
+            return {base, contact_delay(dx, dy, q.vx - p.vx, q.vy - p.vy, this->diameter(), deepest_overlap)};
+        }
+        return {};
+    }
+
+    void collide_with(Disc& p, Disc& q, double time, double impulse) const {
+        this->advance(p, time);
+        this->advance(q, time);
+        this->push_apart(p, q, (q.x - p.x) + periods_.x_between(p, q), (q.y - p.y) + periods_.y_between(p, q), impulse);
+    }
+
+    void stop_at_wall(Disc& disc, double m, double t) const {
+        if (periods_.x != 0 && periods_.y != 0) return;
+        const double rest = 1 - t;
+        const double stop = periods_.x == 0 ? this->axis_stop(disc.x, disc.vx, rest) : this->axis_stop(disc.y, disc.vy, rest);
+        if (stop == Walled::never) return;
+        disc.x = disc.x + disc.vx * stop;
+        disc.y = disc.y + disc.vy * stop;
+        disc.tau = m + 1;
+    }
+
+    Periods periods_;
+};
+
+using PeriodicElasticLaw = PeriodicLaw<ElasticLaw>;
+using PeriodicIdealGasLaw = PeriodicLaw<IdealGasLaw>;
+using PeriodicInelasticLaw = PeriodicLaw<InelasticLaw>;
+
+} // namespace carrom

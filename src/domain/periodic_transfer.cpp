@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Plans where sides are periodic: strips are neighbours across the seam too, and a rank is its own neighbour.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "carrom/core/errors.hpp"
+#include "carrom/domain/transfer.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// What lists of partners allow for beyond what discs need: places of images are rounded.
+constexpr double margin = 1e-9;
+
+/// A strip that ends where the box does.
+struct Slab {
+    double low = 0, high = 0;
+
+    Slab(const Strips& strips, int rank, double period) : low(strips.low(rank)), high(strips.high(rank)) {
+        if (period == 0) return;
+        if (rank == 0) low = 0;
+        if (rank + 1 == strips.size()) high = period;
+    }
+    /// Whether something in the slab can be within `distance` of something in the other one, or of its images.
+    bool is_near(const Slab& other, double distance, double period) const {
+        const double n_last = period == 0 ? 0 : std::ceil(distance / period) + 1;
+        for (double n = -n_last; n <= n_last; ++n)
+            if (low - distance <= other.high + n * period && high + distance >= other.low + n * period) return true;
+        return false;
+    }
+};
+
+/// In one order, so that two ranks that ask for each other get one answer.
+bool are_near(const Strips& a, int rank_a, const Strips& b, int rank_b, double distance, double period) {
+    if (a.is_empty(rank_a) || b.is_empty(rank_b)) return false;
+    return Slab(a, rank_a, period).is_near(Slab(b, rank_b, period), distance, period);
+}
+
+std::vector<std::size_t> places_of(const std::vector<int>& partners, int n_ranks) {
+    std::vector<std::size_t> places(static_cast<std::size_t>(n_ranks), partners.size());
+    for (std::size_t k = 0; k < partners.size(); ++k) places[static_cast<std::size_t>(partners[k])] = k;
+    return places;
+}
+
+} // namespace
+
+TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& strips, int rank, std::span<const Disc> own,
+                                     double time, double farthest, const Periods& periods) {
+    TransferPlan plan;
+    const double period = periods.x;
+    double distance = farthest;
+    if (period != 0) distance = std::min(farthest, period) + margin * period; // further than once around is anywhere
+    for (int other = 0; other < strips.size(); ++other) {
+        if (other != rank && (are_near(old_strips, rank, strips, other, distance, period) ||
+                              are_near(old_strips, other, strips, rank, distance, period)))
+            plan.partners.push_back(other);
+    }
+    plan.leaving.resize(plan.partners.size());
+    const std::vector<std::size_t> places = places_of(plan.partners, strips.size());
+    for (std::size_t i = 0; i < own.size() && strips.size() > 1; ++i) {
+        const int owner = strips.owner(periods.x_of(own[i], time));
+        if (owner == rank) continue;
+        const std::size_t place = places[static_cast<std::size_t>(owner)];
+        ensure(place < plan.partners.size(), "a disc goes to a rank that does not expect it");
+        plan.leaving[place].push_back(static_cast<LocalIndex>(i));
+    }
+    return plan;
+}
+
+TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const Disc> own, double time, double reach,
+                                const Periods& periods) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    TransferPlan plan;
+    const double longest = std::max(periods.x, periods.y);
+    for (int other = 0; other < strips.size(); ++other) {
+        if (are_near(strips, std::min(rank, other), strips, std::max(rank, other), reach + margin * longest, periods.x))
+            plan.partners.push_back(other);
+    }
+    plan.leaving.resize(plan.partners.size());
+    plan.images.resize(plan.partners.size());
+    std::vector<Slab> slabs;
+    for (const int other : plan.partners) slabs.emplace_back(strips, other, periods.x);
+    const Slab mine(strips, rank, periods.x);
+    const double y_low = periods.y == 0 ? -infinity : 0, y_high = periods.y == 0 ? infinity : periods.y;
+    const int n_x = periods.x == 0 ? 0 : static_cast<int>(std::ceil(reach / periods.x)) + 1;
+    const int n_y = periods.y == 0 ? 0 : static_cast<int>(std::ceil(reach / periods.y)) + 1;
+    for (std::size_t i = 0; i < own.size() && !slabs.empty(); ++i) {
+        const double x = periods.x_of(own[i], time), y = periods.y_of(own[i], time);
+        if (x - reach >= mine.low && x + reach < mine.high && y - reach >= y_low && y + reach < y_high) continue; // nearly all
+        const Image home = image_of(own[i]);
+        for (std::size_t k = 0; k < slabs.size(); ++k) {
+            for (int n = -n_x; n <= n_x; ++n) {
+                const double image_x = x + n * periods.x;
+                if (image_x + reach < slabs[k].low || image_x - reach > slabs[k].high) continue;
+                for (int m = -n_y; m <= n_y; ++m) {
+                    const double image_y = y + m * periods.y;
+                    if (image_y + reach < y_low || image_y - reach > y_high) continue;
+                    if (plan.partners[k] == rank && n == 0 && m == 0) continue;
+                    plan.leaving[k].push_back(static_cast<LocalIndex>(i));
+                    plan.images[k].push_back({home.x + n, home.y + m});
+                }
+            }
+        }
+    }
+    return plan;
+}
+
+void transfer_images(NeighbourExchange& exchange, const TransferPlan& plan, std::span<const Disc> values, Received<Disc>& in) {
+    std::vector<std::vector<Disc>> out(plan.partners.size());
+    for (std::size_t k = 0; k < out.size(); ++k) {
+        out[k].reserve(plan.leaving[k].size());
+        for (std::size_t i = 0; i < plan.leaving[k].size(); ++i) {
+            out[k].push_back(values[plan.leaving[k][i]]);
+            set_image(out[k].back(), plan.images[k][i]);
+        }
+    }
+    exchange.exchange(std::span<const int>(plan.partners), out, in);
+}
+
+} // namespace carrom

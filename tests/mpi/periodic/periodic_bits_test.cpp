@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Boxes with periodic sides have the bits of the plain statements of the rules, which look at all pairs of all images.
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "carrom/core/random_numbers.hpp"
+#include "effect_runs.hpp"
+#include "event_driven.hpp"
+#include "one_rule.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+constexpr Side periodic{SideKind::periodic, 1, 0, 0};
+constexpr std::array<Side, 4> both{periodic, periodic, periodic, periodic}, along_x{periodic, periodic, Side{}, Side{}}, along_y{Side{}, Side{}, periodic, periodic};
+
+const char* name_of(const std::array<Side, 4>& sides) { return sides == both ? "both" : sides == along_x ? "x" : "y"; }
+
+/// Everything moved on, through the seams.
+TestScene moved(TestScene scene, double dx, double dy) {
+    const double length = scene.setting.box_size;
+    for (InputDisc& disc : scene.discs) {
+        disc.x = std::fmod(disc.x + dx * length, length);
+        disc.y = std::fmod(disc.y + dy * length, length);
+    }
+    return scene;
+}
+
+/// Where an axis has walls, discs stay where they do not cross them.
+TestScene moved_along(const TestScene& scene, const std::array<Side, 4>& sides) {
+    TestScene result = moved(scene, sides[0] == periodic ? 0.3125 : 0, sides[2] == periodic ? 0.46875 : 0);
+    result.setting.effects.sides = sides;
+    result.name += std::string(", periodic ") + name_of(sides);
+    return result;
+}
+
+struct Expected {
+    StateHash hash;
+    std::uint64_t rejected = 0;
+};
+
+Expected expected_of(const TestScene& scene, CollisionRule rule, const Communicator& world) {
+    Expected expected;
+    if (world.is_root() && rule == CollisionRule::one) {
+        reference::OneRuleReference reference(scene.setting, scene.discs);
+        reference.run_steps(scene.steps);
+        expected = {hash_of(reference.discs()), reference.counters().rejected_candidates};
+    } else if (world.is_root()) {
+        reference::EventDrivenReference reference(scene.setting, scene.discs);
+        reference.run_steps(scene.steps);
+        expected.hash = hash_of(reference.discs());
+    }
+    world.broadcast(expected);
+    return expected;
+}
+
+void check_bits(const TestScene& scene, CollisionRule rule) {
+    const Communicator world = Communicator::world();
+    const Expected expected = expected_of(scene, rule, world);
+    INFO(scene.name << (rule == CollisionRule::one ? ", rule one" : ", rule all"));
+    for (const std::optional<double>& window : {std::optional<double>{}, {0.3}, {2.7}}) {
+        Tuning tuning;
+        tuning.window = window;
+        tuning.rebalance_above = window ? 0 : 1.05;
+        if (window) tuning.cell_width = 0.7;
+        const Totals totals = run(scene, rule, world, tuning);
+        CHECK(to_string(totals.hash) == to_string(expected.hash));
+        CHECK(totals.rejected_candidates == expected.rejected);
+    }
+    Simulation first = simulation_of(scene, rule, world);
+    advance_to(first, scene.steps / 2);
+    Scene again = scene_of(scene);
+    again.rule = rule;
+    Simulation second(again, {{first.discs().begin(), first.discs().end()}, first.micro_steps_done()}, world, {});
+    advance_to(second, scene.steps);
+    CHECK(to_string(second.totals().hash) == to_string(expected.hash));
+}
+
+/// A row of discs all along an axis, through the seam, the first of which is struck: equal gaps, or all touch but one.
+TestScene ring(std::size_t n, double gap, bool is_along_y) {
+    const double pitch = 2 + gap, length = static_cast<double>(n) * pitch + (gap == 0 ? 1 : 0);
+    TestScene scene = empty_scene("ring of " + std::to_string(n) + ", gap " + number(gap), length, 1, 14);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double place = std::fmod(length - 1.5 + static_cast<double>(i) * pitch, length);
+        if (is_along_y) add_disc(scene, length / 2, place, 0, i == 0 ? 1.5 : 0);
+        else add_disc(scene, place, length / 2, i == 0 ? 1.5 : 0, 0);
+    }
+    return scene;
+}
+
+/// Discs that all have to do with each other at one time, across both seams.
+TestScene tied(std::size_t k) {
+    TestScene scene = lattice(k, 1.5);
+    scene.name = "tied lattice of " + std::to_string(k * k);
+    scene.steps = 10;
+    for (std::size_t i = 0; i < scene.discs.size(); ++i) {
+        scene.discs[i].vx = (i + i / k) % 2 == 0 ? 0.5 : -0.5;
+        scene.discs[i].vy = (i / k) % 2 == 0 ? 0.25 : -0.25;
+    }
+    return scene;
+}
+
+/// Two discs in a box in which there is just room for each between the images of the other.
+TestScene narrow() {
+    TestScene scene = empty_scene("two discs in a narrow box", 4 * (1 + 2e-6), 1, 40);
+    add_disc(scene, 1.1, 1.2, 0.7, 0.31);
+    add_disc(scene, 2.9, 3.1, -0.45, -0.77);
+    return scene;
+}
+
+/// Few discs that fly through the box many times between syncs.
+TestScene fast(std::size_t n) {
+    TestScene scene = gas(n, 0.1, 1, 811);
+    scene.name = "fast gas of " + std::to_string(n);
+    for (InputDisc& disc : scene.discs) {
+        disc.vx *= 0.15 * scene.setting.box_size;
+        disc.vy *= 0.15 * scene.setting.box_size;
+    }
+    scene.steps = 5;
+    return scene;
+}
+
+/// Left and right warm, bottom and top periodic: draws of all images of a disc are the same.
+TestScene between_warm_walls(const TestScene& base) {
+    TestScene scene = moved_along(base, along_y);
+    scene.setting.effects.sides[0] = {SideKind::thermal, 1, 0.3, 0};
+    scene.setting.effects.sides[1] = {SideKind::thermal, 1, 0.1, 0};
+    scene.setting.effects.thermal_seed = 77;
+    scene.setting.thermal_draw = [](const Side& side, DiscId id, std::uint64_t count, std::size_t number) {
+        DiscRandom random(77, Purpose::thermal_wall, id, 4 * count + number);
+        const double away = std::sqrt(2 * side.temperature * random_exponential(random));
+        const double speed = std::sqrt(2 * side.temperature * random_exponential(random));
+        return std::array{away, speed * random_direction(random).x};
+    };
+    scene.name += ", warm walls";
+    return scene;
+}
+
+std::vector<TestScene> base_scenes() {
+    std::vector<TestScene> scenes{gas(120, 0.05, 0.8, 801), gas(100, 0.6, 0.3, 802), ring(7, 0.5, false), ring(6, 0, true), tied(6), narrow(), fast(40)};
+    for (TestScene& scene : scenes) {
+        if (scene.steps == 40 && scene.discs.size() > 2) scene.steps = 14;
+        scene.setting.sync_every = 5;
+        scene.setting.micro_steps = 2;
+    }
+    return scenes;
+}
+
+} // namespace
+
+TEST_CASE("periodic: the rule one has the reference's bits") {
+    for (const TestScene& scene : base_scenes())
+        for (const auto& sides : {both, along_x, along_y}) check_bits(moved_along(scene, sides), CollisionRule::one);
+}
+
+TEST_CASE("periodic: beside other effects, the rule one has the reference's bits") {
+    for (const TestScene& base : base_scenes()) {
+        TestScene scene = moved_along(base, both);
+        scene.setting.effects.contact = {ContactKind::restitution, 0.8, 0.001};
+        check_bits(scene, CollisionRule::one);
+        scene.setting.effects.contact = {ContactKind::none, 1, 0.001};
+        check_bits(scene, CollisionRule::one);
+        scene = moved_along(base, along_y);
+        scene.setting.effects.contact = {ContactKind::restitution, 0.8, 0.001};
+        scene.setting.effects.sides[1].restitution = 0.7;
+        check_bits(scene, CollisionRule::one);
+    }
+}
+
+TEST_CASE("periodic: beside warm walls, both rules have the reference's bits") {
+    for (const TestScene& base : {gas(120, 0.05, 0.8, 801), gas(100, 0.6, 0.3, 802)}) {
+        TestScene scene = between_warm_walls(base);
+        scene.steps = 24;
+        scene.setting.sync_every = 5;
+        scene.setting.micro_steps = 2;
+        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
+    }
+}
+
+TEST_CASE("periodic: the rule all has the reference's bits") {
+    for (const TestScene& scene : base_scenes())
+        for (const auto& sides : {both, along_x, along_y}) check_bits(moved_along(scene, sides), CollisionRule::all);
+}
+
+TEST_CASE("periodic: beside other effects, the rule all has the reference's bits") {
+    for (const TestScene& base : base_scenes()) {
+        TestScene scene = moved_along(base, both);
+        scene.setting.effects.contact = {ContactKind::restitution, 0.8, 0.002};
+        check_bits(scene, CollisionRule::all);
+        scene.setting.effects.contact = {ContactKind::none, 1, 0.001};
+        check_bits(scene, CollisionRule::all);
+        scene = moved_along(base, along_x);
+        scene.setting.effects.contact = {ContactKind::restitution, 0.9, 0.002};
+        scene.setting.effects.sides[2].restitution = 0.7;
+        scene.setting.effects.sides[3] = {SideKind::moving, 1, 0, -0.01};
+        scene.setting.effects.gravity = {0, -0.03};
+        check_bits(scene, CollisionRule::all);
+    }
+}
