@@ -2,7 +2,6 @@
 #include "carrom/exact/block_replay.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "block_scratch.hpp"
@@ -14,10 +13,6 @@ namespace {
 /// So many collisions of a block's discs within a law's `one_time` are without end, and some for each disc more.
 constexpr std::uint64_t endless_count = 100000;
 constexpr std::uint64_t endless_count_per_disc = 1000;
-
-std::uint64_t rotated_product(std::uint64_t value, std::uint64_t factor) { return std::rotl(value * factor, 31); }
-
-std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
 double speed_squared(const Disc& disc) { return disc.vx * disc.vx + disc.vy * disc.vy; }
 
@@ -331,14 +326,10 @@ void BlockReplay<Law>::Scratch::note(std::uint32_t slot, std::uint32_t partner, 
     Past& past = pasts[slot];
     past.generation = event.generation;
     past.partner = partner;
-    // Time, partner and velocities; the place follows from them and the state before.
     const std::uint64_t partner_id = is_wall(partner) ? ~std::uint64_t{0} : discs[partner].id;
-    const std::uint64_t sum = rotated_product(bits(event.time), 0x9e3779b97f4a7c15u) +
-                              rotated_product(bits(disc.vx), 0xbf58476d1ce4e5b9u) +
-                              rotated_product(bits(disc.vy), 0x94d049bb133111ebu) + partner_id;
-    std::uint64_t hash = (std::rotl(past.history, 17) ^ sum) * 0xff51afd7ed558ccdu;
-    if constexpr (Law::has_spin) hash = (std::rotl(hash, 23) ^ bits(spins[slot])) * 0xc4ceb9fe1a85ec53u;
-    past.history = (hash ^ (hash >> 32)) | 1;
+    double spin = 0;
+    if constexpr (Law::has_spin) spin = spins[slot];
+    past.add<Law::has_spin>(event.time, disc, partner_id, spin);
     if (is_own[slot] != 0) {
         const float before = vx[slot] * vx[slot] + vy[slot] * vy[slot];
         const double now = speed_squared(disc);

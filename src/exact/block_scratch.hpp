@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -20,6 +21,16 @@ struct Past {
     std::uint64_t history = 0;      ///< 0: nothing
     std::uint32_t generation = 0;   ///< of the last collision
     std::uint32_t partner = nobody; ///< of the last collision
+
+    /// Of a collision: its time, the other's id and the velocities after it; the place follows from them and the state before.
+    template <bool has_spin> void add(double time, const Disc& disc, std::uint64_t partner_id, double spin) {
+        const auto mixed = [](double value, std::uint64_t factor) { return std::rotl(std::bit_cast<std::uint64_t>(value) * factor, 31); };
+        const std::uint64_t sum = mixed(time, 0x9e3779b97f4a7c15u) + mixed(disc.vx, 0xbf58476d1ce4e5b9u) +
+                                  mixed(disc.vy, 0x94d049bb133111ebu) + partner_id;
+        std::uint64_t hash = (std::rotl(history, 17) ^ sum) * 0xff51afd7ed558ccdu;
+        if constexpr (has_spin) hash = (std::rotl(hash, 23) ^ std::bit_cast<std::uint64_t>(spin)) * 0xc4ceb9fe1a85ec53u;
+        history = (hash ^ (hash >> 32)) | 1;
+    }
 };
 static_assert(sizeof(Past) == 16);
 
