@@ -23,8 +23,7 @@ void Sides::begin_interval(std::int64_t n) {
 }
 
 Frame Sides::frame_at(double time) const {
-    const auto fallen = [time](double g) { return (0.5 * g * time) * time; };
-    return {gravity_[0] != 0 || gravity_[1] != 0 || effects_.drag != 0, fallen(gravity_[0]), fallen(gravity_[1]), gravity_[0] * time,
+    return {gravity_[0] != 0 || gravity_[1] != 0 || effects_.drag != 0, fallen(gravity_[0], time), fallen(gravity_[1], time), gravity_[0] * time,
             gravity_[1] * time, slowing_at(time), time};
 }
 
@@ -41,30 +40,25 @@ Extent Sides::extent_at(double time) const {
 
 Extent Sides::walls_between(double begin, double end) const {
     const Extent first = extent_at(begin), last = extent_at(end);
-    const double eighth = (end - begin) * (end - begin) / 8; // a chord is no further than that times the acceleration from its parabola
-    const double x_bend = std::fabs(gravity_[0]) * eighth, y_bend = std::fabs(gravity_[1]) * eighth;
-    return {std::max(first.x_low, last.x_low) + x_bend, std::min(first.x_high, last.x_high) - x_bend,
-            std::max(first.y_low, last.y_low) + y_bend, std::min(first.y_high, last.y_high) - y_bend};
+    // A chord is no further from its curve than that times the largest acceleration in between, the last.
+    const double eighth = std::pow((end - begin) / slowing_at(end), 2) / 8;
+    const auto bend = [&](std::size_t side) { return std::fabs(pull_at(side)) * eighth; };
+    return {std::max(first.x_low, last.x_low) + bend(0), std::min(first.x_high, last.x_high) - bend(1),
+            std::max(first.y_low, last.y_low) + bend(2), std::min(first.y_high, last.y_high) - bend(3)};
 }
 
-/// The first time at which the distance is not positive and falls. Touching counts while it falls, not while it grows.
-double Sides::delay_of(const Approach& approach) {
+/// With drag a frame and a clock that begin at `time` see the same flight: F(s + d) - F(s) - F'(s) d = F(d / (1 - c s)).
+double Sides::delay_of(const Approach& approach, double time) const {
     const auto& [distance, rate, pull] = approach;
-    if (rate < 0) {
-        if (!(distance > 0)) return 0;
-        if (pull == 0) return distance / -rate;
-        const double square = rate * rate - 2 * pull * distance;
-        return square > 0 ? 2 * distance / (-rate + std::sqrt(square)) : never; // pulled away before it gets there
-    }
-    if (!(pull < 0)) return never;
-    // It comes back. A disc that rounding has left beyond the wall comes up to it first, or else turns round where it is.
-    return (rate + std::sqrt(std::max(rate * rate - 2 * pull * distance, 0.0))) / -pull;
+    if (effects_.drag == 0 || pull == 0) return fall_delay(distance, rate, pull);
+    const double slowing = slowing_at(time);
+    return slowing * dragged_fall_delay(distance, slowing * rate, pull, effects_.drag);
 }
 
 Sides::Meeting Sides::meeting(const Disc& disc, Axis axis) const {
     if (disc.is_gone()) return {};
     const std::size_t low = 2 * static_cast<std::size_t>(axis);
-    const double to_low = delay_of(approach(disc, low)), to_high = delay_of(approach(disc, low + 1));
+    const double to_low = delay_of(approach(disc, low), disc.tau), to_high = delay_of(approach(disc, low + 1), disc.tau);
     if (to_low <= to_high) return {disc.tau + to_low, low};
     return {disc.tau + to_high, low + 1};
 }
@@ -72,11 +66,11 @@ Sides::Meeting Sides::meeting(const Disc& disc, Axis axis) const {
 /// Straight flight and a pull towards the wall alone: what pulls away from it is left out, to be on the safe side.
 bool Sides::may_meet(const Disc& disc, double time, double margin) const {
     if (disc.is_gone()) return false;
-    const double rest = time - disc.tau;
+    const double rest = time - disc.tau, fallen_for = rest / slowing_at(disc.tau);
     for (std::size_t side = 0; side < 4; ++side) {
         const auto [distance, rate, pull] = approach(disc, side);
         const double towards = std::min(pull, 0.0);
-        if (!(distance + (rate + 0.5 * towards * rest) * rest > margin) && (rate < 0 || towards < 0)) return true;
+        if (!(distance + (rate * rest + fallen(towards, fallen_for)) > margin) && (rate < 0 || towards < 0)) return true;
     }
     return false;
 }
@@ -118,12 +112,12 @@ void Sides::rebound(Disc& disc, std::size_t side, double restitution, double tim
         DiscRandom random(effects_.thermal_seed, Purpose::thermal_wall, disc.id, 4 * n_before + side);
         const double temperature = effects_.sides[side].temperature / bodies_.of(disc.id).mass;
         away = std::sqrt(2 * temperature * random_exponential(random)) / slowing_at(time);
-        const double speed = std::sqrt(2 * temperature * random_exponential(random)) / slowing_at(time);
-        along = speed * random_direction(random).x - gravity_[1 - side / 2] * time;
+        const double speed = std::sqrt(2 * temperature * random_exponential(random));
+        along = (speed * random_direction(random).x) / slowing_at(time) - gravity_[1 - side / 2] * falling_time(time);
     }
     // A disc that is pulled back stays away for the contact time at least: else one at rest would bounce without end.
-    const double pull = -sign * gravity_[side / 2];
-    if (pull > 0) away = std::max(away, 0.5 * pull * effects_.contact.contact_time);
+    const double pull = -sign * pull_at(side);
+    if (pull > 0) away = std::max(away, 0.5 * pull * effects_.contact.contact_time / slowing_at(time));
     normal = wall + sign * away;
 }
 

@@ -6,11 +6,16 @@
 #include <functional>
 #include <tuple>
 
+#include "carrom/effects/drag.hpp"
+#include "carrom/effects/fall.hpp"
 #include "limits.hpp"
 
 namespace carrom {
 
 namespace {
+
+/// Rate times the time between syncs.
+constexpr double longest_drag = 4;
 
 /// Refuses `key` where it is set, for want of what would make use of it.
 void refuse_without(const Check& check, std::string_view key, std::string_view needed) {
@@ -150,12 +155,9 @@ void fill_drag(const Check& check) {
     else effects.drag = *rate;
     if (effects.drag == 0) return;
     if (check.scene.rule == CollisionRule::one) check.refuse(setting, "drag needs time.collisions = \"all\": under the rule \"one\" discs keep their speed");
-    if (effects.drag * interval > 4)
+    if (effects.drag * interval > longest_drag)
         check.refuse(setting, fmt::format("'{}' = {} leaves less than a fiftieth of a velocity from sync to sync; take a smaller time.sync_every", key, *rate));
     if (effects.contact.kind == ContactKind::rough) check.refuse(setting, "this version has no drag together with rough discs");
-    if (effects.gravity.is_any()) check.refuse(setting, "this version has no drag together with gravity");
-    for (const Side& side : effects.sides)
-        if (side.kind == SideKind::moving) check.refuse(setting, "this version has no drag together with moving walls");
 }
 
 void fill_thermal(const Check& check) {
@@ -181,13 +183,17 @@ void fill_obstacles(const Check& check) {
     constexpr std::string_view key = "effects.obstacles.restitution";
     if (!obstacles.are_any()) return refuse_without(check, key, "'effects.obstacles.discs' or 'effects.obstacles.segments'");
     if (const auto restitution = number_within(check, key, 0, 1)) obstacles.restitution = *restitution;
+    if (check.scene.effects.gravity.is_any() && check.scene.effects.drag > 0)
+        check.refuse(*check.settings.find("effects.drag.rate"), "this version has no obstacles together with both drag and gravity: it finds contacts with bodies on straight lines and parabolas");
     for (std::size_t side = 0; side < 4; ++side)
         if (check.scene.effects.sides[side].kind == SideKind::moving)
             check.refuse(*check.settings.find(std::string("box.") + side_names[side] + ".kind"), "this version has no moving walls together with obstacles");
 }
 
 bool lose_energy_or_fall(const Effects& effects) {
-    const bool is_lossy = std::any_of(effects.sides.begin(), effects.sides.end(), [](const Side& side) { return side.restitution < 1; });
+    const bool is_lossy = std::any_of(effects.sides.begin(), effects.sides.end(), [&effects](const Side& side) {
+        return side.restitution < 1 || (effects.drag > 0 && side.speed != 0); // drag presses discs against a wall that pushes them
+    });
     return is_lossy || effects.contact.kind == ContactKind::restitution || effects.contact.kind == ContactKind::rough ||
            effects.gravity.is_any() || effects.obstacles.restitution < 1;
 }
@@ -204,8 +210,11 @@ void check_open_sides(const Check& check) {
 void check_fall(const Check& check) {
     const Scene& scene = check.scene;
     const auto time = static_cast<double>(scene.sync_every) / static_cast<double>(scene.micro_steps);
+    const double drag = scene.effects.drag;
+    if (drag * time > longest_drag) return; // refused already
+    const double fall = drag > 0 ? dragged_fall(drag, drag_clock(drag, time)) : 0.5 * time * time;
     for (const auto& [key, g] : {std::pair("effects.gravity.x", scene.effects.gravity.x), {"effects.gravity.y", scene.effects.gravity.y}}) {
-        if (0.5 * std::fabs(g) * time * time <= 0.5 * scene.box_size) continue;
+        if (std::fabs(g) * fall <= 0.5 * scene.box_size) continue;
         const double longest = std::floor(std::sqrt(scene.box_size / std::fabs(g)) * static_cast<double>(scene.micro_steps));
         check.refuse(*check.settings.find(key),
                      fmt::format("'{}' = {} makes discs fall further than half the box from sync to sync; {}", key, g,

@@ -123,7 +123,8 @@ template <class Law> ReplayWindow ExactEngine<Law>::choose(double target) {
     // Largest speeds come and go: what was needed lately may be needed again.
     window.speed_bound = std::max(communicator_.max(largest_speed_) * exact_.speed_allowance, 0.99 * travel_speed_);
     // Discs at rest on a floor become faster as the frame falls.
-    window.speed_bound += law_.sides().speed_gained_at(std::min(2 * last_duration_, target - time_));
+    const double soon = std::min(time_ + 2 * last_duration_, target);
+    window.speed_bound += law_.sides().speed_gained_at(soon) - law_.sides().speed_gained_at(time_);
     const auto n = static_cast<double>(discs_.n_total());
     ExactNeeds needs{law_.box_size(), law_.radius() + law_.slack(), n, window.speed_bound, 0, time_, exact_.halo, false};
     is_one_block_ = communicator_.size() == 1 && tuning_.threads == 1 && n <= most_discs_alone;
@@ -287,7 +288,7 @@ template <class Law> void ExactEngine<Law>::sync() {
         disc.tau = 0;
     }
     jumped_ += law_.sides().jump_at(time_);
-    largest_speed_ += law_.sides().speed_gained_at(time_);
+    largest_speed_ = (largest_speed_ + law_.sides().speed_gained_at(time_)) * law_.sides().slowing_at(time_);
     begin_interval();
     settled_time_ -= time_;
     time_ = 0;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "carrom/effects/drag.hpp"
 #include "carrom/effects/plain_law.hpp"
 #include "carrom/parallel/exchange.hpp"
 #include "carrom/parallel/slabs.hpp"
@@ -50,7 +51,7 @@ StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64
     : scene_(scene), effects_(per_micro_step(scene.effects, static_cast<double>(scene.micro_steps))), communicator_(communicator), first_id_(slab_begin(communicator.rank(), scene.n_discs, communicator.size())),
       micro_steps_done_(micro_steps_done), micro_steps_before_(micro_steps_done),
       tolerance_(PlainLaw(scene.box_size, scene.radius).tolerance()) {
-    may_lose_energy_ = effects_.contact.kind == ContactKind::restitution || effects_.obstacles.restitution < 1;
+    may_lose_energy_ = effects_.contact.kind == ContactKind::restitution || effects_.obstacles.restitution < 1 || (effects_.gravity.is_any() && effects_.drag != 0);
     for (const Side& side : effects_.sides) {
         may_lose_energy_ = may_lose_energy_ || side.restitution < 1;
         walls_give_energy_ = walls_give_energy_ || side.kind == SideKind::thermal || side.speed != 0;
@@ -172,7 +173,7 @@ StateCheck::Finding StateCheck::first_wrong_count() const {
 
 StateCheck::Finding StateCheck::first_other_motion() const {
     const bool is_free = !effects_.gravity.is_any() && effects_.drag == 0; // velocities are rewritten by nothing then
-    const double left = slowing(), time = stretch();
+    const double left = slowing(), time = effects_.drag == 0 ? stretch() : drag_clock(effects_.drag, stretch());
     const double gained = std::hypot(effects_.gravity.x, effects_.gravity.y) * (time + static_cast<double>(scene_.sync_every));
     for (std::size_t i = 0; i < known_.size(); ++i) {
         const Known& now = known_[i];
@@ -267,7 +268,7 @@ StateCheck::Finding StateCheck::first_other_total(std::span<const Disc> own, con
         for (const Known& known : known_) gain += resting_gain(known);
         const double k = static_cast<double>(scene_.micro_steps);
         const double fall = std::fabs(effects_.gravity.x) + std::fabs(effects_.gravity.y);
-        expected = energy_ * slowing() * slowing();
+        expected = energy_ * energy_left();
         scale = energy_ + n * k * k * fall * scene_.box_size;
         allowed = bound * scale + n * k * k * communicator_.max(gain);
         energy_ = energy;
@@ -281,8 +282,7 @@ StateCheck::Finding StateCheck::first_other_total(std::span<const Disc> own, con
 /// A disc's energy before and after, with what effects explain taken out.
 SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     const Known& known = known_[i];
-    const double left = slowing();
-    SharedEnergy energy = {first_id_ + i, twice_energy(before_[i].disc) * left * left, twice_energy(known.disc)};
+    SharedEnergy energy = {first_id_ + i, twice_energy(before_[i].disc) * energy_left(), twice_energy(known.disc)};
     energy.allowance = resting_gain(known);
     if (effects_.drag != 0) energy.allowance += energy_bound * energy.before;
     if (walls_give_energy_ && known.walls > 0) energy.allowance = std::numeric_limits<double>::infinity();
@@ -304,6 +304,9 @@ double StateCheck::resting_gain(const Known& known) const {
     const double leaving = 0.5 * std::max(std::fabs(effects_.gravity.x), std::fabs(effects_.gravity.y)) * effects_.contact.contact_time;
     return 1.01 * leaving * leaving * static_cast<double>(known.walls);
 }
+
+/// Of the energy, but for what collisions take; under gravity drag takes an amount that depends on the flight, and this is at most what is left.
+double StateCheck::energy_left() const { return effects_.gravity.is_any() ? 1 : slowing() * slowing(); }
 
 double StateCheck::slowing() const { return effects_.drag == 0 ? 1 : std::exp(-effects_.drag * stretch()); }
 

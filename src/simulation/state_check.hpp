@@ -79,6 +79,7 @@ private:
     double resting_gain(const Known& known) const;
     /// What is left of a velocity after the last look's stretch of time, and how long that was.
     double slowing() const;
+    double energy_left() const;
     double stretch() const { return static_cast<double>(micro_steps_done_ - micro_steps_before_); }
     double n_syncs_since(std::int64_t micro_step) const;
     void note_speeds();

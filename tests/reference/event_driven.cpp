@@ -28,8 +28,8 @@ void EventDrivenReference::run_micro_steps(std::int64_t count) {
             if (has_left(disc)) continue;
             advance(disc, setting_.clock_at(setting_.sync_every));
             if (setting_.drag_clock) {
-                disc.vx *= 1 - setting_.effects.drag / static_cast<double>(setting_.micro_steps) * disc.tau;
-                disc.vy *= 1 - setting_.effects.drag / static_cast<double>(setting_.micro_steps) * disc.tau;
+                disc.vx *= setting_.slowing_at(disc.tau);
+                disc.vy *= setting_.slowing_at(disc.tau);
             }
             restart_frame(disc, disc.tau);
             bring_inside(setting_, disc);
@@ -92,7 +92,13 @@ EventDrivenReference::Wall EventDrivenReference::wall_at(DiscId disc, DiscId axi
     const double from_line = is_open ? -setting_.radius_of(disc) : setting_.radius_of(disc);
     const double start = is_high ? setting_.box_size - from_line : from_line;
     const double at_sync = start + speed * static_cast<double>(micro_step_ / setting_.sync_every * setting_.sync_every);
-    return {(at_sync + speed * time) - (0.5 * g * time) * time, speed - g * time};
+    const double pull = g - setting_.effects.drag / k * speed;
+    return {(at_sync + speed * time) - fallen(pull, time), speed - pull * (setting_.drag_clock ? time / setting_.slowing_at(time) : time)};
+}
+
+double EventDrivenReference::fallen(double pull, double time) const {
+    if (setting_.drag_clock && pull != 0) return pull * setting_.dragged_fall(time);
+    return (0.5 * pull * time) * time;
 }
 
 double EventDrivenReference::gravity(DiscId axis) const {
@@ -110,9 +116,14 @@ EventDrivenReference::Meeting EventDrivenReference::meeting(const Disc& disc, Di
         const double x = axis == Event::wall_x ? disc.x : disc.y, v = axis == Event::wall_x ? disc.vx : disc.vy;
         const double gap = is_high ? wall.place - x : x - wall.place;
         const double rate = is_high ? wall.speed - v : v - wall.speed;
-        const double pull = is_high ? -gravity(axis) : gravity(axis);
+        const double moving = setting_.effects.sides[2 * axis + (is_high ? 1 : 0)].speed / static_cast<double>(setting_.micro_steps);
+        const double at_wall = gravity(axis) - setting_.effects.drag / static_cast<double>(setting_.micro_steps) * moving;
+        const double pull = is_high ? -at_wall : at_wall;
         double delay = never;
-        if (rate < 0 && gap <= 0) {
+        if (setting_.drag_clock && pull != 0) {
+            const double left = setting_.slowing_at(disc.tau);
+            delay = left * setting_.dragged_fall_delay(gap, left * rate, pull);
+        } else if (rate < 0 && gap <= 0) {
             delay = 0;
         } else if (rate < 0 && pull == 0) {
             delay = gap / -rate;
@@ -137,11 +148,14 @@ void EventDrivenReference::rebound(Disc& disc, DiscId axis, bool is_high, double
     const std::size_t number = 2 * axis + (is_high ? 1 : 0);
     if (setting_.effects.sides[number].kind == SideKind::thermal) {
         const auto [fast, sideways] = setting_.leaving(disc, number);
-        away = fast;
-        (axis == Event::wall_x ? disc.vy : disc.vx) = sideways - gravity(1 - axis) * time;
+        const double left = setting_.slowing_at(time);
+        away = fast / left;
+        (axis == Event::wall_x ? disc.vy : disc.vx) = sideways / left - gravity(1 - axis) * (setting_.drag_clock ? time / left : time);
     }
-    const double pull_back = is_high ? gravity(axis) : -gravity(axis);
-    if (pull_back > 0) away = std::max(away, 0.5 * pull_back * setting_.contact_time());
+    const double moving = setting_.effects.sides[number].speed / static_cast<double>(setting_.micro_steps);
+    const double at_wall = gravity(axis) - setting_.effects.drag / static_cast<double>(setting_.micro_steps) * moving;
+    const double pull_back = is_high ? at_wall : -at_wall;
+    if (pull_back > 0) away = std::max(away, 0.5 * pull_back * setting_.contact_time() / setting_.slowing_at(time));
     v = is_high ? wall.speed - away : wall.speed + away;
 }
 
@@ -149,8 +163,8 @@ void EventDrivenReference::rebound(Disc& disc, DiscId axis, bool is_high, double
 void EventDrivenReference::restart_frame(Disc& disc, double time) const {
     const double gx = gravity(Event::wall_x), gy = gravity(Event::wall_y);
     if (gx == 0 && gy == 0) return;
-    disc.x = disc.x + (0.5 * gx * time) * time;
-    disc.y = disc.y + (0.5 * gy * time) * time;
+    disc.x = disc.x + fallen(gx, time);
+    disc.y = disc.y + fallen(gy, time);
     disc.vx = disc.vx + gx * time;
     disc.vy = disc.vy + gy * time;
 }

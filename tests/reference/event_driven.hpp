@@ -83,6 +83,7 @@ private:
     void predict_obstacle(DiscId p);
     Wall wall_at(DiscId disc, DiscId axis, bool is_high, double time) const;
     double gravity(DiscId axis) const;
+    double fallen(double pull, double time) const;
     Meeting meeting(const Disc& disc, DiscId axis) const;
     void rebound(Disc& disc, DiscId axis, bool is_high, double time, bool is_touched) const;
     void restart_frame(Disc& disc, double time) const;

@@ -31,12 +31,18 @@ struct Setting {
 
     /// Under drag: what its clock shows so many micro-steps after a sync.
     std::function<double(double micro_steps)> drag_clock{};
+    /// Gravity under drag, or a wall that moves: how far from rest what falls is, over its acceleration, and when it meets a wall, all in
+    /// the clock and per micro-step (fall.hpp). Handed in, and held to their own path elsewhere.
+    std::function<double(double clock)> dragged_fall{};
+    std::function<double(double distance, double velocity, double pull)> dragged_fall_delay{};
     /// With obstacles under gravity: see FixedBodies::meeting_time. Handed in, and held to its own path elsewhere.
     std::function<double(double dx, double dy, double wx, double wy, double gx, double gy, double reach)> falling_contact{};
     double clock_at(std::int64_t count) const {
         const auto time = static_cast<double>(count);
         return drag_clock ? drag_clock(time) : time;
     }
+    /// What the velocity of the clock is times to be that of the box.
+    double slowing_at(double clock) const { return 1 - effects.drag / static_cast<double>(micro_steps) * clock; }
 
     /// The same in micro-steps for a disc at the wall `number`.
     std::array<double, 2> leaving(const Disc& disc, std::size_t number) const;

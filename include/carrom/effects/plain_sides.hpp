@@ -23,6 +23,7 @@ public:
     static constexpr double jump_at(double /*time*/) { return 0; }
     static constexpr bool are_any_open() { return false; }
     static constexpr double speed_gained_at(double /*time*/) { return 0; }
+    static constexpr double slowing_at(double /*time*/) { return 1; }
 
 private:
     double box_size_;

@@ -4,6 +4,7 @@
 // Times count from the last sync, at which the falling frame (frame.hpp) is at rest in the box. In it discs fly straight and
 // a wall at w0 that moves with u is at w(t) = (w0 + u t) - (g/2 t) t with the velocity u - g t: its distance to a disc
 // is a quadratic, solved without subtracting like numbers. For g = 0 and u = 0 the plain law's formulas are left, bit for bit.
+// With drag times are those of its clock s, t = s + c F(s) (fall.hpp): the wall is at (w0 + u s) - (g - c u) F(s).
 // Periodic sides are walls infinitely far.
 #pragma once
 
@@ -16,6 +17,7 @@
 #include "carrom/core/disc.hpp"
 #include "carrom/core/frame.hpp"
 #include "carrom/effects/effects.hpp"
+#include "carrom/effects/fall.hpp"
 
 namespace carrom {
 
@@ -42,8 +44,11 @@ public:
     /// See PlainLaw: at both ends inside, and by as much as the walls' paths are bent in between.
     Extent walls_between(double begin, double end) const;
     /// By how much the frame jumps at a sync at `time`, in x.
-    double jump_at(double time) const { return std::fabs(0.5 * gravity_[0] * time * time); }
-    double speed_gained_at(double time) const { return (std::fabs(gravity_[0]) + std::fabs(gravity_[1])) * time; }
+    double jump_at(double time) const { return std::fabs(fallen(gravity_[0], time)); }
+    /// The frame's speed at most, in its own clock.
+    double speed_gained_at(double time) const { return (std::fabs(gravity_[0]) + std::fabs(gravity_[1])) * falling_time(time); }
+    /// exp(-c t) = 1 - c s: turns velocities in the clock into those in the box.
+    double slowing_at(double time) const { return 1 - effects_.drag * time; }
 
     /// When the disc meets a side of this axis, or `never`.
     double wall_time(const Disc& disc, Axis axis) const { return meeting(disc, axis).time; }
@@ -69,7 +74,7 @@ private:
         double time = never;
         std::size_t side = 0;
     };
-    /// Distance into the box, its rate and its acceleration, at the disc's own time.
+    /// Distance into the box, its rate in the clock, and its acceleration, at the disc's own time.
     struct Approach {
         double distance, rate, pull;
     };
@@ -85,17 +90,22 @@ private:
     /// For the centre of a disc of that radius that touches, or has just left an open side.
     double wall_at(std::size_t side, double time, double radius) const {
         const double place = departure_or_touch(side, radius) + moved_[side];
-        return (place + speeds_[side] * time) - (0.5 * gravity_[side / 2] * time) * time;
+        return (place + speeds_[side] * time) - fallen(pull_at(side), time);
     }
-    /// Of the clock: exp(-c t) = 1 - c s.
-    double slowing_at(double time) const { return 1 - effects_.drag * time; }
-    double wall_velocity(std::size_t side, double time) const { return speeds_[side] - gravity_[side / 2] * time; }
+    /// What discs near the wall are accelerated with against it: drag brakes those that a moving wall pushes.
+    double pull_at(std::size_t side) const { return gravity_[side / 2] - effects_.drag * speeds_[side]; }
+    double fallen(double g, double time) const {
+        if (effects_.drag == 0 || g == 0) return (0.5 * g * time) * time;
+        return g * dragged_fall(effects_.drag, time);
+    }
+    double falling_time(double time) const { return effects_.drag == 0 ? time : dragged_fall_speed(effects_.drag, time); }
+    double wall_velocity(std::size_t side, double time) const { return speeds_[side] - pull_at(side) * falling_time(time); }
     Approach approach(const Disc& disc, std::size_t side) const {
         const double sign = sign_of(side);
         return {sign * (place_of(disc, side / 2) - wall_at(side, disc.tau, bodies_.of(disc.id).radius)),
-                sign * (velocity_of(disc, side / 2) - wall_velocity(side, disc.tau)), sign * gravity_[side / 2]};
+                sign * (velocity_of(disc, side / 2) - wall_velocity(side, disc.tau)), sign * pull_at(side)};
     }
-    static double delay_of(const Approach& approach);
+    double delay_of(const Approach& approach, double time) const;
     Meeting meeting(const Disc& disc, Axis axis) const;
     void rebound(Disc& disc, std::size_t side, double restitution, double time) const;
 

@@ -78,7 +78,7 @@ struct NamedEffects {
     bool is_for_one;
 };
 std::vector<NamedEffects> all_effects() {
-    Effects none, lossy, lossy_walls, thermal, piston, falling, pile, slowed;
+    Effects none, lossy, lossy_walls, thermal, piston, falling, pile, slowed, sinking;
     none.contact.kind = ContactKind::none;
     lossy.contact = {ContactKind::restitution, 0.8, 0.001};
     lossy_walls.sides[0].restitution = lossy_walls.sides[3].restitution = 0.6;
@@ -90,8 +90,11 @@ std::vector<NamedEffects> all_effects() {
     pile.gravity = {0, -0.1};
     pile.sides[2].restitution = 0.3;
     slowed.drag = 0.05;
+    sinking = pile;
+    sinking.drag = 0.05;
     return {{"no contact", none, true},  {"restitution", lossy, true},  {"lossy walls", lossy_walls, true}, {"a thermal wall", thermal, true},
-            {"pistons", piston, false}, {"gravity", falling, false}, {"a pile", pile, false},            {"drag", slowed, false}};
+            {"pistons", piston, false}, {"gravity", falling, false}, {"a pile", pile, false},            {"drag", slowed, false},
+            {"gravity and drag", sinking, false}};
 }
 
 /// What the check sees after the first step of a gas, and what it says when that has been spoilt.

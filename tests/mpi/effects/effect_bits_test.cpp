@@ -11,7 +11,6 @@
 #include <catch2/catch.hpp>
 
 #include "carrom/core/random_numbers.hpp"
-#include "carrom/effects/drag.hpp"
 #include "carrom/effects/falling_contact.hpp"
 #include "carrom/effects/obstacles.hpp"
 #include "reference_bits.hpp"
@@ -95,9 +94,7 @@ TEST_CASE("effects: obstacles have the references' bits, with restitution, gravi
         scene.setting.falling_contact = falling_contact;
         check_bits(scene, CollisionRule::all);
         effects.gravity = {};
-        const double rate = 0.2, per_micro_step = rate / static_cast<double>(scene.setting.micro_steps);
-        effects.drag = rate;
-        scene.setting.drag_clock = [per_micro_step](double n) { return drag_clock(per_micro_step, n); };
+        set_drag(scene, 0.2);
         check_bits(scene, CollisionRule::all);
     }
 }
@@ -118,14 +115,18 @@ TEST_CASE("effects: open sides have the references' bits, with obstacles and gra
     }
 }
 
-TEST_CASE("effects: drag has the reference's bits") {
+TEST_CASE("effects: drag has the reference's bits, with gravity and moving walls too") {
     for (TestScene scene : base_scenes()) {
-        const double rate = 0.2, per_micro_step = rate / static_cast<double>(scene.setting.micro_steps);
-        scene.setting.effects.drag = rate;
-        scene.setting.drag_clock = [per_micro_step](double n) { return drag_clock(per_micro_step, n); };
+        Effects& effects = scene.setting.effects;
+        set_drag(scene, 0.2);
         check_bits(scene, CollisionRule::all);
-        scene.setting.effects.contact = {ContactKind::restitution, 0.9, 0.002};
-        scene.setting.effects.sides[3].restitution = 0.8;
+        effects.gravity = {0.02, -0.05};
+        check_bits(scene, CollisionRule::all);
+        effects.contact = {ContactKind::restitution, 0.9, 0.002};
+        effects.sides[2].restitution = 0.8;
+        check_bits(scene, CollisionRule::all);
+        effects.sides[1] = {SideKind::moving, 1, 0, -0.03};
+        effects.sides[3] = {SideKind::moving, 0.9, 0, 0.02};
         check_bits(scene, CollisionRule::all);
     }
 }
@@ -148,6 +149,10 @@ TEST_CASE("effects: thermal walls have the references' bits") {
         effects.contact = {ContactKind::restitution, 0.9, 0.002};
         check_bits(scene, CollisionRule::one);
         effects.gravity = {0.01, -0.02};
+        check_bits(scene, CollisionRule::all);
+        set_drag(scene, 0.2);
+        check_bits(scene, CollisionRule::all);
+        effects.gravity = {};
         check_bits(scene, CollisionRule::all);
     }
 }

@@ -7,6 +7,9 @@
 
 #include <omp.h>
 
+#include "carrom/effects/drag.hpp"
+#include "carrom/effects/fall.hpp"
+
 namespace carrom::test {
 
 namespace {
@@ -34,6 +37,16 @@ Simulation simulation_of(const TestScene& scene, CollisionRule rule, const Commu
 
 void advance_to(Simulation& simulation, std::int64_t step) {
     while (simulation.step() < step) simulation.advance_towards(step);
+}
+
+void set_drag(TestScene& scene, double rate) {
+    reference::Setting& setting = scene.setting;
+    setting.effects.drag = rate;
+    const double c = rate / static_cast<double>(setting.micro_steps);
+    if (!(c > 0)) return;
+    setting.drag_clock = [c](double n) { return drag_clock(c, n); };
+    setting.dragged_fall = [c](double clock) { return dragged_fall(c, clock); };
+    setting.dragged_fall_delay = [c](double distance, double velocity, double pull) { return dragged_fall_delay(distance, velocity, pull, c); };
 }
 
 Totals run(const TestScene& scene, CollisionRule rule, const Communicator& world, const Tuning& tuning) {

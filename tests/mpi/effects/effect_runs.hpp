@@ -15,4 +15,7 @@ Totals run(const TestScene& scene, CollisionRule rule, const Communicator& world
 
 void advance_to(Simulation& simulation, std::int64_t step);
 
+/// Drag of that rate per step, and what the references are told of it.
+void set_drag(TestScene& scene, double rate);
+
 } // namespace carrom::test

@@ -106,8 +106,12 @@ TEST_CASE("Drag is read, and refused beside what it does not go with yet") {
     CHECK(has(problems_with({"effects.drag.rate=0.02"}), "drag needs time.collisions = \"all\""));
     CHECK(has(problems_with({"effects.drag.rate=-1", all}), "must not be negative"));
     CHECK(has(problems_with({"effects.drag.rate=0.1", all}), "a smaller time.sync_every"));
-    CHECK(has(problems_with({"effects.drag.rate=0.02", "effects.gravity.y=-0.01", all}), "no drag together with gravity"));
-    CHECK(has(problems_with({"effects.drag.rate=0.02", "box.right.kind=moving", "box.right.speed=1", all}), "no drag together with moving walls"));
+    CHECK(problems_with({"effects.drag.rate=0.02", "effects.gravity.y=-0.01", all}).empty());
+    CHECK(problems_with({"effects.drag.rate=0.02", "box.right.kind=moving", "box.right.speed=0.01", "effects.contact.contact_time=0.01", all}).empty());
+    CHECK(has(problems_with({"effects.drag.rate=0.02", "effects.gravity.y=-0.01", "effects.obstacles.discs=[[5, 5, 1]]", all}),
+              "no obstacles together with both drag and gravity"));
+    CHECK(has(problems_with({"effects.gravity.x=0.03", all}), "time.sync_every = 57 or less"));
+    CHECK(problems_with({"effects.gravity.x=0.03", "effects.drag.rate=0.02", all}).empty()); // falls 42 from sync to sync instead of 61
 }
 
 TEST_CASE("Rough discs are read, and refused beside what does not know of spins") {
