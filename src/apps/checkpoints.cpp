@@ -72,8 +72,9 @@ void Checkpoints::write(const Simulation& simulation, Recordings& recordings) {
     header.step = simulation.step();
     header.micro_steps_done = simulation.micro_steps_done();
     header.frame = simulation.frame();
+    header.has_spins = scene_.effects.contact.kind == ContactKind::rough;
     const std::string path = checkpoint_path(scene_.checkpoint->folder, header.step);
-    write_checkpoint(path, header, simulation.discs(), ranks_, n_threads_, recordings.samples());
+    write_checkpoint(path, header, simulation.discs(), ranks_, n_threads_, recordings.samples(), simulation.spins());
     last_written_ = header.step;
     std::erase(kept_, path);
     kept_.push_back(path);

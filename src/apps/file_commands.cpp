@@ -73,10 +73,10 @@ std::string summary_text(const FileSummary& summary) {
     text += line("discs", fmt::format("{} in a box of {:g}", summary.n_discs, summary.box_size));
     if (summary.kind == FileKind::trajectory) {
         text += line("radius", fmt::format("{:g}", summary.radius));
-        const std::string fields = fmt::format("{}{}{}", summary.has_position ? " position" : "", summary.has_velocity ? " velocity" : "",
-                                               summary.has_collisions ? " collisions" : "");
+        const std::string fields = fmt::format("{}{}{}{}", summary.has_position ? " position" : "", summary.has_velocity ? " velocity" : "",
+                                               summary.has_collisions ? " collisions" : "", summary.has_angular_velocity ? " angular_velocity" : "");
         text += line("fields", fields.substr(std::min<std::size_t>(1, fields.size())));
-        if (summary.has_position || summary.has_velocity) text += line("numbers", fmt::format("of {} bytes", summary.bytes_per_number));
+        if (summary.has_position || summary.has_velocity || summary.has_angular_velocity) text += line("numbers", fmt::format("of {} bytes", summary.bytes_per_number));
         text += line("frames", frames_text(summary.steps));
     }
     return text;
@@ -122,7 +122,7 @@ ExitCode info(const std::string& path, const Communicator& ranks) {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// What no state of a run can be; empty if all is well.
-std::string flaw_of(const Disc& disc, double radius, const CheckpointHeader& header, const Extent& box) {
+std::string flaw_of(const Disc& disc, double spin, double radius, const CheckpointHeader& header, const Extent& box) {
     const double clock = header.clock();
     if (disc.is_gone()) return disc.tau == Disc::gone && disc.vx == 0 && disc.vy == 0 ? "" : fmt::format("disc {} has left the box, yet moves", disc.id);
     const Disc shown = header.frame.in_box(disc, clock);
@@ -130,7 +130,7 @@ std::string flaw_of(const Disc& disc, double radius, const CheckpointHeader& hea
     // A disc may stand a little beyond its wall for the rest of a micro-step, or by the rounding of L - r.
     const double slack = 1e-6 * header.radius + 0x1p-50 * header.box_size;
     const double margin = radius - slack;
-    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(disc.vx) || !std::isfinite(disc.vy))
+    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(disc.vx) || !std::isfinite(disc.vy) || !std::isfinite(spin))
         return fmt::format("disc {} has a number that is not finite", disc.id);
     if (x < box.x_low + margin || x > box.x_high - margin || y < box.y_low + margin || y > box.y_high - margin)
         return fmt::format("disc {} is outside the box, at ({}, {})", disc.id, x, y);
@@ -154,8 +154,10 @@ void verify_checkpoint(const std::string& path, const Communicator& ranks) {
     make_room(3, box.y_high, 1);
     std::string flaw;
     std::uint64_t sums[] = {0, 0};
-    for (const Disc& disc : checkpoint.discs) {
-        if (flaw.empty()) flaw = flaw_of(disc, bodies.of(disc.id).radius, checkpoint.header, box);
+    for (std::size_t i = 0; i < checkpoint.discs.size(); ++i) {
+        const Disc& disc = checkpoint.discs[i];
+        const double spin = checkpoint.spins.empty() ? 0 : checkpoint.spins[i];
+        if (flaw.empty()) flaw = flaw_of(disc, spin, bodies.of(disc.id).radius, checkpoint.header, box);
         sums[0] += disc.wall_collisions;
         sums[1] += disc.pair_collisions;
     }
@@ -177,7 +179,7 @@ void verify_frames(const FrameFile& file, const std::string& path) {
             for (std::size_t i = 0; i < rows.size(); ++i) {
                 const FrameRow& row = rows[i];
                 const bool is_inside = row.x >= 0 && row.x <= summary.box_size && row.y >= 0 && row.y <= summary.box_size;
-                if ((summary.has_position && !is_inside) || !std::isfinite(row.vx) || !std::isfinite(row.vy))
+                if ((summary.has_position && !is_inside) || !std::isfinite(row.vx) || !std::isfinite(row.vy) || !std::isfinite(row.angular_velocity))
                     refuse(path, fmt::format("disc {} is outside the box or not finite at step {}", begin + i, summary.steps[frame]));
             }
         }
@@ -230,17 +232,22 @@ enum class Format { xyz, text, csv };
 void append_header(fmt::memory_buffer& out, Format format, const FileSummary& summary, std::int64_t step) {
     if (format != Format::xyz) return;
     fmt::format_to(std::back_inserter(out),
-                   "{}\nLattice=\"{} 0 0 0 {} 0 0 0 1\" Properties=species:S:1:pos:R:3:velo:R:3:id:I:1 Time={} pbc=\"F F F\"\n",
-                   summary.n_discs, summary.box_size, summary.box_size, step);
+                   "{}\nLattice=\"{} 0 0 0 {} 0 0 0 1\" Properties=species:S:1:pos:R:3:velo:R:3:id:I:1{} Time={} pbc=\"F F F\"\n",
+                   summary.n_discs, summary.box_size, summary.box_size, summary.has_angular_velocity ? ":angular_velocity:R:1" : "", step);
 }
 
-void append_row(fmt::memory_buffer& out, Format format, std::int64_t step, std::uint64_t id, const FrameRow& row, bool with_counters) {
+void append_row(fmt::memory_buffer& out, Format format, std::int64_t step, std::uint64_t id, const FrameRow& row, const FileSummary& summary) {
     const auto end = std::back_inserter(out);
-    if (format == Format::xyz) fmt::format_to(end, "D {} {} 0 {} {} 0 {}\n", row.x, row.y, row.vx, row.vy, id);
+    const bool with_counters = summary.has_collisions;
+    if (format == Format::xyz) fmt::format_to(end, "D {} {} 0 {} {} 0 {}", row.x, row.y, row.vx, row.vy, id);
     if (format == Format::csv) { // counters that the file does not have stay empty
         fmt::format_to(end, "{},{},{},{},{},{},", step, id, row.x, row.y, row.vx, row.vy);
-        if (with_counters) fmt::format_to(end, "{},{}\n", row.pair_collisions, row.wall_collisions);
-        else fmt::format_to(end, ",\n");
+        if (with_counters) fmt::format_to(end, "{},{}", row.pair_collisions, row.wall_collisions);
+        else fmt::format_to(end, ",");
+    }
+    if (format != Format::text) {
+        if (summary.has_angular_velocity) fmt::format_to(end, "{}{}", format == Format::csv ? ',' : ' ', row.angular_velocity);
+        out.push_back('\n');
     }
     if (format == Format::text)
         append_line(out, step, {id, row.x, row.y, row.vx, row.vy, row.pair_collisions, row.wall_collisions}, RunOptions::round_trip_digits,
@@ -249,14 +256,14 @@ void append_row(fmt::memory_buffer& out, Format format, std::int64_t step, std::
 
 void write_frames(const FrameFile& file, Format format, DataOutput& output) {
     const FileSummary& summary = file.summary();
-    if (format == Format::csv) output.buffer().append(std::string_view("step,id,x,y,vx,vy,pair_collisions,wall_collisions\n"));
+    if (format == Format::csv) output.buffer().append(fmt::format("step,id,x,y,vx,vy,pair_collisions,wall_collisions{}\n", summary.has_angular_velocity ? ",angular_velocity" : ""));
     std::vector<FrameRow> rows;
     for (std::size_t frame = 0; frame < summary.steps.size() && output.failure().empty(); ++frame) {
         append_header(output.buffer(), format, summary, summary.steps[frame]);
         for (std::uint64_t begin = 0; begin < summary.n_discs; begin += rows_at_a_time) {
             file.read(frame, begin, std::min(begin + rows_at_a_time, summary.n_discs), rows);
             for (std::size_t i = 0; i < rows.size(); ++i) {
-                append_row(output.buffer(), format, summary.steps[frame], begin + i, rows[i], summary.has_collisions);
+                append_row(output.buffer(), format, summary.steps[frame], begin + i, rows[i], summary);
                 output.flush_if_full();
             }
         }

@@ -35,6 +35,7 @@ TrajectoryLayout layout_of(const Scene& scene) {
     layout.has_position = wanted.has_position;
     layout.has_velocity = wanted.has_velocity;
     layout.has_collisions = wanted.has_collisions;
+    layout.has_angular_velocity = wanted.has_angular_velocity;
     layout.is_single = wanted.is_single;
     layout.compression = wanted.compression;
     return layout;
@@ -94,7 +95,7 @@ void Recordings::record(const Simulation& simulation) {
     if (log_) record_collisions();
     if (sampler_) sampler_->look();
     if (trajectory_ && step % scene_.trajectory->every_steps == 0)
-        trajectory_->append(step, simulation.shown(), simulation.clock());
+        trajectory_->append(step, simulation.shown(), simulation.clock(), simulation.spins());
     if (!scene_.checkpoint) commit_now_and_then();
 }
 

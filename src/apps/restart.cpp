@@ -68,6 +68,8 @@ Checkpoint read_matching(const std::string& path, const RunOptions& options, Sce
     std::vector<Problem> problems;
     for (const std::string& difference : physical_differences(there, here))
         problems.push_back({"--restart " + path, 0, difference + "; a restart cannot change it"});
+    if (checkpoint.header.has_spins != (there.effects.contact.kind == ContactKind::rough))
+        problems.push_back({"--restart " + path, 0, "its scene and its columns do not agree on whether discs turn"});
     if (!problems.empty()) throw InputError(std::move(problems));
     scene = here;
     return checkpoint;
@@ -179,7 +181,7 @@ void load_restart(const RunOptions& options, Loaded& loaded, const Communicator&
         refuse(options.restart, fmt::format("the checkpoint is of step {}, and the run is to end at step {}", header.step, loaded.scene.steps));
     if (ranks.is_root() && !options.quiet) tell("going on from step {}\n", header.step);
     loaded.samples = std::move(checkpoint->samples);
-    loaded.stored = StoredState{std::move(checkpoint->discs), header.micro_steps_done};
+    loaded.stored = StoredState{std::move(checkpoint->discs), header.micro_steps_done, std::move(checkpoint->spins)};
 }
 
 } // namespace carrom

@@ -35,10 +35,15 @@ CheckpointHeader read_header(hid_t group) {
     return header;
 }
 
+bool has_spins(hid_t file) { return H5Lexists(file, "/carrom/discs", H5P_DEFAULT) > 0 && H5Lexists(file, spin_column, H5P_DEFAULT) > 0; }
+
 void broadcast(CheckpointHeader& header, const Communicator& communicator) {
     for (const HeaderField& entry : checkpoint_header)
         std::visit([&](auto field) { communicator.broadcast(header.*field); }, entry.field);
     communicator.broadcast(header.frame);
+    std::uint64_t has_spins = header.has_spins ? 1 : 0;
+    communicator.broadcast(has_spins);
+    header.has_spins = has_spins == 1;
 }
 
 } // namespace carrom

@@ -27,6 +27,9 @@ inline constexpr std::array<Column, 7> checkpoint_columns = {{{"x", &Disc::x},
                                                               {"wall_collisions", &Disc::wall_collisions},
                                                               {"pair_collisions", &Disc::pair_collisions}}};
 
+/// One more, of doubles, where discs turn: angles per micro-step.
+inline constexpr const char* spin_column = "/carrom/discs/spin";
+
 /// A dataset of /carrom/run: one value.
 struct HeaderField {
     const char* name;
@@ -81,8 +84,9 @@ void set_bits(const Column& column, Disc& disc, std::uint64_t bits);
 hid_t type_of(const Column& column);
 
 void write_header(hid_t group, const CheckpointHeader& header);
-/// Throws FileError where something is missing or of another kind.
+/// Throws FileError where something is missing or of another kind. Whether there are spins is for `has_spins` to say.
 CheckpointHeader read_header(hid_t group);
+bool has_spins(hid_t file);
 /// Replaces the header on every rank by that of rank 0. **Collective.**
 void broadcast(CheckpointHeader& header, const Communicator& communicator);
 

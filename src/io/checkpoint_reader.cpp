@@ -31,6 +31,7 @@ CheckpointHeader header_of(const std::string& path, const Communicator& communic
         const h5::File file = h5::open_file(path, h5::Access::read);
         const h5::Group run(h5::checked(H5Gopen2(file.id(), "/carrom/run", H5P_DEFAULT), "has no /carrom/run"));
         header = read_header(run.id());
+        header.has_spins = has_spins(file.id());
         check_header(header);
         // A file that claims more discs than it has room for must not cost their memory.
         if (header.n_discs > Descriptor(path, O_RDONLY).size() / (8 * checkpoint_columns.size()))
@@ -59,6 +60,18 @@ void read_columns(hid_t file, const std::string& path, std::uint64_t n, std::vec
             }
         }
     });
+}
+
+/// This rank's share of the spins; empty where discs do not turn. **Collective.**
+std::vector<double> read_spins(hid_t file, const std::string& path, const CheckpointHeader& header, const Communicator& communicator) {
+    if (!header.has_spins) return {};
+    const std::uint64_t first = slab_begin(communicator.rank(), header.n_discs, communicator.size());
+    std::vector<double> spins(slab_begin(communicator.rank() + 1, header.n_discs, communicator.size()) - first);
+    on_all(communicator, path, ExitCode::bad_input, [&] {
+        const h5::Dataset column = h5::open_checked(file, spin_column, {header.n_discs});
+        if (!spins.empty()) h5::read_rows(column.id(), {first, first + spins.size()}, H5T_NATIVE_DOUBLE, spins.data());
+    });
+    return spins;
 }
 
 /// What the file has of measurements; most have nothing.
@@ -115,8 +128,10 @@ Checkpoint read_checkpoint(const std::string& path, const Communicator& communic
     h5::File file;
     on_all(communicator, path, ExitCode::bad_input, [&] { file = h5::open_file(path, h5::Access::read, communicator); });
     read_columns(file.id(), path, n, checkpoint.discs, communicator);
+    checkpoint.spins = read_spins(file.id(), path, checkpoint.header, communicator);
     checkpoint.samples = read_samples(file.id(), path, n, communicator);
-    const StateHash mine = hash_of(checkpoint.discs);
+    StateHash mine = hash_of(checkpoint.discs);
+    for (std::size_t i = 0; i < checkpoint.spins.size(); ++i) mine += hash_of_spin(checkpoint.discs[i].id, checkpoint.spins[i]);
     std::uint64_t sums[] = {mine.low, mine.high};
     communicator.sum(sums);
     on_root(communicator, path, ExitCode::bad_input, [&] {

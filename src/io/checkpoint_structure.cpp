@@ -56,6 +56,7 @@ void create_groups(hid_t file, const CheckpointHeader& header, const StoredSampl
     const h5::Group columns = h5::create_group(carrom.id(), "discs");
     for (const Column& column : checkpoint_columns)
         create_column(columns.id(), column.name, std::array<hsize_t, 1>{header.n_discs}, type_of(column));
+    if (header.has_spins) create_column(file, spin_column, std::array<hsize_t, 1>{header.n_discs}, H5T_NATIVE_DOUBLE);
     if (samples.sums.empty()) return;
     const h5::Group measurements = h5::create_group(carrom.id(), "measurements");
     h5::write_whole(measurements.id(), "sums", std::array<hsize_t, 1>{samples.sums.size()}, H5T_NATIVE_INT64, samples.sums.data());
@@ -72,7 +73,7 @@ std::uint64_t place_of(hid_t file, const std::string& name) {
 
 } // namespace
 
-std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples) {
+std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples, const SpinsOfPieces& spins) {
     std::vector<DiscTarget> targets;
     const Frame frame = header.frame;
     const double clock = header.clock(), k = static_cast<double>(header.micro_steps);
@@ -95,6 +96,10 @@ std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const Store
     for (const Column& column : checkpoint_columns)
         add(std::string("/carrom/discs/") + column.name, sizeof(std::uint64_t), [&column](std::span<const Disc> discs, std::byte* out) {
             std::visit([&](auto field) { put_each(discs, out, [=](const Disc& disc) { return disc.*field; }); }, column.field);
+        });
+    if (header.has_spins)
+        add(spin_column, sizeof(double), [&spins](std::span<const Disc> discs, std::byte* out) {
+            put_each(discs, out, [&spins](const Disc& disc) { return spins.of(disc); });
         });
     for (const SampleColumn& column : sample_columns) {
         if (!samples.have_first_places) continue;

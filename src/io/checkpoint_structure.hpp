@@ -23,8 +23,16 @@ struct DiscTarget {
     std::function<void(std::span<const Disc>, std::byte*)> put;
 };
 
-/// The data sets of discs that a checkpoint has, in the order in which they stand in the file.
-std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples);
+/// Of this rank's pieces (pieces.hpp), in the order of ids; empty where discs do not turn.
+struct SpinsOfPieces {
+    DiscId first = 0;
+    std::vector<double> values;
+
+    double of(const Disc& disc) const { return values[disc.id - first]; }
+};
+
+/// The data sets of discs that a checkpoint has, in the order in which they stand in the file. `samples` and `spins` must outlive them.
+std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples, const SpinsOfPieces& spins);
 
 /// What is known of a state only once all its discs have been seen.
 struct StateSums {

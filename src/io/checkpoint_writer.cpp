@@ -92,12 +92,15 @@ class Sums {
 public:
     explicit Sums(std::size_t n_targets) : words_(4 + 2 * n_targets, 0) {}
 
-    void add(std::span<const Disc> discs) {
+    /// `spins`: of discs that turn.
+    void add(std::span<const Disc> discs, const SpinsOfPieces& spins) {
         for (const Disc& disc : discs) {
             words_[0] += disc.wall_collisions;
             words_[1] += disc.pair_collisions;
         }
         add(2, hash_of(discs));
+        if (spins.values.empty()) return;
+        for (const Disc& disc : discs) add(2, hash_of_spin(disc.id, spins.of(disc)));
     }
     void add_checksum(std::size_t target, const StateHash& checksum) { add(4 + 2 * target, checksum); }
     void add(const Sums& other) {
@@ -118,8 +121,8 @@ private:
 };
 
 /// Takes a piece apart into the targets' bytes, block by block; threads share the blocks.
-void pack(std::span<const Disc> piece, std::uint64_t first, const std::vector<DiscTarget>& targets, PieceWriter::Buffers& buffers,
-          Sums& sums, int n_threads) {
+void pack(std::span<const Disc> piece, std::uint64_t first, const SpinsOfPieces& spins, const std::vector<DiscTarget>& targets,
+          PieceWriter::Buffers& buffers, Sums& sums, int n_threads) {
     for (std::size_t k = 0; k < targets.size(); ++k) buffers[k].resize(piece.size() * targets[k].part.bytes_per_row);
     const std::size_t n_blocks = (piece.size() + rows_per_block - 1) / rows_per_block;
 #pragma omp parallel num_threads(n_threads)
@@ -129,7 +132,7 @@ void pack(std::span<const Disc> piece, std::uint64_t first, const std::vector<Di
         for (std::size_t block = 0; block < n_blocks; ++block) {
             const std::size_t row = block * rows_per_block;
             const std::span<const Disc> discs = piece.subspan(row, std::min<std::size_t>(rows_per_block, piece.size() - row));
-            mine.add(discs);
+            mine.add(discs, spins);
             for (std::size_t k = 0; k < targets.size(); ++k) {
                 const std::size_t width = targets[k].part.bytes_per_row;
                 const std::span<std::byte> bytes = std::span(buffers[k]).subspan(row * width, discs.size() * width);
@@ -142,9 +145,28 @@ void pack(std::span<const Disc> piece, std::uint64_t first, const std::vector<Di
     }
 }
 
+struct DiscSpin {
+    DiscId id = 0;
+    double spin = 0;
+};
+
+/// Brings each disc's spin to the rank whose pieces have it. **Collective.**
+SpinsOfPieces in_pieces(std::span<const Disc> discs, std::span<const double> spins, std::uint64_t n_discs, const Communicator& communicator) {
+    ensure(spins.size() == discs.size(), "spins do not run along the discs");
+    std::vector<DiscSpin> records;
+    records.reserve(discs.size());
+    for (std::size_t i = 0; i < discs.size(); ++i) records.push_back({discs[i].id, spins[i]});
+    PieceStream stream(communicator, std::span<const DiscSpin>(records), n_discs, [](const DiscSpin& record) { return record.id; });
+    const Pieces& pieces = stream.pieces();
+    SpinsOfPieces mine{pieces.begin(pieces.first_of(communicator.rank())), {}};
+    for (std::uint64_t round = 0; round < pieces.n_rounds(); ++round)
+        for (const DiscSpin& record : stream.next()) mine.values.push_back(record.spin);
+    return mine;
+}
+
 /// Fills the columns: the ranks' pieces, each written while the next one is taken apart. **Collective.**
-Sums write_discs(const std::string& path, const std::vector<DiscTarget>& targets, std::span<const Disc> discs, std::uint64_t n_discs,
-                 int n_threads, const Communicator& communicator) {
+Sums write_discs(const std::string& path, const std::vector<DiscTarget>& targets, std::span<const Disc> discs, const SpinsOfPieces& spins,
+                 std::uint64_t n_discs, int n_threads, const Communicator& communicator) {
     std::optional<PieceWriter> writer;
     on_all(communicator, path, ExitCode::output_failure, [&] { writer.emplace(path, targets); });
     PieceStream stream(communicator, discs, n_discs, [](const Disc& disc) { return disc.id; });
@@ -154,7 +176,7 @@ Sums write_discs(const std::string& path, const std::vector<DiscTarget>& targets
     for (std::uint64_t round = 0; round < stream.pieces().n_rounds(); ++round) {
         const std::span<const Disc> piece = stream.next();
         if (piece.empty()) continue;
-        pack(piece, stream.begin(), targets, buffers[round % 2], sums, n_threads);
+        pack(piece, stream.begin(), spins, targets, buffers[round % 2], sums, n_threads);
         writer->write(stream.begin(), buffers[round % 2]);
     }
     on_all(communicator, path, ExitCode::output_failure, [&] { writer->finish(); });
@@ -165,9 +187,10 @@ Sums write_discs(const std::string& path, const std::vector<DiscTarget>& targets
 } // namespace
 
 void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs, const Communicator& communicator,
-                      int n_threads, const StoredSamples& samples) {
+                      int n_threads, const StoredSamples& samples, std::span<const double> spins) {
     header.n_discs = communicator.sum(std::uint64_t{discs.size()});
-    std::vector<DiscTarget> targets = disc_targets(header, samples);
+    const SpinsOfPieces spins_of_pieces = header.has_spins ? in_pieces(discs, spins, header.n_discs, communicator) : SpinsOfPieces{};
+    std::vector<DiscTarget> targets = disc_targets(header, samples, spins_of_pieces);
     const PartialFile partial(path + ".partial", communicator);
     HeaderPlaces places;
     on_root(communicator, path, ExitCode::output_failure, [&] {
@@ -178,7 +201,7 @@ void write_checkpoint(const std::string& path, CheckpointHeader header, std::spa
         reserve(partial.path());
     });
     for (DiscTarget& target : targets) communicator.broadcast(target.part.begin);
-    const Sums sums = write_discs(partial.path(), targets, discs, header.n_discs, n_threads, communicator);
+    const Sums sums = write_discs(partial.path(), targets, discs, spins_of_pieces, header.n_discs, n_threads, communicator);
     on_root(communicator, path, ExitCode::output_failure, [&] {
         fill_in(partial.path(), places, sums.state());
         std::vector<SealedPart> parts;

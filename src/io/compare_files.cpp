@@ -57,6 +57,7 @@ void compare_frames(const FrameFile& a, const FrameFile& b, Differences& differe
                 differences.compare(p.y, q.y, "y", where);
                 differences.compare(p.vx, q.vx, "vx", where);
                 differences.compare(p.vy, q.vy, "vy", where);
+                differences.compare(p.angular_velocity, q.angular_velocity, "angular velocity", where);
                 differences.compare_counts(p.wall_collisions, q.wall_collisions, "wall collisions", where);
                 differences.compare_counts(p.pair_collisions, q.pair_collisions, "pair collisions", where);
             }

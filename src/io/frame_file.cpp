@@ -68,7 +68,7 @@ struct Element {
     const char* name;
     hsize_t width; ///< numbers for a disc
 };
-constexpr std::array<Element, 3> elements = {{{"position", 3}, {"velocity", 3}, {"collisions", 2}}};
+constexpr std::array<Element, 4> elements = {{{"position", 3}, {"velocity", 3}, {"collisions", 2}, {"angular_velocity", 1}}};
 
 constexpr const char* discs_path = "/particles/discs/";
 
@@ -88,8 +88,9 @@ FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_un
         if (has(file, "/carrom/run")) {
             const h5::Group run(h5::checked(H5Gopen2(file, "/carrom/run", H5P_DEFAULT), "has no /carrom/run"));
             state_->header = read_header(run.id());
+            state_->header.has_spins = has_spins(file);
             const CheckpointHeader& header = state_->header;
-            summary_ = {FileKind::checkpoint, header.program_version, header.n_discs, header.box_size, header.radius, 8, true, true, true, {header.step}, 0,
+            summary_ = {FileKind::checkpoint, header.program_version, header.n_discs, header.box_size, header.radius, 8, true, true, true, header.has_spins, {header.step}, 0,
                         header.state_hash};
         } else if (has(file, "/carrom/collisions")) {
             summary_.kind = FileKind::collisions;
@@ -99,13 +100,16 @@ FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_un
             summary_.has_position = has(file, "/particles/discs/position");
             summary_.has_velocity = has(file, "/particles/discs/velocity");
             summary_.has_collisions = has(file, "/particles/discs/collisions");
+            summary_.has_angular_velocity = has(file, "/particles/discs/angular_velocity");
             summary_.steps = read_numbers(file, "/particles/discs/box/edges/step");
             for (const Element& element : elements) {
                 if (!has(file, discs + element.name)) continue;
-                const h5::Dataset values = h5::open_checked(file, discs + element.name + "/value", {std::nullopt, std::nullopt, element.width});
+                h5::Shape shape = {std::nullopt, std::nullopt};
+                if (element.width > 1) shape.push_back(element.width);
+                const h5::Dataset values = h5::open_checked(file, discs + element.name + "/value", shape);
                 const h5::Type type(h5::checked(H5Dget_type(values.id()), element.name));
                 summary_.n_discs = h5::dimensions_of(values.id())[1];
-                if (element.width == 3) summary_.bytes_per_number = H5Tget_size(type.id());
+                if (element.width != 2) summary_.bytes_per_number = H5Tget_size(type.id());
             }
             h5::read_scalar(file, "/parameters/radius", summary_.radius);
             std::array<double, 3> edges = {};
@@ -140,8 +144,12 @@ void FrameFile::read(std::size_t frame, std::uint64_t begin, std::uint64_t end, 
             const double clock = state_->header.clock(), k = static_cast<double>(state_->header.micro_steps);
             for (std::uint64_t i = 0; i < n; ++i) {
                 const Disc disc = state_->header.frame.in_box(discs[i], clock);
-                rows[i] = {disc.x + 0.0, disc.y + 0.0, disc.vx * k + 0.0, disc.vy * k + 0.0, disc.wall_collisions, disc.pair_collisions};
+                rows[i] = {disc.x + 0.0, disc.y + 0.0, disc.vx * k + 0.0, disc.vy * k + 0.0, disc.wall_collisions, disc.pair_collisions, 0};
             }
+            if (!summary_.has_angular_velocity) return;
+            std::vector<double> spins(n);
+            read_block(file, spin_column, 0, begin, end, 1, H5T_NATIVE_DOUBLE, spins.data());
+            for (std::uint64_t i = 0; i < n; ++i) rows[i].angular_velocity = spins[i] * k + 0.0;
             return;
         }
         const std::string discs = discs_path;
@@ -154,6 +162,8 @@ void FrameFile::read(std::size_t frame, std::uint64_t begin, std::uint64_t end, 
         if (summary_.has_collisions) read_block(file, discs + "collisions/value", frame, begin, end, 2, H5T_NATIVE_UINT64, counts.data());
         for (std::uint64_t i = 0; i < n && summary_.has_collisions; ++i)
             rows[i].wall_collisions = counts[2 * i], rows[i].pair_collisions = counts[2 * i + 1];
+        if (summary_.has_angular_velocity) read_block(file, discs + "angular_velocity/value", frame, begin, end, 1, H5T_NATIVE_DOUBLE, vectors.data());
+        for (std::uint64_t i = 0; i < n && summary_.has_angular_velocity; ++i) rows[i].angular_velocity = vectors[i];
     });
 }
 

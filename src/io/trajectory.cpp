@@ -35,9 +35,10 @@ struct ShownDisc {
     DiscId id = 0;
     double position[2] = {}, velocity[2] = {};
     std::uint64_t collisions[2] = {}; ///< with walls, with discs
+    double angular_velocity = 0;
 };
 
-/// A dataset of /particles/discs that grows by a row of n x width numbers a frame.
+/// A dataset of /particles/discs that grows by a row of n x width numbers a frame, of n numbers where the width is 1.
 struct Field {
     std::string path;
     hsize_t width;
@@ -60,7 +61,15 @@ std::vector<Field> fields_of(const TrajectoryLayout& layout) {
     if (layout.has_collisions)
         fields.push_back({"collisions", 2, H5T_STD_U64LE, H5T_NATIVE_UINT64,
                           [](const ShownDisc& disc, std::size_t k) { return disc.collisions[k]; }});
+    if (layout.has_angular_velocity)
+        fields.push_back({"angular_velocity", 1, real, H5T_NATIVE_DOUBLE, [](const ShownDisc& disc, std::size_t) { return bits_of(disc.angular_velocity); }});
     return fields;
+}
+
+/// Of a block of frames and discs of a field: it has one axis fewer where a disc has one number.
+std::vector<hsize_t> sizes_of(const Field& field, hsize_t n_frames, hsize_t n_discs) {
+    if (field.width == 1) return {n_frames, n_discs};
+    return {n_frames, n_discs, field.width};
 }
 
 void link(hid_t from, const char* name, hid_t to) {
@@ -90,8 +99,9 @@ void create_structure(hid_t file, const TrajectoryLayout& layout) {
         const h5::Group element = h5::create_group(discs.id(), field.path.c_str());
         link(edges.id(), "step", element.id());
         link(edges.id(), "time", element.id());
-        create_growing(element.id(), "value", field.type, std::array<hsize_t, 2>{layout.n_discs, field.width},
-                       std::array<hsize_t, 3>{1, rows_per_chunk(layout.n_discs), field.width}, layout.compression);
+        const std::vector<hsize_t> frame = sizes_of(field, 1, layout.n_discs);
+        create_growing(element.id(), "value", field.type, std::span(frame).subspan(1), sizes_of(field, 1, rows_per_chunk(layout.n_discs)),
+                       layout.compression);
     }
 }
 
@@ -111,7 +121,7 @@ void check_layout(hid_t file, const TrajectoryLayout& layout) {
         const h5::Dataset dataset = h5::open_checked(file, value_path(field));
         const std::vector<hsize_t> dimensions = h5::dimensions_of(dataset.id());
         const h5::Type type(h5::checked(H5Dget_type(dataset.id()), "cannot look at a dataset"));
-        if (dimensions != std::vector<hsize_t>{n_frames, layout.n_discs, field.width} || H5Tequal(type.id(), field.type) <= 0)
+        if (dimensions != sizes_of(field, n_frames, layout.n_discs) || H5Tequal(type.id(), field.type) <= 0)
             throw FileError("is of another run: its " + field.path + " has another shape");
     }
     static_cast<void>(h5::open_checked(file, time_path, {n_frames}));
@@ -121,8 +131,9 @@ void check_layout(hid_t file, const TrajectoryLayout& layout) {
 /// The discs of all ranks on rank 0, slab after slab of ids.
 class SlabStream {
 public:
-    SlabStream(std::span<const Disc> discs, double clock, double velocity_unit, const Communicator& communicator)
-        : discs_(discs), clock_(clock), velocity_unit_(velocity_unit), communicator_(communicator), order_(discs.size()) {
+    /// `spins` may be empty.
+    SlabStream(std::span<const Disc> discs, std::span<const double> spins, double clock, double velocity_unit, const Communicator& communicator)
+        : discs_(discs), spins_(spins), clock_(clock), velocity_unit_(velocity_unit), communicator_(communicator), order_(discs.size()) {
         std::iota(order_.begin(), order_.end(), LocalIndex{0});
         std::sort(order_.begin(), order_.end(), [discs](LocalIndex a, LocalIndex b) { return discs[a].id < discs[b].id; });
     }
@@ -130,7 +141,7 @@ public:
     /// Ids [begin, end), which follow those of the last call; nothing on other ranks. **Collective.**
     std::span<const ShownDisc> next(std::uint64_t begin, std::uint64_t end) {
         std::vector<ShownDisc> mine;
-        for (; next_ < order_.size() && discs_[order_[next_]].id < end; ++next_) mine.push_back(shown(discs_[order_[next_]]));
+        for (; next_ < order_.size() && discs_[order_[next_]].id < end; ++next_) mine.push_back(shown(order_[next_]));
         slab_.resize(communicator_.is_root() ? end - begin : 0);
         const auto place = [&](std::span<const ShownDisc> some) {
             for (const ShownDisc& disc : some) slab_[disc.id - begin] = disc;
@@ -140,14 +151,17 @@ public:
     }
 
 private:
-    ShownDisc shown(const Disc& disc) const {
+    ShownDisc shown(LocalIndex i) const {
+        const Disc& disc = discs_[i];
         return {disc.id,
                 {disc.x_at(clock_), disc.y_at(clock_)},
                 {disc.vx * velocity_unit_, disc.vy * velocity_unit_},
-                {disc.wall_collisions, disc.pair_collisions}};
+                {disc.wall_collisions, disc.pair_collisions},
+                spins_.empty() ? 0 : spins_[i] * velocity_unit_};
     }
 
     std::span<const Disc> discs_;
+    std::span<const double> spins_;
     double clock_, velocity_unit_;
     const Communicator& communicator_;
     std::vector<LocalIndex> order_;
@@ -161,8 +175,9 @@ void write_slab(hid_t file, const TrajectoryLayout& layout, hsize_t frame, std::
         numbers.clear();
         for (const ShownDisc& disc : slab)
             for (std::size_t k = 0; k < field.width; ++k) numbers.push_back(field.bits(disc, k));
-        const std::array<hsize_t, 3> start = {frame, begin, 0}, count = {1, slab.size(), field.width};
-        write_block(file, value_path(field).c_str(), start, count, field.memory_type, numbers.data());
+        const std::array<hsize_t, 3> start = {frame, begin, 0};
+        const std::vector<hsize_t> count = sizes_of(field, 1, slab.size());
+        write_block(file, value_path(field).c_str(), std::span(start).first(count.size()), count, field.memory_type, numbers.data());
     }
 }
 
@@ -216,14 +231,15 @@ void Trajectory::go_on(std::int64_t step) {
     });
 }
 
-void Trajectory::append(std::int64_t step, std::span<const Disc> discs, double clock) {
+void Trajectory::append(std::int64_t step, std::span<const Disc> discs, double clock, std::span<const double> spins) {
+    ensure(!layout_.has_angular_velocity || spins.size() == discs.size(), "spins do not run along the discs");
     hsize_t frame = 0;
     on_root(communicator_, path_, ExitCode::output_failure, [&] {
         frame = state_->steps.size();
         state_->file.open();
         state_->file.attempt([&](hid_t file) { set_frames(file, layout_, frame + 1); });
     });
-    SlabStream stream(discs, clock, layout_.velocity_unit, communicator_);
+    SlabStream stream(discs, layout_.has_angular_velocity ? spins : std::span<const double>{}, clock, layout_.velocity_unit, communicator_);
     const std::uint64_t rows = rows_per_slab(layout_.n_discs);
     for (std::uint64_t begin = 0; begin < layout_.n_discs; begin += rows) {
         const std::span<const ShownDisc> slab = stream.next(begin, std::min(begin + rows, layout_.n_discs));

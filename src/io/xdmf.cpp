@@ -14,7 +14,7 @@ namespace carrom {
 
 namespace {
 
-/// Rows of frame `frame` of a dataset with `width` numbers a disc.
+/// Rows of frame `frame` of a dataset with three numbers a disc.
 std::string rows_of_frame(const std::string& file, const TrajectoryLayout& layout, const char* element, std::size_t frame,
                           std::size_t n_frames) {
     const std::uint64_t n = layout.n_discs;
@@ -22,6 +22,15 @@ std::string rows_of_frame(const std::string& file, const TrajectoryLayout& layou
                        "1 {0} 3</DataItem><DataItem NumberType=\"Float\" Precision=\"{2}\" Dimensions=\"{3} {0} 3\" Format=\"HDF\">"
                        "{4}:/particles/discs/{5}/value</DataItem></DataItem>",
                        n, frame, layout.is_single ? 4 : 8, n_frames, file, element);
+}
+
+/// The same of one with one number a disc.
+std::string numbers_of_frame(const std::string& file, const TrajectoryLayout& layout, const char* element, std::size_t frame,
+                             std::size_t n_frames) {
+    return fmt::format("<DataItem ItemType=\"HyperSlab\" Dimensions=\"{0}\"><DataItem Dimensions=\"3 2\" Format=\"XML\">{1} 0 1 1 "
+                       "1 {0}</DataItem><DataItem NumberType=\"Float\" Precision=\"{2}\" Dimensions=\"{3} {0}\" Format=\"HDF\">"
+                       "{4}:/particles/discs/{5}/value</DataItem></DataItem>",
+                       layout.n_discs, frame, layout.is_single ? 4 : 8, n_frames, file, element);
 }
 
 } // namespace
@@ -39,6 +48,9 @@ void write_xdmf(const std::string& path, const TrajectoryLayout& layout, std::sp
         if (layout.has_velocity)
             fmt::format_to(std::back_inserter(text), "<Attribute Name=\"velocity\" AttributeType=\"Vector\" Center=\"Node\">{}</Attribute>",
                            rows_of_frame(file, layout, "velocity", frame, steps.size()));
+        if (layout.has_angular_velocity)
+            fmt::format_to(std::back_inserter(text), "<Attribute Name=\"angular_velocity\" AttributeType=\"Scalar\" Center=\"Node\">{}</Attribute>",
+                           numbers_of_frame(file, layout, "angular_velocity", frame, steps.size()));
         text += "</Grid>\n";
     }
     text += "</Grid></Domain></Xdmf>\n";

@@ -56,12 +56,6 @@ void fill_roughness(const Check& check) {
     if (const auto share = number_within(check, "effects.contact.tangential_restitution", -1, 1)) contact.tangential_restitution = *share;
     if (const auto friction = number_within(check, "effects.contact.friction", 0, 1e6)) contact.friction = *friction;
     if (const auto inertia = number_within(check, "effects.contact.moment_of_inertia", 1e-6, 1)) contact.inertia = *inertia;
-    const Setting& kind = *check.settings.find("effects.contact.kind");
-    for (const std::string_view table : {"output.checkpoint", "output.checkpoint.folder"}) {
-        if (!check.settings.is_mentioned(table) && !check.settings.has(table)) continue;
-        check.refuse(kind, "this version keeps no spins in checkpoints: rough discs go without output.checkpoint");
-        break;
-    }
 }
 
 void fill_contact(const Check& check) {

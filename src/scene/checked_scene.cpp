@@ -265,15 +265,19 @@ void fill_trajectory(const Check& check) {
     if (const auto every = whole_number(check, "output.trajectory.every_steps", 1, largest_steps)) output.every_steps = *every;
     if (const auto is_single = choice(check, "output.trajectory.precision", precisions)) output.is_single = *is_single;
     if (const auto level = whole_number(check, "output.trajectory.compression", 0, 9)) output.compression = static_cast<int>(*level);
+    const bool are_rough = check.scene.effects.contact.kind == ContactKind::rough;
+    output.has_angular_velocity = are_rough;
     const Setting* fields = check.settings.find("output.trajectory.fields");
     if (!fields) return;
-    output.has_position = output.has_velocity = output.has_collisions = false;
+    output.has_position = output.has_velocity = output.has_collisions = output.has_angular_velocity = false;
     if (std::get<std::vector<std::string>>(fields->value).empty()) check.refuse(*fields, "a trajectory needs at least one field");
     for (const std::string& field : std::get<std::vector<std::string>>(fields->value)) {
         if (field == "position") output.has_position = true;
         else if (field == "velocity") output.has_velocity = true;
         else if (field == "collisions") output.has_collisions = true;
-        else check.refuse(*fields, fmt::format("a field of a trajectory is \"position\", \"velocity\" or \"collisions\", not {}", quoted(field)));
+        else if (field == "angular_velocity" && are_rough) output.has_angular_velocity = true;
+        else if (field == "angular_velocity") check.refuse(*fields, "\"angular_velocity\" needs discs that turn, effects.contact.kind = \"rough\"");
+        else check.refuse(*fields, fmt::format("a field of a trajectory is \"position\", \"velocity\", \"collisions\" or \"angular_velocity\", not {}", quoted(field)));
     }
 }
 

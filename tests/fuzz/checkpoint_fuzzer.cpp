@@ -69,6 +69,7 @@ std::vector<std::size_t> places_of_values() {
     };
     for (const HeaderField& field : checkpoint_header) add(std::string("/carrom/run/") + field.name);
     for (const Column& column : checkpoint_columns) add(std::string("/carrom/discs/") + column.name);
+    add(spin_column);
     return places;
 }
 
@@ -95,7 +96,10 @@ void check(const Checkpoint& checkpoint) {
     const CheckpointHeader& header = checkpoint.header;
     demand(header.n_discs == checkpoint.discs.size() && header.n_discs > 0);
     demand(header.micro_steps >= 1 && header.sync_every >= 1 && header.micro_steps_done == header.step * header.micro_steps);
-    demand(to_string(hash_of(checkpoint.discs)) == header.state_hash);
+    demand(checkpoint.spins.size() == (header.has_spins ? checkpoint.discs.size() : 0));
+    StateHash hash = hash_of(checkpoint.discs);
+    for (std::size_t i = 0; i < checkpoint.spins.size(); ++i) hash += hash_of_spin(i, checkpoint.spins[i]);
+    demand(to_string(hash) == header.state_hash);
     for (std::size_t i = 0; i < checkpoint.discs.size(); ++i) demand(checkpoint.discs[i].id == i);
 }
 

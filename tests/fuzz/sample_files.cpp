@@ -28,6 +28,12 @@ std::vector<Disc> some_discs() {
     return discs;
 }
 
+std::vector<double> some_spins() {
+    std::vector<double> spins(some_discs().size(), 0.25);
+    spins[3] = -2;
+    return spins;
+}
+
 } // namespace
 
 std::vector<char> bytes_of(const std::string& path) {
@@ -43,13 +49,15 @@ void write_sample_checkpoint(const std::string& path, const Communicator& world)
     CheckpointHeader header;
     header.program_version = "0.1.0";
     header.scene_name = "fuzz.toml";
-    header.scene_text = "[box]\nsize = 10\n[discs]\ncount = 12\nradius = 0.5\n[time]\nsteps = 100\n";
+    header.scene_text = "[box]\nsize = 10\n[discs]\ncount = 12\nradius = 0.5\n[time]\nsteps = 100\n"
+                        "[effects.contact]\nkind = \"rough\"\nrestitution = 0.9\ntangential_restitution = 0.5\n";
     header.box_size = 10;
     header.radius = 0.5;
     header.collisions = "one";
     header.sync_every = 64;
     header.step = header.micro_steps_done = 70;
-    write_checkpoint(path, header, some_discs(), world);
+    header.has_spins = true;
+    write_checkpoint(path, header, some_discs(), world, 1, {}, some_spins());
 }
 
 TrajectoryLayout sample_layout(bool is_compressed) {
@@ -60,6 +68,7 @@ TrajectoryLayout sample_layout(bool is_compressed) {
     layout.radius = 0.5;
     layout.has_collisions = true;
     layout.compression = is_compressed ? 4 : 0;
+    layout.has_angular_velocity = is_compressed;
     return layout;
 }
 
@@ -67,7 +76,7 @@ void write_sample_trajectory(const std::string& path, bool is_compressed, const 
     const std::vector<Disc> discs = some_discs();
     Trajectory trajectory(path, sample_layout(is_compressed), world);
     trajectory.begin();
-    for (const std::int64_t step : {0, 10, 20}) trajectory.append(step, discs, 6);
+    for (const std::int64_t step : {0, 10, 20}) trajectory.append(step, discs, 6, some_spins());
     trajectory.commit();
 }
 

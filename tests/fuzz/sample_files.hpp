@@ -16,10 +16,10 @@ std::vector<char> bytes_of(const std::string& path);
 /// Replaces the file.
 void write_bytes(const std::string& path, const std::vector<char>& bytes);
 
-/// Twelve discs at step 70 of a scene of the rule "one". **Collective.**
+/// Twelve rough discs at step 70 of a scene of the rule "one". **Collective.**
 void write_sample_checkpoint(const std::string& path, const Communicator& world);
 
-/// Three frames of twelve discs with their counters; compressed or not. **Collective.**
+/// Three frames of twelve discs with their counters; compressed, and with angular velocities, or not. **Collective.**
 TrajectoryLayout sample_layout(bool is_compressed);
 void write_sample_trajectory(const std::string& path, bool is_compressed, const Communicator& world);
 

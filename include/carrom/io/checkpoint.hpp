@@ -7,7 +7,8 @@
 // a whole file from a damaged one (src/io/seal.hpp).
 //
 // Each rank writes its share of the ids to where rank 0 has made room for it, and reads its share through MPI-IO. Price
-// of writing: 80 bytes a disc to disk, a disc sent once if it is another rank's, 8 bytes a disc of memory and some megabytes.
+// of writing: 80 bytes a disc to disk, a disc sent once if it is another rank's, 8 bytes a disc of memory and some megabytes;
+// 8 bytes more to disk for discs that turn, and 24 of memory.
 #pragma once
 
 #include <cstdint>
@@ -38,20 +39,23 @@ struct CheckpointHeader {
     std::uint64_t wall_collisions = 0, pair_collisions = 0; ///< sums of the discs' counters; a pair counts once
     std::string state_hash;
     Frame frame; ///< that the discs' coordinates are in; in the file only where it moves
+    bool has_spins = false; ///< discs turn; the file has their spins then, and the state hash covers them
 
     /// Micro-steps since the last sync, or what the frame's clock makes of them: the time that the discs' own times belong to.
     double clock() const { return frame.is_moving ? frame.clock : static_cast<double>(micro_steps_done % sync_every); }
 };
 
 /// Writes `discs`, spread over the ranks in any way, as a whole file or not at all: beside its place first, brought to
-/// disk, then renamed; with `n_threads` threads a rank, and one that writes. The header's last four numbers and its hash are filled in here. If it fails on any rank every
-/// rank throws CollectiveError, code 4, and an older file of that name is as it was. **Collective.**
+/// disk, then renamed; with `n_threads` threads a rank, and one that writes. `spins`, per micro-step, run along the discs where the header has some. The header's
+/// last four numbers and its hash are filled in here. If it fails on any rank every rank throws CollectiveError, code 4, and an older file of
+/// that name is as it was. **Collective.**
 void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs, const Communicator& communicator,
-                      int n_threads = 1, const StoredSamples& samples = {});
+                      int n_threads = 1, const StoredSamples& samples = {}, std::span<const double> spins = {});
 
 struct Checkpoint {
     CheckpointHeader header;
     std::vector<Disc> discs; ///< this rank's share of the ids, see slabs.hpp
+    std::vector<double> spins; ///< along the discs; empty where the header has none
     StoredSamples samples;
 };
 

@@ -17,6 +17,7 @@ enum class FileKind { checkpoint, trajectory, collisions };
 struct FrameRow {
     double x = 0, y = 0, vx = 0, vy = 0;
     std::uint64_t wall_collisions = 0, pair_collisions = 0;
+    double angular_velocity = 0;
 };
 
 struct FileSummary {
@@ -25,7 +26,7 @@ struct FileSummary {
     std::uint64_t n_discs = 0;             ///< 0 for a log of collisions
     double box_size = 0, radius = 0;       ///< radius: of a trajectory
     std::size_t bytes_per_number = 8;      ///< of a trajectory's positions and velocities
-    bool has_position = false, has_velocity = false, has_collisions = false;
+    bool has_position = false, has_velocity = false, has_collisions = false, has_angular_velocity = false;
     std::vector<std::int64_t> steps;       ///< of the frames
     std::uint64_t n_logged = 0;            ///< collisions in a log
     std::string state_hash;                ///< of a checkpoint

@@ -25,6 +25,7 @@ struct TrajectoryLayout {
     bool is_periodic_x = false, is_periodic_y = false;
     double velocity_unit = 1; ///< what stored velocities are multiplied by to be per step
     bool has_position = true, has_velocity = true, has_collisions = false;
+    bool has_angular_velocity = false; ///< of discs that turn, per step, counterclockwise
     bool is_single = true;    ///< float32, else float64
     int compression = 0;      ///< deflate level; 0 for none
 };
@@ -43,8 +44,9 @@ public:
     /// the file has another layout. **Collective.**
     void go_on(std::int64_t step);
 
-    /// Adds a frame: the discs, spread over the ranks in any way, at `clock`. **Collective.**
-    void append(std::int64_t step, std::span<const Disc> discs, double clock);
+    /// Adds a frame: the discs, spread over the ranks in any way, at `clock`; their spins along them, where the layout has
+    /// angular velocities. **Collective.**
+    void append(std::int64_t step, std::span<const Disc> discs, double clock, std::span<const double> spins = {});
 
     /// What has been added so far is to stay: brings it to disk. Renews the description when it has grown old.
     /// **Collective.**

@@ -53,6 +53,7 @@ struct TrajectoryOutput {
     std::string file; ///< as seen from where the program runs
     std::int64_t every_steps = 1;
     bool has_position = true, has_velocity = true, has_collisions = false;
+    bool has_angular_velocity = false; ///< of rough discs, where fields are not named
     bool is_single = true;  ///< numbers of 4 bytes, else of 8
     int compression = 0;    ///< 0 to 9
 };

@@ -64,6 +64,14 @@ Disc odd_disc(DiscId id) {
     return disc;
 }
 
+double odd_spin(DiscId id) { return id % 3 == 0 ? -0.0 : std::ldexp(static_cast<double>(std::mt19937_64(id + 77)() >> 11), -55) - 0.1; }
+
+std::vector<double> spins_of(const std::vector<Disc>& discs) {
+    std::vector<double> spins;
+    for (const Disc& disc : discs) spins.push_back(odd_spin(disc.id));
+    return spins;
+}
+
 /// The discs 0 .. n-1 on ranks by a rule that leaves some with none, in no order.
 std::vector<Disc> share(std::uint64_t n, const Communicator& world, unsigned rule) {
     std::vector<Disc> mine;
@@ -150,6 +158,38 @@ TEST_CASE("a checkpoint is read as it was written") {
     }
 }
 
+TEST_CASE("spins are read as they were written, and are part of the state hash") {
+    const Communicator world = Communicator::world();
+    const TestFolder folder(world);
+    const std::string path = folder.file("spins.h5");
+    CheckpointHeader turning = some_header();
+    turning.has_spins = true;
+    for (const std::uint64_t n : {1u, 5u, 20011u}) {
+        StateHash hash;
+        for (DiscId id = 0; id < n; ++id) hash += hash_of(odd_disc(id));
+        const std::string still = to_string(hash);
+        for (DiscId id = 0; id < n; ++id) hash += hash_of_spin(id, odd_spin(id));
+        for (unsigned rule = 0; rule < 3; ++rule) {
+            const std::vector<Disc> mine = share(n, world, rule);
+            write_checkpoint(path, turning, mine, world, 2, {}, spins_of(mine));
+            const Checkpoint read = read_checkpoint(path, world);
+            CHECK(read.header.has_spins);
+            CHECK(read_checkpoint_header(path, world).has_spins);
+            CHECK(read.header.state_hash == to_string(hash));
+            REQUIRE(read.spins.size() == read.discs.size());
+            bool all_same = true;
+            for (std::size_t i = 0; i < read.spins.size(); ++i)
+                all_same = all_same && std::bit_cast<std::uint64_t>(read.spins[i]) == std::bit_cast<std::uint64_t>(odd_spin(read.discs[i].id));
+            CHECK(all_same);
+        }
+        write_checkpoint(path, some_header(), share(n, world, 0), world);
+        const Checkpoint plain = read_checkpoint(path, world);
+        CHECK(!plain.header.has_spins);
+        CHECK(plain.spins.empty());
+        CHECK(plain.header.state_hash == still);
+    }
+}
+
 TEST_CASE("the header comes back whole") {
     const Communicator world = Communicator::world();
     const TestFolder folder(world);
@@ -179,9 +219,15 @@ TEST_CASE("the file does not depend on who holds which disc, and nothing else is
     const Communicator world = Communicator::world();
     const TestFolder folder(world);
     for (const std::uint64_t n : {777u, 9000u}) {
-        write_checkpoint(folder.file("a.h5"), some_header(), share(n, world, 0), world);
+        CheckpointHeader header = some_header();
+        header.has_spins = n == 9000;
+        const auto write = [&](const char* name, unsigned rule, int n_threads) {
+            const std::vector<Disc> mine = share(n, world, rule);
+            write_checkpoint(folder.file(name), header, mine, world, n_threads, {}, spins_of(mine));
+        };
+        write("a.h5", 0, 1);
         if (n == 777) std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // nor on the time of day
-        write_checkpoint(folder.file("b.h5"), some_header(), share(n, world, 1), world, 3); // nor on the threads
+        write("b.h5", 1, 3); // nor on the threads
         const bool same_bytes = bytes_of(folder.file("a.h5")) == bytes_of(folder.file("b.h5")); // not told byte by byte
         CHECK(same_bytes);
     }
@@ -221,10 +267,13 @@ TEST_CASE("damage is told by the data set that it is in") {
     const Communicator world = Communicator::world();
     const TestFolder folder(world);
     const std::string path = folder.file("a.h5");
-    write_checkpoint(path, some_header(), share(5000, world, 0), world);
+    CheckpointHeader header = some_header();
+    header.has_spins = true;
+    const std::vector<Disc> mine = share(5000, world, 0);
+    write_checkpoint(path, header, mine, world, 1, {}, spins_of(mine));
     const std::string good = bytes_of(path);
     const std::vector<SealedPart> parts = sealed_parts(path);
-    CHECK(parts.size() == 9);
+    CHECK(parts.size() == 10);
     const auto told = [&](std::vector<std::size_t> places) {
         world.barrier();
         if (world.is_root()) {

@@ -52,6 +52,14 @@ Disc disc_at(DiscId id, std::int64_t step) {
     return disc;
 }
 
+double spin_of(const Disc& disc) { return disc.vx - 0.5; }
+
+std::vector<double> spins_of(const std::vector<Disc>& discs) {
+    std::vector<double> spins;
+    for (const Disc& disc : discs) spins.push_back(spin_of(disc));
+    return spins;
+}
+
 std::vector<Disc> share(std::uint64_t n, std::int64_t step, const Communicator& world) {
     std::vector<Disc> mine;
     for (DiscId id = n; id-- > 0;)
@@ -71,12 +79,12 @@ TrajectoryLayout layout_of(std::uint64_t n) {
 }
 
 /// Whether rank 0 reads just these frames; true elsewhere.
-bool holds(const std::string& path, std::uint64_t n, const std::vector<std::int64_t>& steps, const Communicator& world) {
+bool holds(const std::string& path, std::uint64_t n, const std::vector<std::int64_t>& steps, const Communicator& world, bool are_turning = false) {
     world.barrier();
     bool is_right = true;
     if (world.is_root()) {
         const FrameFile file(path);
-        is_right = file.summary().kind == FileKind::trajectory && file.summary().n_discs == n && file.summary().steps == steps &&
+        is_right = file.summary().kind == FileKind::trajectory && file.summary().n_discs == n && file.summary().steps == steps && file.summary().has_angular_velocity == are_turning &&
                    (steps.empty() || file.summary().box_size == 64) && file.summary().program_version == "0.0.1";
         std::vector<FrameRow> rows;
         for (std::size_t frame = 0; is_right && frame < steps.size(); ++frame) {
@@ -85,7 +93,8 @@ bool holds(const std::string& path, std::uint64_t n, const std::vector<std::int6
                 const Disc disc = disc_at(id, steps[frame]);
                 const FrameRow& row = rows[id];
                 is_right = is_right && row.x == disc.x + disc.vx && row.y == disc.y + disc.vy && row.vx == 4 * disc.vx &&
-                           row.vy == 4 * disc.vy && row.wall_collisions == disc.wall_collisions && row.pair_collisions == disc.pair_collisions;
+                           row.vy == 4 * disc.vy && row.wall_collisions == disc.wall_collisions && row.pair_collisions == disc.pair_collisions &&
+                           row.angular_velocity == (are_turning ? 4 * spin_of(disc) : 0);
             }
         }
     }
@@ -104,15 +113,21 @@ TEST_CASE("frames are read as they were given, in the order of ids") {
             TrajectoryLayout layout = layout_of(n);
             layout.compression = compression;
             layout.is_single = compression == 0;
+            layout.has_angular_velocity = compression != 0;
             Trajectory trajectory(path, layout, world);
+            const auto append = [&](std::int64_t step) {
+                const std::vector<Disc> mine = share(n, step, world);
+                trajectory.append(step, mine, 1.5, spins_of(mine));
+            };
+            const auto is_right = [&](const std::vector<std::int64_t>& steps) { return holds(path, n, steps, world, layout.has_angular_velocity); };
             trajectory.begin();
-            CHECK(holds(path, n, {}, world));
-            trajectory.append(0, share(n, 0, world), 1.5);
-            trajectory.append(7, share(n, 7, world), 1.5);
-            CHECK(holds(path, n, {0, 7}, world));
+            CHECK(is_right({}));
+            append(0);
+            append(7);
+            CHECK(is_right({0, 7}));
             trajectory.commit();
             trajectory.describe();
-            CHECK(holds(path, n, {0, 7}, world));
+            CHECK(is_right({0, 7}));
             CHECK((!world.is_root() || std::filesystem::exists(folder.file("t.xdmf"))));
         }
     }

@@ -114,7 +114,7 @@ TEST_CASE("Drag is read, and refused beside what it does not go with yet") {
     CHECK(problems_with({"effects.gravity.x=0.03", "effects.drag.rate=0.02", all}).empty()); // falls 42 from sync to sync instead of 61
 }
 
-TEST_CASE("Rough discs are read, and refused beside what does not know of spins") {
+TEST_CASE("Rough discs are read, and refused beside what does not go with them yet") {
     const Texts rough{"effects.contact.kind=rough", "effects.contact.restitution=0.9", "effects.contact.tangential_restitution=0.5"};
     const auto with = [&](Texts more) {
         more.insert(more.begin(), rough.begin(), rough.end());
@@ -127,7 +127,14 @@ TEST_CASE("Rough discs are read, and refused beside what does not know of spins"
     CHECK(has(problems_with({"effects.contact.kind=rough"}), "'effects.contact.tangential_restitution' is missing"));
     CHECK(has(problems_with(with({"effects.contact.tangential_restitution=1.5"})), "from -1 to 1, not 1.5"));
     CHECK(has(problems_with(with({"effects.drag.rate=0.01", "time.collisions=all"})), "no drag together with rough discs"));
-    CHECK(has(problems_with(with({"output.checkpoint.folder=kept"})), "no spins in checkpoints"));
+    CHECK(problems_with(with({"output.checkpoint.folder=kept"})).empty());
+
+    const std::string file = "output.trajectory.file=t.h5", fields = "output.trajectory.fields=[\"position\", \"angular_velocity\"]";
+    CHECK(read_scene(good, "s.toml", with({file})).trajectory->has_angular_velocity);
+    CHECK(!read_scene(good, "s.toml", {file}).trajectory->has_angular_velocity);
+    const TrajectoryOutput named = *read_scene(good, "s.toml", with({file, fields})).trajectory;
+    CHECK((named.has_position && !named.has_velocity && named.has_angular_velocity));
+    CHECK(has(problems_with({file, fields}), "\"angular_velocity\" needs discs that turn"));
 }
 
 TEST_CASE("Classes of discs are read, by table and by list") {
