@@ -54,6 +54,14 @@ class Frames:
         """Array (n, 2), per step."""
         return self._field("velocity", frame)
 
+    def spins(self, frame):
+        """Array (n), angles per step, counterclockwise."""
+        if "carrom/discs/spin" in self.file:  # a checkpoint of one frame
+            return self.file["carrom/discs/spin"][:] * self.file["carrom/run/micro_steps"][()]
+        if "angular_velocity" not in self.discs:
+            sys.exit(f"{self.file.filename}: has no spins; rough discs have, see output.trajectory.fields")
+        return self.discs["angular_velocity"]["value"][frame].astype(float)
+
     def _field(self, name, frame):
         if name not in self.discs:
             sys.exit(f"{self.file.filename}: has no {name}; see output.trajectory.fields")
