@@ -98,11 +98,11 @@ void add_accuracy_command(CLI::App& app, Action& action) {
     command->add_option("--micro-steps", words->micro_steps, "Largest K of 1, 2, 4, ...; default 256")->type_name("K");
     command->add_option("--arithmetic", words->arithmetic, "all: both precisions and formulas; stable: both precisions; default: what runs use")
         ->type_name("all|stable|default");
-    command->add_flag("--distances", words->of_distances, "Distances to the exact run along time, in the place of rates and costs; K = 1, 16, 256");
+    add_switch(*command, "--distances", words->of_distances, "Distances to the exact run along time, in the place of rates and costs; K = 1, 16, 256");
     command->add_option("--share", words->share, "The K-th of N shares of the trials only")->type_name("K/N");
     command->add_option("--threads", words->threads, "Threads; default 1")->type_name("T");
     command->add_option("--set", words->run.overrides, "Set any scene key; may be repeated")->type_name("KEY=VALUE")->allow_extra_args(false);
-    command->add_flag("--quiet", words->run.quiet, "No progress");
+    add_switch(*command, "--quiet", words->run.quiet, "No progress");
     command->footer(teaching);
     command->callback([words, &action] {
         std::vector<Problem> problems;

@@ -83,6 +83,11 @@ private:
 
 } // namespace
 
+CLI::Option* add_switch(CLI::App& command, const std::string& name, bool& is_on, const std::string& what_it_does) {
+    const auto complaint = [](const std::string& word) { return word == "true" ? std::string{} : "takes no value; leave \"=" + word + "\" out"; };
+    return command.add_flag(name, is_on, what_it_does)->check(CLI::Validator(complaint, ""));
+}
+
 void declare_run_options(CLI::App& command, RunWords& words) {
     command.set_help_flag("-h,--help", "Print this help and exit");
     command.add_option("INPUT", words.input, "SCENE.toml, FILE.in, or - for standard input")->type_name("");
@@ -104,10 +109,10 @@ void declare_run_options(CLI::App& command, RunWords& words) {
                        "Write the lines to FILE, not to standard output (under mpirun only so a full disk is noticed)")
         ->type_name("FILE");
     command.add_option("--report", words.report, "Write the summary's numbers to FILE as JSON")->type_name("FILE");
-    command.add_flag("--quiet", words.quiet, "No progress and no summary; errors are still told");
-    command.add_flag("--check", words.check,
-                     "After every step hold the state to its invariants; exit code 70 and the scene of the discs around where "
-                     "one is broken");
+    add_switch(command, "--quiet", words.quiet, "No progress and no summary; errors are still told");
+    add_switch(command, "--check", words.check,
+               "After every step hold the state to its invariants; exit code 70 and the scene of the discs around where "
+               "one is broken");
     const std::string group = "Cost only, never bits";
     command.add_option("--window", words.window,
                        "Micro-steps per window; below 1 a micro-step is cut into parts, at most 100000")->type_name("W")->group(group);

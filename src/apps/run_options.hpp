@@ -36,6 +36,9 @@ struct RunWords {
     bool quiet = false, check = false;
 };
 
+/// A flag that takes no value: `NAME=no` would else be read as its opposite, and any other value as none.
+CLI::Option* add_switch(CLI::App& command, const std::string& name, bool& is_on, const std::string& what_it_does);
+
 /// Declares the options on `command`. `words` must live until it has parsed.
 void declare_run_options(CLI::App& command, RunWords& words);
 

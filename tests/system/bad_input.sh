@@ -39,6 +39,11 @@ refuse 'several wrong options' $'--threads: must be\n--digits: must be\n--steps:
 run "$ranks" run some.in --threads
 expect_code 2 'an option without its value'
 expect_told 'command line: --threads' 'an option without its value'
+for word in yes no; do
+    refuse "--check=$word" "--check: takes no value; leave \"=$word\" out" run nowhere.toml --check=$word
+done
+refuse 'a flag with a value' '--quiet: takes no value' run nowhere.toml --quiet=no
+refuse 'a flag with a word behind it' 'yes: one input is enough' run nowhere.toml --check yes
 refuse 'an unknown subcommand' 'command line' walk some.in
 mkdir secret && printf "$header" >secret/a.in && chmod 000 secret/a.in
 # Root may read everything; a file that gives an error on reading is as good.
