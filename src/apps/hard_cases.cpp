@@ -21,10 +21,18 @@ void warn_of_hard_cases(const Scene& scene, const Simulation& simulation, const 
          scene.name, speed / scene.radius, speed * rounding / scene.radius, scene.sync_every);
 }
 
-void warn_of_overlaps(const Scene& scene, const Totals& start) {
-    if (start.overlapping_pairs == 0) return;
-    tell("{}: warning: {} of discs overlap at the start; they pass through each other and collide once they have come apart\n",
-         scene.name, start.overlapping_pairs == 1 ? "1 pair" : fmt::format("{} pairs", start.overlapping_pairs));
+void warn_of_close_pairs(const Scene& scene, const Totals& start) {
+    const auto pairs = [](std::uint64_t count) { return count == 1 ? std::string("1 pair") : fmt::format("{} pairs", count); };
+    if (start.overlapping_pairs > 0)
+        tell("{}: warning: {} of discs overlap at the start; they pass through each other and collide once they have come apart\n",
+             scene.name, pairs(start.overlapping_pairs));
+    if (start.chained_discs > 0)
+        tell("{}: warning: {} two others or more at the start; what a hit does to discs that touch mechanics does not define: "
+             "here the order of ids does\n",
+             scene.name, start.chained_discs == 1 ? "1 disc touches" : fmt::format("{} discs touch", start.chained_discs));
+    if (start.sliding_pairs > 0)
+        tell("{}: warning: {} of discs that touch slide along each other at the start; whether they collide the last digits decide\n",
+             scene.name, pairs(start.sliding_pairs));
 }
 
 } // namespace carrom

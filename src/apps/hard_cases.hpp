@@ -11,7 +11,8 @@ namespace carrom {
 /// Rank 0 warns if discs go noticeably far in the rounding of a time. **Collective.**
 void warn_of_hard_cases(const Scene& scene, const Simulation& simulation, const Communicator& ranks);
 
-/// The same for discs that overlap as the scene starts, under the rule "one". One rank calls this.
-void warn_of_overlaps(const Scene& scene, const Totals& start);
+/// The same for what rounding or the order of ids decides as the scene starts: discs that overlap (under the rule "one"), that
+/// touch several others, that slide along each other. One rank calls this.
+void warn_of_close_pairs(const Scene& scene, const Totals& start);
 
 } // namespace carrom

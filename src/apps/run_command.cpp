@@ -138,7 +138,7 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     result.threads = tuning.threads;
     result.first_step = simulation.step();
     result.start = simulation.totals();
-    if (ranks.is_root() && result.first_step == 0) warn_of_overlaps(scene, result.start);
+    if (ranks.is_root() && result.first_step == 0) warn_of_close_pairs(scene, result.start);
     const double setup_seconds = watch.lap();
     double output_seconds = 0;
     const bool is_done = step_to_end(simulation, result, output_seconds, options, scene, is_restart, std::move(loaded.samples), *signals, ranks);

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "carrom/core/exact_sum.hpp"
+#include "near_pairs.hpp"
 
 namespace carrom {
 
@@ -91,24 +94,64 @@ void measure_height(std::span<const Disc> own, const DiscBodies* bodies, const G
     totals.potential_energy = energy.value();
 }
 
+namespace {
+
+/// Two discs of a population at a time.
+class PairsAt {
+public:
+    PairsAt(const Population& population, double time, const Touching& touching) : population_(population), time_(time), touching_(touching) {}
+
+    /// The rank of the lower id counts a pair.
+    bool is_mine(LocalIndex a, LocalIndex b) const { return (disc(a).id < disc(b).id ? a : b) < population_.n_own; }
+    double overlap(LocalIndex a, LocalIndex b) const {
+        const auto [dx, dy] = separation(a, b);
+        return touching_.diameter_of(disc(a), disc(b)) - std::sqrt(dx * dx + dy * dy);
+    }
+    /// Of two that touch.
+    bool slide(LocalIndex a, LocalIndex b) const {
+        const auto [dx, dy] = separation(a, b);
+        const double wx = disc(b).vx - disc(a).vx, wy = disc(b).vy - disc(a).vy, approach = dx * wx + dy * wy, square = wx * wx + wy * wy;
+        return square > 0 && approach * approach <= 4 * touching_.tolerance * touching_.diameter_of(disc(a), disc(b)) * square;
+    }
+
+private:
+    const Disc& disc(LocalIndex index) const { return population_.discs[index]; }
+    std::pair<double, double> separation(LocalIndex a, LocalIndex b) const {
+        const Disc &p = disc(a), &q = disc(b);
+        const double dx = q.x_at(time_) - p.x_at(time_), dy = q.y_at(time_) - p.y_at(time_);
+        if (!touching_.periods.are_any()) return {dx, dy};
+        return {dx + touching_.periods.x_between(p, q), dy + touching_.periods.y_between(p, q)};
+    }
+
+    const Population& population_;
+    double time_;
+    const Touching& touching_;
+};
+
+/// Of this rank's discs: pairs that touch, those of them that slide, discs that touch several.
+std::array<std::uint64_t, 3> count_touching(const PairsAt& pairs, const Population& population, const CellGrid& grid, double tolerance) {
+    std::array<std::uint64_t, 3> counts{};
+    std::vector<std::uint8_t> n_partners(population.discs.size(), 0); // 2 stands for more, too
+    visit_near_pairs(grid, [&](LocalIndex a, LocalIndex b) {
+        if (!(std::fabs(pairs.overlap(a, b)) <= tolerance)) return;
+        for (const LocalIndex index : {a, b}) n_partners[index] += n_partners[index] < 2;
+        counts[0] += pairs.is_mine(a, b);
+        counts[1] += pairs.is_mine(a, b) && pairs.slide(a, b);
+    });
+    for (std::size_t i = 0; i < population.n_own; ++i) counts[2] += n_partners[i] == 2;
+    return counts;
+}
+
+} // namespace
+
 void measure_overlaps(const Population& population, const CellGrid& grid, double time, const Touching& touching,
                       const Communicator& communicator, int n_threads, Totals& totals) {
-    const auto pair_is_mine = [&](LocalIndex a, LocalIndex b) { // the rank of the lower id counts the pair
-        return (population.discs[a].id < population.discs[b].id ? a : b) < population.n_own;
-    };
-    const auto depth = [&](const Disc& p, const Disc& q) {
-        double dx = q.x_at(time) - p.x_at(time), dy = q.y_at(time) - p.y_at(time);
-        if (touching.periods.are_any()) {
-            dx += touching.periods.x_between(p, q);
-            dy += touching.periods.y_between(p, q);
-        }
-        return touching.diameter_of(p, q) - std::sqrt(dx * dx + dy * dy);
-    };
-    std::uint64_t n_pairs = 0;
+    const PairsAt pairs(population, time, touching);
+    std::uint64_t n_pairs = 0, n_touching = 0;
     double deepest = 0;
     const std::span<const LocalIndex> order = grid.order();
     const int n_columns = grid.frame().n_columns, n_reach = grid.frame().n_reach;
-#pragma omp parallel for num_threads(n_threads) schedule(dynamic, 8) reduction(+ : n_pairs) reduction(max : deepest)
+#pragma omp parallel for num_threads(n_threads) schedule(dynamic, 8) reduction(+ : n_pairs, n_touching) reduction(max : deepest)
     for (int column = 0; column < n_columns; ++column) {
         const SlotRange all = grid.run(column, 0, grid.frame().n_rows - 1);
         for (std::uint32_t slot = all.begin; slot < all.end; ++slot) {
@@ -117,9 +160,13 @@ void measure_overlaps(const Population& population, const CellGrid& grid, double
             for (int other = column; other <= std::min(column + n_reach, n_columns - 1); ++other) {
                 const SlotRange run = grid.run(other, row - n_reach, row + n_reach);
                 for (std::uint32_t k = other == column ? slot + 1 : run.begin; k < run.end; ++k) {
-                    const double overlap = depth(population.discs[index], population.discs[order[k]]);
-                    if (!(overlap > touching.tolerance)) continue;
-                    n_pairs += pair_is_mine(index, order[k]);
+                    const double overlap = pairs.overlap(index, order[k]);
+                    if (!(overlap >= -touching.tolerance)) continue;
+                    if (overlap <= touching.tolerance) {
+                        ++n_touching;
+                        continue;
+                    }
+                    n_pairs += pairs.is_mine(index, order[k]);
                     deepest = std::max(deepest, overlap);
                 }
             }
@@ -127,6 +174,13 @@ void measure_overlaps(const Population& population, const CellGrid& grid, double
     }
     totals.overlapping_pairs = communicator.sum(n_pairs);
     totals.deepest_overlap = communicator.max(deepest);
+    // Such pairs are rare: whoever has none does not pay for a second look.
+    std::array<std::uint64_t, 3> counts{};
+    if (n_touching > 0) counts = count_touching(pairs, population, grid, touching.tolerance);
+    communicator.sum(counts);
+    totals.touching_pairs = counts[0];
+    totals.sliding_pairs = counts[1];
+    totals.chained_discs = counts[2];
 }
 
 } // namespace carrom

@@ -44,8 +44,10 @@ template <class Law> Touching touching_of(const Law& law, const Periods& periods
     else return {law.diameter(), law.tolerance(), nullptr, periods};
 }
 
-/// Fills in the pairs that overlap at `time`, each counted once, and how far the deepest overlaps. The grid holds the
-/// population at that time, and partners within a diameter are within its reach. **Collective.**
+/// Fills in the pairs that overlap at `time`, each counted once, how far the deepest overlaps, and the pairs that touch: which
+/// of them slide along each other, (d.w)^2 <= 4 tolerance sigma w.w with d, w their separation and relative velocity (the
+/// distance of closest approach is then a diameter to within the tolerance), and how many discs touch several. The grid holds
+/// the population at that time, and partners within a diameter and the tolerance are within its reach. **Collective.**
 void measure_overlaps(const Population& population, const CellGrid& grid, double time, const Touching& touching,
                       const Communicator& communicator, int n_threads, Totals& totals);
 

@@ -31,4 +31,25 @@ overlapping() {
 }
 overlapping 4.9 && expect_warning 'discs that overlap' '1 pair of discs overlap at the start'
 overlapping 5 && expect_no_warning 'discs that touch'
+
+# discs KIND ROW...: these, in a box of 10 with walls or periodic sides.
+discs() {
+    local kind=$1 rows=
+    shift
+    for row; do rows+="[$row], "; done
+    printf '[box]\nsize = 10\nleft.kind = "%s"\nright.kind = "%s"\n[discs]\nradius = 1\nlist = [%s]\n[time]\nsteps = 1\n' "$kind" "$kind" "$rows" >scene.toml
+}
+discs wall 3,3,0,0 5,3,0,0 7,3,0,0 && expect_warning 'a chain' '1 disc touches two others or more at the start'
+discs wall 3,3,0,0 5,3,0,0 7.000001,3,0,0 && expect_no_warning 'a chain with a gap of 1e-6'
+discs wall 2,3,0,0 4,3,0,0 6,3,0,0 8,3,0,0 && expect_warning 'a chain of four' '2 discs touch two others or more'
+discs periodic 1,3,0,0 3,3,0,0 9,3,0,0 && expect_warning 'a chain across periodic sides' '1 disc touches two others or more at the start'
+discs wall 3,3,0,1 5,3,0,-1 && expect_warning 'a pair that slides' '1 pair of discs that touch slide along each other at the start'
+discs periodic 1,3,1e-9,1 9,3,0,-1 && expect_warning 'a pair that slides across periodic sides' '1 pair of discs that touch slide along each other'
+discs wall 3,3,0.1,1 5,3,0,-1 && expect_no_warning 'a pair that touches and meets'
+discs wall 3,3,1,1 5,3,1,1 && expect_no_warning 'a pair that flies together'
+for rule in one all; do
+    discs wall 3,3,0,1 5,3,0,-1
+    run 1 run scene.toml --quiet --set time.collisions=$rule --set box.size=20
+    expect_told 'slide along each other' "a pair that slides, rule $rule"
+done
 finish
