@@ -141,12 +141,13 @@ template <class Law> ReplayWindow ExactEngine<Law>::choose(double target) {
     return window;
 }
 
-/// The same reach at a higher speed: a shorter window.
+/// The same reach at a higher speed: a shorter window. Where all were at rest until a wall came, a flight of a diameter.
 template <class Law> void ExactEngine<Law>::shorten() {
     double fastest = 0;
     for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.too_fast);
     const double bound = communicator_.max(fastest) * exact_.speed_allowance;
-    const double duration = window_.duration() * (window_.speed_bound / bound);
+    const double share = window_.speed_bound / bound;
+    const double duration = share > 0x1p-200 ? window_.duration() * share : std::min(window_.duration(), law_.diameter() / bound);
     window_.end = std::max(window_.begin + duration, std::nextafter(window_.begin, window_.end));
     window_.speed_bound = bound;
 }

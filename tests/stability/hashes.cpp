@@ -11,6 +11,8 @@
 #include "carrom/parallel/mpi.hpp"
 #include "event_driven.hpp"
 #include "runs.hpp"
+#include "scene_tools.hpp"
+#include "troubled_effects.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -31,6 +33,15 @@ bool is_long_under_all(const TestScene& scene) {
     return scene.is_endless_under_all || (is_line && scene.discs.size() >= 400);
 }
 
+/// A gas, a crowd and a triangle that is hit, with effects drawn at random.
+TestScene scene_with_effects(std::uint64_t seed, CollisionRule rule) {
+    TestScene scene = seed % 3 == 0 ? gas(60, 0.3, 0.5, 900 + seed) : seed % 3 == 1 ? gas(64, 0.6, 0.1, 900 + seed) : break_shot(5, 0.5, 3, 0.1);
+    scene.steps = 10;
+    scene.setting.sync_every = seed % 2 == 0 ? 3 : 64;
+    scene.setting.micro_steps = seed % 4 == 0 ? 2 : 1;
+    return with_effects(scene, rule, seed);
+}
+
 /// FNV-1a over the lines.
 void add(std::uint64_t& sum, const std::string& line) {
     for (const char c : line) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
@@ -48,15 +59,25 @@ int main(int argc, char** argv) {
             scene.steps = 2;
             scenes.push_back(scene);
         }
+        const auto add_run = [&](const TestScene& scene, CollisionRule rule) {
+            const std::string line = text_of(scene, rule) + "  " + name_of(rule) + "  " + scene.name;
+            add(sum, line);
+            ++n_runs;
+            if (argc > 1 && world.is_root()) std::printf("%s\n", line.c_str());
+        };
+        const auto is_asked_for = [&](const TestScene& scene) { return argc < 2 || scene.name.find(argv[1]) != std::string::npos; };
         for (TestScene& scene : scenes) {
-            if (argc > 1 && scene.name.find(argv[1]) == std::string::npos) continue;
+            if (!is_asked_for(scene)) continue;
             for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
                 if (rule == CollisionRule::all && is_long_under_all(scene)) continue;
                 if (rule == CollisionRule::all) scene.steps = std::min<std::int64_t>(scene.steps, 4);
-                const std::string line = text_of(scene, rule) + "  " + name_of(rule) + "  " + scene.name;
-                add(sum, line);
-                ++n_runs;
-                if (argc > 1 && world.is_root()) std::printf("%s\n", line.c_str());
+                add_run(scene, rule);
+            }
+        }
+        for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+            for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+                const TestScene scene = scene_with_effects(seed, rule);
+                if (is_asked_for(scene)) add_run(scene, rule);
             }
         }
         if (world.is_root()) std::printf("%016llx %zu runs\n", static_cast<unsigned long long>(sum), n_runs);

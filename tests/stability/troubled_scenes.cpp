@@ -12,6 +12,7 @@
 
 #include "carrom/scene/read_scene.hpp"
 #include "scene_tools.hpp"
+#include "troubled_effects.hpp"
 
 namespace carrom::test {
 
@@ -189,15 +190,18 @@ std::string toml_of(const TestScene& scene) {
                        scene.setting.sync_every);
 }
 
-TestScene read_regression(const std::string& path) {
+Regression read_regression(const std::string& path) {
     std::ifstream file(path);
     const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     const Scene read = read_scene(text, path);
     TestScene scene = empty_scene(path, read.box_size, read.radius, read.steps);
     scene.setting.micro_steps = read.micro_steps;
     scene.setting.sync_every = read.sync_every;
+    scene.setting.effects = read.effects;
     scene.discs = read.listed_discs;
-    return scene;
+    if (!read.effects.are_any()) return {scene, {CollisionRule::one, CollisionRule::all}};
+    hand_to_reference(scene.setting);
+    return {scene, {read.rule}};
 }
 
 } // namespace carrom::test

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "scenes.hpp"
 
@@ -25,7 +26,11 @@ TestScene shrunk(TestScene scene, const std::function<bool(const TestScene&)>& f
 /// The scene as TOML that reads back to the same bits, to be kept in tests/stability/regressions.
 std::string toml_of(const TestScene& scene);
 
-/// A scene kept there.
-TestScene read_regression(const std::string& path);
+/// A scene kept there. With effects it is for its own rule, else for both.
+struct Regression {
+    TestScene scene;
+    std::vector<CollisionRule> rules;
+};
+Regression read_regression(const std::string& path);
 
 } // namespace carrom::test

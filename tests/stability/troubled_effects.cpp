@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "troubled_effects.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "carrom/core/random_numbers.hpp"
+#include "carrom/effects/drag.hpp"
+#include "scene_tools.hpp"
+
+namespace carrom::test {
+
+namespace {
+
+ContactEffect troubled_contact(Random& random) {
+    switch (random.index(4)) {
+    case 0: return {ContactKind::none, 1, 0.001};
+    case 1: return {ContactKind::restitution, std::array{0.0, 0.5, 0.9, 1 - 0x1p-53}[random.index(4)], 0.001};
+    default: return {};
+    }
+}
+
+/// A wall; `may_move` where the rule lets walls move.
+Side troubled_wall(std::size_t number, bool may_move, bool may_be_thermal, Random& random) {
+    const double inwards = number % 2 == 0 ? 1 : -1;
+    switch (random.index(5)) {
+    case 0: return {SideKind::fixed, std::array{0.0, 0.5, 0.9}[random.index(3)], 0, 0};
+    case 1: if (may_be_thermal) return {SideKind::thermal, 1, 0.25, 0}; break;
+    case 2: if (may_move) return {SideKind::moving, std::array{1.0, 0.5}[random.index(2)], 0, inwards * std::array{-0.25, -0.01, 0.01}[random.index(3)]}; break;
+    default: break;
+    }
+    return {};
+}
+
+} // namespace
+
+void hand_to_reference(reference::Setting& setting) {
+    setting.thermal_draw = [seed = setting.effects.thermal_seed](const Side& side, DiscId id, std::uint64_t count, std::size_t number) {
+        DiscRandom random(seed, Purpose::thermal_wall, id, 4 * count + number);
+        const double away = std::sqrt(2 * side.temperature * random_exponential(random));
+        const double speed = std::sqrt(2 * side.temperature * random_exponential(random));
+        return std::array{away, speed * random_direction(random).x};
+    };
+    const double per_micro_step = setting.effects.drag / static_cast<double>(setting.micro_steps);
+    if (per_micro_step > 0) setting.drag_clock = [per_micro_step](double n) { return drag_clock(per_micro_step, n); };
+}
+
+TestScene with_effects(TestScene scene, CollisionRule rule, std::uint64_t seed) {
+    Random random(seed ^ 0x9e3779b97f4a7c15u);
+    reference::Setting& setting = scene.setting;
+    Effects& effects = setting.effects;
+    const bool is_all = rule == CollisionRule::all;
+    const double interval = static_cast<double>(setting.sync_every) / static_cast<double>(setting.micro_steps);
+    effects.contact = troubled_contact(random);
+    effects.contact.contact_time = std::min(effects.contact.contact_time, interval / 4);
+    const bool has_drag = is_all && random.index(4) == 0;
+    for (const std::size_t low : {0u, 2u}) {
+        if (!has_drag && random.index(3) == 0) {
+            effects.sides[low] = effects.sides[low + 1] = {SideKind::periodic, 1, 0, 0};
+            continue;
+        }
+        for (const std::size_t number : {low, low + 1}) effects.sides[number] = troubled_wall(number, is_all && !has_drag, !has_drag, random);
+    }
+    if (has_drag) effects.drag = std::min(0.2, 1 / interval);
+    // A frame that falls by half the box between syncs is refused.
+    const double most = 0.2 * setting.box_size / (interval * interval);
+    const std::array<double, 2> pull{std::min(0.05, most), -std::min(0.02, most)};
+    if (is_all && !has_drag && random.index(2) == 0) {
+        if (!effects.is_periodic_x()) effects.gravity.x = pull[random.index(2)];
+        if (!effects.is_periodic_y()) effects.gravity.y = pull[random.index(2)];
+    }
+    hand_to_reference(setting);
+    scene.name += ", with " + (description(effects).empty() ? "no effect" : description(effects));
+    return scene;
+}
+
+} // namespace carrom::test
