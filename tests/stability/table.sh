@@ -4,8 +4,9 @@
 #
 #   tests/stability/table.sh [BUILD] [--long | --long=FAMILY]
 #
-# Runs the tests of BUILD (default: build), one rank with one thread: some 20 seconds. With --long also the long cases, which
-# take an hour or so. With a family its rows alone are made anew. Without --long their table stays as it is.
+# Runs the tests of BUILD (default: build), one rank with one thread: some 20 seconds. With --long also the long cases, each in a
+# process of its own, as many at a time as there are cores ($JOBS says otherwise); a line tells how long each took. With a
+# family its rows alone are made anew. Without --long their table stays as it is.
 set -euo pipefail
 source_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 page=$source_folder/docs/stability.md
@@ -39,6 +40,23 @@ export CARROM_STABILITY_TABLE=$folder/short
 "$build/tests/stability_mpi_test"
 table 'cases'
 [ $is_long = yes ] || exit 0
+
+# One table for each case, in the order in which they are listed, however they end.
+long_case() {
+    local number=$1 name=$2 start=$SECONDS code=0
+    export CARROM_STABILITY_TABLE=$folder/long.$number
+    "$build/tests/stability_mpi_test" "${name//,/\\,}" >"$folder/said.$number" 2>&1 </dev/null || code=$?
+    echo "$name: exit code $code after $((SECONDS - start)) s" >&2
+    [ $code -eq 0 ] || { cat "$folder/said.$number" >&2; touch "$folder/failed"; }
+}
+mapfile -t cases < <("$build/tests/stability_mpi_test" --list-test-names-only "[hours]${family:+[$family]}" || true) # says how many
+[ ${#cases[@]} -gt 0 ] || { echo "there are no long cases of the family $family" >&2; exit 2; }
+for number in "${!cases[@]}"; do
+    while [ "$(jobs -rp | wc -l)" -ge "${JOBS:-$(nproc)}" ]; do wait -n || true; done
+    long_case "$number" "${cases[number]}" &
+done
+wait
+[ ! -e "$folder/failed" ] || exit 1
 export CARROM_STABILITY_TABLE=$folder/long
-"$build/tests/stability_mpi_test" "[hours]${family:+[$family]}"
+for number in "${!cases[@]}"; do cat "$folder/long.$number"; done >"$folder/long"
 table 'long cases' "$family"
