@@ -7,6 +7,7 @@
 
 #include "carrom/core/random_numbers.hpp"
 #include "carrom/effects/drag.hpp"
+#include "carrom/effects/fall.hpp"
 #include "scene_tools.hpp"
 
 namespace carrom::test {
@@ -22,11 +23,11 @@ ContactEffect troubled_contact(Random& random) {
 }
 
 /// A wall; `may_move` where the rule lets walls move.
-Side troubled_wall(std::size_t number, bool may_move, bool may_be_thermal, Random& random) {
+Side troubled_wall(std::size_t number, bool may_move, Random& random) {
     const double inwards = number % 2 == 0 ? 1 : -1;
     switch (random.index(5)) {
     case 0: return {SideKind::fixed, std::array{0.0, 0.5, 0.9}[random.index(3)], 0, 0};
-    case 1: if (may_be_thermal) return {SideKind::thermal, 1, 0.25, 0}; break;
+    case 1: return {SideKind::thermal, 1, 0.25, 0};
     case 2: if (may_move) return {SideKind::moving, std::array{1.0, 0.5}[random.index(2)], 0, inwards * std::array{-0.25, -0.01, 0.01}[random.index(3)]}; break;
     default: break;
     }
@@ -42,8 +43,11 @@ void hand_to_reference(reference::Setting& setting) {
         const double speed = std::sqrt(2 * side.temperature * random_exponential(random));
         return std::array{away, speed * random_direction(random).x};
     };
-    const double per_micro_step = setting.effects.drag / static_cast<double>(setting.micro_steps);
-    if (per_micro_step > 0) setting.drag_clock = [per_micro_step](double n) { return drag_clock(per_micro_step, n); };
+    const double c = setting.effects.drag / static_cast<double>(setting.micro_steps);
+    if (!(c > 0)) return;
+    setting.drag_clock = [c](double n) { return drag_clock(c, n); };
+    setting.dragged_fall = [c](double clock) { return dragged_fall(c, clock); };
+    setting.dragged_fall_delay = [c](double distance, double velocity, double pull) { return dragged_fall_delay(distance, velocity, pull, c); };
 }
 
 TestScene with_effects(TestScene scene, CollisionRule rule, std::uint64_t seed) {
@@ -60,13 +64,13 @@ TestScene with_effects(TestScene scene, CollisionRule rule, std::uint64_t seed) 
             effects.sides[low] = effects.sides[low + 1] = {SideKind::periodic, 1, 0, 0};
             continue;
         }
-        for (const std::size_t number : {low, low + 1}) effects.sides[number] = troubled_wall(number, is_all && !has_drag, !has_drag, random);
+        for (const std::size_t number : {low, low + 1}) effects.sides[number] = troubled_wall(number, is_all, random);
     }
     if (has_drag) effects.drag = std::min(0.2, 1 / interval);
     // A frame that falls by half the box between syncs is refused.
     const double most = 0.2 * setting.box_size / (interval * interval);
     const std::array<double, 2> pull{std::min(0.05, most), -std::min(0.02, most)};
-    if (is_all && !has_drag && random.index(2) == 0) {
+    if (is_all && random.index(2) == 0) {
         if (!effects.is_periodic_x()) effects.gravity.x = pull[random.index(2)];
         if (!effects.is_periodic_y()) effects.gravity.y = pull[random.index(2)];
     }
