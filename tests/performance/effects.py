@@ -28,6 +28,8 @@ EFFECTS = {
     "gravity": ("all", "[effects.gravity]\ny = -0.0001\n", 1.15),
     "drag": ("all", "[effects.drag]\nrate = 0.0001\n", 1.1),
     "a moving wall": ("all", '[box.right]\nkind = "moving"\nspeed = -0.0005\n', 1.1),
+    "periodic sides": ("all", "".join(f'[box.{side}]\nkind = "periodic"\n' for side in ("left", "right", "bottom", "top")), 1.1),
+    "periodic sides, rule one": ("one", "".join(f'[box.{side}]\nkind = "periodic"\n' for side in ("left", "right", "bottom", "top")), 1.1),
     "discs that do not meet": ("all", '[effects.contact]\nkind = "none"\n', None),
 }
 
