@@ -2,7 +2,6 @@
 // Plans where sides are periodic: strips are neighbours across the seam too, and a rank is its own neighbour.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "carrom/core/errors.hpp"
 #include "carrom/domain/transfer.hpp"
@@ -38,6 +37,17 @@ bool are_near(const Strips& a, int rank_a, const Strips& b, int rank_b, double d
     return Slab(a, rank_a, period).is_near(Slab(b, rank_b, period), distance, period);
 }
 
+/// Displacements by n periods that may bring `place` to within `reach` of low .. high; some that do not among them.
+struct Shifts {
+    int first = 0, last = 0;
+
+    Shifts(double place, double reach, double low, double high, double period) {
+        if (period == 0) return;
+        first = static_cast<int>(std::ceil((low - reach - place) / period - margin));
+        last = static_cast<int>(std::floor((high + reach - place) / period + margin));
+    }
+};
+
 std::vector<std::size_t> places_of(const std::vector<int>& partners, int n_ranks) {
     std::vector<std::size_t> places(static_cast<std::size_t>(n_ranks), partners.size());
     for (std::size_t k = 0; k < partners.size(); ++k) places[static_cast<std::size_t>(partners[k])] = k;
@@ -71,7 +81,6 @@ TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& str
 
 TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const Disc> own, double time, double reach,
                                 const Periods& periods) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     TransferPlan plan;
     const double longest = std::max(periods.x, periods.y);
     for (int other = 0; other < strips.size(); ++other) {
@@ -83,20 +92,21 @@ TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const 
     std::vector<Slab> slabs;
     for (const int other : plan.partners) slabs.emplace_back(strips, other, periods.x);
     const Slab mine(strips, rank, periods.x);
-    const double y_low = periods.y == 0 ? -infinity : 0, y_high = periods.y == 0 ? infinity : periods.y;
-    const int n_x = periods.x == 0 ? 0 : static_cast<int>(std::ceil(reach / periods.x)) + 1;
-    const int n_y = periods.y == 0 ? 0 : static_cast<int>(std::ceil(reach / periods.y)) + 1;
+    const Inside box = periods.inside();
+    const Inside inner = {mine.low + reach, mine.high - reach, box.y_low + reach, box.y_high - reach};
     for (std::size_t i = 0; i < own.size() && !slabs.empty(); ++i) {
+        if (is_unshifted(own[i]) && inner.holds(own[i].x_at(time), own[i].y_at(time))) continue; // nearly all
         const double x = periods.x_of(own[i], time), y = periods.y_of(own[i], time);
-        if (x - reach >= mine.low && x + reach < mine.high && y - reach >= y_low && y + reach < y_high) continue; // nearly all
         const Image home = image_of(own[i]);
+        const Shifts along_y(y, reach, box.y_low, box.y_high, periods.y);
         for (std::size_t k = 0; k < slabs.size(); ++k) {
-            for (int n = -n_x; n <= n_x; ++n) {
+            const Shifts along_x(x, reach, slabs[k].low, slabs[k].high, periods.x);
+            for (int n = along_x.first; n <= along_x.last; ++n) {
                 const double image_x = x + n * periods.x;
                 if (image_x + reach < slabs[k].low || image_x - reach > slabs[k].high) continue;
-                for (int m = -n_y; m <= n_y; ++m) {
+                for (int m = along_y.first; m <= along_y.last; ++m) {
                     const double image_y = y + m * periods.y;
-                    if (image_y + reach < y_low || image_y - reach > y_high) continue;
+                    if (image_y + reach < box.y_low || image_y - reach > box.y_high) continue;
                     if (plan.partners[k] == rank && n == 0 && m == 0) continue;
                     plan.leaving[k].push_back(static_cast<LocalIndex>(i));
                     plan.images[k].push_back({home.x + n, home.y + m});

@@ -55,7 +55,7 @@ void Simulation::advance_towards(std::int64_t last_step) {
     if (!averages_->has_begun()) average_anew();
     if (check_ && step() < last_step) advance_checked();
     else engine_->advance_towards(last_step); // never beyond the first step after a sync, where blocks may end
-    if (averages_->ends_block(step())) averages_->end_block(step(), look_at(shown(), engine_->n_discs(), n_threads_, communicator_));
+    if (averages_->ends_block(step())) averages_->end_block(step(), look_at(in_motion(), engine_->n_discs(), n_threads_, communicator_));
 }
 
 void Simulation::check_every_step(const Scene& scene) {
@@ -71,11 +71,11 @@ void Simulation::advance_checked() {
     if (log_) log_->insert(log_->end(), collisions.begin(), collisions.end());
 }
 
-void Simulation::average_anew() { averages_->begin(step(), look_at(shown(), engine_->n_discs(), n_threads_, communicator_)); }
+void Simulation::average_anew() { averages_->begin(step(), look_at(in_motion(), engine_->n_discs(), n_threads_, communicator_)); }
 
 Averages Simulation::averages() const {
     if (!averages_->has_begun()) return {};
-    return averages_->averages(step(), look_at(shown(), engine_->n_discs(), n_threads_, communicator_));
+    return averages_->averages(step(), look_at(in_motion(), engine_->n_discs(), n_threads_, communicator_));
 }
 
 std::int64_t Simulation::step() const { return micro_steps_done() / static_cast<std::int64_t>(velocity_unit_); }
@@ -101,6 +101,8 @@ std::span<const Disc> Simulation::shown() const {
     return shown_;
 }
 
+std::span<const Disc> Simulation::in_motion() const { return frame().keeps_velocities() ? discs() : shown(); }
+
 double Simulation::clock() const { return engine_->clock(); }
 
 void Simulation::log_to(std::vector<Collision>* log) {
@@ -121,7 +123,7 @@ Totals Simulation::totals() const {
     measure_collisions(discs(), engine_->spins(), communicator_, totals);
     measure_departures(discs(), box_size_, communicator_, totals);
     const DiscBodies* const bodies = effects_.classes.empty() ? nullptr : &bodies_;
-    measure_motion(shown(), bodies, velocity_unit_, communicator_, totals);
+    measure_motion(in_motion(), bodies, velocity_unit_, communicator_, totals);
     if (effects_.contact.kind == ContactKind::rough)
         measure_rotation(discs(), spins(), bodies_, effects_.contact.inertia, velocity_unit_, communicator_, totals);
     if (effects_.gravity.is_any()) measure_height(shown(), bodies, effects_.gravity, box_size_, communicator_, totals);

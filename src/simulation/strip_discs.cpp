@@ -90,9 +90,13 @@ TransferPlan StripDiscs::migration_plan(double time, double farthest) const {
 
 /// The companion of a disc stands for the same image, wherever its own state takes it.
 void StripDiscs::set_home_images(double time, std::vector<Disc>* companion) {
+    const Inside inside = periods_.inside();
     for (std::size_t i = 0; i < n_own_; ++i) {
-        const Image home = periods_.home(discs_[i], time);
-        if (!(image_of(discs_[i]) == home)) set_image(discs_[i], home); // nearly all have it
+        Disc& disc = discs_[i];
+        const bool is_at_home = is_unshifted(disc) && inside.holds(disc.x_at(time), disc.y_at(time)); // nearly all
+        if (is_at_home && !companion) continue;
+        const Image home = is_at_home ? Image{} : periods_.home(disc, time);
+        if (!is_at_home) set_image(disc, home);
         if (companion) set_image((*companion)[i], home);
     }
 }

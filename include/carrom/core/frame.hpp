@@ -19,6 +19,8 @@ struct Frame {
     double clock = 0;       ///< its time
     double period_x = 0, period_y = 0; ///< of a periodic box
 
+    bool keeps_velocities() const { return vx == 0 && vy == 0 && slowing == 1; }
+
     /// The disc at `time`, which is the frame's, as the box sees it. One that has left the box is stored so.
     Disc in_box(const Disc& stored, double time) const {
         if (stored.is_gone()) return stored;

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "carrom/core/disc.hpp"
 #include "carrom/core/errors.hpp"
@@ -27,6 +28,9 @@ inline Image image_of(const Disc& disc) {
     return {static_cast<std::int16_t>(disc.wall_collisions >> 48), static_cast<std::int16_t>(disc.wall_collisions >> 32)};
 }
 
+/// Whether the disc's image is the one at its stored place, as nearly all are.
+inline bool is_unshifted(const Disc& disc) { return disc.wall_collisions >> 32 == 0; }
+
 /// Of collisions with walls, below 2^32 where there are images.
 inline std::uint64_t count_without_image(const Disc& disc) { return disc.wall_collisions & 0xffffffffu; }
 
@@ -36,6 +40,13 @@ inline void set_image(Disc& disc, Image image) {
     disc.wall_collisions = count_without_image(disc) | x << 48 | y << 32;
 }
 
+/// Places at which nothing has to be done about images, without end where a box does not repeat itself.
+struct Inside {
+    double x_low = 0, x_high = 0, y_low = 0, y_high = 0;
+
+    bool holds(double x, double y) const { return x >= x_low && x < x_high && y >= y_low && y < y_high; }
+};
+
 /// The lengths after which a box repeats itself along x and y; 0 where it does not.
 struct Periods {
     double x = 0, y = 0;
@@ -43,8 +54,8 @@ struct Periods {
     bool are_any() const { return x != 0 || y != 0; }
 
     /// Where the disc's image is.
-    double x_of(const Disc& disc, double time) const { return disc.x_at(time) + image_of(disc).x * x; }
-    double y_of(const Disc& disc, double time) const { return disc.y_at(time) + image_of(disc).y * y; }
+    double x_of(const Disc& disc, double time) const { return is_unshifted(disc) ? disc.x_at(time) : disc.x_at(time) + image_of(disc).x * x; }
+    double y_of(const Disc& disc, double time) const { return is_unshifted(disc) ? disc.y_at(time) : disc.y_at(time) + image_of(disc).y * y; }
 
     /// How much further the difference of two stored places is for their images: the same number with the other sign for (q, p).
     double x_between(const Disc& p, const Disc& q) const { return (image_of(q).x - image_of(p).x) * x; }
@@ -52,6 +63,12 @@ struct Periods {
 
     /// The image that is in the box, to within a rounding.
     Image home(const Disc& disc, double time) const { return {lengths(disc.x_at(time), x), lengths(disc.y_at(time), y)}; }
+
+    /// The box.
+    Inside inside() const {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        return {x == 0 ? -infinity : 0, x == 0 ? infinity : x, y == 0 ? -infinity : 0, y == 0 ? infinity : y};
+    }
 
 private:
     static int lengths(double place, double period) {

@@ -54,7 +54,7 @@ public:
     }
 
 private:
-    PairContact<double> contact(const Disc& p, const Disc& q, double deepest_overlap) const {
+    [[gnu::flatten]] PairContact<double> contact(const Disc& p, const Disc& q, double deepest_overlap) const {
         if constexpr (Walled::has_pairs) {
             const double base = std::max(p.tau, q.tau);
             const double dx = (q.x_at(base) - p.x_at(base)) + periods_.x_between(p, q);

@@ -139,6 +139,8 @@ public:
 
 private:
     void advance_checked();
+    /// As `shown()`, for whoever looks at velocities only.
+    std::span<const Disc> in_motion() const;
 
     Communicator communicator_;
     double velocity_unit_;
