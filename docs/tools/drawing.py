@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Discs to scale on matplotlib's axes, coloured by speed, spin or strip; shared by plot_frame.py and plot_movie.py."""
+"""Discs to scale on matplotlib's axes, coloured by speed, velocity along x, spin or strip; shared by plot_frame.py and plot_movie.py."""
 import tomllib
 
 import matplotlib
@@ -15,10 +15,10 @@ from frames import strips_of
 
 
 def add_drawing_options(parser):
-    parser.add_argument("--colour", choices=("speed", "spin", "strip"), default="speed")
+    parser.add_argument("--colour", choices=("speed", "vx", "spin", "strip"), default="speed")
     parser.add_argument("--ranks", type=int, default=4, help="how many strips to show; default 4")
     parser.add_argument("--view", type=float, nargs=4, metavar=("X0", "Y0", "X1", "Y1"), help="part of the box to show")
-    parser.add_argument("--fastest", type=float, help="speed, or spin, of the strongest colour; default: 99 in 100 discs are slower")
+    parser.add_argument("--fastest", type=float, help="speed, velocity or spin of the strongest colour; default: 99 in 100 discs are slower")
     parser.add_argument("--scene", help="the scene's TOML, to draw its obstacles from")
     parser.add_argument("--dpi", type=int, default=110)
 
@@ -80,7 +80,7 @@ class Picture:
         """The discs, none yet, and the bar of their colours."""
         self.discs = EllipseCollection([], [], [], units="xy", offsets=np.empty((0, 2)), offset_transform=self.axes.transData,
                                        linewidths=0, **self._colours())
-        limits = {"speed": (0, self.fastest), "spin": (-(self.fastest or 0), self.fastest), "strip": (-0.5, self.options.ranks - 0.5)}
+        limits = {"speed": (0, self.fastest), "spin": (-(self.fastest or 0), self.fastest), "vx": (-(self.fastest or 0), self.fastest), "strip": (-0.5, self.options.ranks - 0.5)}
         self.discs.set_clim(*limits[self.options.colour])
         self.axes.add_collection(self.discs)
         self._add_bar()
@@ -88,7 +88,11 @@ class Picture:
     def _values(self, place, frame):
         if self.options.colour == "strip":
             return strips_of(place[:, 0], self.options.ranks)
-        values = self.frames.spins(frame) if self.options.colour == "spin" else np.hypot(*self.frames.velocities(frame).T)
+        if self.options.colour == "spin":
+            values = self.frames.spins(frame)
+        else:
+            velocities = self.frames.velocities(frame)
+            values = velocities[:, 0] if self.options.colour == "vx" else np.hypot(*velocities.T)
         if self.fastest is None:
             self.fastest = float(np.quantile(np.abs(values), 0.99)) or 1.0  # of the first frame shown; the same in all
         return values
@@ -96,7 +100,7 @@ class Picture:
     def _colours(self):
         if self.options.colour == "speed":
             return {"cmap": "viridis"}
-        if self.options.colour == "spin":
+        if self.options.colour in ("spin", "vx"):
             return {"cmap": "coolwarm"}
         colours = [matplotlib.colormaps["tab10"](k % 10) for k in range(self.options.ranks)]
         return {"cmap": ListedColormap(colours)}
@@ -104,6 +108,8 @@ class Picture:
     def _add_bar(self):
         if self.options.colour == "speed":
             self.figure.colorbar(self.discs, label="speed (lengths per step)", shrink=0.9)
+        elif self.options.colour == "vx":
+            self.figure.colorbar(self.discs, label="velocity along x (lengths per step)", shrink=0.9)
         elif self.options.colour == "spin":
             self.figure.colorbar(self.discs, label="spin (radians per step, counterclockwise)", shrink=0.9)
         else:
