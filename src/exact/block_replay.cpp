@@ -5,16 +5,14 @@
 #include <cmath>
 
 #include "block_scratch.hpp"
+#include "carrom/core/errors.hpp"
 
 namespace carrom {
 
 namespace {
 
 /// So many collisions of a block's discs within a law's `one_time` are without end, and some for each disc more.
-constexpr std::uint64_t endless_count = 100000;
-constexpr std::uint64_t endless_count_per_disc = 1000;
-
-double speed_squared(const Disc& disc) { return disc.vx * disc.vx + disc.vy * disc.vy; }
+constexpr std::uint64_t endless_count = 100000, endless_count_per_disc = 1000;
 
 } // namespace
 
@@ -361,8 +359,10 @@ void BlockReplay<Law>::Scratch::report(const CellBlock& own, std::span<std::uint
     // Memory for what a block has, not for twice as much: all blocks keep theirs until the window is certified.
     std::size_t n_hit = 0;
     for (std::size_t slot = 0; slot < pasts.size(); ++slot) n_hit += is_own[slot] != 0 && pasts[slot].history != 0;
-    outcome->hit.reserve(n_hit);
-    outcome->states.reserve(n_hit);
+    outcome->hit.resize(n_hit);
+    outcome->states.resize(n_hit);
+    if constexpr (Law::has_spin) outcome->spins.resize(n_hit);
+    std::size_t next = 0;
     const int ring = ground.grid->frame().n_reach;
     const int first_column = std::max(cells.first_column, own.first_column - ring);
     const int end_column = std::min(cells.end_column, own.end_column + ring);
@@ -378,11 +378,13 @@ void BlockReplay<Law>::Scratch::report(const CellBlock& own, std::span<std::uint
             histories[indices[slot]] = past.history;
             end_squared = std::max(end_squared, speed_squared(discs[slot]));
             if (past.history == 0) continue;
-            outcome->hit.push_back(indices[slot]);
-            outcome->states.emplace_back(discs[slot]);
-            if constexpr (Law::has_spin) outcome->spins.push_back(spins[slot]);
+            outcome->hit[next] = indices[slot];
+            outcome->states[next] = NewState(discs[slot]);
+            if constexpr (Law::has_spin) outcome->spins[next] = spins[slot];
+            ++next;
         }
     }
+    ensure(next == n_hit, "a block's own discs lie in its own cells or next to them");
     outcome->largest_speed_at_end = std::sqrt(end_squared) * (1 + 0x1p-50);
 }
 

@@ -34,6 +34,8 @@ struct Past {
 };
 static_assert(sizeof(Past) == 16);
 
+inline double speed_squared(const Disc& disc) { return disc.vx * disc.vx + disc.vy * disc.vy; }
+
 template <class Law> struct BlockReplay<Law>::Scratch {
     explicit Scratch(const Law& of_scene) : law(of_scene) {}
 

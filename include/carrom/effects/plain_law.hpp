@@ -147,7 +147,7 @@ public:
     // The rule "all". Times count from the last sync; there is no band, no stop and no micro-step.
 
     /// Contact of a pair that is free to move: touching or overlapping pairs that approach collide at once.
-    PairContact<Real> exact_contact(const Disc& p, const Disc& q) const {
+    [[gnu::always_inline]] PairContact<Real> exact_contact(const Disc& p, const Disc& q) const {
         const PairContact<Real> found = contact(p, q, static_cast<Real>(never));
         if constexpr (is_loose) {
             if (!is_near(p, q, found.base + found.delay)) return {};
@@ -250,7 +250,7 @@ protected:
 
     static Real real(double number) { return static_cast<Real>(number); }
 
-    PairContact<Real> contact(const Disc& p, const Disc& q, Real deepest_overlap) const {
+    [[gnu::always_inline]] PairContact<Real> contact(const Disc& p, const Disc& q, Real deepest_overlap) const {
         if constexpr (is_double) return pair_contact(p, q, diameter_, deepest_overlap, Formula{});
         else return pair_contact(RoundedState<Real>(p), RoundedState<Real>(q), diameter_, deepest_overlap, Formula{});
     }

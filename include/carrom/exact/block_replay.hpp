@@ -69,6 +69,7 @@ struct LoggedEvent {
 /// What has become of a disc in a window: three quarters of a state, since many are kept until a window is certified.
 class NewState {
 public:
+    NewState() = default;
     explicit NewState(const Disc& disc)
         : x_(disc.x), y_(disc.y), vx_(disc.vx), vy_(disc.vy), tau_(disc.tau),
           wall_collisions_(static_cast<std::uint32_t>(disc.wall_collisions)),

@@ -30,7 +30,8 @@ template <class Real> Real cross(Real ax, Real ay, Real bx, Real by) {
 
 /// Time until points at separation (dx, dy) with relative velocity (wx, wy) come within `sigma`; negative for never.
 /// Pairs that overlap by more than `deepest_overlap` never do (infinity: they collide at once if they approach).
-template <class Real> Real contact_delay(Real dx, Real dy, Real wx, Real wy, Real sigma, Real deepest_overlap) {
+/// Inlined wherever it is called: other laws that are compiled beside the plain one shall not change its code.
+template <class Real> [[gnu::always_inline]] inline Real contact_delay(Real dx, Real dy, Real wx, Real wy, Real sigma, Real deepest_overlap) {
     const Real none = -1;
     const Real b = dx * wx + dy * wy;
     if (!(b < 0)) return none;
@@ -52,13 +53,12 @@ struct StableContact {
     static constexpr bool keeps_digits = true;   ///< contacts are found where discs touch, to some roundings
     static constexpr bool parts_overlaps = true; ///< discs that overlap and approach collide at once
 
-    template <class Real> static Real delay(Real dx, Real dy, Real wx, Real wy, Real sigma, Real deepest_overlap) {
+    template <class Real> [[gnu::always_inline]] static Real delay(Real dx, Real dy, Real wx, Real wy, Real sigma, Real deepest_overlap) {
         return contact_delay(dx, dy, wx, wy, sigma, deepest_overlap);
     }
 };
 
-/// The contact of discs `p` and `q` (any order) from their stored states alone: the same bits whoever asks, and when.
-/// Inlined wherever it is called: other laws that are compiled beside the plain one shall not change its code.
+/// The contact of discs `p` and `q` (any order) from their stored states alone: the same bits whoever asks, and when. Inlined as above.
 template <class Real, class AnyDisc, class Formula = StableContact>
 [[gnu::always_inline]] inline PairContact<Real> pair_contact(const AnyDisc& p, const AnyDisc& q, Real sigma, Real deepest_overlap, Formula = {}) {
     const Real base = std::max(p.tau, q.tau);
