@@ -94,6 +94,7 @@ template <class Law> void ExactEngine<Law>::run_window(double target) {
         counts_.windows_redone += is_first;
         if (verdict == Verdict::too_fast) shorten();
         if (verdict == Verdict::too_fast || widen_marked()) settle();
+        if (verdict == Verdict::repeat) repeated_ += share_marked();
     }
     commit();
     travel_speed_ = window_.speed_bound;
@@ -127,12 +128,16 @@ template <class Law> ReplayWindow ExactEngine<Law>::choose(double target) {
     window.speed_bound += law_.sides().speed_gained_at(soon) - law_.sides().speed_gained_at(time_);
     const auto n = static_cast<double>(discs_.n_total());
     ExactNeeds needs{law_.box_size(), law_.radius() + law_.slack(), n, window.speed_bound, 0, time_, exact_.halo, false};
-    is_one_block_ = communicator_.size() == 1 && tuning_.threads == 1 && n <= most_discs_alone;
+    const bool is_alone = tuning_.threads == 1 || n < 2 * static_cast<double>(tuning_.discs_per_thread);
+    is_one_block_ = communicator_.size() == 1 && is_alone && n <= most_discs_alone;
     needs.is_one_block = is_one_block_;
     if (n_windows_ > 0) collision_rate_ = static_cast<double>(communicator_.sum(n_events_)) / (std::max(n, 1.0) * last_duration_);
     needs.collision_rate = n_windows_ > 0 ? collision_rate_ : guessed_collision_rate(needs);
+    caution_.learn(repeated_, collision_rate_ * last_duration_);
+    needs.more_halo = caution_.more_halo();
+    repeated_ = 0;
     const double longest = target - time_;
-    choice_ = choose_exact_window(needs, longest, tuning_.window);
+    choice_ = choose_exact_window(needs, tuning_.window ? longest : std::min(longest, caution_.most_hits() / needs.collision_rate), tuning_.window);
     if (Law::is_periodic && is_one_block_ && !exact_.halo && !exact_.block_side) choice_.halo = 1; // as far as images have to be seen
     // Equal windows up to the target; the last one ends there exactly.
     const double n_windows = std::ceil(longest / choice_.duration * (1 - 1e-9));
@@ -193,7 +198,7 @@ template <class Law> void ExactEngine<Law>::make_blocks() {
     const double width = n_columns * frame.cell_width, height = n_rows * frame.cell_width;
     double side = exact_.block_side ? *exact_.block_side * frame.cell_width * frame.n_reach : choice_.block_side;
     if (is_one_block_ && !exact_.block_side) side = 2 * std::max(width, height);
-    if (tuning_.threads > 1) side = std::min(side, std::sqrt(width * height / (blocks_per_thread * tuning_.threads)));
+    if (tuning_.threads > 1 && !is_one_block_) side = std::min(side, std::sqrt(width * height / (blocks_per_thread * tuning_.threads)));
     const auto parts = [&](double length, int n_cells) {
         return std::clamp(static_cast<int>(std::ceil(length / side * (1 - 1e-9))), 1, n_cells);
     };
@@ -216,6 +221,14 @@ template <class Law> void ExactEngine<Law>::make_blocks() {
             if (is_new) block.halo = choice_.halo;
         }
     }
+}
+
+/// Of all ranks' blocks those that are to be replayed. **Collective.**
+template <class Law> double ExactEngine<Law>::share_marked() const {
+    std::uint64_t n[] = {0, blocks_.size()};
+    for (const Block& block : blocks_) n[0] += block.is_marked;
+    communicator_.sum(n);
+    return static_cast<double>(n[0]) / static_cast<double>(std::max<std::uint64_t>(1, n[1]));
 }
 
 template <class Law> void ExactEngine<Law>::replay() {

@@ -73,6 +73,7 @@ private:
     void compare_histories(std::vector<LocalIndex>& foreign);
     void mark_owner(LocalIndex own_index);
     bool widen_marked();
+    double share_marked() const;
     /// With room for blocks at the strip's ends to look further: to fetch more is to replay all ranks' blocks again.
     int first_halo_depth() const { return Law::is_periodic && is_one_block_ ? choice_.halo : 2 * choice_.halo; }
     bool sees_all(const Block& block) const;
@@ -101,6 +102,8 @@ private:
     double largest_speed_ = 0;    ///< of the own discs now
     double collision_rate_ = 0;   ///< per disc and time, of the last window, on all ranks
     double last_duration_ = 1;    ///< of the last window
+    double repeated_ = 0;         ///< replays of the last window that had to be repeated, in shares of all its blocks; the same on all ranks
+    ReplayCaution caution_;
     std::uint64_t n_events_ = 0;  ///< of this rank in the last window
     ReplayCounts counts_;         ///< blocks: of this rank
 

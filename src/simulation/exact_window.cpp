@@ -20,6 +20,13 @@ constexpr double discs_in_cache = 24000;  ///< of a block with its halo; most of
 /// News travel by collisions. Where discs fly far compared with their size few go two reaches in a window.
 constexpr double thin_gas = 0.2; ///< diameter to reach
 
+// To repeat a block's replay with twice the halo costs two or three of it, a reach more of halo a tenth: docs/performance.md.
+constexpr double much_repeated = 0.08, mostly_repeated = 0.5;
+constexpr double memory = 0.9;  ///< weight of the windows before the last one
+constexpr int most_more = 2;    ///< reaches
+constexpr int long_calm = 200;  ///< windows after which less is tried
+constexpr double shorter = 0.7, longer = 1.03, least_hits = 0.1;
+
 ReplayWindow window_of(const ExactNeeds& needs, double duration) {
     return {needs.time, needs.time + duration, false, needs.speed_bound};
 }
@@ -29,7 +36,7 @@ ExactChoice choice_of(const ExactNeeds& needs, double duration) {
     choice.duration = duration;
     choice.reach = exact_reach(window_of(needs, duration), 2 * needs.radius, needs.box_size);
     const double spacing = needs.box_size / std::sqrt(needs.n_discs + 1);
-    choice.halo = needs.halo.value_or(2 * needs.radius < thin_gas * choice.reach ? 2 : 3);
+    choice.halo = needs.halo.value_or((2 * needs.radius < thin_gas * choice.reach ? 2 : 3) + needs.more_halo);
     const double margin = choice.halo * choice.reach;
     const double side = std::sqrt(discs_in_cache) * spacing - 2 * margin;
     choice.block_side = needs.is_one_block ? needs.box_size : std::min(std::max(side, 1.5 * margin), needs.box_size);
@@ -64,6 +71,20 @@ ExactChoice choose_exact_window(const ExactNeeds& needs, double longest, std::op
         best = choice;
     }
     return best;
+}
+
+void ReplayCaution::learn(double repeated, double hits) {
+    lately_ = memory * lately_ + (1 - memory) * repeated;
+    const bool is_mostly = repeated > mostly_repeated && more_halo_ == most_more;
+    most_hits_ = is_mostly ? std::max(least_hits, shorter * hits) : longer * most_hits_;
+    n_calm_ = repeated > 0 ? 0 : n_calm_ + 1;
+    if (lately_ > much_repeated && more_halo_ < most_more) {
+        ++more_halo_;
+        lately_ = 0;
+    } else if (n_calm_ >= long_calm && more_halo_ > 0) {
+        --more_halo_;
+        n_calm_ = 0;
+    }
 }
 
 double guessed_collision_rate(const ExactNeeds& needs) {

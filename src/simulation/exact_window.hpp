@@ -6,6 +6,7 @@
 // ones stay in the cache.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 namespace carrom {
@@ -19,6 +20,7 @@ struct ExactNeeds {
     double time = 0;           ///< since the last sync
     std::optional<int> halo;   ///< reaches that blocks look beyond their own cells at first, if that is wanted
     bool is_one_block = false; ///< all discs in one block, whatever their number
+    int more_halo = 0;         ///< reaches more than where little has to be replayed again
 };
 
 struct ExactChoice {
@@ -30,6 +32,21 @@ struct ExactChoice {
 
 /// The best window of at most `longest`, or of `wanted` if that is set.
 ExactChoice choose_exact_window(const ExactNeeds& needs, double longest, std::optional<double> wanted);
+
+/// What windows teach whose replays had to be repeated. News travel by collisions: where discs are dense, or lie in a heap, they go
+/// further in a window than its cells suggest. Then blocks look further around, and if that is not enough windows are shorter.
+class ReplayCaution {
+public:
+    /// Of a window: replays that were repeated, as a share of its blocks, and its collisions per disc.
+    void learn(double repeated, double hits);
+    int more_halo() const { return more_halo_; }
+    double most_hits() const { return most_hits_; } ///< collisions per disc that a window should have at most
+
+private:
+    int more_halo_ = 0, n_calm_ = 0;
+    double lately_ = 0; ///< repeated, a mean that forgets
+    double most_hits_ = std::numeric_limits<double>::infinity();
+};
 
 /// Collisions per disc and time in a gas of this density and speed, to begin with.
 double guessed_collision_rate(const ExactNeeds& needs);

@@ -25,6 +25,7 @@ Simulation start(const TestScene& scene, const Communicator& world, Tuning tunin
     Scene all = scene_of(scene);
     all.rule = CollisionRule::all;
     tuning.threads = omp_get_max_threads();
+    tuning.discs_per_thread = 1;
     return {all, {dealt_discs(scene, world, 3), 0}, world, tuning};
 }
 

@@ -81,6 +81,7 @@ Shape shape_number(std::size_t number, double diameter_time) {
     const double rebalances[] = {1.05, 0.0, 1e9};
     Shape shape;
     shape.tuning.threads = omp_get_max_threads();
+    shape.tuning.discs_per_thread = 1;
     if (const auto& window = windows[number % std::size(windows)]) shape.tuning.window = *window * diameter_time;
     shape.exact.block_side = sides[number % std::size(sides)];
     shape.exact.halo = 2 + static_cast<int>(number / 2 % 3);
