@@ -226,7 +226,7 @@ std::string summary_text(const Scene& scene, const RunResult& result) {
                                            result.end.wall_collisions, result.end.pair_collisions,
                                            collisions_per_disc(scene, result)));
     if (result.averages.steps > 0) {
-        text += line("frequency", collision_rate_text(result.averages));
+        if (!std::isnan(result.averages.collision_frequency.value)) text += line("frequency", collision_rate_text(result.averages));
         if (!scene.effects.are_any()) text += line("pressure", pressure_text(result.averages));
         text += line("speeds", speeds_text(scene, result.averages));
     }

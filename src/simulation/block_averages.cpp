@@ -49,23 +49,24 @@ Look look_at(std::span<const Disc> own, std::uint64_t n_discs, int n_threads, co
     // No term is above 1: their sum stays below 2^63.
     const double terms_per_unit = std::ldexp(1.0, 62 - static_cast<int>(std::ceil(std::log2(static_cast<double>(n_discs)))));
     const double per_unit = 1 / look.speed_unit;
-    std::uint64_t walls = 0, pairs = 0, speeds = 0, squares = 0, fourths = 0;
+    std::uint64_t walls = 0, pairs = 0, speeds = 0, squares = 0, fourths = 0, gone = 0;
     const auto n = static_cast<std::int64_t>(own.size());
     const auto fixed = [terms_per_unit](double term) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(term * terms_per_unit)); };
-#pragma omp parallel for num_threads(n_threads) schedule(static) reduction(+ : walls, pairs, speeds, squares, fourths) if (n > 10000)
+#pragma omp parallel for num_threads(n_threads) schedule(static) reduction(+ : walls, pairs, speeds, squares, fourths, gone) if (n > 10000)
     for (std::int64_t i = 0; i < n; ++i) {
         const Disc& disc = own[static_cast<std::size_t>(i)];
         walls += disc.wall_collisions;
         pairs += disc.pair_collisions;
+        gone += disc.is_gone(); // at rest
         const double vx = disc.vx * per_unit, vy = disc.vy * per_unit;
         const double square = vx * vx + vy * vy;
         speeds += fixed(std::sqrt(square));
         squares += fixed(square);
         fourths += fixed(square * square);
     }
-    std::uint64_t sums[] = {walls, pairs, speeds, squares, fourths};
+    std::uint64_t sums[] = {walls, pairs, speeds, squares, fourths, gone};
     communicator.sum(sums);
-    const double per_disc = 1 / (terms_per_unit * static_cast<double>(n_discs));
+    const double per_disc = 1 / (terms_per_unit * static_cast<double>(std::max<std::uint64_t>(1, n_discs - sums[5])));
     look.wall_collisions = sums[0];
     look.pair_collisions = sums[1] / 2;
     look.mean_speed = static_cast<double>(sums[2]) * per_disc;
@@ -110,14 +111,22 @@ void BlockAverages::end_block(std::int64_t step, const Look& look) {
     syncs_per_block_ *= 2;
 }
 
+double BlockAverages::speed_of(const Look& look) const { return look.mean_speed * look.speed_unit * system_.velocity_unit; }
+
+double BlockAverages::kurtosis_of(const Look& look) { return look.mean_square > 0 ? look.mean_fourth / (look.mean_square * look.mean_square) : 0; }
+
 BlockAverages::Block BlockAverages::block_since(std::int64_t step, const Look& before, std::int64_t now, const Look& look) const {
     Block block;
     block.steps = static_cast<double>(now - step);
     block.walls = static_cast<double>(look.wall_collisions - before.wall_collisions);
     block.pairs = static_cast<double>(look.pair_collisions - before.pair_collisions);
     block.n_looks = 1;
-    block.speed = look.mean_speed * look.speed_unit * system_.velocity_unit;
-    block.kurtosis = look.mean_square > 0 ? look.mean_fourth / (look.mean_square * look.mean_square) : 0;
+    block.speed = speed_of(look);
+    block.kurtosis = kurtosis_of(look);
+    if (system_.is_plain) return block;
+    // Where speeds drift those at the ends of blocks alone would be too late: half of the one before, half of the one after.
+    block.speed = (speed_of(before) + block.speed) / 2;
+    block.kurtosis = (kurtosis_of(before) + block.kurtosis) / 2;
     return block;
 }
 
@@ -158,7 +167,8 @@ Averages BlockAverages::averages(std::int64_t step, const Look& look) const {
                                                    : std::numeric_limits<double>::quiet_NaN()};
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     result.wall_pressure = result.virial_pressure = {unknown, unknown};
-    if (system_.has_known_pressure) {
+    if (!system_.keeps_discs) result.collision_frequency = result.mean_free_time = {unknown, unknown};
+    if (system_.is_plain) {
         result.wall_pressure = {wall_pressure(whole), error_of(wall_pressure)};
         result.virial_pressure = {virial_pressure(whole), error_of(virial_pressure)};
     }

@@ -16,7 +16,7 @@
 
 namespace carrom {
 
-/// What is known of all discs at one time. Speeds are in units of `speed_unit`, a power of two, per micro-step.
+/// What is known of all discs at one time; speeds are of those that have not left the box. They are in units of `speed_unit`, a power of two, per micro-step.
 struct Look {
     std::uint64_t wall_collisions = 0, pair_collisions = 0; ///< since the scene's start; a pair counts once
     double speed_unit = 1;
@@ -31,7 +31,8 @@ struct AveragedSystem {
     double n_discs = 0, box_size = 0, radius = 0;
     double velocity_unit = 1; ///< turns stored velocities into those per step
     std::int64_t micro_steps = 1, sync_every = 1;
-    bool has_known_pressure = true; ///< elastic discs between elastic walls; else pressures are NaN
+    bool is_plain = true;      ///< elastic discs between elastic walls; else pressures are NaN, and speeds may drift
+    bool keeps_discs = true;   ///< else collisions per disc are NaN
 };
 
 class BlockAverages {
@@ -60,6 +61,8 @@ private:
     };
 
     std::int64_t syncs_before(std::int64_t step) const { return step * system_.micro_steps / system_.sync_every; }
+    double speed_of(const Look& look) const;
+    static double kurtosis_of(const Look& look);
     Block block_since(std::int64_t step, const Look& before, std::int64_t now, const Look& look) const;
 
     AveragedSystem system_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "carrom/simulation/simulation.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "block_averages.hpp"
@@ -31,6 +32,10 @@ StoredState first_state(const Scene& scene, std::vector<InputDisc> inputs) {
     return state;
 }
 
+bool has_open_side(const Effects& effects) {
+    return std::any_of(effects.sides.begin(), effects.sides.end(), [](const Side& side) { return side.kind == SideKind::open; });
+}
+
 std::unique_ptr<Engine> engine_for(const Scene& scene, StoredState state, const Communicator& communicator,
                                    const Tuning& tuning) {
     if (scene.rule == CollisionRule::all) return make_exact_engine(scene, std::move(state), communicator, tuning);
@@ -47,7 +52,7 @@ Simulation::Simulation(const Scene& scene, StoredState state, const Communicator
     : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)), effects_(scene.effects), bodies_(scene.effects.classes, scene.radius), box_size_(scene.box_size),
       n_threads_(tuning.threads), engine_(engine_for(scene, std::move(state), communicator, tuning)),
       averages_(std::make_unique<BlockAverages>(AveragedSystem{static_cast<double>(engine_->n_discs()), scene.box_size, scene.radius,
-                                                               velocity_unit_, scene.micro_steps, scene.sync_every, !scene.effects.are_any()})) {}
+                                                               velocity_unit_, scene.micro_steps, scene.sync_every, !scene.effects.are_any(), !has_open_side(scene.effects)})) {}
 
 Simulation::~Simulation() = default;
 

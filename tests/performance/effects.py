@@ -27,6 +27,9 @@ EFFECTS = {
     "a thermal wall, rule one": ("one", '[box.left]\nkind = "thermal"\ntemperature = 0.045\n', 1.1),
     "gravity": ("all", "[effects.gravity]\ny = -0.0001\n", 1.15),
     "drag": ("all", "[effects.drag]\nrate = 0.0001\n", 1.1),
+    "gravity and drag": ("all", "[effects.gravity]\ny = -0.0001\n[effects.drag]\nrate = 0.0001\n", 1.15),
+    "obstacles, 25 discs and 2 segments": ("all", "[effects.obstacles]\ndiscs = " + str([[x, y, 2] for x in range(30, 300, 60) for y in range(30, 300, 60)])
+                                           + "\nsegments = [[60, 0, 60, 150], [240, 150, 240, 300]]\n", None),
     "a moving wall": ("all", '[box.right]\nkind = "moving"\nspeed = -0.0005\n', 1.1),
     "periodic sides": ("all", "".join(f'[box.{side}]\nkind = "periodic"\n' for side in ("left", "right", "bottom", "top")), 1.1),
     "periodic sides, rule one": ("one", "".join(f'[box.{side}]\nkind = "periodic"\n' for side in ("left", "right", "bottom", "top")), 1.1),

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the averages of a run say under effects, where it is known.
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "carrom/effects/obstacles.hpp"
+#include "effect_runs.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+Averages averages_of(const TestScene& scene, CollisionRule rule = CollisionRule::all) {
+    Simulation simulation = simulation_of(scene, rule, Communicator::world());
+    advance_to(simulation, scene.steps);
+    return simulation.averages();
+}
+
+/// Discs that do not meet, all of the same speed.
+TestScene swarm(double speed, std::int64_t steps) {
+    TestScene scene = gas(300, 0.05, speed, 611);
+    for (InputDisc& disc : scene.discs) {
+        const double factor = speed / std::hypot(disc.vx, disc.vy);
+        disc.vx *= factor;
+        disc.vy *= factor;
+    }
+    scene.setting.effects.contact.kind = ContactKind::none;
+    scene.setting.sync_every = 8;
+    scene.steps = steps;
+    return scene;
+}
+
+} // namespace
+
+TEST_CASE("effects: averages of speeds over a thermal floor under gravity are Maxwell's") {
+    TestScene scene = gas(1500, 0.02, 0.4, 612);
+    const double temperature = 0.2;
+    scene.setting.effects.contact.kind = ContactKind::none;
+    scene.setting.effects.gravity = {0, -0.01};
+    scene.setting.effects.sides[2] = {SideKind::thermal, 1, temperature, 0};
+    Simulation simulation = simulation_of(scene, CollisionRule::all, Communicator::world());
+    advance_to(simulation, 2000); // several flights
+    simulation.average_anew();
+    advance_to(simulation, 4000);
+    const Averages averages = simulation.averages();
+    CHECK(averages.mean_speed.value == Approx(std::sqrt(std::numbers::pi * temperature / 2)).epsilon(0.03));
+    CHECK(averages.speed_kurtosis.value == Approx(2).epsilon(0.06));
+    CHECK(averages.collision_frequency.value == 0);
+    CHECK(std::isnan(averages.wall_pressure.value));
+}
+
+TEST_CASE("effects: averages of what is slowed down, leaves, or flies among obstacles") {
+    // Slowed down: v (1 - exp(-c t)) / (c t) in the mean; all are as fast.
+    TestScene slowed = swarm(0.5, 320);
+    set_drag(slowed, 0.005);
+    const Averages of_slowed = averages_of(slowed);
+    CHECK(of_slowed.mean_speed.value == Approx(0.5 * -std::expm1(-1.6) / 1.6).epsilon(2e-3)); // trapezoids of 8 to 16 steps
+    CHECK(of_slowed.speed_kurtosis.value == Approx(1).epsilon(1e-12));
+
+    // Leaving: those that are in the box are as fast as ever, however many have left.
+    TestScene leaving = swarm(0.5, 160);
+    leaving.setting.effects.sides[0].kind = SideKind::open;
+    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+        const Averages of_leaving = averages_of(leaving, rule);
+        CHECK(of_leaving.mean_speed.value == Approx(0.5).epsilon(1e-12));
+        CHECK(of_leaving.speed_kurtosis.value == Approx(1).epsilon(1e-12));
+        CHECK(std::isnan(of_leaving.collision_frequency.value));
+    }
+
+    TestScene lorentz = swarm(0.5, 160);
+    const double size = lorentz.setting.box_size;
+    lorentz.setting.effects.obstacles = {{{0.3 * size, 0.4 * size, 0.1 * size}}, {{0.5 * size, 0.8 * size, 0.8 * size, 0.6 * size}}, 1};
+    const Obstacles obstacles(size, lorentz.setting.radius, lorentz.setting.effects);
+    const std::vector<InputDisc> discs = std::exchange(lorentz.discs, {});
+    for (const InputDisc& disc : discs)
+        if (obstacles.deepest_overlap(disc.x, disc.y, 0).body == ObstacleContact::no_body) add_disc(lorentz, disc.x, disc.y, disc.vx, disc.vy);
+    const Averages among_obstacles = averages_of(lorentz);
+    CHECK(among_obstacles.mean_speed.value == Approx(0.5).epsilon(1e-12));
+    CHECK(among_obstacles.collision_frequency.value == 0);
+}
+
+TEST_CASE("effects: the frequency of collisions is what is counted, whatever the effects") {
+    const Communicator world = Communicator::world();
+    TestScene scene = gas(300, 0.3, 0.5, 613);
+    scene.steps = 96;
+    scene.setting.sync_every = 16;
+    scene.setting.effects.gravity = {0, -0.005};
+    scene.setting.effects.sides[1] = {SideKind::moving, 1, 0, -0.02};
+    set_drag(scene, 0.005);
+    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    advance_to(simulation, scene.steps);
+    const Totals totals = simulation.totals();
+    CHECK(totals.pair_collisions > 300);
+    CHECK(simulation.averages().collision_frequency.value == Approx(2 * static_cast<double>(totals.pair_collisions) / (300.0 * 96)).epsilon(1e-12));
+}
