@@ -69,15 +69,17 @@ struct Case {
 };
 
 std::vector<Case> cases() {
-    Effects none, falling, slowed, piston;
+    Effects none, falling, slowed, sinking, piston;
     falling.gravity = {0.001, -0.003};
     falling.sides[2] = {SideKind::thermal, 1, 0.2, 0};
     slowed.drag = 0.02;
     slowed.contact.kind = ContactKind::restitution;
     slowed.contact.restitution = 0.9;
+    sinking.gravity = {0.001, -0.003};
+    sinking.drag = 0.02;
     piston.sides[1] = {SideKind::moving, 1, 0, -0.05};
     return {{"rule one", CollisionRule::one, none}, {"rule all", CollisionRule::all, none}, {"gravity and a thermal floor", CollisionRule::all, falling},
-            {"drag", CollisionRule::all, slowed}, {"a piston", CollisionRule::all, piston}};
+            {"drag", CollisionRule::all, slowed}, {"gravity and drag", CollisionRule::all, sinking}, {"a piston", CollisionRule::all, piston}};
 }
 
 } // namespace
