@@ -26,16 +26,18 @@ class Frames:
         self.radii = self._radii(is_checkpoint)
 
     def _radii(self, is_checkpoint):
-        """Of each disc, or one number for all. A checkpoint has them in its scene's text."""
+        """Of each disc, or one number for all. A checkpoint has them in its scene's text, or as classes of their own."""
         if "radius" in self.discs:
             return self.discs["radius"][:]
+        if "carrom/classes" in self.file:
+            return np.repeat(self.file["carrom/classes/radius"][:], self.file["carrom/classes/count"][:].astype(int))
         if not is_checkpoint or not self.file["carrom/run/scene_name"].asstr()[()].endswith(".toml"):
             return self.radius
         discs = tomllib.loads(self.file["carrom/run/scene_text"].asstr()[()]).get("discs", {})
         if "classes" in discs:
             return np.concatenate([np.full(int(one["count"]), float(one["radius"])) for one in discs["classes"]])
         rows = discs.get("list", [])
-        return np.array([row[4] for row in rows]) if rows and len(rows[0]) == 6 else self.radius
+        return np.array([row[4] for row in rows]) if rows and len(rows[0]) >= 6 else self.radius
 
     def nearest(self, step):
         """The number of the frame of that step; the last one for None."""

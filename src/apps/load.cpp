@@ -54,6 +54,15 @@ void broadcast(SceneText& text, const Communicator& ranks) {
     text.discs_follow = discs_follow == 1;
 }
 
+/// The same for the columns of the file of discs. **Collective.**
+void broadcast(DiscColumns& columns, const Communicator& ranks) {
+    ranks.broadcast(columns.classes);
+    ranks.broadcast(columns.spins);
+    int is_whole = columns.is_whole ? 1 : 0;
+    ranks.broadcast(is_whole);
+    columns.is_whole = is_whole == 1;
+}
+
 /// What the options alone name: a run must not end in a file that cannot be written, nor empty its own input.
 std::vector<NamedFile> named_by(const RunOptions& options) {
     std::vector<NamedFile> destinations;
@@ -101,6 +110,17 @@ std::vector<NamedFile> read_for(const RunOptions& options, const Scene& scene) {
     return sources;
 }
 
+/// What the file of discs has beyond places and velocities; not whole where it cannot be read, for which the reader of its lines
+/// has the words. **Collective.**
+DiscColumns load_columns(const Scene& scene, const Communicator& ranks) {
+    DiscColumns columns;
+    columns.is_whole = false;
+    Problems ignored;
+    if (ranks.is_root()) collect(ignored, [&] { columns = read_disc_columns(*open(discs_path(scene)), scene); });
+    broadcast(columns, ranks);
+    return columns;
+}
+
 /// The scene; `stream`, on rank 0, is left at the first line of discs. **Collective.**
 Scene load_scene(const RunOptions& options, const Problems& problems_so_far, const Communicator& ranks,
                  std::unique_ptr<std::istream>& stream) {
@@ -122,9 +142,16 @@ Scene load_scene(const RunOptions& options, const Problems& problems_so_far, con
         broadcast(text, ranks);
         Problems same_everywhere;
         scene = read_scene(text, options.overrides, same_everywhere);
+        if (!scene.disc_columns.empty() && !scene.discs_file.empty()) {
+            text.columns = load_columns(scene, ranks);
+            same_everywhere.clear();
+            scene = read_scene(text, options.overrides, same_everywhere);
+        }
+        const bool are_lines_wrong = text.columns && !text.columns->is_whole;
         if (ranks.is_root()) append(problems, same_everywhere);
-        if (!problems.empty()) { // on rank 0
-            if (options.restart.empty()) append(problems, problems_of_disc_lines(scene, *stream));
+        if (ranks.is_root() && (!problems.empty() || are_lines_wrong)) {
+            if (options.restart.empty() || are_lines_wrong) append(problems, problems_of_disc_lines(scene, *stream));
+            if (problems.empty()) problems.push_back({discs_path(scene), 0, "changes while it is being read"});
             append(problems, problems_of_outputs(scene, read_for(options, scene)));
         }
     }

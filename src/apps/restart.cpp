@@ -151,6 +151,7 @@ CheckpointHeader header_of(const Scene& scene) {
     header.collisions = scene.rule == CollisionRule::one ? "one" : "all";
     header.micro_steps = scene.micro_steps;
     header.sync_every = scene.sync_every;
+    if (has_column(scene, DiscColumn::radius)) header.classes = scene.effects.classes;
     return header;
 }
 
@@ -159,7 +160,9 @@ Scene scene_of(const CheckpointHeader& header, const std::vector<std::string>& m
     std::istringstream lines(header.scene_overrides);
     for (std::string line; std::getline(lines, line);) overrides.push_back(line);
     overrides.insert(overrides.end(), more_overrides.begin(), more_overrides.end());
-    return read_scene({header.scene_name, header.scene_text, header.scene_lines_before_discs, header.scene_discs_follow != 0}, overrides);
+    SceneText text{header.scene_name, header.scene_text, header.scene_lines_before_discs, header.scene_discs_follow != 0, {}};
+    if (!header.classes.empty()) text.columns = DiscColumns{header.classes, {}, true};
+    return read_scene(text, overrides);
 }
 
 void load_restart(const RunOptions& options, Loaded& loaded, const Communicator& ranks) {

@@ -36,6 +36,12 @@ double overlapping_pairs_per_disc(const RunResult& result) {
     return ratio(2 * static_cast<double>(result.end.overlapping_pairs), static_cast<double>(result.end.n_discs));
 }
 
+std::string radii_text(const Scene& scene) {
+    double least = scene.radius;
+    for (const DiscClass& one : scene.effects.classes) least = std::min(least, one.radius);
+    return least < scene.radius ? fmt::format("radii {:g} to {:g}", least, scene.radius) : fmt::format("radius {:g}", scene.radius);
+}
+
 double deepest_overlap(const Scene& scene, const RunResult& result) { return ratio(result.end.deepest_overlap, 2 * scene.radius); }
 
 bool is_own_work(std::string_view phase) {
@@ -210,8 +216,8 @@ std::string summary_text(const Scene& scene, const RunResult& result) {
     const auto line = [](const char* label, const std::string& text) { return fmt::format("{:<12}{}\n", label, text); };
     const std::int64_t n_steps = result.last_step - result.first_step;
     std::string text;
-    text += line("scene", fmt::format("{}: {} discs of radius {:g} in a box of {:g}, packing {:.4g}", scene.name,
-                                      scene.n_discs, scene.radius, scene.box_size, scene.packing()));
+    text += line("scene", fmt::format("{}: {} discs of {} in a box of {:g}, packing {:.4g}", scene.name, scene.n_discs, radii_text(scene),
+                                      scene.box_size, scene.packing()));
     text += line("rule", fmt::format("collisions = \"{}\", micro_steps = {}, sync_every = {}{}", name_of(scene.rule),
                                      scene.micro_steps, scene.sync_every, arithmetic_text(scene)));
     if (scene.effects.are_any()) text += line("effects", result.effect_costs.empty() ? description(scene.effects) : effects_text(result));

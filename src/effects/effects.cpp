@@ -42,7 +42,14 @@ std::string description(const ObstacleList& obstacles) {
 
 std::string description(const std::vector<DiscClass>& classes) {
     constexpr std::size_t most_named = 4;
-    if (classes.size() > most_named) return fmt::format("discs of {} classes", classes.size());
+    if (classes.size() > most_named) {
+        DiscClass least = classes.front(), most = least;
+        for (const DiscClass& one : classes) {
+            least = {0, std::min(least.radius, one.radius), std::min(least.mass, one.mass)};
+            most = {0, std::max(most.radius, one.radius), std::max(most.mass, one.mass)};
+        }
+        return fmt::format("discs of {} classes, radii {:g} to {:g}, masses {:g} to {:g}", classes.size(), least.radius, most.radius, least.mass, most.mass);
+    }
     std::string text;
     for (const DiscClass& one : classes)
         text += fmt::format("{}{} discs of radius {:g} and mass {:g}", text.empty() ? "" : ", ", one.count, one.radius, one.mass);

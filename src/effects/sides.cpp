@@ -8,9 +8,10 @@
 
 namespace carrom {
 
-Sides::Sides(double box_size, double radius, const Effects& effects)
-    : effects_(effects), box_size_(box_size), radius_(radius), bodies_(effects.classes, radius), gravity_{effects.gravity.x, effects.gravity.y} {
+Sides::Sides(double box_size, double radius, const Effects& effects, const DiscBodies& bodies)
+    : effects_(effects), box_size_(box_size), radius_(radius), bodies_(bodies), gravity_{effects.gravity.x, effects.gravity.y} {
     effects_.obstacles = {}; // laws are copied for each thread
+    effects_.classes = {};
     for (std::size_t side = 0; side < 4; ++side) {
         speeds_[side] = effects.sides[side].speed;
         if (effects.sides[side].kind == SideKind::periodic) away_[side] = -sign_of(side) * never;

@@ -36,6 +36,7 @@ CheckpointHeader header_of(const std::string& path, const Communicator& communic
         // A file that claims more discs than it has room for must not cost their memory.
         if (header.n_discs > Descriptor(path, O_RDONLY).size() / (8 * checkpoint_columns.size()))
             throw FileError("has not got as many discs as it says");
+        header.classes = read_classes(file.id(), header.n_discs);
     });
     broadcast(header, communicator);
     return header;

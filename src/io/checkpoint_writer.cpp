@@ -194,7 +194,7 @@ void write_checkpoint(const std::string& path, CheckpointHeader header, std::spa
     const PartialFile partial(path + ".partial", communicator);
     HeaderPlaces places;
     on_root(communicator, path, ExitCode::output_failure, [&] {
-        std::uint64_t bytes = bytes_of_structure + samples.sums.size() * sizeof(std::int64_t);
+        std::uint64_t bytes = bytes_of_structure + samples.sums.size() * sizeof(std::int64_t) + header.classes.size() * sizeof(DiscClass);
         for (const DiscTarget& target : targets) bytes += target.part.rows * target.part.bytes_per_row;
         check_room(folder_of(path), bytes);
         places = create_structure(partial.path(), header, samples, targets);

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "carrom/scene/disc_columns.hpp"
 #include "carrom/scene/scene.hpp"
 #include "keys.hpp"
 #include "number.hpp"
@@ -24,6 +25,7 @@ struct Check {
     Scene& scene;
     const Settings& settings;
     Problems& problems;
+    const DiscColumns* columns = nullptr; ///< of the file of discs
 
     void refuse(const Setting& setting, std::string text) const { add_problem(problems, setting.place, std::move(text)); }
     void refuse_missing(std::string_view key, std::string_view what) const {

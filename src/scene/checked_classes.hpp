@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs of several radii and masses: `[[discs.classes]]`, or two more numbers in each row of `discs.list`.
+// Discs of several radii and masses, and those that turn at the start: `[[discs.classes]]`, more numbers in each row of
+// `discs.list`, or `discs.columns` of the file of discs.
 #pragma once
 
 #include "check.hpp"
 
 namespace carrom {
 
-/// Fills in `scene.effects.classes`, which stay empty where neither is there, and refuses what does not go with them.
+/// Fills in `scene.disc_columns` and `scene.effects.classes`, which stay empty where nothing names them, and refuses what does not go with them.
 void fill_classes(const Check& check);
+
+/// Fills in `scene.spins`, once the contact is known.
+void fill_first_spins(const Check& check);
 
 /// What gave the classes, or null.
 const Setting* classes_setting(const Check& check);
+
+/// Whether they are in a file that has not been read, or has wrong lines.
+bool are_classes_unknown(const Check& check);
 
 } // namespace carrom

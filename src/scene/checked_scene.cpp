@@ -157,6 +157,7 @@ bool fill_sizes(const Check& check) {
     if (classes) {
         if (!box || scene.n_discs == 0 || radius || packing) return false;
         scene.box_size = *box;
+        if (are_classes_unknown(check)) return false;
         for (const DiscClass& one : scene.effects.classes) scene.radius = std::max(scene.radius, one.radius);
         return scene.radius > 0 && check_sizes(check, *classes);
     }
@@ -310,11 +311,12 @@ void fill_output(const Check& check) {
 
 } // namespace
 
-void fill_scene(Scene& scene, const Settings& settings, Problems& problems) {
-    const Check check{scene, settings, problems};
+void fill_scene(Scene& scene, const Settings& settings, Problems& problems, const DiscColumns* columns) {
+    const Check check{scene, settings, problems, columns};
     fill_time(check);
     fill_classes(check);
     fill_effects(check);
+    fill_first_spins(check);
     fill_output(check);
     fill_generator(check);
     fill_velocities(check);
@@ -327,7 +329,8 @@ void fill_scene(Scene& scene, const Settings& settings, Problems& problems) {
         check_room_for_effects(check);
         check_measured_distance(check);
     } else {
-        scene.box_size = scene.radius = 0; // unknown
+        scene.radius = 0;
+        if (!are_classes_unknown(check)) scene.box_size = 0; // unknown
     }
 }
 

@@ -3,13 +3,13 @@
 // is worth something only if there are none.
 #pragma once
 
-#include "carrom/scene/scene.hpp"
+#include "carrom/scene/disc_columns.hpp"
 #include "settings.hpp"
 
 namespace carrom {
 
 /// Fills in all but the name and the text. Without a right `discs.count` the number of discs is 0; where box and radius
-/// are not right together both are 0.
-void fill_scene(Scene& scene, const Settings& settings, Problems& problems);
+/// are not right together both are 0. `columns`: those of `discs.columns`, where they have been read.
+void fill_scene(Scene& scene, const Settings& settings, Problems& problems, const DiscColumns* columns);
 
 } // namespace carrom

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "carrom/scene/disc_columns.hpp"
+
 namespace carrom {
 
 namespace {
@@ -109,6 +111,9 @@ std::vector<std::string> physical_differences(const Scene& there, const Scene& h
     c.compare("discs.generator", name_of(there.generator), name_of(here.generator));
     c.compare("discs.file", there.discs_file, here.discs_file);
     c.compare_list("discs.list", there.listed_discs == here.listed_discs);
+    c.compare_list("discs.columns", there.disc_columns == here.disc_columns);
+    const bool are_listed = !has_column(there, DiscColumn::spin) && !has_column(here, DiscColumn::spin); // checkpoints do not have those of files
+    if (are_listed && there.spins != here.spins) c.differences.push_back("discs begin with other spins there");
     const bool speeds = here.generator == Generator::random || here.generator == Generator::lattice;
     if (there.generator == here.generator && speeds) {
         c.compare("discs.speed", there.speed, here.speed);

@@ -6,11 +6,23 @@
 
 #include <fmt/format.h>
 
+#include "carrom/scene/disc_columns.hpp"
 #include "limits.hpp"
 #include "line_reader.hpp"
 #include "number.hpp"
 
 namespace carrom {
+
+namespace {
+
+/// What a line has.
+std::string columns_text(const std::vector<DiscColumn>& columns) {
+    std::string text = "id x y vx vy";
+    for (const DiscColumn column : columns) text += column == DiscColumn::radius ? " radius" : column == DiscColumn::mass ? " mass" : " spin";
+    return text;
+}
+
+} // namespace
 
 class DiscReader::Lines : public LineReader {
 public:
@@ -51,23 +63,31 @@ std::vector<Problem> DiscReader::problems() const {
 
 /// Whether the line is a disc; otherwise what is wrong with it is noted as one problem.
 bool DiscReader::parse(std::string_view line, InputDisc& disc) {
-    split_words(line, 5, words_);
+    const std::vector<DiscColumn>& columns = scene_.disc_columns;
+    const std::size_t n_words = 5 + columns.size();
+    split_words(line, n_words, words_);
     const bool has_id = note_id(words_[0], disc.id);
     if (!has_id) return false;
-    if (words_.size() < 5) {
-        refuse(fmt::format("expected 'id x y vx vy', found only {} of the 5 numbers", words_.size()));
+    if (words_.size() < n_words) {
+        refuse(fmt::format("expected '{}', found only {} of the {} numbers", columns_text(columns), words_.size(), n_words));
         return false;
     }
     std::string text;
     const auto add = [&text](const std::string& fault) { text += (text.empty() ? "" : "; ") + fault; };
-    const std::array<double*, 4> numbers = {&disc.x, &disc.y, &disc.vx, &disc.vy};
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
+    Body body = bodies_.of(disc.id);
+    double spin = 0;
+    std::array<double*, 7> numbers = {&disc.x, &disc.y, &disc.vx, &disc.vy};
+    for (std::size_t k = 0; k < columns.size(); ++k) numbers[4 + k] = &number_of(columns[k], body, spin);
+    for (std::size_t i = 0; i + 1 < n_words; ++i) {
         const auto number = parse_double(words_[i + 1]);
         if (number) *numbers[i] = *number;
         else add(fmt::format("{} is not a number", quoted(words_[i + 1])));
     }
-    if (text.empty()) text = disc_problem(disc, scene_, bodies_.of(disc.id).radius);
-    if (words_.size() > 5) add(fmt::format("{} after the 5 numbers 'id x y vx vy'", quoted(words_[5])));
+    const bool are_numbers = text.empty();
+    for (std::size_t k = 0; k < columns.size() && are_numbers; ++k)
+        if (const std::string fault = column_problem(columns[k], *numbers[4 + k]); !fault.empty()) add(fault);
+    if (text.empty()) text = disc_problem(disc, scene_, body.radius);
+    if (words_.size() > n_words) add(fmt::format("{} after the {} numbers '{}'", quoted(words_[n_words]), n_words, columns_text(columns)));
     if (text.empty()) return true;
     refuse(std::move(text));
     return false;

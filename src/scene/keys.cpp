@@ -24,6 +24,7 @@ constexpr std::array keys = {
     Key{"discs.list", ValueKind::rows},          Key{"discs.speed", ValueKind::number},
     Key{"discs.velocities", ValueKind::text},    Key{"discs.seed", ValueKind::integer},
     Key{"discs.streams", ValueKind::streams},    Key{"discs.classes", ValueKind::classes},
+    Key{"discs.columns", ValueKind::words},
     Key{"time.steps", ValueKind::integer},
     Key{"time.collisions", ValueKind::text},     Key{"time.micro_steps", ValueKind::integer},
     Key{"time.sync_every", ValueKind::integer},  Key{"time.accuracy", ValueKind::number},
@@ -129,7 +130,7 @@ std::optional<ValueKind> kind_of_key(std::string_view key) {
 bool is_table(std::string_view key) { return std::find(tables.begin(), tables.end(), key) != tables.end(); }
 
 bool has_meaning_for(std::string_view generator, std::string_view key) {
-    const bool lists = key == "discs.file" || key == "discs.list";
+    const bool lists = key == "discs.file" || key == "discs.list" || key == "discs.columns";
     const bool speeds = key == "discs.speed" || key == "discs.velocities";
     const bool random = key == "discs.seed" || key == "discs.streams";
     if (generator == "file") return !speeds && !random;

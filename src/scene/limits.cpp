@@ -16,6 +16,17 @@ std::string velocity_problem(double component) {
     return {};
 }
 
+std::string column_problem(DiscColumn column, double number) {
+    constexpr double smallest_mass = 0x1p-100, largest_mass = 0x1p100;
+    const auto is_within = [number](double low, double high) { return number >= low && number <= high; };
+    switch (column) {
+    case DiscColumn::radius: return is_within(smallest_length, largest_size) ? "" : fmt::format("the radius must be from 2^-230 to 2^250, not {}", number);
+    case DiscColumn::mass: return is_within(smallest_mass, largest_mass) ? "" : fmt::format("the mass must be from 2^-100 to 2^100, not {}", number);
+    case DiscColumn::spin: return is_within(-largest_size, largest_size) ? "" : fmt::format("the spin must be finite and at most 2^250, not {}", number);
+    }
+    return {};
+}
+
 std::string disc_problem(const InputDisc& disc, const Scene& scene, double radius) {
     std::string all;
     const auto add = [&all](const std::string& text) {

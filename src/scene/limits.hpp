@@ -24,6 +24,9 @@ inline constexpr double largest_box_in_radii = 1e6;   ///< beyond, the wall band
 /// What is wrong with a velocity component, or empty.
 std::string velocity_problem(double component);
 
+/// What is wrong with a disc's radius, mass or spin, or empty.
+std::string column_problem(DiscColumn column, double number);
+
 /// All that is wrong with a disc that an input lists, or empty: a centre outside [r, L-r], r its `radius` (by more than the rounding of L),
 /// or a velocity out of range. Any centre will do where the scene has no right box.
 std::string disc_problem(const InputDisc& disc, const Scene& scene, double radius);

@@ -15,8 +15,8 @@ namespace carrom {
 namespace {
 
 /// Pairs that say the same thing in two ways; the one from the command line wins.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 2> rivals = {
-    {{"discs.radius", "discs.packing"}, {"discs.file", "discs.list"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> rivals = {
+    {{"discs.radius", "discs.packing"}, {"discs.file", "discs.list"}, {"discs.columns", "discs.list"}}};
 
 /// An accuracy asks for these to be chosen.
 constexpr std::array<std::string_view, 5> chosen_by_accuracy = {"time.collisions", "time.micro_steps", "time.precision",

@@ -81,7 +81,7 @@ std::ifstream open_input(const std::string& path) {
 }
 
 SceneText read_scene_text(std::istream& stream, const std::string& name) {
-    SceneText input{name, {}, 0, false};
+    SceneText input{name, {}, 0, false, {}};
     if (is_toml(name)) {
         input.text = read_all(stream, name);
         return input;
@@ -122,7 +122,7 @@ Scene read_scene(const SceneText& input, const std::vector<std::string>& overrid
     scene.lines_before_discs = input.lines_before_discs;
     scene.discs_follow = input.discs_follow;
     scene.overrides = overrides;
-    if (is_parsed) fill_scene(scene, settings, problems);
+    if (is_parsed) fill_scene(scene, settings, problems, input.columns ? &*input.columns : nullptr);
     const auto line_of = [](const Problem& p) { return p.line > 0 ? p.line : std::numeric_limits<std::int64_t>::max(); };
     std::stable_sort(problems.begin(), problems.end(),
                      [&](const Problem& a, const Problem& b) { return line_of(a) < line_of(b); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "carrom/scene/scene.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <numbers>
 
@@ -14,6 +15,11 @@ double Scene::packing() const {
     }
     const double share = radius / box_size;
     return static_cast<double>(n_discs) * std::numbers::pi * share * share;
+}
+
+double first_spin(const Scene& scene, DiscId id) {
+    const auto run = std::upper_bound(scene.spins.begin(), scene.spins.end(), id, [](DiscId wanted, const SpinRun& one) { return wanted < one.end; });
+    return run == scene.spins.end() ? 0 : run->spin;
 }
 
 std::string discs_path(const Scene& scene) {

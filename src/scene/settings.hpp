@@ -22,7 +22,7 @@ struct Place {
     std::int64_t line = 0;
 };
 
-/// One row of numbers of `discs.list`, four or six, or of the obstacles' lists; empty where something else was written, a problem by then.
+/// One row of numbers of `discs.list`, four to seven, or of the obstacles' lists; empty where something else was written, a problem by then.
 struct Row {
     Place place;
     std::vector<double> numbers;
@@ -39,7 +39,7 @@ struct StreamRows {
 struct ClassRow {
     Place place;
     std::size_t number = 0; ///< among the classes, from 1
-    double count = 0, radius = 0, mass = 1;
+    double count = 0, radius = 0, mass = 1, spin = 0;
 };
 
 struct Setting {

@@ -82,8 +82,9 @@ std::optional<std::vector<double>> numbers_of(Walk& walk, const toml::node& node
 std::vector<Row> rows_of(Walk& walk, const toml::array& array, const std::string& key, std::size_t count, std::string_view numbers_wanted) {
     std::vector<Row> rows;
     for (const toml::node& node : array) {
-        const bool has_body = key == "discs.list" && node.is_array() && node.as_array()->size() == 6;
-        const auto numbers = numbers_of(walk, node, has_body ? 6 : count, fmt::format("row {} of '{}' must be {}", rows.size() + 1, key, numbers_wanted));
+        const std::size_t n = node.is_array() ? node.as_array()->size() : count;
+        const bool has_more = key == "discs.list" && n > count && n <= 7; // spin, or radius and mass, or all three
+        const auto numbers = numbers_of(walk, node, has_more ? n : count, fmt::format("row {} of '{}' must be {}", rows.size() + 1, key, numbers_wanted));
         rows.push_back({walk.place_of(node.source()), numbers.value_or(std::vector<double>{})});
     }
     return rows;
@@ -122,19 +123,21 @@ std::optional<std::vector<StreamRows>> streams_of(Walk& walk, const toml::array&
 
 /// The `number`-th class, from 1; nothing after a problem.
 std::optional<ClassRow> class_of(Walk& walk, const toml::table& table, std::size_t number) {
-    static constexpr std::array<std::string_view, 3> names = {"count", "radius", "mass"};
-    ClassRow row{walk.place_of(table.source()), number, 0, 0, 1};
+    static constexpr std::array<std::string_view, 4> names = {"count", "radius", "mass", "spin"};
+    ClassRow row{walk.place_of(table.source()), number, 0, 0, 1, 0};
+    const std::array<double*, 4> numbers = {&row.count, &row.radius, &row.mass, &row.spin};
     const std::size_t n_problems = walk.problems.size();
     const auto refuse = [&](const Place& place, const std::string& text) { add_problem(walk.problems, place, fmt::format("class {}: {}", number, text)); };
     for (const auto& [key, node] : table) {
         const auto value = as_number(node);
         const Place place = walk.place_of(key.source());
-        if (std::find(names.begin(), names.end(), key.str()) == names.end())
+        const auto name = std::find(names.begin(), names.end(), key.str());
+        if (name == names.end())
             refuse(place, fmt::format("a class has no {}{}", quoted(key.str()), guess(key.str(), names, '\'')));
         else if (!value) refuse(place, fmt::format("its {} must be a number, not {}", key.str(), shown(node)));
-        else (key.str() == names[0] ? row.count : key.str() == names[1] ? row.radius : row.mass) = *value;
+        else *numbers[static_cast<std::size_t>(name - names.begin())] = *value;
     }
-    if (!table.contains(names[0]) || !table.contains(names[1])) refuse(row.place, "it needs count = ... and radius = ...; mass = 1 unless given");
+    if (!table.contains(names[0]) || !table.contains(names[1])) refuse(row.place, "it needs count = ... and radius = ...; mass = 1 and spin = 0 unless given");
     if (walk.problems.size() > n_problems) return std::nullopt;
     return row;
 }

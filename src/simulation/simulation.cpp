@@ -28,6 +28,7 @@ StoredState first_state(const Scene& scene, std::vector<InputDisc> inputs) {
         disc.y = input.y;
         disc.vx = input.vx / k;
         disc.vy = input.vy / k;
+        if (!scene.spins.empty()) state.spins.push_back(first_spin(scene, input.id) / k);
     }
     return state;
 }

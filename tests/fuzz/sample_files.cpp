@@ -56,6 +56,7 @@ void write_sample_checkpoint(const std::string& path, const Communicator& world)
     header.collisions = "one";
     header.sync_every = 64;
     header.step = header.micro_steps_done = 70;
+    header.classes = {{5, 0.5, 1}, {7, 0.25, 2}};
     header.has_spins = true;
     write_checkpoint(path, header, some_discs(), world, 1, {}, some_spins());
 }

@@ -9,6 +9,7 @@ valgrind counts below Simulation::advance_towards, divided by those of the plain
 with the effect in turns, and the median of their ratios with the quartiles. Prints a table of Markdown.
 """
 import argparse
+import math
 import os
 import resource
 import statistics
@@ -17,6 +18,20 @@ import sys
 import tempfile
 
 from instructions import SETTINGS, counted
+
+def classes(kinds):
+    """The discs' tables for as many kinds as named: radii spread from 0.8 to 1.2 of the mean in equal numbers, masses as areas are."""
+
+    def lines(packing):
+        spread = [0.8 + 0.4 * k / (kinds - 1) for k in range(kinds)]
+        mean = SIZE * math.sqrt(packing / (math.pi * COUNT * sum(s * s for s in spread) / kinds))
+        return "".join(f"[[discs.classes]]\ncount = {COUNT // kinds}\nradius = {s * mean}\nmass = {s * s}\n" for s in spread)
+
+    return lines
+
+
+ROUGH = '[effects.contact]\nkind = "rough"\nrestitution = 0.999\ntangential_restitution = 0.999\nfriction = 0.5\n'
+COUNT, SIZE = 3000, 300
 
 # name: (rule, lines that the scene has more, what the cost should stay below)
 EFFECTS = {
@@ -34,12 +49,20 @@ EFFECTS = {
     "periodic sides": ("all", "".join(f'[box.{side}]\nkind = "periodic"\n' for side in ("left", "right", "bottom", "top")), 1.1),
     "periodic sides, rule one": ("one", "".join(f'[box.{side}]\nkind = "periodic"\n' for side in ("left", "right", "bottom", "top")), 1.1),
     "discs that do not meet": ("all", '[effects.contact]\nkind = "none"\n', None),
+    "two radii and masses": ("all", classes(2), 1.4),
+    "two radii and masses, rule one": ("one", classes(2), 1.4),
+    "each disc of a radius and a mass of its own": ("all", classes(COUNT), 1.4),
+    "each disc of a radius and a mass of its own, rule one": ("one", classes(COUNT), 1.4),
+    "rough discs": ("all", ROUGH, 1.5),
+    "rough discs, rule one": ("one", ROUGH, 1.5),
 }
 
 
 def scene_text(packing, rule, lines):
-    return (f"[discs]\ncount = 3000\npacking = {packing}\nspeed = 0.3\n[time]\nsteps = 300\nsync_every = 32\ncollisions = \"{rule}\"\n"
-            f"[box]\nsize = 300\n{lines}")
+    """`lines` may be a function of the packing; it names the discs then."""
+    discs = "" if callable(lines) else f"count = {COUNT}\npacking = {packing}\n"
+    return (f"[discs]\nspeed = 0.3\n{discs}[time]\nsteps = 300\nsync_every = 32\ncollisions = \"{rule}\"\n"
+            f"[box]\nsize = {SIZE}\n{lines(packing) if callable(lines) else lines}")
 
 
 def processor_seconds(program, scene):

@@ -119,6 +119,42 @@ run 1 convert turning/checkpoint-000000000060.h5 --to csv
 run 1 diff turning/checkpoint-000000000025.h5 turning/checkpoint-000000000060.h5
 expect_code 1 'checkpoints of two steps'
 
+# Each disc with a radius, a mass and a spin of its own: from a file, and from the scene itself; a restart needs no file.
+awk 'BEGIN { for (k = 0; k < 144; ++k) { i = (k * 59) % 144; printf "%d %g %g %g %g %g %g %g\n", i, 2.5 + 5 * (i % 12), 2.5 + 5 * int(i / 12),
+    (i * 7919 % 1000 - 500) / 1000, (i * 104729 % 1000 - 500) / 1000, 1 + (i * 37 % 100) / 90, 0.5 + (i * 53 % 10) / 5, (i * 31 % 7 - 3) / 10 } }' >discs.txt
+several() { # SCENE LINES...
+    printf '[box]\nsize = 60\n[time]\nsteps = 60\n[effects.contact]\nkind = "rough"\nrestitution = 0.9\ntangential_restitution = 0.6\n[discs]\n' >"$1"
+    printf '%s\n' "${@:2}" >>"$1"
+}
+several each.toml 'count = 144' 'file = "discs.txt"' 'columns = ["radius", "mass", "spin"]'
+several listed.toml "list = [$(sort -n discs.txt | awk '{ print "[" $2 "," $3 "," $4 "," $5 "," $6 "," $7 "," $8 "]," }')]"
+for rule in one all; do
+    run 3 run each.toml --set time.collisions=$rule --quiet --report each.json --set output.checkpoint.folder=each_$rule --set output.checkpoint.every_steps=25
+    expect_code 0 "discs of their own, rule $rule"
+    run 1 run listed.toml --set time.collisions=$rule --threads 2 --quiet --report listed.json
+    expect_code 0 "the same discs listed, rule $rule"
+    [ "$(json_value each.json state_hash)" = "$(json_value listed.json state_hash)" ] || complain "discs of a file have other bits than listed ones, rule $rule"
+done
+[ "$(json_value each.json pair_collisions)" -gt 200 ] || complain 'discs of their own hardly meet'
+sed '17s/ [^ ]* [^ ]* [^ ]*$/ -1 0 x/; 30s/ [^ ]*$//' discs.txt >wrong.txt
+run 2 run each.toml --set discs.file=wrong.txt
+expect_code 2 'wrong columns'
+expect_told 'wrong.txt:17: ' 'wrong columns'
+expect_told "wrong.txt:30: expected 'id x y vx vy radius mass spin', found only 7 of the 8 numbers" 'wrong columns'
+run 2 run each.toml --set discs.file=none.txt
+expect_code 2 'no file of columns'
+expect_told 'none.txt: cannot be opened' 'no file of columns'
+run 1 run --restart each_all/checkpoint-000000000050.h5 --steps 60 --set discs.radius=1
+expect_code 2 'a restart with other radii'
+rm discs.txt
+run 2 run --restart each_all/checkpoint-000000000050.h5 --steps 60 --quiet --report each_rest.json --set output.checkpoint.folder=elsewhere
+expect_code 0 'discs of their own, after a restart'
+[ "$(json_value each_rest.json state_hash)" = "$(json_value each.json state_hash)" ] || complain 'discs of their own have another state hash after a restart'
+run 1 diff elsewhere/checkpoint-000000000060.h5 each_all/checkpoint-000000000060.h5
+expect_code 0 'checkpoints of discs of their own, interrupted and not'
+run 1 verify elsewhere/checkpoint-000000000060.h5
+expect_code 0 'a checkpoint of discs of their own'
+
 run 3 run fall.toml --check --quiet --report checked.json
 expect_code 0 'a checked run with effects'
 [ "$(json_value checked.json state_hash)" = "$(json_value whole.json state_hash)" ] || complain 'another state hash with --check'

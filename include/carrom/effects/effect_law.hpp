@@ -28,7 +28,7 @@ public:
     /// `effects` per micro-step.
     EffectLaw(double box_size, double radius, const Effects& effects)
         : PlainLaw(box_size, radius), contact_(effects.contact), contact_time_(effects.contact.contact_time), bodies_(effects.classes, radius),
-          sides_(box_size, radius, effects) {
+          sides_(box_size, radius, effects, bodies_) {
         if (effects.obstacles.are_any()) obstacles_ = std::make_shared<const Obstacles>(box_size, radius, effects);
     }
 

@@ -27,8 +27,8 @@ class Sides {
 public:
     static constexpr double never = std::numeric_limits<double>::infinity();
 
-    /// `effects` per micro-step; `radius` is the largest one.
-    Sides(double box_size, double radius, const Effects& effects);
+    /// `effects` per micro-step; `radius` is the largest one; `bodies` are those of the effects' classes.
+    Sides(double box_size, double radius, const Effects& effects, const DiscBodies& bodies);
 
     /// From now on times count from micro-step `n` of the scene.
     void begin_interval(std::int64_t n);

@@ -19,6 +19,7 @@
 #include "carrom/core/disc.hpp"
 #include "carrom/core/frame.hpp"
 #include "carrom/core/stored_samples.hpp"
+#include "carrom/effects/disc_classes.hpp"
 #include "carrom/parallel/communicator.hpp"
 
 namespace carrom {
@@ -39,6 +40,7 @@ struct CheckpointHeader {
     std::uint64_t wall_collisions = 0, pair_collisions = 0; ///< sums of the discs' counters; a pair counts once
     std::string state_hash;
     Frame frame; ///< that the discs' coordinates are in; in the file only where it moves
+    std::vector<DiscClass> classes; ///< where a file of discs had them, for the scene's text has not; else empty
     bool has_spins = false; ///< discs turn; the file has their spins then, and the state hash covers them
 
     /// Micro-steps since the last sync, or what the frame's clock makes of them: the time that the discs' own times belong to.

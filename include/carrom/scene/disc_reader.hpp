@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs from lines of text, "id x y vx vy" in any order of ids, in bounded chunks: one rank reads what it could never
+// Discs from lines of text, "id x y vx vy" (and the columns of `discs.columns`, which are checked here and kept by
+// read_disc_columns) in any order of ids, in bounded chunks: one rank reads what it could never
 // hold. Costs up to N bits to see that every id comes once, and under a microsecond a line.
 //
 // Problems are collected, not thrown: reading goes on, so that one look at a file finds them all.

@@ -9,11 +9,13 @@
 #include <cstdint>
 #include <fstream>
 #include <istream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "carrom/core/errors.hpp"
+#include "carrom/scene/disc_columns.hpp"
 #include "carrom/scene/scene.hpp"
 
 namespace carrom {
@@ -24,6 +26,7 @@ struct SceneText {
     std::string text;
     std::int64_t lines_before_discs = 0; ///< ancestor text: lines taken from the stream
     bool discs_follow = false;           ///< ancestor text: the stream goes on with lines of discs
+    std::optional<DiscColumns> columns{}; ///< once the scene is known to have some (`discs.columns`); till then sizes are not checked
 };
 
 /// Opens a file to read; InputError where it is missing, no plain file (a device or a pipe may never end), or not

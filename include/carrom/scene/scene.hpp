@@ -33,6 +33,17 @@ struct InputDisc {
     friend bool operator==(const InputDisc&, const InputDisc&) = default;
 };
 
+/// Discs whose ids follow each other, up to `end`, that have one spin at the start, an angle per step.
+struct SpinRun {
+    DiscId end = 0;
+    double spin = 0;
+
+    friend bool operator==(const SpinRun&, const SpinRun&) = default;
+};
+
+/// What a line of `discs_file` may have behind `id x y vx vy`.
+enum class DiscColumn { radius, mass, spin };
+
 /// Discs generated inside this rectangle get this velocity added: a jet, a shear, a piston-like slab.
 struct Stream {
     double x_low = 0, y_low = 0, x_high = 0, y_high = 0;
@@ -91,6 +102,8 @@ struct Scene {
     std::uint64_t seed = 3210;
     std::vector<Stream> streams;
     std::vector<InputDisc> listed_discs; ///< discs written in the scene itself (`discs.list`)
+    std::vector<DiscColumn> disc_columns; ///< of `discs_file`, in their order (`discs.columns`)
+    std::vector<SpinRun> spins;           ///< at the start, in the order of ids; empty where all discs begin without
 
     std::int64_t steps = 0;
     CollisionRule rule = CollisionRule::one;
@@ -116,6 +129,9 @@ struct Scene {
     /// True where the discs come from lines of text: `discs_file`, or the lines after the ancestor's header.
     bool reads_disc_lines() const { return generator == Generator::file && listed_discs.empty(); }
 };
+
+/// A disc's spin at the start.
+double first_spin(const Scene& scene, DiscId id);
 
 /// Where `discs_file` lies: relative to the folder of the scene's own file.
 std::string discs_path(const Scene& scene);

@@ -194,6 +194,7 @@ TEST_CASE("the header comes back whole") {
     const Communicator world = Communicator::world();
     const TestFolder folder(world);
     CheckpointHeader wanted = some_header();
+    wanted.classes = {{2, 1.5, 3}, {1, 0.5, 1}};
     wanted.scene_text += std::string(200000, 'x') + '\n'; // longer than HDF5's attributes may be
     write_checkpoint(folder.file("a.h5"), wanted, share(3, world, 0), world);
     for (const CheckpointHeader& header :
@@ -210,6 +211,7 @@ TEST_CASE("the header comes back whole") {
         CHECK(header.micro_steps == wanted.micro_steps);
         CHECK(header.sync_every == wanted.sync_every);
         CHECK(header.step == wanted.step);
+        CHECK(header.classes == wanted.classes);
         CHECK(header.micro_steps_done == wanted.micro_steps_done);
         CHECK(header.clock() == 4.0);
     }

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carrom/scene/disc_columns.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "limits.hpp"
+#include "line_reader.hpp"
+#include "number.hpp"
+
+namespace carrom {
+
+namespace {
+
+struct Row {
+    DiscId id = 0;
+    Body body;
+    double spin = 0;
+};
+
+/// What a line of `5 + columns.size()` words says, or nothing where DiscReader would refuse it.
+std::optional<Row> row_of(const std::vector<std::string_view>& words, const std::vector<DiscColumn>& columns) {
+    if (words.size() != 5 + columns.size()) return std::nullopt;
+    Row row;
+    const auto id = parse_id(words[0]);
+    if (!id) return std::nullopt;
+    row.id = *id;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+        const auto number = parse_double(words[5 + k]);
+        if (!number || !column_problem(columns[k], *number).empty()) return std::nullopt;
+        number_of(columns[k], row.body, row.spin) = *number;
+    }
+    return row;
+}
+
+} // namespace
+
+void add_class(std::vector<DiscClass>& classes, const DiscClass& next) {
+    if (!classes.empty() && classes.back().radius == next.radius && classes.back().mass == next.mass) classes.back().count += next.count;
+    else classes.push_back(next);
+}
+
+void add_spins(std::vector<SpinRun>& spins, std::uint64_t count, double spin) {
+    const DiscId end = (spins.empty() ? 0 : spins.back().end) + count;
+    if (!spins.empty() && spins.back().spin == spin) spins.back().end = end;
+    else spins.push_back({end, spin});
+}
+
+bool has_column(const Scene& scene, DiscColumn column) {
+    return std::find(scene.disc_columns.begin(), scene.disc_columns.end(), column) != scene.disc_columns.end();
+}
+
+double& number_of(DiscColumn column, Body& body, double& spin) {
+    return column == DiscColumn::radius ? body.radius : column == DiscColumn::mass ? body.mass : spin;
+}
+
+DiscColumns read_disc_columns(std::istream& stream, const Scene& scene) {
+    DiscColumns found;
+    found.is_whole = false;
+    std::vector<Row> rows;
+    std::vector<std::string_view> words;
+    LineReader lines(stream, 0);
+    for (std::string_view line; lines.next(line);) {
+        if (lines.is_cut()) return found;
+        if (lines.line_number() == 1 && line.starts_with(byte_order_mark)) line.remove_prefix(byte_order_mark.size());
+        if (trimmed(line).empty()) continue;
+        split_words(line, 5 + scene.disc_columns.size(), words);
+        const std::optional<Row> row = row_of(words, scene.disc_columns);
+        if (!row || rows.size() == scene.n_discs) return found;
+        rows.push_back(*row);
+    }
+    if (lines.has_failed() || lines.is_endless() || rows.size() != scene.n_discs) return found;
+    std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.id < b.id; });
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (rows[i].id != i) return found;
+    found.is_whole = true;
+    for (const Row& row : rows) {
+        if (has_column(scene, DiscColumn::radius)) add_class(found.classes, {1, row.body.radius, row.body.mass});
+        if (has_column(scene, DiscColumn::spin)) add_spins(found.spins, 1, row.spin);
+    }
+    return found;
+}
+
+} // namespace carrom
