@@ -162,7 +162,10 @@ Scene scene_of(const CheckpointHeader& header, const std::vector<std::string>& m
     overrides.insert(overrides.end(), more_overrides.begin(), more_overrides.end());
     SceneText text{header.scene_name, header.scene_text, header.scene_lines_before_discs, header.scene_discs_follow != 0, {}};
     if (!header.classes.empty()) text.columns = DiscColumns{header.classes, {}, true};
-    return read_scene(text, overrides);
+    Scene scene = read_scene(text, overrides);
+    if (has_column(scene, DiscColumn::radius) && !text.columns)
+        throw InputError({{header.scene_name, 0, "'discs.columns' names radii, and the checkpoint has none of them"}});
+    return scene;
 }
 
 void load_restart(const RunOptions& options, Loaded& loaded, const Communicator& ranks) {

@@ -91,7 +91,7 @@ run 1 verify m.h5
 expect_code 0 "the mixture's trajectory"
 run 1 info mixed/checkpoint-000000000060.h5
 grep -q '5 discs of radius 4 and mass 20, 300 discs of radius 0.5 and mass 1' "$test_folder/out" || complain 'no classes in info'
-run 3 run --restart mixed --steps 90 --set time.collisions=all
+run 1 run --restart mixed --steps 90 --set time.collisions=all
 expect_code 2 'another rule'
 run 2 run --restart mixed --steps 90 --quiet --report mixed_rest.json
 run 1 run mixture.toml --steps 90 --quiet --report mixed_whole.json
@@ -141,11 +141,13 @@ run 2 run each.toml --set discs.file=wrong.txt
 expect_code 2 'wrong columns'
 expect_told 'wrong.txt:17: ' 'wrong columns'
 expect_told "wrong.txt:30: expected 'id x y vx vy radius mass spin', found only 7 of the 8 numbers" 'wrong columns'
-run 2 run each.toml --set discs.file=none.txt
+run 1 run each.toml --set discs.file=none.txt
 expect_code 2 'no file of columns'
 expect_told 'none.txt: cannot be opened' 'no file of columns'
 run 1 run --restart each_all/checkpoint-000000000050.h5 --steps 60 --set discs.radius=1
 expect_code 2 'a restart with other radii'
+run 1 run --restart mixed --steps 90 --set discs.file=discs.txt --set 'discs.columns=["radius"]'
+expect_code 2 'a restart with columns that its checkpoint does not have'
 rm discs.txt
 run 2 run --restart each_all/checkpoint-000000000050.h5 --steps 60 --quiet --report each_rest.json --set output.checkpoint.folder=elsewhere
 expect_code 0 'discs of their own, after a restart'
