@@ -5,14 +5,39 @@
 #include <cmath>
 
 #include <fmt/format.h>
+
+#include "carrom/core/errors.hpp"
 #include "standard_streams.hpp"
 
 namespace carrom {
 
-void warn_of_hard_cases(const Scene& scene, const Simulation& simulation, const Communicator& ranks) {
+namespace {
+
+/// Of any disc on any rank, per micro-step. **Collective.**
+double largest_speed(const Simulation& simulation, const Communicator& ranks) {
     double square = 0;
     for (const Disc& disc : simulation.discs()) square = std::max(square, disc.vx * disc.vx + disc.vy * disc.vy);
-    const double speed = std::sqrt(ranks.max(square));
+    return std::sqrt(ranks.max(square));
+}
+
+/// Images of discs are counted in 15 bits (core/image.hpp); collisions may make the fastest disc twice as fast.
+constexpr double most_crossings = 8000;
+
+void refuse_long_flights(const Scene& scene, double speed) {
+    const double interval = static_cast<double>(std::min(scene.sync_every, scene.steps * scene.micro_steps));
+    const double crossings = speed * interval / scene.box_size;
+    if (!scene.effects.are_periodic() || crossings <= most_crossings) return;
+    throw InputError({{scene.name, 0,
+                       fmt::format("the fastest disc flies {:.3g} times through the box with periodic sides from one sync to the next; this version "
+                                   "counts to {:g}: take a smaller time.sync_every (now {}) or {:.3g} times as many time.micro_steps",
+                                   crossings, most_crossings, scene.sync_every, std::ceil(crossings / most_crossings))}});
+}
+
+} // namespace
+
+void look_for_hard_cases(const Scene& scene, const Simulation& simulation, const Communicator& ranks) {
+    const double speed = largest_speed(simulation, ranks);
+    refuse_long_flights(scene, speed);
     const double rounding = static_cast<double>(scene.sync_every) * 0x1p-53; // times count from the last sync
     // As far as the band before walls is wide: from there on bounces and overlaps show it.
     if (!ranks.is_root() || speed * rounding <= 1e-8 * scene.radius) return;

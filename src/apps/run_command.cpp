@@ -132,7 +132,7 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     Simulation simulation = is_restart ? Simulation(scene, std::move(*loaded.stored), ranks, tuning)
                                        : Simulation(scene, std::move(loaded.discs), ranks, tuning);
 
-    warn_of_hard_cases(scene, simulation, ranks);
+    look_for_hard_cases(scene, simulation, ranks);
     if (options.check) check_every_step(simulation, scene);
     RunResult result;
     result.threads = tuning.threads;

@@ -47,6 +47,11 @@ discs wall 3,3,0,1 5,3,0,-1 && expect_warning 'a pair that slides' '1 pair of di
 discs periodic 1,3,1e-9,1 9,3,0,-1 && expect_warning 'a pair that slides across periodic sides' '1 pair of discs that touch slide along each other'
 discs wall 3,3,0.1,1 5,3,0,-1 && expect_no_warning 'a pair that touches and meets'
 discs wall 3,3,1,1 5,3,1,1 && expect_no_warning 'a pair that flies together'
+discs periodic 3,3,1e6,0 5,7,0,0
+run 2 run scene.toml --quiet
+expect_code 2 'a million flights round a box'
+expect_told '1e+05 times through the box with periodic sides' 'a million flights round a box'
+discs periodic 3,3,1e3,0 5,7,0,0 && expect_no_warning 'a hundred flights round a box'
 for rule in one all; do
     discs wall 3,3,0,1 5,3,0,-1
     run 1 run scene.toml --quiet --set time.collisions=$rule --set box.size=20
