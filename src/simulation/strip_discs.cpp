@@ -2,6 +2,7 @@
 #include "strip_discs.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "carrom/core/errors.hpp"
 #include "carrom/parallel/exchange.hpp"
@@ -51,9 +52,10 @@ StripDiscs::StripDiscs(const Communicator& communicator, double box_size, std::v
 
 void StripDiscs::set_gone_aside() {
     forget_halo();
-    const auto first_gone = std::stable_partition(discs_.begin(), discs_.end(), [](const Disc& disc) { return !disc.is_gone(); });
-    gone_.insert(gone_.end(), first_gone, discs_.end());
-    discs_.erase(first_gone, discs_.end());
+    // Not std::stable_partition: its buffer is aligned for less than a disc.
+    const auto is_gone = [](const Disc& disc) { return disc.is_gone(); };
+    std::copy_if(discs_.begin(), discs_.end(), std::back_inserter(gone_), is_gone);
+    std::erase_if(discs_, is_gone);
     n_own_ = discs_.size();
     n_total_ = communicator_.sum(std::uint64_t{n_own_});
 }
