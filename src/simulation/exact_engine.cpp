@@ -136,12 +136,14 @@ template <class Law> ReplayWindow ExactEngine<Law>::choose(double target) {
     caution_.learn(repeated_, collision_rate_ * last_duration_);
     needs.more_halo = caution_.more_halo();
     repeated_ = 0;
-    const double longest = target - time_;
+    const double left = target - time_;
+    double longest = left;
+    if constexpr (Law::is_periodic) longest = std::min(longest, longest_in_period(law_.box_size(), window.speed_bound));
     choice_ = choose_exact_window(needs, tuning_.window ? longest : std::min(longest, caution_.most_hits() / needs.collision_rate), tuning_.window);
     if (Law::is_periodic && is_one_block_ && !exact_.halo && !exact_.block_side) choice_.halo = 1; // as far as images have to be seen
     // Equal windows up to the target; the last one ends there exactly.
-    const double n_windows = std::ceil(longest / choice_.duration * (1 - 1e-9));
-    window.end = n_windows > 1 ? time_ + longest / n_windows : target;
+    const double n_windows = std::ceil(left / choice_.duration * (1 - 1e-9));
+    window.end = n_windows > 1 ? time_ + left / n_windows : target;
     if (!(window.end > time_) || window.end > target) window.end = std::nextafter(time_, 2 * target);
     return window;
 }

@@ -160,7 +160,11 @@ template <class Law> Window OneEngine<Law>::choose(int n_left) {
     if (part_ == 0) {
         window_speed_ = largest_speed_ * speed_allowance;
         speed_exceeded_ = false;
-        const WindowChoice choice = choose_window(window_needs(), std::min(n_left, longest_window), tuning_.window);
+        WindowChoice choice = choose_window(window_needs(), std::min(n_left, longest_window), tuning_.window);
+        if constexpr (Law::is_periodic) {
+            const double longest = longest_in_period(law_.box_size(), window_speed_);
+            if (choice.n_micro > longest * choice.n_parts) choice = choose_window(window_needs(), std::min(n_left, longest_window), longest);
+        }
         window.n_micro = choice.n_micro;
         n_parts_ = choice.n_parts;
         in_parts_ = n_parts_ > 1;

@@ -46,4 +46,7 @@ struct WindowChoice {
 };
 WindowChoice choose_window(const WindowNeeds& needs, int n_left, std::optional<double> wanted);
 
+/// How long a window may be in a box with periodic sides: two discs do not go round it, or each would be looked for in many images.
+inline double longest_in_period(double box_size, double speed) { return box_size / (2 * speed); }
+
 } // namespace carrom

@@ -6,7 +6,8 @@
 #
 # Builds the engines once for each way below in FOLDER/<way>, runs them and compares. PATTERN (an extended regular
 # expression) picks ways by name: 'gcc_O3' or 'O0'. Ways that this machine cannot build or run are named and left out.
-# Some 6 minutes a way on one core. Needs g++, clang++ and clang's OpenMP (Debian: clang libomp-dev).
+# Some 6 minutes a way on one core; a run that takes an hour ($MINUTES says otherwise) has failed. Needs g++, clang++ and
+# clang's OpenMP (Debian: clang libomp-dev).
 set -euo pipefail
 source_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 folder=${1:?a folder to build in}
@@ -44,7 +45,7 @@ for kind in gcc clang; do
                 -DCMAKE_CXX_FLAGS="$flags" >"$folder/$way.log" 2>&1 &&
                 cmake --build "$folder/$way" --parallel "${JOBS:-1}" --target stability_hashes >>"$folder/$way.log" 2>&1 ||
                 { echo "$way: does not build, see $folder/$way.log"; n_failed=$((n_failed + 1)); continue; }
-            hash=$(timeout 600 "$folder/$way/tests/stability_hashes" 2>>"$folder/$way.log") || hash='failed'
+            hash=$(timeout "$((60 * ${MINUTES:-60}))" "$folder/$way/tests/stability_hashes" 2>>"$folder/$way.log") || hash='failed'
             echo "$way: $hash"
             n_ways=$((n_ways + 1))
             [ -n "$expected" ] || expected=$hash
