@@ -18,6 +18,7 @@ std::string effects_text(const Effects& effects) {
         const Side& side = effects.sides[k];
         if (side.is_plain()) continue;
         text += fmt::format("[box.{}]\n", side_names[k]);
+        if (side.kind == SideKind::periodic) text += "kind = \"periodic\"\n";
         if (side.kind == SideKind::thermal) text += fmt::format("kind = \"thermal\"\ntemperature = {}\n", side.temperature);
         if (side.kind == SideKind::moving) text += fmt::format("kind = \"moving\"\nspeed = {} # and it has moved since the scene's start\n", side.speed);
         if (side.restitution != 1) text += fmt::format("restitution = {}\n", side.restitution);

@@ -110,8 +110,6 @@ void check_every_step(Simulation& simulation, const Scene& scene) {
         throw InputError({{"--check", 0, "it knows discs that do not turn only; leave effects.contact.kind = \"rough\" or --check out"}});
     for (const Side& side : scene.effects.sides)
         if (side.kind == SideKind::open) throw InputError({{"--check", 0, "it knows closed boxes only; leave sides of kind = \"open\" or --check out"}});
-    if (scene.effects.are_periodic())
-        throw InputError({{"--check", 0, "it knows boxes with walls only; leave sides of kind = \"periodic\" or --check out"}});
     simulation.check_every_step(scene);
 }
 

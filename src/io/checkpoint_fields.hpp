@@ -74,8 +74,14 @@ inline constexpr std::array<FrameField, 6> checkpoint_frame = {{{"frame_x", &Fra
 struct SampleColumn {
     const char* name;
     double FirstPlace::*field;
+    bool is_of_periodic_boxes = false;
+
+    bool is_in(const StoredSamples& samples) const { return is_of_periodic_boxes ? samples.have_lengths : samples.have_first_places; }
 };
-inline constexpr std::array<SampleColumn, 2> sample_columns = {{{"first_x", &FirstPlace::x}, {"first_y", &FirstPlace::y}}};
+inline constexpr std::array<SampleColumn, 4> sample_columns = {{{"first_x", &FirstPlace::x},
+                                                                {"first_y", &FirstPlace::y},
+                                                                {"lengths_x", &FirstPlace::lengths_x, true},
+                                                                {"lengths_y", &FirstPlace::lengths_y, true}}};
 /// And for one of a periodic box.
 inline constexpr std::array<FrameField, 2> checkpoint_periods = {{{"period_x", &Frame::period_x}, {"period_y", &Frame::period_y}}};
 

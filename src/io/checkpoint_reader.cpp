@@ -89,10 +89,12 @@ StoredSamples read_samples(hid_t file, const std::string& path, std::uint64_t n,
         samples.sums.resize(size);
         h5::read_rows(sums.id(), {0, size}, H5T_NATIVE_INT64, samples.sums.data());
         samples.have_first_places = H5Lexists(file, "/carrom/measurements/first_x", H5P_DEFAULT) > 0;
+        samples.have_lengths = H5Lexists(file, "/carrom/measurements/lengths_x", H5P_DEFAULT) > 0;
         if (!samples.have_first_places) return;
         samples.first_places.resize(end - first);
         std::vector<double> numbers(end - first);
         for (const SampleColumn& column : sample_columns) {
+            if (!column.is_in(samples)) continue;
             const h5::Dataset places = h5::open_checked(file, std::string("/carrom/measurements/") + column.name, {n});
             if (numbers.empty()) continue;
             h5::read_rows(places.id(), {first, end}, H5T_NATIVE_DOUBLE, numbers.data());

@@ -62,7 +62,7 @@ void create_groups(hid_t file, const CheckpointHeader& header, const StoredSampl
     const h5::Group measurements = h5::create_group(carrom.id(), "measurements");
     h5::write_whole(measurements.id(), "sums", std::array<hsize_t, 1>{samples.sums.size()}, H5T_NATIVE_INT64, samples.sums.data());
     for (const SampleColumn& column : sample_columns)
-        if (samples.have_first_places) create_column(measurements.id(), column.name, std::array<hsize_t, 1>{header.n_discs}, H5T_NATIVE_DOUBLE);
+        if (column.is_in(samples)) create_column(measurements.id(), column.name, std::array<hsize_t, 1>{header.n_discs}, H5T_NATIVE_DOUBLE);
 }
 
 /// Where a contiguous data set's numbers begin, counted from the front of the file.
@@ -103,7 +103,7 @@ std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const Store
             put_each(discs, out, [&spins](const Disc& disc) { return spins.of(disc); });
         });
     for (const SampleColumn& column : sample_columns) {
-        if (!samples.have_first_places) continue;
+        if (!column.is_in(samples)) continue;
         add(std::string("/carrom/measurements/") + column.name, sizeof(double), [&column, &places = samples.first_places](std::span<const Disc> discs, std::byte* out) {
             put_each(discs, out, [&](const Disc& disc) { return places[disc.id - places.front().id].*column.field; });
         });

@@ -108,9 +108,6 @@ void check_beside_periodic_sides(const Check& check) {
     if (effects.contact.kind == ContactKind::rough) refuse("rough discs");
     if (!effects.classes.empty()) refuse("discs of several classes");
     if (effects.obstacles.are_any()) refuse("obstacles");
-    if (effects.drag != 0) refuse("drag");
-    if (has_table(check, "output.measurements"))
-        check.refuse(kind, "this version measures nothing ('output.measurements') in boxes with periodic sides");
 }
 
 /// Sides are periodic in pairs.

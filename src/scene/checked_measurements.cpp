@@ -79,13 +79,16 @@ void fill_measurements(const Check& check) {
     }
 }
 
-void check_measured_distance(const Check& check) {
+void check_measured_box(const Check& check) {
     Scene& scene = check.scene;
+    const bool goes_round_x = scene.effects.is_periodic_x(), goes_round_y = scene.effects.is_periodic_y();
+    if (const Setting* setting = check.settings.find("output.measurements.quantities"); setting && scene.measurements && scene.measurements->wall_pressure && goes_round_x && goes_round_y)
+        check.refuse(*setting, "there is no \"wall_pressure\" in a box without walls: all of its sides are periodic");
     if (!scene.measurements || !scene.measurements->radial_distribution) return;
     // Walls may come in; the box is the smallest at its start or at its end.
     const Extent end = extent_at(scene.effects, scene.box_size, static_cast<double>(scene.steps));
-    const double side = std::min({scene.box_size, end.x_high - end.x_low, end.y_high - end.y_low});
-    const double largest = (side - 2 * scene.radius) / 2;
+    const double wide = std::min(scene.box_size, end.x_high - end.x_low), high = std::min(scene.box_size, end.y_high - end.y_low);
+    const double largest = std::min(wide - (goes_round_x ? 0 : 2 * scene.radius), high - (goes_round_y ? 0 : 2 * scene.radius)) / 2;
     double& distance = scene.measurements->largest_distance;
     const Setting* setting = check.settings.find(distance_key);
     if (!setting) distance = std::min(10 * scene.radius, largest);

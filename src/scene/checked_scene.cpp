@@ -327,7 +327,7 @@ void fill_scene(Scene& scene, const Settings& settings, Problems& problems, cons
         check_listed_discs(check);
         check_generator(check);
         check_room_for_effects(check);
-        check_measured_distance(check);
+        check_measured_box(check);
     } else {
         scene.radius = 0;
         if (!are_classes_unknown(check)) scene.box_size = 0; // unknown

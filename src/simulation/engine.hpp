@@ -23,6 +23,7 @@ struct Settled {
     const Strips* strips = nullptr;
     double time = 0;                ///< since the last sync
     Frame frame;                    ///< that the coordinates are in
+    Periods periods{};              ///< of a periodic box: discs are where their images are
 };
 
 class Engine {
@@ -39,6 +40,8 @@ public:
     /// Settles the discs where they are now, for a look at pairs within a diameter, or `reach` where that is more; good until
     /// the next step. **Collective.**
     virtual Settled settled(double reach = 0) = 0;
+    /// Makes own discs plain states again, for whoever asks for them after such a look in a periodic box.
+    virtual void forget_images() = 0;
 
     /// **Collective.**
     virtual ReplayCounts replay_counts() const { return {}; }
@@ -56,12 +59,23 @@ public:
     void log_to(std::vector<Collision>* log) { log_ = log; }
     /// See Simulation::add_impulses_to.
     void add_impulses_to(WallImpulses* impulses) { impulses_ = impulses; }
+    /// See Simulation::note_crossings_in.
+    void note_crossings_in(std::vector<Crossing>* crossings) { crossings_ = crossings; }
 
 protected:
+    /// Brings a state that a sync has rewritten into the box. Threads may call it for different discs at once.
+    template <class Law> void wrap(const Law& law, Disc& disc) {
+        const double x = disc.x, y = disc.y;
+        law.wrap(disc);
+        if (crossings_ && (x != disc.x || y != disc.y)) note_crossing(disc, x, y, law.periods());
+    }
+    /// From (x, y) to where the disc is now. Threads may call it at once.
+    void note_crossing(const Disc& disc, double x, double y, const Periods& periods);
     bool is_followed() const { return log_ != nullptr || impulses_ != nullptr; }
 
     std::vector<Collision>* log_ = nullptr;
     WallImpulses* impulses_ = nullptr;
+    std::vector<Crossing>* crossings_ = nullptr;
 };
 
 } // namespace carrom

@@ -300,7 +300,7 @@ template <class Law> void ExactEngine<Law>::sync() {
         if (Law::may_lose_discs && disc.is_gone()) continue;
         Law::advance(disc, time_);
         law_.sides().restart_frame(disc, time_);
-        if constexpr (Law::is_periodic) law_.wrap(disc);
+        if constexpr (Law::is_periodic) this->wrap(law_, disc);
         disc.tau = 0;
     }
     jumped_ += law_.sides().jump_at(time_);
@@ -366,7 +366,7 @@ template <class Law> ReplayCounts ExactEngine<Law>::replay_counts() const {
 
 template <class Law> Settled ExactEngine<Law>::settled(double reach) {
     settle_now(reach * (1 + 1e-6));
-    return {discs_.population(), &grid_, &discs_.strips(), time_, frame()};
+    return {discs_.population(), &grid_, &discs_.strips(), time_, frame(), discs_.periods()};
 }
 
 template <class Law> void ExactEngine<Law>::add_to(Totals& totals) {

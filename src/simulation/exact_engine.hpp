@@ -40,6 +40,7 @@ public:
     void advance_towards(std::int64_t last_step) override;
     void add_to(Totals& totals) override;
     Settled settled(double reach) override;
+    void forget_images() override { discs_.forget_images(); }
     ReplayCounts replay_counts() const override;
 
     std::int64_t micro_steps_done() const override { return n_micro_done_; }

@@ -123,7 +123,7 @@ template <class Law> void OneEngine<Law>::settle_now(double least_reach) {
 
 template <class Law> Settled OneEngine<Law>::settled(double reach) {
     settle_now(reach * (1 + 1e-6));
-    return {population(), &grid_, &discs_.strips(), static_cast<double>(micro_), frame()};
+    return {population(), &grid_, &discs_.strips(), static_cast<double>(micro_), frame(), discs_.periods()};
 }
 
 /// Under this rule nothing falls: a frame that moves stands for places to be brought into the box.
@@ -374,7 +374,7 @@ template <class Law> void OneEngine<Law>::sync() {
         Disc& disc = discs[static_cast<std::size_t>(i)];
         if (Law::may_lose_discs && disc.is_gone()) continue;
         Law::advance(disc, time);
-        if constexpr (Law::is_periodic) law_.wrap(disc);
+        if constexpr (Law::is_periodic) this->wrap(law_, disc);
         disc.tau = 0;
         fastest = std::max(fastest, squared_speed_of(disc));
     }

@@ -33,6 +33,7 @@ public:
     void advance_towards(std::int64_t last_step) override;
     void add_to(Totals& totals) override;
     Settled settled(double reach) override;
+    void forget_images() override { discs_.forget_images(); }
 
     std::int64_t micro_steps_done() const override { return n_micro_done_; }
     std::span<const Disc> own() const override { return discs_.own(); }

@@ -11,6 +11,7 @@ namespace carrom {
 void count_pair_distances(const Settled& settled, double bin_width, int n_threads, std::span<std::uint64_t> counts) {
     const Population& population = settled.population;
     const double bins_per_length = 1 / bin_width, n_bins = static_cast<double>(counts.size());
+    const bool is_periodic = settled.periods.are_any();
     const int n_columns = settled.grid->frame().n_columns;
 #pragma omp parallel num_threads(n_threads)
     {
@@ -22,7 +23,8 @@ void count_pair_distances(const Settled& settled, double bin_width, int n_thread
                 if (population.discs[b].id < population.discs[a].id) std::swap(a, b);
                 if (a >= population.n_own) return; // the rank of the lower id counts the pair
                 const Disc &p = population.discs[a], &q = population.discs[b];
-                const double dx = q.x_at(settled.time) - p.x_at(settled.time), dy = q.y_at(settled.time) - p.y_at(settled.time);
+                double dx = q.x_at(settled.time) - p.x_at(settled.time), dy = q.y_at(settled.time) - p.y_at(settled.time);
+                if (is_periodic) dx += settled.periods.x_between(p, q), dy += settled.periods.y_between(p, q);
                 const double bin = std::sqrt(dx * dx + dy * dy) * bins_per_length;
                 if (bin < n_bins) ++mine[static_cast<std::size_t>(bin)];
             });

@@ -84,6 +84,15 @@ double driven_speed(const Scene& scene) {
     return speed;
 }
 
+/// The own discs where they would be had nothing brought them back since the last sync.
+std::vector<Disc> flown_on(const Simulation& simulation) {
+    Frame frame = simulation.frame();
+    frame.period_x = frame.period_y = 0;
+    std::vector<Disc> discs;
+    for (const Disc& disc : simulation.discs()) discs.push_back(frame.in_box(disc, simulation.clock()));
+    return discs;
+}
+
 void count(std::vector<std::uint64_t>& counts, double place) {
     if (place >= 0 && place < static_cast<double>(counts.size())) ++counts[static_cast<std::size_t>(place)];
 }
@@ -101,10 +110,20 @@ double share_of_ideal_pairs(double a, double b, double distance) {
     return 4 / (a * a * b * b) * r * r * (a * b * (0.25 * std::numbers::pi) - (a + b) * r / 3 + r * r / 8);
 }
 
+double share_of_ideal_pairs_around_x(double period, double b, double distance) {
+    const double r = distance;
+    return r * r / (period * b * b) * (std::numbers::pi * b - 4 * r / 3);
+}
+
+double share_of_ideal_pairs_around(double period, double distance) { return std::numbers::pi * distance * distance / (period * period); }
+
 Sampler::Sampler(const Scene& scene, Simulation& simulation, const Communicator& ranks)
     : scene_(scene), output_(*scene.measurements), simulation_(simulation), ranks_(ranks) {}
 
-Sampler::~Sampler() { simulation_.add_impulses_to(nullptr); }
+Sampler::~Sampler() {
+    simulation_.add_impulses_to(nullptr);
+    simulation_.note_crossings_in(nullptr);
+}
 
 /// Sums of nothing with the scene's keys. A largest velocity that is not given is what sampling begins with.
 SampleSums Sampler::wanted() const {
@@ -133,12 +152,18 @@ void Sampler::begin() {
     sums_.speed_scale = std::max(usual, driven);
     has_begun_ = true;
     follow_walls();
+    follow_seams();
 }
 
 void Sampler::follow_walls() {
     if (!output_.wall_pressure) return;
     impulses_.emplace(sums_.speed_scale * 0x1p62); // more than a run comes to, and 2^-63 of a speed is seen
     simulation_.add_impulses_to(&*impulses_);
+}
+
+/// Where discs fly on through the seams, what syncs bring them back by is part of how far they have got.
+void Sampler::follow_seams() {
+    if (output_.displacement && scene_.effects.are_periodic()) simulation_.note_crossings_in(&crossings_);
 }
 
 void Sampler::go_on(StoredSamples stored) {
@@ -156,6 +181,7 @@ void Sampler::go_on(StoredSamples stored) {
     sums_ = *found;
     has_begun_ = true;
     follow_walls();
+    follow_seams();
     if (impulses_ && sums_.pending.size() == 12 && ranks_.is_root()) {
         for (std::size_t side = 0; side < 4; ++side) {
             impulses_->normal[side].add_words(sums_.pending[3 * side], sums_.pending[3 * side + 1]);
@@ -187,7 +213,8 @@ void Sampler::sample(std::int64_t step) {
     sums_.area += (box.x_high - box.x_low) * (box.y_high - box.y_low);
     if (output_.velocities) sample_velocities(discs);
     if (output_.density) sample_density(discs, box);
-    if (output_.displacement) sample_displacement(discs, n_discs, is_first);
+    if (output_.displacement && !scene_.effects.are_periodic()) sample_displacement(discs, n_discs, is_first);
+    else if (output_.displacement) sample_displacement(flown_on(simulation_), n_discs, is_first);
     if (output_.wall_pressure && !is_first) sample_impulses(step);
     if (output_.radial_distribution) sample_distances(n_discs, box); // moves discs in memory: last
     ++sums_.n_samples;
@@ -231,9 +258,15 @@ void Sampler::sample_distances(std::uint64_t n_discs, const Extent& box) {
     add_over(ranks_, std::move(pairs), sums_.pairs);
     const double all = 0.5 * static_cast<double>(n_discs) * (static_cast<double>(n_discs) - 1);
     const double a = box.x_high - box.x_low - 2 * scene_.radius, b = box.y_high - box.y_low - 2 * scene_.radius;
+    const bool goes_round_x = scene_.effects.is_periodic_x(), goes_round_y = scene_.effects.is_periodic_y();
+    const auto share = [&](double distance) {
+        if (goes_round_x && goes_round_y) return share_of_ideal_pairs_around(scene_.box_size, distance);
+        if (goes_round_x || goes_round_y) return share_of_ideal_pairs_around_x(scene_.box_size, goes_round_x ? b : a, distance);
+        return share_of_ideal_pairs(a, b, distance);
+    };
     for (std::size_t k = 0; k < n; ++k) {
         const double inner = static_cast<double>(k) * width, outer = static_cast<double>(k + 1) * width;
-        sums_.ideal_pairs[k] += all * (share_of_ideal_pairs(a, b, outer) - share_of_ideal_pairs(a, b, inner));
+        sums_.ideal_pairs[k] += all * (share(outer) - share(inner));
     }
 }
 
@@ -254,15 +287,20 @@ void Sampler::sample_displacement(std::span<const Disc> discs, std::uint64_t n_d
     if (is_first) {
         std::vector<FirstPlace> places;
         for (const Disc& disc : discs) places.push_back({disc.id, disc.x_at(time), disc.y_at(time)});
+        crossings_.clear(); // of before
         place_first(places);
     }
-    const double bound = static_cast<double>(n_discs) * 16 * scene_.box_size * scene_.box_size;
+    take_crossings();
+    const double length = scene_.box_size, farthest = (lengths_.empty() ? 4 : 0x1p22) * length;
+    const double bound = static_cast<double>(n_discs) * farthest * farthest;
     ExactSum x(bound), y(bound);
     PieceStream stream(ranks_, discs, n_discs, [](const Disc& disc) { return disc.id; });
     for (std::uint64_t round = 0; round < stream.pieces().n_rounds(); ++round) {
         for (const Disc& disc : stream.next()) {
             const auto& [x0, y0] = first_places_[disc.id - first_id_];
-            const double dx = disc.x_at(time) - x0, dy = disc.y_at(time) - y0;
+            double dx = disc.x_at(time) - x0, dy = disc.y_at(time) - y0;
+            if (!lengths_.empty()) dx += lengths_[disc.id - first_id_][0] * length, dy += lengths_[disc.id - first_id_][1] * length;
+            ensure(std::fabs(dx) <= farthest && std::fabs(dy) <= farthest, "a disc has gone round a periodic box millions of times; measure \"displacement\" over fewer steps");
             x.add(dx * dx);
             y.add(dy * dy);
         }
@@ -280,13 +318,34 @@ void Sampler::place_first(std::span<const FirstPlace> places) {
     const Pieces& pieces = stream.pieces();
     first_id_ = pieces.begin(pieces.first_of(ranks_.rank()));
     first_places_.clear();
-    for (std::uint64_t round = 0; round < pieces.n_rounds(); ++round)
-        for (const FirstPlace& place : stream.next()) first_places_.push_back({place.x, place.y});
+    lengths_.clear();
+    for (std::uint64_t round = 0; round < pieces.n_rounds(); ++round) {
+        for (const FirstPlace& place : stream.next()) {
+            first_places_.push_back({place.x, place.y});
+            if (scene_.effects.are_periodic()) lengths_.push_back({place.lengths_x, place.lengths_y});
+        }
+    }
 }
 
-StoredSamples Sampler::stored() const {
+/// Tells the ranks that keep first places what discs have been brought back by. Whole numbers: their order has no say. **Collective.**
+void Sampler::take_crossings() {
+    if (!output_.displacement || !scene_.effects.are_periodic()) return;
+    const Pieces pieces(scene_.n_discs, ranks_.size());
+    std::vector<std::vector<Crossing>> out(static_cast<std::size_t>(ranks_.size()));
+    for (const Crossing& crossing : crossings_)
+        out[static_cast<std::size_t>(slab_of(pieces.of(crossing.disc), pieces.count(), ranks_.size()))].push_back(crossing);
+    crossings_.clear();
+    for (const Crossing& crossing : send_to_owners(ranks_, out).items) {
+        std::array<double, 2>& lengths = lengths_[crossing.disc - first_id_];
+        lengths[0] += crossing.x;
+        lengths[1] += crossing.y;
+    }
+}
+
+StoredSamples Sampler::stored() {
     StoredSamples stored;
     if (!has_begun_) return stored;
+    take_crossings();
     SampleSums sums = sums_;
     if (impulses_) {
         std::array<std::uint64_t, 4> counts = impulses_->counts;
@@ -299,7 +358,11 @@ StoredSamples Sampler::stored() const {
     }
     stored.sums = packed(sums);
     stored.have_first_places = output_.displacement;
-    for (std::size_t i = 0; i < first_places_.size(); ++i) stored.first_places.push_back({first_id_ + i, first_places_[i][0], first_places_[i][1]});
+    stored.have_lengths = output_.displacement && scene_.effects.are_periodic();
+    for (std::size_t i = 0; i < first_places_.size(); ++i) {
+        FirstPlace& place = stored.first_places.emplace_back(FirstPlace{first_id_ + i, first_places_[i][0], first_places_[i][1]});
+        if (stored.have_lengths) place.lengths_x = lengths_[i][0], place.lengths_y = lengths_[i][1];
+    }
     return stored;
 }
 

@@ -80,14 +80,14 @@ double length_of(const Scene& scene, std::size_t side, double step) {
 
 MeasuredTable pressure_history(const SampleSums& s, const Scene& scene) {
     MeasuredTable table{"wall_pressure_history",
-                        {"impulse that each side was given between two steps, over its length and that time; masses of 1, times in steps"},
+                        {"impulse that each side was given between two steps, over its length and that time (nan: a periodic side); masses of 1, times in steps"},
                         {"from_step", "to_step", "left", "right", "bottom", "top"}, {}};
     for (std::size_t k = 0; k < s.impulses.size() / 4; ++k) {
         const double from = static_cast<double>(s.first_step + static_cast<std::int64_t>(k) * s.every_steps);
         const double to = from + static_cast<double>(s.every_steps);
         std::vector<double> row = {from, to};
         for (std::size_t side = 0; side < 4; ++side) // walls move evenly: their mean length is that in the middle
-            row.push_back(s.impulses[4 * k + side] / (length_of(scene, side, (from + to) / 2) * (to - from)));
+            row.push_back(scene.effects.sides[side].kind == SideKind::periodic ? std::nan("") : s.impulses[4 * k + side] / (length_of(scene, side, (from + to) / 2) * (to - from)));
         table.rows.push_back(std::move(row));
     }
     return table;
@@ -118,7 +118,7 @@ MeasuredTable wall_pressure(const SampleSums& s, const MeasuredTable& history) {
 
 MeasuredTable displacement(const SampleSums& s) {
     MeasuredTable table{"displacement",
-                        {"mean square displacement since from_step, over all discs; lengths squared, times in steps"},
+                        {"mean square displacement since from_step, over all discs, on through periodic sides; lengths squared, times in steps"},
                         {"steps", "x", "y", "sum"}, {}};
     for (std::size_t k = 0; k < s.displacements.size() / 2; ++k) {
         const double x = s.displacements[2 * k], y = s.displacements[2 * k + 1];

@@ -2,6 +2,7 @@
 #include "carrom/simulation/simulation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "block_averages.hpp"
@@ -74,6 +75,7 @@ void Simulation::advance_checked() {
     engine_->advance_towards(step() + 1);
     engine_->log_to(log_);
     check_->look(engine_->settled(), micro_steps_done(), collisions);
+    engine_->forget_images();
     if (log_) log_->insert(log_->end(), collisions.begin(), collisions.end());
 }
 
@@ -118,9 +120,18 @@ void Simulation::log_to(std::vector<Collision>* log) {
 
 void Simulation::add_impulses_to(WallImpulses* impulses) { engine_->add_impulses_to(impulses); }
 
+void Engine::note_crossing(const Disc& disc, double x, double y, const Periods& periods) {
+    const auto lengths = [](double far, double period) { return period == 0 ? 0 : std::round(far / period); };
+#pragma omp critical(crossings)
+    crossings_->push_back({disc.id, lengths(x - disc.x, periods.x), lengths(y - disc.y, periods.y)});
+}
+
+void Simulation::note_crossings_in(std::vector<Crossing>* crossings) { engine_->note_crossings_in(crossings); }
+
 void Simulation::count_pair_distances(double bin_width, std::span<std::uint64_t> counts) const {
     const Settled now = engine_->settled(bin_width * static_cast<double>(counts.size()));
     carrom::count_pair_distances(now, bin_width, n_threads_, counts);
+    engine_->forget_images();
 }
 
 Totals Simulation::totals() const {

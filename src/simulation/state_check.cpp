@@ -41,8 +41,11 @@ Disc as_seen(const Disc& disc, const Frame& frame, double time, double micro_ste
     if (!frame.is_moving) return disc;
     Disc seen = frame.in_box(disc, time);
     seen.tau = micro_steps_since_sync;
+    if (frame.period_x != 0 || frame.period_y != 0) set_image(seen, {});
     return seen;
 }
+
+double beyond(double low, double place, double high) { return std::max(low - place, place - high); }
 
 } // namespace
 
@@ -145,9 +148,11 @@ StateCheck::Finding StateCheck::first_out_of_place(const Settled& now) const {
     const bool is_filed = now.grid->is_valid(now.population.discs.size());
     for (std::size_t i = 0; i < now.population.n_own; ++i) {
         const Disc& disc = now.population.discs[i];
-        const double x = disc.x_at(now.time), y = disc.y_at(now.time);
+        const double x = now.periods.x_of(disc, now.time), y = now.periods.y_of(disc, now.time);
         const Disc seen = now.frame.in_box(disc, now.time);
-        const double outside = scene_.radius + std::max({box.x_low - seen.x, seen.x - box.x_high, box.y_low - seen.y, seen.y - box.y_high});
+        // Between periodic sides it is the image's centre that is in the box.
+        const double outside = std::max(now.periods.x != 0 ? beyond(0, x, now.periods.x) : scene_.radius + beyond(box.x_low, seen.x, box.x_high),
+                                        now.periods.y != 0 ? beyond(0, y, now.periods.y) : scene_.radius + beyond(box.y_low, seen.y, box.y_high));
         if (outside > allowed) add(Invariant::in_box, disc.id, outside, allowed);
         if (now.strips->owner(x) != communicator_.rank()) add(Invariant::in_strip, disc.id, now.strips->owner(x), 0);
         const auto index = static_cast<LocalIndex>(i);
@@ -196,6 +201,7 @@ StateCheck::Finding StateCheck::first_overlap(const Settled& now) const {
         if (now.population.discs[b].id < now.population.discs[a].id) std::swap(a, b);
         if (a >= now.population.n_own) return; // the rank of the lower id judges the pair
         Disc p = now.population.discs[a], q = now.population.discs[b];
+        if (now.periods.are_any()) q.x += now.periods.x_between(p, q), q.y += now.periods.y_between(p, q);
         for (Disc* disc : {&p, &q}) PlainLaw::advance(*disc, now.time);
         const double depth = 2 * scene_.radius - std::hypot(q.x - p.x, q.y - p.y);
         if (depth > bound) suspects.push_back({p, q, depth, bound, 0, communicator_.rank()});

@@ -92,10 +92,14 @@ std::vector<InputDisc> StateCheck::around(const Finding& finding, Log log) const
     if (finding.disc >= scene_.n_discs) return {};
     const auto clock = static_cast<double>(micro_steps_before_ % scene_.sync_every);
     const auto unit = static_cast<double>(scene_.micro_steps);
-    const auto inside = [&](double x) { return std::clamp(x, scene_.radius, scene_.box_size - scene_.radius); };
-    const auto then = [&](const Disc& disc) {
-        return InputDisc{disc.id, inside(disc.x_at(clock)), inside(disc.y_at(clock)), disc.vx * unit, disc.vy * unit};
+    const Periods periods = scene_.effects.periods(scene_.box_size);
+    const auto inside = [&](double x, double period) {
+        return period != 0 ? wrapped(x, period) : std::clamp(x, scene_.radius, scene_.box_size - scene_.radius);
     };
+    const auto then = [&](const Disc& disc) {
+        return InputDisc{disc.id, inside(disc.x_at(clock), periods.x), inside(disc.y_at(clock), periods.y), disc.vx * unit, disc.vy * unit};
+    };
+    const auto to_nearest_image = [](double d, double period) { return period != 0 ? d - period * std::round(d / period) : d; };
     const int keeper = slab_of_disc(finding.disc);
     InputDisc centre;
     if (keeper == communicator_.rank()) centre = then(before_[finding.disc - first_id_].disc);
@@ -110,7 +114,7 @@ std::vector<InputDisc> StateCheck::around(const Finding& finding, Log log) const
     std::vector<Neighbour> mine;
     for (const Known& known : before_) {
         const InputDisc disc = then(known.disc);
-        const double dx = disc.x - centre.x, dy = disc.y - centre.y;
+        const double dx = to_nearest_image(disc.x - centre.x, periods.x), dy = to_nearest_image(disc.y - centre.y, periods.y);
         const auto place = std::find(wanted.begin(), wanted.end(), disc.id);
         const bool is_wanted = place != wanted.end();
         mine.push_back({disc, is_wanted ? static_cast<double>(place - wanted.end()) : dx * dx + dy * dy});

@@ -13,11 +13,13 @@ namespace carrom {
 struct FirstPlace {
     DiscId id = 0;
     double x = 0, y = 0;
+    double lengths_x = 0, lengths_y = 0; ///< in a periodic box: how many box lengths it has been brought back by since then
 };
 
 struct StoredSamples {
     std::vector<std::int64_t> sums; ///< the same on all ranks; empty where nothing is measured
     bool have_first_places = false; ///< the same on all ranks
+    bool have_lengths = false;      ///< likewise
     /// A run of ids without gaps: to be written, of this rank's pieces (pieces.hpp); as read, of its slab (slabs.hpp).
     std::vector<FirstPlace> first_places;
 };

@@ -5,7 +5,7 @@
 // Everything is a count, or a sum in fixed point (exact_sum.hpp), so the tables have the same bits for every machine shape,
 // and a restart goes on with them. Price of a sample: for velocities and density some nanoseconds a disc; for the
 // radial distribution a halo and a look at all pairs within its distance; for displacement each disc sent once to where its
-// first place is kept (16 bytes a disc). Wall pressure is added up collision by collision, as the log of collisions is.
+// first place is kept (16 bytes a disc, as many again in a periodic box). Wall pressure is added up collision by collision, as the log of collisions is.
 #pragma once
 
 #include <array>
@@ -72,7 +72,7 @@ public:
     void look();
 
     /// **Collective.**
-    StoredSamples stored() const;
+    StoredSamples stored();
     /// Of what has been sampled; none before the first sample. The same on every rank.
     std::vector<MeasuredTable> tables() const;
 
@@ -86,6 +86,8 @@ private:
     void sample_displacement(std::span<const Disc> discs, std::uint64_t n_discs, bool is_first);
     void place_first(std::span<const FirstPlace> places);
     void follow_walls();
+    void follow_seams();
+    void take_crossings();
     SampleSums wanted() const;
 
     const Scene& scene_;
@@ -97,11 +99,17 @@ private:
     std::optional<WallImpulses> impulses_; ///< of this rank since the last sample
     std::uint64_t first_id_ = 0;
     std::vector<std::array<double, 2>> first_places_; ///< of this rank's run of ids, see pieces.hpp
+    std::vector<Crossing> crossings_;                  ///< of a periodic box's own discs, not yet told
+    std::vector<std::array<double, 2>> lengths_; ///< along the first places, there: what discs have been brought back by
 };
 
 /// The share of pairs of points, anywhere in a box of a by b independently, that are at most `distance` apart; up to the
 /// shorter side. (From the distribution of each component's difference, as in Ghosh, Bull. Calcutta Math. Soc. 43, 17 (1951).)
 double share_of_ideal_pairs(double a, double b, double distance);
+/// The same in a box with periodic sides, of nearest images, up to half a period: with walls along the side b ...
+double share_of_ideal_pairs_around_x(double period, double b, double distance);
+/// ... and without walls.
+double share_of_ideal_pairs_around(double period, double distance);
 
 /// The tables of sums.
 std::vector<MeasuredTable> tables_of(const SampleSums& sums, const Scene& scene);

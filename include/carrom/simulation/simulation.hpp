@@ -78,6 +78,12 @@ struct Collision {
     double impulse = 0;           ///< what p has got, in mass times length per step
 };
 
+/// A disc that has flown on through periodic sides has been brought into the box by so many box lengths.
+struct Crossing {
+    DiscId disc = 0;
+    double x = 0, y = 0; ///< whole numbers
+};
+
 class BlockAverages;
 class Engine;
 class StateCheck;
@@ -118,6 +124,8 @@ public:
 
     /// From now on what discs hand over to the sides of the box is added to `impulses` of one rank; null ends that.
     void add_impulses_to(WallImpulses* impulses);
+    /// From now on what own discs are brought back by at syncs, in a periodic box, is appended to `crossings`; null ends that.
+    void note_crossings_in(std::vector<Crossing>* crossings);
     /// Adds to counts[k] this rank's pairs of discs at distances from k to k + 1 times `bin_width`, now; over all ranks each
     /// pair is counted once. The counts of all bins reach no further than half the box. **Collective.**
     void count_pair_distances(double bin_width, std::span<std::uint64_t> counts) const;

@@ -43,8 +43,17 @@ Choice side_choice(std::size_t number, const char* kind, const Side& side) {
 
 Row sides_of(std::size_t number) {
     const double inwards = number % 2 == 0 ? 0.02 : -0.02;
-    return {side_choice(number, "wall", {}), side_choice(number, "lossy", {SideKind::fixed, 0.7, 0, 0}),
+    Row row{side_choice(number, "wall", {}), side_choice(number, "lossy", {SideKind::fixed, 0.7, 0, 0}),
             side_choice(number, "thermal", {SideKind::thermal, 1, 0.2, 0}), side_choice(number, "moving", {SideKind::moving, 0.9, 0, inwards})};
+    if (number % 2 == 0) row.push_back(side_choice(number, "open", {SideKind::open, 1, 0, 0}));
+    return row;
+}
+
+/// Two opposite sides periodic, in place of what they are.
+Choice seams(const char* name, std::size_t low_side) {
+    return {name, [=](Plan& plan) {
+                for (const std::size_t side : {low_side, low_side + 1}) plan.scene.setting.effects.sides[side] = {SideKind::periodic, 1, 0, 0};
+            }};
 }
 
 Choice shape(const TestScene& scene) {
@@ -104,6 +113,7 @@ std::vector<Row> table() {
             sides_of(1),
             sides_of(2),
             sides_of(3),
+            {{"no seams", [](Plan&) {}}, seams("seams along x", 0), seams("seams along y", 2)},
             {motion("free", 0, 0, 0), motion("gravity down", 0, -0.04, 0), motion("gravity aslant", 0.02, -0.03, 0), motion("drag", 0, 0, 0.2),
              motion("both down", 0, -0.04, 0.2), motion("both aslant", 0.02, -0.03, 0.2)},
             {{"nothing in the way", [](Plan&) {}}, {"obstacles", put_obstacles}},
@@ -111,13 +121,26 @@ std::vector<Row> table() {
             {{"uninterrupted", [](Plan&) {}}, {"restarted", [](Plan& plan) { plan.is_restarted = true; }}}};
 }
 
+/// A periodic side is nothing else.
+bool takes_the_place_of(const std::string& a, const std::string& b) {
+    const bool is_side = a == "seams along x" ? b.starts_with("left ") || b.starts_with("right ")
+                                              : a == "seams along y" && (b.starts_with("bottom ") || b.starts_with("top "));
+    return is_side && !b.ends_with(" wall");
+}
+
 /// Pairs of choices that the reader of scenes refuses, by the ends of their names.
 bool is_excluded(const std::string& a, const std::string& b) {
     static const std::vector<std::pair<std::string, std::string>> excluded = {
         {"rule one", "moving"}, {"rule one", "gravity down"}, {"rule one", "gravity aslant"}, {"rule one", "drag"},
         {"rule one", "both down"}, {"rough", "drag"}, {"rough", "both down"}, {"rough", "both aslant"},
-        {"several classes", "no contact"}, {"several classes", "obstacles"}, {"rule one", "both aslant"}, {"obstacles", "both down"}, {"obstacles", "both aslant"}, {"obstacles", "moving"}};
+        {"several classes", "no contact"}, {"several classes", "obstacles"}, {"rule one", "both aslant"}, {"obstacles", "both down"}, {"obstacles", "both aslant"}, {"obstacles", "moving"},
+        {"open", "moving"}, {"open", "rough"}, {"open", "several classes"}, {"seams along x", "open"}, {"seams along y", "open"},
+        {"seams along x", "rough"}, {"seams along y", "rough"}, {"seams along x", "several classes"}, {"seams along y", "several classes"},
+        {"seams along x", "obstacles"}, {"seams along y", "obstacles"},
+        {"seams along y", "both down"}, {"seams along x", "both aslant"}, {"seams along y", "both aslant"}, {"seams along x", "gravity aslant"}, {"seams along y", "gravity aslant"},
+        {"seams along y", "gravity down"}};
     const auto is = [](const std::string& name, const std::string& end) { return name == end || name.ends_with(' ' + end); };
+    if (takes_the_place_of(a, b) || takes_the_place_of(b, a)) return true;
     return std::any_of(excluded.begin(), excluded.end(), [&](const auto& pair) {
         return (is(a, pair.first) && is(b, pair.second)) || (is(b, pair.first) && is(a, pair.second));
     });

@@ -193,8 +193,16 @@ TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
     CHECK(has(with({"box.left.kind=open"}), "no periodic sides together with open sides"));
     CHECK(has(with({"effects.contact.kind=rough", "effects.contact.restitution=0.9", "effects.contact.tangential_restitution=0.5"}),
               "no periodic sides together with rough discs"));
-    CHECK(has(with({"effects.drag.rate=0.02", "time.collisions=all"}), "no periodic sides together with drag"));
-    CHECK(has(with({"output.measurements.folder=tables"}), "measures nothing ('output.measurements') in boxes with periodic sides"));
+    CHECK_FALSE(has(with({"effects.drag.rate=0.02", "time.collisions=all"}), "drag"));
+    const auto measuring = [&](const char* quantities, bool is_around) {
+        Texts texts = is_around ? Texts{"box.left.kind=periodic", "box.right.kind=periodic"} : Texts{};
+        texts.insert(texts.end(), along_y.begin(), along_y.end());
+        texts.insert(texts.end(), {"output.measurements.folder=tables", std::string("output.measurements.quantities=") + quantities});
+        return problems_with(texts);
+    };
+    CHECK(has(measuring("[\"wall_pressure\"]", true), "a box without walls"));
+    CHECK_FALSE(has(measuring("[\"wall_pressure\"]", false), "without walls"));
+    CHECK_FALSE(has(measuring("[\"displacement\"]", true), "periodic"));
     const std::string two = "[[discs.classes]]\ncount = 3\nradius = 2\nmass = 7\n[[discs.classes]]\ncount = 40\nradius = 0.5\n";
     std::string all;
     for (const Problem& problem : problems_of([&] { read_scene("[box]\nsize = 100\n[time]\nsteps = 10\n" + two, "s.toml", along_y); })) all += problem.text + '\n';
