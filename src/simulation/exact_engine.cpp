@@ -131,6 +131,7 @@ template <class Law> ReplayWindow ExactEngine<Law>::choose(double target) {
     const bool is_alone = tuning_.threads == 1 || n < 2 * static_cast<double>(tuning_.discs_per_thread);
     is_one_block_ = communicator_.size() == 1 && is_alone && n <= most_discs_alone;
     needs.is_one_block = is_one_block_;
+    needs.n_periodic_axes = (discs_.periods().x != 0) + (discs_.periods().y != 0);
     if (n_windows_ > 0) collision_rate_ = static_cast<double>(communicator_.sum(n_events_)) / (std::max(n, 1.0) * last_duration_);
     needs.collision_rate = n_windows_ > 0 ? collision_rate_ : guessed_collision_rate(needs);
     caution_.learn(repeated_, collision_rate_ * last_duration_);

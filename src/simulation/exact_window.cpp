@@ -45,9 +45,10 @@ ExactChoice choice_of(const ExactNeeds& needs, double duration) {
 
 double cost_per_time(const ExactNeeds& needs, const ExactChoice& choice) {
     const double side = choice.block_side;
-    double with_halo = std::min(side + 2 * choice.halo * choice.reach, needs.box_size);
-    if (needs.is_one_block) with_halo = side;
-    const double share = (with_halo / side) * (with_halo / side); // of discs replayed, halo included, to own ones
+    const double halo = (needs.is_one_block ? needs.n_periodic_axes == 0 ? 0 : 1 : choice.halo) * choice.reach;
+    const double walled = (needs.is_one_block ? side : std::min(side + 2 * halo, needs.box_size)) / side, endless = (side + 2 * halo) / side;
+    // Of discs replayed, halo included, to own ones.
+    const double share = needs.n_periodic_axes == 0 ? walled * walled : needs.n_periodic_axes == 1 ? walled * endless : endless * endless;
     const double looked_at = std::min(1.6 * choice.reach, needs.box_size) / needs.box_size;
     const double partners = needs.n_discs * looked_at * looked_at;
     const double events = needs.collision_rate * choice.duration;

@@ -21,6 +21,7 @@ struct ExactNeeds {
     std::optional<int> halo;   ///< reaches that blocks look beyond their own cells at first, if that is wanted
     bool is_one_block = false; ///< all discs in one block, whatever their number
     int more_halo = 0;         ///< reaches more than where little has to be replayed again
+    int n_periodic_axes = 0;   ///< along which a halo does not end with the box: it has images, if need be many of each disc
 };
 
 struct ExactChoice {

@@ -291,7 +291,7 @@ void Sampler::sample_displacement(std::span<const Disc> discs, std::uint64_t n_d
         place_first(places);
     }
     take_crossings();
-    const double length = scene_.box_size, farthest = (lengths_.empty() ? 4 : 0x1p22) * length;
+    const double length = scene_.box_size, farthest = (scene_.effects.are_periodic() ? 0x1p22 : 4) * length;
     const double bound = static_cast<double>(n_discs) * farthest * farthest;
     ExactSum x(bound), y(bound);
     PieceStream stream(ranks_, discs, n_discs, [](const Disc& disc) { return disc.id; });
@@ -328,7 +328,7 @@ void Sampler::place_first(std::span<const FirstPlace> places) {
 }
 
 /// Tells the ranks that keep first places what discs have been brought back by. Whole numbers: their order has no say. **Collective.**
-void Sampler::take_crossings() {
+void Sampler::take_crossings() const {
     if (!output_.displacement || !scene_.effects.are_periodic()) return;
     const Pieces pieces(scene_.n_discs, ranks_.size());
     std::vector<std::vector<Crossing>> out(static_cast<std::size_t>(ranks_.size()));
@@ -342,7 +342,7 @@ void Sampler::take_crossings() {
     }
 }
 
-StoredSamples Sampler::stored() {
+StoredSamples Sampler::stored() const {
     StoredSamples stored;
     if (!has_begun_) return stored;
     take_crossings();

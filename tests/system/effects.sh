@@ -162,8 +162,9 @@ expect_code 0 'a checked run with effects'
 [ "$(json_value checked.json state_hash)" = "$(json_value whole.json state_hash)" ] || complain 'another state hash with --check'
 
 sed 's/^left = .*/left = { kind = "periodic" }/; s/^right = .*/right = { kind = "periodic" }/' fall.toml >ring.toml
-around=(--set output.trajectory.every_steps=10 --set output.checkpoint.every_steps=30 --set output.checkpoint.keep=1000000)
-run 2 run ring.toml --quiet --report ring.json --set output.text=ends "${around[@]}" --set output.trajectory.file=ring.h5 --set output.checkpoint.folder=around
+around=(--set output.trajectory.every_steps=10 --set output.checkpoint.every_steps=30 --set output.checkpoint.keep=1000000
+        --set 'output.measurements.quantities=["displacement", "radial_distribution", "wall_pressure"]' --set output.measurements.every_steps=20)
+run 2 run ring.toml --quiet --report ring.json --set output.text=ends "${around[@]}" --set output.trajectory.file=ring.h5 --set output.checkpoint.folder=around --set output.measurements.folder=whole
 expect_code 0 'periodic sides'
 tail -n 400 "$test_folder/out" >"$test_folder/end"
 for file in ring.h5 around/checkpoint-000000000090.h5; do
@@ -174,7 +175,7 @@ done
 grep -aq periodic ring.h5 || complain 'a trajectory does not say that its box is periodic'
 grep -aq periodic t.h5 && complain 'a trajectory between walls says that its box is periodic'
 # Killed somewhere behind step 30, by one of its two ranks; on from there with others.
-"$CARROM_MPIEXEC" -n 2 "$CARROM_PROGRAM" run ring.toml --quiet --steps 100000000 "${around[@]}" --set output.trajectory.file=killed.h5 \
+"$CARROM_MPIEXEC" -n 2 "$CARROM_PROGRAM" run ring.toml --quiet --steps 1000000 "${around[@]}" --set output.measurements.folder=parts --set output.trajectory.file=killed.h5 \
     --set output.checkpoint.folder=killed >"$test_folder/out" 2>"$test_folder/err" &
 for ((i = 0; i < 600; ++i)); do
     [ -e killed/checkpoint-000000000030.h5 ] && break
@@ -183,11 +184,14 @@ done
 pkill -KILL -o -P $! || complain 'no rank to kill'
 wait $!
 find killed -name 'checkpoint-*.h5' ! -name '*-000000000030.h5' -delete # it may have got further than the run that it is compared with
-run 3 run --restart killed --steps 150 --report ring_rest.json "${around[@]}" --set output.trajectory.file=killed.h5 --set output.text=ends
+run 3 run --restart killed --steps 150 --report ring_rest.json "${around[@]}" --set output.trajectory.file=killed.h5 --set output.measurements.folder=parts --set output.text=ends
 expect_code 0 'periodic sides, after a kill'
 expect_told 'left side periodic' 'the summary of periodic sides'
 [ "$(json_value ring_rest.json state_hash)" = "$(json_value ring.json state_hash)" ] || complain 'periodic sides: another state hash after a kill'
 tail -n 400 "$test_folder/out" | cmp - "$test_folder/end" || complain 'periodic sides: other lines after a kill'
+for table in displacement radial_distribution wall_pressure_history; do
+    expect_same "whole/$table.csv" "parts/$table.csv" "periodic sides: other measurements after a kill: $table"
+done
 for pair in 'ring.h5 killed.h5' 'around/checkpoint-000000000150.h5 killed/checkpoint-000000000150.h5'; do
     run 1 diff $pair
     expect_code 0 "what differs after a kill: $pair"

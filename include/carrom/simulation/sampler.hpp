@@ -72,7 +72,7 @@ public:
     void look();
 
     /// **Collective.**
-    StoredSamples stored();
+    StoredSamples stored() const;
     /// Of what has been sampled; none before the first sample. The same on every rank.
     std::vector<MeasuredTable> tables() const;
 
@@ -87,7 +87,7 @@ private:
     void place_first(std::span<const FirstPlace> places);
     void follow_walls();
     void follow_seams();
-    void take_crossings();
+    void take_crossings() const;
     SampleSums wanted() const;
 
     const Scene& scene_;
@@ -99,8 +99,8 @@ private:
     std::optional<WallImpulses> impulses_; ///< of this rank since the last sample
     std::uint64_t first_id_ = 0;
     std::vector<std::array<double, 2>> first_places_; ///< of this rank's run of ids, see pieces.hpp
-    std::vector<Crossing> crossings_;                  ///< of a periodic box's own discs, not yet told
-    std::vector<std::array<double, 2>> lengths_; ///< along the first places, there: what discs have been brought back by
+    mutable std::vector<Crossing> crossings_;                  ///< of a periodic box's own discs, not yet told
+    mutable std::vector<std::array<double, 2>> lengths_; ///< along the first places, there: what discs have been brought back by
 };
 
 /// The share of pairs of points, anywhere in a box of a by b independently, that are at most `distance` apart; up to the
