@@ -8,13 +8,14 @@ scene() {
     printf '[box]\nsize = %s\n[discs]\nradius = 1\nlist = [[3, 3, %s, 0], [7, 3, 0, 0]]\n[time]\nsteps = 1\nsync_every = %s\ncollisions = "%s"\n' \
         "$@" >scene.toml
 }
+ranks=2
 expect_warning() {
-    run 2 run scene.toml --quiet
+    run "$ranks" run scene.toml --quiet
     expect_code 0 "$1"
     expect_told "$2" "$1"
 }
 expect_no_warning() {
-    run 2 run scene.toml --quiet
+    run "$ranks" run scene.toml --quiet
     expect_code 0 "$1"
     grep -q warning "$test_folder/err" && { complain "a warning: $1"; show; }
 }
@@ -40,10 +41,13 @@ discs() {
     printf '[box]\nsize = 10\nleft.kind = "%s"\nright.kind = "%s"\n[discs]\nradius = 1\nlist = [%s]\n[time]\nsteps = 1\n' "$kind" "$kind" "$rows" >scene.toml
 }
 discs wall 3,3,0,0 5,3,0,0 7,3,0,0 && expect_warning 'a chain' '1 disc touches two others or more at the start'
+ranks=1
 discs wall 3,3,0,0 5,3,0,0 7.000001,3,0,0 && expect_no_warning 'a chain with a gap of 1e-6'
+ranks=2
 discs wall 2,3,0,0 4,3,0,0 6,3,0,0 8,3,0,0 && expect_warning 'a chain of four' '2 discs touch two others or more'
 discs periodic 1,3,0,0 3,3,0,0 9,3,0,0 && expect_warning 'a chain across periodic sides' '1 disc touches two others or more at the start'
 discs wall 3,3,0,1 5,3,0,-1 && expect_warning 'a pair that slides' '1 pair of discs that touch slide along each other at the start'
+ranks=1
 discs periodic 1,3,1e-9,1 9,3,0,-1 && expect_warning 'a pair that slides across periodic sides' '1 pair of discs that touch slide along each other'
 discs wall 3,3,0.1,1 5,3,0,-1 && expect_no_warning 'a pair that touches and meets'
 discs wall 3,3,1,1 5,3,1,1 && expect_no_warning 'a pair that flies together'
