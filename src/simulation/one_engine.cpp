@@ -387,9 +387,7 @@ template <class Law> void OneEngine<Law>::sync() {
     hits_per_micro_step_ = 2 * static_cast<double>(n_kept) / (std::max(static_cast<double>(discs_.n_total()), 1.0) * static_cast<double>(sync_every_));
     micro_ = 0;
     ++n_syncs_;
-    if (tuning_.rebalance_every > 0 && n_syncs_ % tuning_.rebalance_every == 0) {
-        discs_.rebalance(0, tuning_.rebalance_above);
-    }
+    if (tuning_.rebalance_every > 0 && n_syncs_ % tuning_.rebalance_every == 0) discs_.rebalance(0, tuning_.rebalance_above);
 }
 
 std::unique_ptr<Engine> make_one_engine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning) {
