@@ -247,7 +247,7 @@ std::string summary_text(const Scene& scene, const RunResult& result) {
     if (scene.effects.contact.kind == ContactKind::rough) others += fmt::format(", {:.17g} of spin", result.end.rotational_energy);
     if (scene.effects.gravity.is_any()) others += fmt::format(", {:.17g} of height", result.end.potential_energy);
     const std::string what = others.empty() ? "," : " of motion" + others + "; the sum has";
-    text += line("energy", fmt::format("{:.17g}{} changed by {:.2g} of itself", result.end.kinetic_energy, what, energy_drift(result)));
+    text += line("energy", fmt::format("{:.17g}{} changed by {:.4g} of itself", result.end.kinetic_energy, what, energy_drift(result)));
     if (scene.measurements) text += line("measured", measured_text(scene, result.tables));
     text += line("momentum", fmt::format("{:.17g} {:.17g}", result.end.momentum_x, result.end.momentum_y));
     text += line("state hash", to_string(result.end.hash));

@@ -88,8 +88,8 @@ void fill_side(const Check& check, std::size_t number) {
     else check.refuse_missing(table + ".temperature", "kT of the wall, a velocity per step squared");
     if (const auto temperature = finite_number(check, table + ".temperature"); temperature && is_thermal) {
         side.temperature = *temperature;
-        if (!(*temperature > 0x1p-200 && *temperature < 0x1p200))
-            check.refuse(*check.settings.find(table + ".temperature"), fmt::format("'{}.temperature' must be greater than 0, not {}", table, *temperature));
+        if (!(*temperature >= 1e-60 && *temperature <= 1e60))
+            check.refuse(*check.settings.find(table + ".temperature"), fmt::format("'{}.temperature' must be from 1e-60 to 1e60, not {}", table, *temperature));
     }
     if (!is_moving) refuse_without(check, table + ".speed", table + ".kind = \"moving\"");
     else check.refuse_missing(table + ".speed", "of the wall along +x or +y, per step");
@@ -147,7 +147,7 @@ void fill_drag(const Check& check) {
     if (effects.drag == 0) return;
     if (check.scene.rule == CollisionRule::one) check.refuse(setting, "drag needs time.collisions = \"all\": under the rule \"one\" discs keep their speed");
     if (effects.drag * interval > longest_drag)
-        check.refuse(setting, fmt::format("'{}' = {} leaves less than a fiftieth of a velocity from sync to sync; take a smaller time.sync_every", key, *rate));
+        check.refuse(setting, fmt::format("'{}' = {} leaves less than a fiftieth of a velocity from sync to sync: {:g} at most, or a smaller time.sync_every", key, *rate, longest_drag / interval));
     if (effects.contact.kind == ContactKind::rough) check.refuse(setting, "this version has no drag together with rough discs");
 }
 

@@ -91,6 +91,7 @@ void check_measured_box(const Check& check) {
     const double largest = std::min(wide - (goes_round_x ? 0 : 2 * scene.radius), high - (goes_round_y ? 0 : 2 * scene.radius)) / 2;
     double& distance = scene.measurements->largest_distance;
     const Setting* setting = check.settings.find(distance_key);
+    scene.measurements->is_distance_default = !setting;
     if (!setting) distance = std::min(10 * scene.radius, largest);
     if (const Setting* quantities = check.settings.find("output.measurements.quantities"); quantities && !scene.effects.classes.empty())
         check.refuse(*quantities, "this version has no radial distribution of discs of several classes");

@@ -65,8 +65,9 @@ template <class Law> Nanoseconds measure(const Law& law, CollisionRule rule, std
     if (rule == CollisionRule::one) {
         found.wall = nanoseconds_of(discs, [&](const Disc& before, const Disc&) {
             Disc disc = before;
-            const double t = std::min(law.wall_time(disc, 0), 1.0);
-            law.bounce(disc, 0, t);
+            const double t = law.wall_time(disc, 0);
+            // Where there is nothing to bounce off, sides bear being asked, obstacles do not.
+            if (t != Law::never || !law.has_obstacles()) law.bounce(disc, 0, std::min(t, 1.0));
             return disc.vx + disc.vy;
         });
         found.pair = nanoseconds_of(discs, [&](const Disc& first, const Disc& second) {

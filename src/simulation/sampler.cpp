@@ -170,7 +170,16 @@ void Sampler::go_on(StoredSamples stored) {
     const std::int64_t step = simulation_.step();
     if (stored.sums.empty() || step <= output_.from_step) return;
     const std::optional<SampleSums> found = unpacked(stored.sums);
-    const SampleSums asked = wanted();
+    SampleSums asked = wanted();
+    if (found && output_.is_distance_default && found->largest_distance != asked.largest_distance) {
+        // Another last step: walls come in less far, or further.
+        if (found->largest_distance > asked.largest_distance)
+            throw InputError({{"[output.measurements]", 0,
+                               fmt::format("the checkpoint's radial distribution reaches {:g}, and walls that come in until the last step leave room for {:g}: "
+                                           "run to an earlier step, or begin anew with output.measurements.from_step = {}",
+                                           found->largest_distance, asked.largest_distance, step)}});
+        asked.largest_distance = found->largest_distance;
+    }
     const bool is_same = found && found->quantities == asked.quantities && found->every_steps == asked.every_steps &&
                          found->wanted_from == asked.wanted_from && found->largest_distance == asked.largest_distance &&
                          (!output_.largest_velocity || found->largest_velocity == asked.largest_velocity) &&

@@ -59,11 +59,11 @@ EFFECTS = {
 }
 
 
-def scene_text(packing, rule, lines, steps=STEPS):
-    """`lines` may be a function of the packing; it names the discs then."""
-    discs = "" if callable(lines) else f"count = {COUNT}\npacking = {packing}\n"
-    return (f"[discs]\nspeed = 0.3\n{discs}[time]\nsteps = {steps}\nsync_every = 32\ncollisions = \"{rule}\"\n"
-            f"[box]\nsize = {SIZE}\n{lines(packing) if callable(lines) else lines}")
+def scene_text(packing, rule, lines, steps=STEPS, scale=1):
+    """`lines` may be a function of the packing; it names the discs then. `scale`: how many times as many discs, in fewer steps."""
+    discs = "" if callable(lines) else f"count = {scale * COUNT}\npacking = {packing}\n"
+    return (f"[discs]\nspeed = 0.3\n{discs}[time]\nsteps = {max(1, steps // scale)}\nsync_every = 32\ncollisions = \"{rule}\"\n"
+            f"[box]\nsize = {SIZE * math.sqrt(scale)!r}\n{lines(packing) if callable(lines) else lines}")
 
 
 def processor_seconds(program, scene):
@@ -89,6 +89,7 @@ def main():
     parser.add_argument("--repeats", type=int, default=9)
     parser.add_argument("--packing", type=float, nargs="+", default=[0.1, 0.3])
     parser.add_argument("--only", nargs="+", help="effects whose name begins so")
+    parser.add_argument("--scale", type=int, default=1, help="times as many discs and as large a box, in fewer steps; not for radii and obstacles")
     options = parser.parse_args()
     print("| effect | packing | instructions | time: median | quartiles | should stay below |\n|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
@@ -104,12 +105,12 @@ def main():
             if options.only and not any(name.startswith(word) for word in options.only):
                 continue
             for packing in options.packing:
-                plain = stored("plain.toml", scene_text(packing, rule, ""))
-                scene = stored("effect.toml", scene_text(packing, rule, lines))
+                plain = stored("plain.toml", scene_text(packing, rule, "", STEPS, options.scale))
+                scene = stored("effect.toml", scene_text(packing, rule, lines, STEPS, options.scale))
                 if (rule, packing) not in plain_counts:
                     plain_counts[rule, packing] = counted(options.program, plain)
                 count = counted(options.program, scene) / plain_counts[rule, packing]
-                plain, scene = (stored(name, scene_text(packing, rule, more, 10 * STEPS)) for name, more in (("plain.toml", ""), ("effect.toml", lines)))
+                plain, scene = (stored(name, scene_text(packing, rule, more, 10 * STEPS, options.scale)) for name, more in (("plain.toml", ""), ("effect.toml", lines)))
                 low, median, high = ratios_of_times(options.program, plain, scene, options.repeats)
                 print(f"| {name} | {packing} | {count:.3f} | {median:.2f} | {low:.2f} to {high:.2f} | {bound or ''} |", flush=True)
     return 0

@@ -81,6 +81,7 @@ struct MeasurementOutput {
     bool wall_pressure = false, radial_distribution = false, velocities = false, density = false, displacement = false;
     std::size_t bins = 100;
     double largest_distance = 0;            ///< of the radial distribution
+    bool is_distance_default = false;       ///< not named: as far as a box allows whose walls come in until the last step
     std::optional<double> largest_velocity; ///< of a component, per step; else five times its root mean square when sampling begins
 };
 
