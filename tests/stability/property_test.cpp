@@ -145,7 +145,7 @@ TEST_CASE("property: random scenes drawn wildly", "[property]") {
 }
 
 TEST_CASE("property: random scenes drawn for trouble, with effects", "[property]") {
-    const std::uint64_t few = Communicator::world().size() == 1 ? 200 : 6;
+    const std::uint64_t few = Communicator::world().size() == 1 ? 100 : 6;
     try_scenes("for trouble, with effects", number_from("CARROM_TEST_SEED", 1), number_from("CARROM_TEST_SCENES", few), troubled_with_effects,
                broken_with_effects);
 }

@@ -1,14 +1,19 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Every wrong input is refused the same way: exit code 2, all problems with file and line on standard error, each once,
-# nothing on standard output, nothing written. The argument is the number of ranks.
+# nothing on standard output, nothing written. The arguments are the number of ranks, and every how many-th case is run:
+# what is wrong is found before ranks differ, so that one rank runs all and several run a share ($CARROM_EVERY_CASE=1 all).
 source "$(dirname "$0")/common.sh"
 ranks=$1
+every=${CARROM_EVERY_CASE:-${2:-1}}
+n_cases=0
 
 # refuse WHAT TEXT WORD...: running the program with these words must be refused, with each line of TEXT told once.
 refuse() {
     local what=$1 text=$2 before line
     shift 2
+    n_cases=$((n_cases + 1))
+    [ $((n_cases % every)) = 0 ] || return 0
     before=$(ls -A)
     run "$ranks" "$@" --report report.json --output lines.txt
     expect_code 2 "$what"
