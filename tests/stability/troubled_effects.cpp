@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "carrom/core/random_numbers.hpp"
 #include "carrom/effects/drag.hpp"
 #include "carrom/effects/fall.hpp"
 #include "scene_tools.hpp"
@@ -37,12 +36,7 @@ Side troubled_wall(std::size_t number, bool may_move, Random& random) {
 } // namespace
 
 void hand_to_reference(reference::Setting& setting) {
-    setting.thermal_draw = [seed = setting.effects.thermal_seed](const Side& side, DiscId id, std::uint64_t count, std::size_t number) {
-        DiscRandom random(seed, Purpose::thermal_wall, id, 4 * count + number);
-        const double away = std::sqrt(2 * side.temperature * random_exponential(random));
-        const double speed = std::sqrt(2 * side.temperature * random_exponential(random));
-        return std::array{away, speed * random_direction(random).x};
-    };
+    set_thermal_seed(setting, setting.effects.thermal_seed);
     const double c = setting.effects.drag / static_cast<double>(setting.micro_steps);
     if (!(c > 0)) return;
     setting.drag_clock = [c](double n) { return drag_clock(c, n); };

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "carrom/core/random_numbers.hpp"
+
 namespace carrom::test {
 
 namespace {
@@ -223,6 +225,16 @@ TestScene ancestor_like(std::size_t n, double box_size, double radius, std::uint
         disc.vy = speed * ey;
     }
     return scene;
+}
+
+void set_thermal_seed(reference::Setting& setting, std::uint64_t seed) {
+    setting.effects.thermal_seed = seed;
+    setting.thermal_draw = [seed](const Side& side, DiscId id, std::uint64_t count, std::size_t number) {
+        DiscRandom random(seed, Purpose::thermal_wall, id, 4 * count + number);
+        const double away = std::sqrt(2 * side.temperature * random_exponential(random));
+        const double speed = std::sqrt(2 * side.temperature * random_exponential(random));
+        return std::array{away, speed * random_direction(random).x};
+    };
 }
 
 } // namespace carrom::test

@@ -11,10 +11,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "carrom/core/random_numbers.hpp"
 #include "carrom/effects/falling_contact.hpp"
 #include "carrom/effects/obstacles.hpp"
 #include "effect_runs.hpp"
+#include "scene_tools.hpp"
 #include "event_driven.hpp"
 #include "one_rule.hpp"
 
@@ -249,12 +249,7 @@ StateHash engine_hash(const Plan& plan, const Communicator& world) {
 
 /// What the references are told apart from the scene's numbers.
 void hand_to_reference(reference::Setting& setting) {
-    setting.thermal_draw = [seed = setting.effects.thermal_seed](const Side& side, DiscId id, std::uint64_t count, std::size_t number) {
-        DiscRandom random(seed, Purpose::thermal_wall, id, 4 * count + number);
-        const double away = std::sqrt(2 * side.temperature * random_exponential(random));
-        const double speed = std::sqrt(2 * side.temperature * random_exponential(random));
-        return std::array{away, speed * random_direction(random).x};
-    };
+    set_thermal_seed(setting, setting.effects.thermal_seed);
     setting.falling_contact = falling_contact;
 }
 

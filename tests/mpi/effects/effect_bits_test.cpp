@@ -10,7 +10,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "carrom/core/random_numbers.hpp"
 #include "carrom/effects/falling_contact.hpp"
 #include "carrom/effects/obstacles.hpp"
 #include "reference_bits.hpp"
@@ -135,14 +134,8 @@ TEST_CASE("effects: thermal walls have the references' bits") {
     const Side warm{SideKind::thermal, 1, 0.3, 0}, cold{SideKind::thermal, 1, 0.01, 0};
     for (TestScene scene : base_scenes()) {
         scene.steps = 24;
-        scene.setting.thermal_draw = [](const Side& side, DiscId id, std::uint64_t count, std::size_t number) {
-            DiscRandom random(77, Purpose::thermal_wall, id, 4 * count + number);
-            const double away = std::sqrt(2 * side.temperature * random_exponential(random));
-            const double speed = std::sqrt(2 * side.temperature * random_exponential(random));
-            return std::array{away, speed * random_direction(random).x};
-        };
+        set_thermal_seed(scene.setting, 77);
         Effects& effects = scene.setting.effects;
-        effects.thermal_seed = 77;
         effects.sides = {cold, warm, warm, cold};
         for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
         effects.sides = {Side{}, Side{}, warm, Side{SideKind::fixed, 0.5, 0, 0}};

@@ -5,7 +5,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "carrom/core/random_numbers.hpp"
 #include "carrom/parallel/exchange.hpp"
 #include "reference_bits.hpp"
 
@@ -60,13 +59,7 @@ TEST_CASE("effects: mixtures have the references' bits, alone and with other eff
         effects.gravity = {0.01, -0.03};
         effects.sides[1] = {SideKind::moving, 1, 0, -0.03};
         effects.sides[2] = {SideKind::thermal, 1, 0.3, 0};
-        effects.thermal_seed = 77;
-        scene.setting.thermal_draw = [](const Side& side, DiscId id, std::uint64_t count, std::size_t number) {
-            DiscRandom random(77, Purpose::thermal_wall, id, 4 * count + number);
-            const double away = std::sqrt(2 * side.temperature * random_exponential(random));
-            const double speed = std::sqrt(2 * side.temperature * random_exponential(random));
-            return std::array{away, speed * random_direction(random).x};
-        };
+        set_thermal_seed(scene.setting, 77);
         check_bits(scene, CollisionRule::all);
     }
 }

@@ -10,10 +10,10 @@
 #include <catch2/catch.hpp>
 #include <omp.h>
 
-#include "carrom/core/random_numbers.hpp"
 #include "effect_runs.hpp"
 #include "event_driven.hpp"
 #include "one_rule.hpp"
+#include "scene_tools.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -145,13 +145,7 @@ TestScene between_warm_walls(const TestScene& base) {
     TestScene scene = moved_along(base, along_y);
     scene.setting.effects.sides[0] = {SideKind::thermal, 1, 0.3, 0};
     scene.setting.effects.sides[1] = {SideKind::thermal, 1, 0.1, 0};
-    scene.setting.effects.thermal_seed = 77;
-    scene.setting.thermal_draw = [](const Side& side, DiscId id, std::uint64_t count, std::size_t number) {
-        DiscRandom random(77, Purpose::thermal_wall, id, 4 * count + number);
-        const double away = std::sqrt(2 * side.temperature * random_exponential(random));
-        const double speed = std::sqrt(2 * side.temperature * random_exponential(random));
-        return std::array{away, speed * random_direction(random).x};
-    };
+    set_thermal_seed(scene.setting, 77);
     scene.name += ", warm walls";
     return scene;
 }
