@@ -16,6 +16,7 @@
 #include "one_rule.hpp"
 #include "scene_tools.hpp"
 #include "scenes.hpp"
+#include "shape_parts.hpp"
 #include "settled_discs.hpp"
 
 using namespace carrom;
@@ -195,8 +196,11 @@ void expect(Invariant invariant, const std::function<std::optional<DiscId>(OneSt
 
 TEST_CASE("check: nothing is wrong in the scenes of the tests") {
     const Communicator world = Communicator::world();
+    std::size_t number = 0;
     for (const TestScene& scene : small_scenes()) {
+        ++number;
         for (const CollisionRule rule : both) {
+            if (is_left_to_others(number + (rule == CollisionRule::one), 2)) continue;
             if (rule == CollisionRule::all && (scene.is_endless_under_all || scene.discs.size() > 100)) continue;
             INFO(scene.name << (rule == CollisionRule::one ? ", one" : ", all"));
             CHECK(failure_of(scene, rule, world) == "");
@@ -210,8 +214,11 @@ TEST_CASE("check: nothing is wrong in a step that is not spoilt") {
 
 TEST_CASE("check: nothing is wrong in scenes with effects") {
     const Communicator world = Communicator::world();
+    std::size_t number = 0;
     for (const NamedEffects& named : all_effects()) {
+        ++number;
         for (const CollisionRule rule : both) {
+            if (is_left_to_others(number + (rule == CollisionRule::one), 2)) continue;
             if (rule == CollisionRule::one && !named.is_for_one) continue;
             TestScene scene = gas_of(named.effects);
             scene.steps = 60;

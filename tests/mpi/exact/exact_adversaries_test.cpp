@@ -10,6 +10,7 @@
 
 #include "exact_runs.hpp"
 #include "scene_tools.hpp"
+#include "shape_parts.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -135,7 +136,7 @@ TEST_CASE("exact: without the certificate the struck lines go wrong") {
     const Communicator world = Communicator::world();
     int n_wrong = 0;
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-        if (is_in_parts() && n_wrong > 3) break; // that will do
+        if (shape_part() && n_wrong > 3) break; // that will do
         TestScene scene = struck_lines(seed);
         const ExactResult expected = expected_of(scene, world, 3000000);
         Shape shape = small_blocks(2, 1, 1);

@@ -11,6 +11,7 @@
 #include "carrom/core/errors.hpp"
 #include "exact_runs.hpp"
 #include "scene_tools.hpp"
+#include "shape_parts.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -55,10 +56,10 @@ std::vector<TestScene> crowds(double n_collisions) {
 
 } // namespace
 
-TEST_CASE("exact: small scenes have the reference's bits") { check_against_reference(small_scenes(), is_in_parts() ? 1 : 2, 1000000); }
+TEST_CASE("exact: small scenes have the reference's bits") { check_against_reference(small_scenes(), shape_part() ? 1 : 2, 1000000); }
 
 TEST_CASE("exact: scenes across many strips and blocks have the reference's bits") {
-    check_against_reference(large_scenes(), is_in_parts() ? 2 : 4, is_in_parts() ? 1000000 : 20000000);
+    check_against_reference(large_scenes(), shape_part() ? 2 : 4, shape_part() ? 1000000 : 20000000);
 }
 
 TEST_CASE("exact: ten thousand discs have the reference's bits after a collision each") {

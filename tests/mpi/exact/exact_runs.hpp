@@ -16,11 +16,8 @@ struct ExactResult {
     friend bool operator==(const ExactResult&, const ExactResult&) = default;
 };
 
-/// Whether this run of the tests is one of part of the scenes only: of the k-th of n shapes, if $CARROM_TEST_PART is k/n.
-/// Every scene is then run on two of the shapes, one of them with several ranks at least.
-bool is_in_parts();
-/// Whether the scene, `number` in its list, is to be run: it belongs to the part, and $CARROM_TEST_SCENE, if set, is a
-/// part of its name (for looking at one scene).
+/// Whether the scene, `number` in its list, is to be run: it belongs to the shape's part (shape_parts.hpp; each scene to those of
+/// two shapes), and $CARROM_TEST_SCENE, if set, is a part of its name (for looking at one scene).
 bool is_wanted(const TestScene& scene, std::size_t number);
 
 /// What the event-driven reference gives, worked out on rank 0. Cuts the scene's steps short where the reference would

@@ -14,6 +14,7 @@
 #include "event_driven.hpp"
 #include "one_rule.hpp"
 #include "scene_tools.hpp"
+#include "shape_parts.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -63,19 +64,10 @@ Expected expected_of(const TestScene& scene, CollisionRule rule, const Communica
     return expected;
 }
 
-/// Shapes of more than two threads in all share the runs out among them, so that each of them makes every second one, with more than
-/// four every fourth, unless the tests are run in full (tests/functions.cmake, IN_PARTS).
-bool is_left_to_others(const Communicator& world) {
-    static std::size_t number = 0;
-    const char* const part = std::getenv("CARROM_TEST_PART"); // k/n, the k-th of n shapes
-    const int n_threads = world.size() * omp_get_max_threads();
-    const std::size_t n_sharing = !part || n_threads <= 2 ? 1 : n_threads <= 4 ? 2 : 4;
-    return part && (number++ + std::strtoul(part, nullptr, 10)) % n_sharing != 0;
-}
-
 void check_bits(const TestScene& scene, CollisionRule rule) {
     const Communicator world = Communicator::world();
-    if (is_left_to_others(world)) return;
+    static std::size_t n_runs = 0;
+    if (is_left_to_others(n_runs++, n_sharing(world.size() * omp_get_max_threads()))) return;
     const Expected expected = expected_of(scene, rule, world);
     INFO(scene.name << (rule == CollisionRule::one ? ", rule one" : ", rule all"));
     for (const std::optional<double>& window : {std::optional<double>{}, {0.3}, {2.7}}) {

@@ -13,6 +13,7 @@
 
 #include "one_rule.hpp"
 #include "scenes.hpp"
+#include "shape_parts.hpp"
 
 using namespace carrom;
 
@@ -74,17 +75,10 @@ std::vector<Tuning> tunings(std::size_t scene_number, std::size_t count, const C
     return list;
 }
 
-/// Shapes with more threads in all than 4 share the scenes out among them, so that each scene is run by every second one, unless
-/// the tests are run in full (tests/functions.cmake, IN_PARTS).
-bool is_left_to_others(std::size_t scene_number, const Communicator& world) {
-    const char* const part = std::getenv("CARROM_TEST_PART"); // k/n, the k-th of n shapes
-    return part && world.size() * omp_get_max_threads() > 4 && (scene_number + std::strtoul(part, nullptr, 10)) % 2 != 0;
-}
-
 void check_against_reference(const std::vector<test::TestScene>& scenes, std::size_t n_tunings) {
     const Communicator world = Communicator::world();
     for (std::size_t s = 0; s < scenes.size(); ++s) {
-        if (is_left_to_others(s, world)) continue;
+        if (test::is_left_to_others(s, test::n_sharing(world.size() * omp_get_max_threads()))) continue;
         const test::TestScene& scene = scenes[s];
         const Expected expected = expected_of(scene, world);
         for (const Tuning& tuning : tunings(s, n_tunings, world)) {
