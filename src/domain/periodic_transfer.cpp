@@ -79,8 +79,14 @@ TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& str
     return plan;
 }
 
-TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const Disc> own, double time, double reach,
-                                const Periods& periods) {
+Inside interior(const Strips& strips, int rank, double reach, const Periods& periods) {
+    const Slab mine(strips, rank, periods.x);
+    const Inside box = periods.inside();
+    return {mine.low + reach, mine.high - reach, box.y_low + reach, box.y_high - reach};
+}
+
+TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const Disc> own, std::span<const LocalIndex> looked_at,
+                                double time, double reach, const Periods& periods) {
     TransferPlan plan;
     const double longest = std::max(periods.x, periods.y);
     for (int other = 0; other < strips.size(); ++other) {
@@ -91,11 +97,8 @@ TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const 
     plan.images.resize(plan.partners.size());
     std::vector<Slab> slabs;
     for (const int other : plan.partners) slabs.emplace_back(strips, other, periods.x);
-    const Slab mine(strips, rank, periods.x);
     const Inside box = periods.inside();
-    const Inside inner = {mine.low + reach, mine.high - reach, box.y_low + reach, box.y_high - reach};
-    for (std::size_t i = 0; i < own.size() && !slabs.empty(); ++i) {
-        if (is_unshifted(own[i]) && inner.holds(own[i].x_at(time), own[i].y_at(time))) continue; // nearly all
+    for (const LocalIndex i : looked_at) {
         const double x = periods.x_of(own[i], time), y = periods.y_of(own[i], time);
         const Image home = image_of(own[i]);
         const Shifts along_y(y, reach, box.y_low, box.y_high, periods.y);
@@ -108,7 +111,7 @@ TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const 
                     const double image_y = y + m * periods.y;
                     if (image_y + reach < box.y_low || image_y - reach > box.y_high) continue;
                     if (plan.partners[k] == rank && n == 0 && m == 0) continue;
-                    plan.leaving[k].push_back(static_cast<LocalIndex>(i));
+                    plan.leaving[k].push_back(i);
                     plan.images[k].push_back({home.x + n, home.y + m});
                 }
             }

@@ -31,6 +31,7 @@ struct NeighbourExchange::State {
     }
 
     std::size_t first_size() const { return sizeof(Header) + first_capacity; }
+    bool is_own(std::size_t k) const { return neighbours[k] == communicator.rank(); }
     std::byte* first_in(std::size_t k) { return firsts.data() + k * first_size(); }
     std::byte* first_out(std::size_t k) { return firsts.data() + (neighbours.size() + k) * first_size(); }
 
@@ -65,10 +66,13 @@ void NeighbourExchange::begin_parcels(std::span<const int> neighbours) {
     state.n_begun += 1;
     state.neighbours.assign(neighbours.begin(), neighbours.end());
     state.firsts.resize(2 * neighbours.size() * state.first_size());
-    for (std::size_t k = 0; k < neighbours.size(); ++k)
+    for (std::size_t k = 0; k < neighbours.size(); ++k) {
+        if (state.is_own(k)) continue;
         MPI_Irecv(state.first_in(k), static_cast<int>(state.first_size()), MPI_BYTE, neighbours[k], state.message_tag,
                   handle.comm, &state.receives.emplace_back(MPI_REQUEST_NULL));
+    }
     for (std::size_t k = 0; k < neighbours.size(); ++k) {
+        if (state.is_own(k)) continue;
         const std::span<const std::byte> parcel = state.parcels[k];
         const std::span<const std::byte> head = parcel.first(std::min(parcel.size(), state.first_capacity));
         const Header header = {parcel.size(), state.n_begun};
@@ -90,8 +94,8 @@ std::span<const std::size_t> NeighbourExchange::receive_sizes() {
     wait_for(state.receives);
     state.offsets.assign(1, 0);
     for (std::size_t k = 0; k < state.neighbours.size(); ++k) {
-        Header header;
-        std::memcpy(&header, state.first_in(k), sizeof header);
+        Header header = {state.parcels[k].size(), state.n_begun};
+        if (!state.is_own(k)) std::memcpy(&header, state.first_in(k), sizeof header);
         ensure(header.exchange == state.n_begun, "two ranks disagree on whether they are neighbours");
         state.offsets.push_back(state.offsets.back() + header.n_bytes);
     }
@@ -102,6 +106,10 @@ void NeighbourExchange::receive_parcels(std::span<std::byte> all) {
     State& state = *state_;
     for (std::size_t k = 0; k < state.neighbours.size(); ++k) {
         const std::span<std::byte> parcel = all.subspan(state.offsets[k], state.offsets[k + 1] - state.offsets[k]);
+        if (state.is_own(k)) {
+            if (!parcel.empty()) std::memcpy(parcel.data(), state.parcels[k].data(), parcel.size());
+            continue;
+        }
         const std::size_t head = std::min(parcel.size(), state.first_capacity);
         if (head > 0) std::memcpy(parcel.data(), state.first_in(k) + sizeof(Header), head);
         start_receive(state.communicator.handle(), parcel.subspan(head), state.neighbours[k], state.message_tag,

@@ -17,6 +17,9 @@ struct News {
     std::uint64_t place;
 };
 
+/// Reaches change little from window to window: so much more is looked at beforehand.
+constexpr double longer_reach = 1.1;
+
 Strips equal_strips(double box_size, int n_ranks) {
     std::vector<double> cuts;
     for (int k = 1; k < n_ranks; ++k) cuts.push_back(box_size * k / n_ranks);
@@ -90,16 +93,33 @@ TransferPlan StripDiscs::migration_plan(double time, double farthest) const {
                               : plan_migration(settled_strips_, strips_, rank, own(), time, farthest);
 }
 
-/// The companion of a disc stands for the same image, wherever its own state takes it.
+/// The companion of a disc stands for the same image, wherever its own state takes it. Lists discs near the strip's ends by the way.
 void StripDiscs::set_home_images(double time, std::vector<Disc>* companion) {
-    const Inside inside = periods_.inside();
+    near_reach_ = longer_reach * last_reach_;
+    near_time_ = time;
+    const Inside inside = periods_.inside(), inner = interior(strips_, communicator_.rank(), near_reach_, periods_);
+    near_ends_.clear();
     for (std::size_t i = 0; i < n_own_; ++i) {
         Disc& disc = discs_[i];
-        const bool is_at_home = is_unshifted(disc) && inside.holds(disc.x_at(time), disc.y_at(time)); // nearly all
-        if (is_at_home && !companion) continue;
+        const double x = disc.x_at(time), y = disc.y_at(time);
+        const bool is_inner = is_unshifted(disc) && inner.holds(x, y); // nearly all
+        if (!is_inner) near_ends_.push_back(static_cast<LocalIndex>(i));
+        if (is_inner && !companion) continue;
+        const bool is_at_home = is_unshifted(disc) && inside.holds(x, y);
         const Image home = is_at_home ? Image{} : periods_.home(disc, time);
         if (!is_at_home) set_image(disc, home);
         if (companion) set_image((*companion)[i], home);
+    }
+}
+
+void StripDiscs::list_near_ends(double time, double reach) {
+    near_reach_ = reach;
+    near_time_ = time;
+    const Inside inner = interior(strips_, communicator_.rank(), reach, periods_);
+    near_ends_.clear();
+    for (std::size_t i = 0; i < n_own_; ++i) {
+        const Disc& disc = discs_[i];
+        if (!is_unshifted(disc) || !inner.holds(disc.x_at(time), disc.y_at(time))) near_ends_.push_back(static_cast<LocalIndex>(i));
     }
 }
 
@@ -124,11 +144,17 @@ void StripDiscs::forget_images() {
 
 void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* companion) {
     if (has_no_halo()) return;
-    halo_plan_ = periods_.are_any() ? plan_periodic_halo(strips_, communicator_.rank(), own(), time, reach, periods_)
-                                    : plan_halo(strips_, communicator_.rank(), own(), time, reach);
+    for (const std::vector<LocalIndex>& shown : halo_plan_.leaving) {
+        for (const LocalIndex index : shown) is_shown_[index] = 0;
+    }
     if (periods_.are_any()) {
+        if (communicator_.size() > 1 || time != near_time_ || reach > near_reach_) list_near_ends(time, reach);
+        last_reach_ = reach;
+        halo_plan_ = plan_periodic_halo(strips_, communicator_.rank(), own(), near_ends_, time, reach, periods_);
         other_partners_ = halo_plan_.partners;
         std::erase(other_partners_, communicator_.rank());
+    } else {
+        halo_plan_ = plan_halo(strips_, communicator_.rank(), own(), time, reach);
     }
     Received<Disc> halo;
     for (std::vector<Disc>* values : {&discs_, companion}) {
@@ -140,7 +166,7 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* compan
     if (has_spins_) show(spins_);
     halo_offsets_.clear();
     for (const std::size_t offset : halo.offsets) halo_offsets_.push_back(n_own_ + offset);
-    is_shown_.assign(n_own_, 0);
+    is_shown_.resize(n_own_, 0);
     for (const std::vector<LocalIndex>& shown : halo_plan_.leaving) {
         for (const LocalIndex index : shown) is_shown_[index] = 1;
     }

@@ -93,6 +93,7 @@ public:
 
 private:
     void set_home_images(double time, std::vector<Disc>* companion);
+    void list_near_ends(double time, double reach);
     TransferPlan migration_plan(double time, double farthest) const;
 
     Communicator communicator_;
@@ -107,6 +108,8 @@ private:
     Strips strips_, settled_strips_; ///< wanted, and those that the discs were last settled in
     NeighbourExchange exchange_;
     TransferPlan halo_plan_;
+    std::vector<LocalIndex> near_ends_; ///< of a periodic box: own discs that may have to be shown to somebody who sees
+    double near_reach_ = 0, near_time_ = 0, last_reach_ = 0; ///< so far at that time
     std::vector<int> other_partners_; ///< of a periodic box, where a rank is its own partner
     std::vector<std::size_t> halo_offsets_; ///< of each partner's discs behind the own ones
     std::vector<std::uint8_t> is_shown_;    ///< by own disc: whether a partner has it in its halo

@@ -31,6 +31,9 @@ inline Image image_of(const Disc& disc) {
 /// Whether the disc's image is the one at its stored place, as nearly all are.
 inline bool is_unshifted(const Disc& disc) { return disc.wall_collisions >> 32 == 0; }
 
+/// Whether the two discs' images are displaced by the same, as nearly all pairs' are.
+inline bool are_shifted_alike(const Disc& p, const Disc& q) { return (p.wall_collisions ^ q.wall_collisions) >> 32 == 0; }
+
 /// Of collisions with walls, below 2^32 where there are images.
 inline std::uint64_t count_without_image(const Disc& disc) { return disc.wall_collisions & 0xffffffffu; }
 
@@ -54,12 +57,18 @@ struct Periods {
     bool are_any() const { return x != 0 || y != 0; }
 
     /// Where the disc's image is.
-    double x_of(const Disc& disc, double time) const { return is_unshifted(disc) ? disc.x_at(time) : disc.x_at(time) + image_of(disc).x * x; }
-    double y_of(const Disc& disc, double time) const { return is_unshifted(disc) ? disc.y_at(time) : disc.y_at(time) + image_of(disc).y * y; }
+    double x_of(const Disc& disc, double time) const {
+        if (is_unshifted(disc)) [[likely]] return disc.x_at(time);
+        return shifted_x(disc, time);
+    }
+    double y_of(const Disc& disc, double time) const {
+        if (is_unshifted(disc)) [[likely]] return disc.y_at(time);
+        return shifted_y(disc, time);
+    }
 
     /// How much further the difference of two stored places is for their images: the same number with the other sign for (q, p).
-    double x_between(const Disc& p, const Disc& q) const { return (image_of(q).x - image_of(p).x) * x; }
-    double y_between(const Disc& p, const Disc& q) const { return (image_of(q).y - image_of(p).y) * y; }
+    double x_between(const Disc& p, const Disc& q) const { return are_shifted_alike(p, q) ? 0 : (image_of(q).x - image_of(p).x) * x; }
+    double y_between(const Disc& p, const Disc& q) const { return are_shifted_alike(p, q) ? 0 : (image_of(q).y - image_of(p).y) * y; }
 
     /// The image that is in the box, to within a rounding.
     Image home(const Disc& disc, double time) const { return {lengths(disc.x_at(time), x), lengths(disc.y_at(time), y)}; }
@@ -71,6 +80,8 @@ struct Periods {
     }
 
 private:
+    [[gnu::noinline]] double shifted_x(const Disc& disc, double time) const { return disc.x_at(time) + image_of(disc).x * x; }
+    [[gnu::noinline]] double shifted_y(const Disc& disc, double time) const { return disc.y_at(time) + image_of(disc).y * y; }
     static int lengths(double place, double period) {
         if (period == 0 || (place >= 0 && place < period)) return 0;
         const double n = std::floor(place / period);

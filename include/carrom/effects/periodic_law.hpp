@@ -14,6 +14,8 @@ template <class Walled> class PeriodicLaw : public Walled {
 public:
     static constexpr bool is_periodic = true;
     static constexpr bool may_lose_discs = false; // a side is periodic or open
+    static constexpr bool may_have_obstacles = false;
+    static constexpr bool has_obstacles() { return false; }
 
     /// `effects` per micro-step.
     PeriodicLaw(double box_size, double radius, const Effects& effects)

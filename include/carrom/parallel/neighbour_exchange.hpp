@@ -27,8 +27,8 @@ public:
     NeighbourExchange(NeighbourExchange&&) noexcept;
     NeighbourExchange& operator=(NeighbourExchange&&) noexcept;
 
-    /// Starts sending out[k] to neighbours[k]. The list holds other ranks, each once, in any order; it may be empty
-    /// and may change from call to call. If a lists b, b must list a in the same call. `out` must stay unchanged
+    /// Starts sending out[k] to neighbours[k]. The list holds ranks, each once, in any order; it may be empty
+    /// and may change from call to call. What a rank sends to itself is copied, without a message. If a lists b, b must list a in the same call. `out` must stay unchanged
     /// until `complete`. **Collective**: also ranks without neighbours take part, at no cost.
     template <Message T> void begin(std::span<const int> neighbours, const std::vector<std::vector<T>>& out) {
         ensure(out.size() == neighbours.size(), "a neighbour exchange needs one list of items per neighbour");

@@ -30,13 +30,13 @@ std::vector<Item> parcel(std::size_t exchange, int sender, int receiver, std::si
     return items;
 }
 
-/// Rank's neighbours in the exchange's random graph, the same edges seen from every rank, in a shuffled order.
+/// Rank's neighbours in the exchange's random graph, itself perhaps among them, the same edges seen from every rank, in a shuffled order.
 std::vector<int> neighbours_of(std::size_t exchange, int rank, int n_ranks) {
     std::vector<int> neighbours;
     for (int other = 0; other < n_ranks; ++other) {
         const auto low = static_cast<unsigned>(std::min(rank, other)), high = static_cast<unsigned>(std::max(rank, other));
         std::mt19937 edge(static_cast<unsigned>(exchange) * 7919 + low * 97 + high);
-        if (other != rank && edge() % 2 == 0) neighbours.push_back(other);
+        if (edge() % 2 == 0) neighbours.push_back(other);
     }
     std::mt19937 random(static_cast<unsigned>(exchange) + static_cast<unsigned>(rank));
     std::shuffle(neighbours.begin(), neighbours.end(), random);
