@@ -43,8 +43,10 @@ struct Shifts {
 
     Shifts(double place, double reach, double low, double high, double period) {
         if (period == 0) return;
-        first = static_cast<int>(std::ceil((low - reach - place) / period - margin));
-        last = static_cast<int>(std::floor((high + reach - place) / period + margin));
+        const double lowest = low - reach - margin * period, highest = high + reach + margin * period;
+        while (place + first * period < lowest) ++first;
+        while (place + (first - 1) * period >= lowest) --first;
+        for (last = first; place + (last + 1) * period <= highest;) ++last;
     }
 };
 
@@ -118,6 +120,17 @@ TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const 
         }
     }
     return plan;
+}
+
+void append_images(const TransferPlan& plan, std::vector<Disc>& values) {
+    for (std::size_t k = 0; k < plan.partners.size(); ++k) {
+        std::size_t next = values.size();
+        values.resize(next + plan.leaving[k].size());
+        for (std::size_t i = 0; i < plan.leaving[k].size(); ++i, ++next) {
+            values[next] = values[plan.leaving[k][i]];
+            set_image(values[next], plan.images[k][i]);
+        }
+    }
 }
 
 void transfer_images(NeighbourExchange& exchange, const TransferPlan& plan, std::span<const Disc> values, Received<Disc>& in) {

@@ -24,7 +24,6 @@ template <class Law> void BlockReplay<Law>::Scratch::link_images() {
 
 /// What has happened to a disc has happened to all of its images.
 template <class Law> void BlockReplay<Law>::Scratch::mirror(std::uint32_t slot, double time) {
-    if (next_image.empty()) return;
     for (std::uint32_t other = next_image[slot]; other != slot; other = next_image[other]) {
         const Image image = image_of(discs[other]);
         discs[other] = discs[slot];
@@ -39,9 +38,8 @@ template <class Law> void BlockReplay<Law>::Scratch::mirror(std::uint32_t slot, 
 
 /// A pair's contact is found several times then: the first one that is carried out makes the others stale.
 template <class Law> void BlockReplay<Law>::Scratch::predict_images(std::uint32_t slot) {
-    if (next_image.empty()) return;
     for (std::uint32_t other = next_image[slot]; other != slot; other = next_image[other]) {
-        predict_walls(other);
+        if (law.has_walls()) predict_walls(other);
         predict_pairs(other, Past::nobody);
     }
 }

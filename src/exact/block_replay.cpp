@@ -119,15 +119,6 @@ void BlockReplay<Law>::Scratch::gather(const ReplayGround& of_rank, const CellBl
     }
 }
 
-/// Takes over a disc's flight: where it would have been at the window's start, in cells.
-template <class Law> void BlockReplay<Law>::Scratch::place(std::uint32_t slot, double start) {
-    const Disc& disc = discs[slot];
-    x[slot] = static_cast<float>((x_of(disc, start) - x_corner) * cells_per_length);
-    y[slot] = static_cast<float>((y_of(disc, start) - y_corner) * cells_per_length);
-    vx[slot] = static_cast<float>(disc.vx * cells_per_speed);
-    vy[slot] = static_cast<float>(disc.vy * cells_per_speed);
-}
-
 template <class Law> void BlockReplay<Law>::Scratch::mark_own(const CellBlock& own) {
     is_own.assign(indices.size(), 0);
     bound_squared = ground.window.speed_bound * ground.window.speed_bound;
@@ -150,7 +141,7 @@ template <class Law> void BlockReplay<Law>::Scratch::mark_own(const CellBlock& o
 }
 
 /// The flight of a disc that has just collided.
-template <class Law> Flight BlockReplay<Law>::Scratch::flight_of(std::uint32_t slot) const {
+template <class Law> [[gnu::always_inline]] inline Flight BlockReplay<Law>::Scratch::flight_of(std::uint32_t slot) const {
     const Disc& disc = discs[slot];
     Flight flight;
     const double x_now = Law::is_periodic ? x_of(disc, disc.tau) : disc.x, y_now = Law::is_periodic ? y_of(disc, disc.tau) : disc.y;
@@ -186,7 +177,8 @@ template <class Law> void BlockReplay<Law>::Scratch::look_around(const Flight& f
 
 template <class Law> void BlockReplay<Law>::Scratch::predict_all() {
     queue.restart(ground.window.begin, ground.window.end, discs.size() / 2);
-    for (std::uint32_t slot = 0; slot < discs.size(); ++slot) predict_walls(slot);
+    if (law.has_walls())
+        for (std::uint32_t slot = 0; slot < discs.size(); ++slot) predict_walls(slot);
     if constexpr (!Law::has_pairs) return;
     const CellTable table{cell_starts.data(), cell_rows, cells.end_column - cells.first_column, cells.end_row - cells.first_row};
     std::uint32_t slot = 0;
@@ -281,17 +273,20 @@ template <class Law> void BlockReplay<Law>::Scratch::happen(const Event& event) 
         carry_out(other_side);
     }
     if (Law::may_lose_discs && discs[event.p].is_gone()) return;
+    const bool is_mirrored = Law::is_periodic && are_images_linked();
     if constexpr (Law::is_periodic) {
-        mirror(event.p, event.time);
-        if (!is_wall(event.q)) mirror(event.q, event.time);
+        if (is_mirrored) mirror(event.p, event.time);
+        if (is_mirrored && !is_wall(event.q)) mirror(event.q, event.time);
     }
-    predict_walls(event.p);
+    if (law.has_walls()) predict_walls(event.p);
     predict_pairs(event.p, Past::nobody);
-    if constexpr (Law::is_periodic) predict_images(event.p);
+    if constexpr (Law::is_periodic)
+        if (is_mirrored) predict_images(event.p);
     if (is_wall(event.q)) return;
-    predict_walls(event.q);
+    if (law.has_walls()) predict_walls(event.q);
     predict_pairs(event.q, event.p);
-    if constexpr (Law::is_periodic) predict_images(event.q);
+    if constexpr (Law::is_periodic)
+        if (is_mirrored) predict_images(event.q);
 }
 
 /// Rewrites the states of an event's discs and writes down what has happened to them.

@@ -41,7 +41,14 @@ template <class Law> struct BlockReplay<Law>::Scratch {
 
     void gather(const ReplayGround& of_rank, const CellBlock& own, int halo);
     void mark_own(const CellBlock& own);
-    void place(std::uint32_t slot, double time);
+    /// Takes over a disc's flight: where it would have been at the window's start, in cells.
+    [[gnu::always_inline]] void place(std::uint32_t slot, double start) {
+        const Disc& disc = discs[slot];
+        x[slot] = static_cast<float>((x_of(disc, start) - x_corner) * cells_per_length);
+        y[slot] = static_cast<float>((y_of(disc, start) - y_corner) * cells_per_length);
+        vx[slot] = static_cast<float>(disc.vx * cells_per_speed);
+        vy[slot] = static_cast<float>(disc.vy * cells_per_speed);
+    }
     void predict_all();
     void happen(const Event& event);
     void link_images();
@@ -86,6 +93,8 @@ template <class Law> struct BlockReplay<Law>::Scratch {
         if constexpr (Law::is_periodic) return law.periods().y_of(disc, time);
         else return disc.y_at(time);
     }
+    /// Whether what happens to a disc happens to all of its images at once.
+    bool are_images_linked() const { return !next_image.empty(); }
     int owning_column(int column) const {
         return std::clamp(column, ground.first_own_column, ground.end_own_column - 1);
     }

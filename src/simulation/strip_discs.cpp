@@ -157,8 +157,14 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* compan
         halo_plan_ = plan_halo(strips_, communicator_.rank(), own(), time, reach);
     }
     Received<Disc> halo;
+    halo.offsets = {0};
     for (std::vector<Disc>* values : {&discs_, companion}) {
         if (!values) continue;
+        if (communicator_.size() == 1) {
+            append_images(halo_plan_, *values);
+            halo.offsets = {0, values->size() - n_own_};
+            continue;
+        }
         if (periods_.are_any()) transfer_images(exchange_, halo_plan_, std::span<const Disc>(*values), halo);
         else transfer(exchange_, halo_plan_, std::span<const Disc>(*values), halo);
         values->insert(values->end(), halo.items.begin(), halo.items.end());

@@ -57,14 +57,8 @@ struct Periods {
     bool are_any() const { return x != 0 || y != 0; }
 
     /// Where the disc's image is.
-    double x_of(const Disc& disc, double time) const {
-        if (is_unshifted(disc)) [[likely]] return disc.x_at(time);
-        return shifted_x(disc, time);
-    }
-    double y_of(const Disc& disc, double time) const {
-        if (is_unshifted(disc)) [[likely]] return disc.y_at(time);
-        return shifted_y(disc, time);
-    }
+    double x_of(const Disc& disc, double time) const { return is_unshifted(disc) ? disc.x_at(time) : shifted_x(disc, time); }
+    double y_of(const Disc& disc, double time) const { return is_unshifted(disc) ? disc.y_at(time) : shifted_y(disc, time); }
 
     /// How much further the difference of two stored places is for their images: the same number with the other sign for (q, p).
     double x_between(const Disc& p, const Disc& q) const { return are_shifted_alike(p, q) ? 0 : (image_of(q).x - image_of(p).x) * x; }
@@ -80,6 +74,7 @@ struct Periods {
     }
 
 private:
+    // Not inlined, so that what nearly all discs need is.
     [[gnu::noinline]] double shifted_x(const Disc& disc, double time) const { return disc.x_at(time) + image_of(disc).x * x; }
     [[gnu::noinline]] double shifted_y(const Disc& disc, double time) const { return disc.y_at(time) + image_of(disc).y * y; }
     static int lengths(double place, double period) {

@@ -54,6 +54,9 @@ void transfer(NeighbourExchange& exchange, const TransferPlan& plan, std::span<c
 /// The same of discs, as the images that the plan says. **Collective.**
 void transfer_images(NeighbourExchange& exchange, const TransferPlan& plan, std::span<const Disc> values, Received<Disc>& in);
 
+/// What a rank that is alone sends itself: appends the images that the plan says.
+void append_images(const TransferPlan& plan, std::vector<Disc>& values);
+
 /// Takes out what has left and closes the gaps from the end.
 template <class T> void remove_leaving(const TransferPlan& plan, std::vector<T>& values) {
     std::vector<LocalIndex> all;

@@ -22,6 +22,7 @@ public:
         : Walled(box_size, radius, effects), periods_(effects.periods(box_size)) {}
 
     const Periods& periods() const { return periods_; }
+    bool has_walls() const { return periods_.x == 0 || periods_.y == 0; }
     /// Places are rounded as coarsely as stored ones are far from the box.
     double slack() const { return 0x1p-36 * this->box_size(); }
     double search_diameter() const { return this->diameter() + 2 * slack(); }

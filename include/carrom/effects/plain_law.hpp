@@ -49,6 +49,7 @@ public:
     /// Whether there may be bodies in the box beside its walls.
     static constexpr bool may_have_obstacles = false;
     static constexpr bool has_obstacles() { return false; }
+    static constexpr bool has_walls() { return true; }
     /// Whether discs may leave the box.
     static constexpr bool may_lose_discs = false;
     /// Whether a wall reverses a velocity across it and does nothing else to a disc.
