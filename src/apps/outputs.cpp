@@ -68,7 +68,9 @@ std::vector<NamedFile> recordings_of(const Scene& scene) {
     return files;
 }
 
+/// An empty path is missing from the scene, which is told elsewhere.
 void check_recording(Claims& claims, const char* key, const std::string& path) {
+    if (path.empty()) return;
     if (std::filesystem::is_directory(path)) claims.check(key, path, {"is a directory; name a file"});
     else claims.check(key, path, obstacle_to_opening(path));
 }
@@ -100,7 +102,7 @@ void check_places(Claims& claims, const Scene& scene, const std::vector<NamedFil
         // A folder is made only for a run that nothing else keeps from running.
         std::error_code ignored;
         const bool may_try = (may_begin && claims.is_clear()) || std::filesystem::exists(folder, ignored);
-        claims.check(key, folder, may_try ? obstacle_to_folder(folder) : obstacle_to_making(folder));
+        if (!folder.empty()) claims.check(key, folder, may_try ? obstacle_to_folder(folder) : obstacle_to_making(folder));
     };
     if (scene.checkpoint) check_folder(folder_key, scene.checkpoint->folder);
     if (scene.measurements && !scene.measurements->folder.empty()) check_folder(tables_key, scene.measurements->folder);

@@ -148,7 +148,7 @@ double time_share_of(const RunResult& result, const EffectCost& cost) {
 std::string effects_text(const RunResult& result) {
     std::string text;
     for (const EffectCost& cost : result.effect_costs)
-        text += fmt::format("{}{} ({:.2g} % of the time, {:g} bytes per disc)", text.empty() ? "" : "; ", cost.name, 100 * time_share_of(result, cost), cost.bytes_per_disc);
+        text += fmt::format("{}{} (collisions: {:.2g} % of the time more, {:g} bytes per disc)", text.empty() ? "" : "; ", cost.name, 100 * time_share_of(result, cost), cost.bytes_per_disc);
     return text;
 }
 

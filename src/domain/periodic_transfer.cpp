@@ -43,6 +43,7 @@ struct Shifts {
 
     Shifts(double place, double reach, double low, double high, double period) {
         if (period == 0) return;
+        if (place - low < (1 - margin) * period - reach && high - place < (1 - margin) * period - reach) return; // as most along one axis
         const double lowest = low - reach - margin * period, highest = high + reach + margin * period;
         while (place + first * period < lowest) ++first;
         while (place + (first - 1) * period >= lowest) --first;

@@ -256,7 +256,7 @@ void check_moving_walls(const Check& check) {
     if (scene.effects.are_periodic() && scene.box_size < 4 * scene.radius * (1 + 1e-6)) {
         const std::size_t side = scene.effects.is_periodic_x() ? 0 : 2;
         check.refuse(*check.settings.find(std::string("box.") + side_names[side] + ".kind"),
-                     fmt::format("a box of side {} is too small to be periodic: below two diameters ({}) a disc could touch another one on both sides at once",
+                     fmt::format("a box of side {} is too small to be periodic: up to two diameters ({}) a disc could touch another one on both sides at once",
                                  scene.box_size, 4 * scene.radius));
     }
     const Extent end = extent_at(scene.effects, scene.box_size, static_cast<double>(scene.steps));

@@ -147,6 +147,7 @@ std::string unknown_key_text(std::string_view key) {
         if (second_dot != std::string_view::npos && is_table(key.substr(0, second_dot)))
             return no_such_key(key);
         if (dot == std::string_view::npos) return quoted(key) + " is a table of " + what + "s, not a value";
+        if (is_table(key)) return quoted(key) + " is a table, not a value";
         const std::string_view name = part_after(key, dot);
         const bool is_misspelt = table == "output" && edit_distance(name, "text") <= 2;
         return "this version has no " + what + ' ' + quoted(name) + (is_misspelt ? "; did you mean 'output.text'?" : "");

@@ -209,10 +209,11 @@ private:
 std::vector<InputDisc> insert_at_random(const Scene& scene, const Communicator& communicator) {
     for (std::uint64_t start = 0; start < most_starts; ++start)
         if (auto discs = Insertion(scene, communicator, start).run()) return std::move(*discs);
+    const std::string remedy = scene.effects.obstacles.are_any() ? "leave more room beside the obstacles" : "set discs.generator to \"lattice\"";
     throw InputError({{scene.name, 0,
-                       fmt::format("random insertion of {} discs (packing {:.4g}) found no arrangement in {} tries; set "
-                                   "discs.generator to \"lattice\", or another discs.seed",
-                                   scene.n_discs, scene.packing(), most_starts)}});
+                       fmt::format("random insertion of {} discs (packing {:.4g}) found no arrangement in {} tries; {}, or "
+                                   "set another discs.seed",
+                                   scene.n_discs, scene.packing(), most_starts, remedy)}});
 }
 
 } // namespace carrom
