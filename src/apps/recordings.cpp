@@ -31,6 +31,7 @@ TrajectoryLayout layout_of(const Scene& scene) {
     }
     layout.is_periodic_x = scene.effects.is_periodic_x();
     layout.is_periodic_y = scene.effects.is_periodic_y();
+    for (std::size_t side = 0; side < layout.open_sides.size(); ++side) layout.open_sides[side] = scene.effects.sides[side].kind == SideKind::open;
     layout.velocity_unit = static_cast<double>(scene.micro_steps);
     layout.has_position = wanted.has_position;
     layout.has_velocity = wanted.has_velocity;

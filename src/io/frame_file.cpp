@@ -112,6 +112,9 @@ FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_un
                 if (element.width != 2) summary_.bytes_per_number = H5Tget_size(type.id());
             }
             h5::read_scalar(file, "/parameters/radius", summary_.radius);
+            std::array<std::int32_t, 4> open_sides{};
+            if (has(file, "/parameters/open_sides")) read_block(file, "/parameters/open_sides", 0, 0, 4, 1, H5T_NATIVE_INT32, open_sides.data());
+            for (std::size_t side = 0; side < open_sides.size(); ++side) summary_.open_sides[side] = open_sides[side] != 0;
             std::array<double, 3> edges = {};
             if (!summary_.steps.empty()) read_block(file, discs + "box/edges/value", 0, 0, 3, 1, H5T_NATIVE_DOUBLE, edges.data());
             summary_.box_size = edges[0];

@@ -82,11 +82,22 @@ void write_fixed(hid_t discs, const char* name, const std::vector<double>& value
     h5::write_whole(discs, name, std::array<hsize_t, 1>{values.size()}, H5T_IEEE_F64LE, values.data());
 }
 
+constexpr const char* open_sides_path = "/parameters/open_sides";
+
+/// Only where there are any: other files need no such entry.
+void write_open_sides(hid_t file, const TrajectoryLayout& layout) {
+    std::array<std::int32_t, 4> flags{};
+    std::copy(layout.open_sides.begin(), layout.open_sides.end(), flags.begin());
+    if (flags == std::array<std::int32_t, 4>{}) return;
+    h5::write_whole(file, open_sides_path, std::array<hsize_t, 1>{flags.size()}, H5T_NATIVE_INT32, flags.data());
+}
+
 /// Steps and times stand once; every element links to them, as H5MD allows.
 void create_structure(hid_t file, const TrajectoryLayout& layout) {
     const std::vector<Field> fields = fields_of(layout);
     h5md::write_metadata(file, layout.program_version);
     h5::write_scalar(h5::create_group(file, "parameters").id(), "radius", layout.radius);
+    write_open_sides(file, layout);
     const h5::Group particles = h5::create_group(file, "particles");
     const h5::Group discs = h5::create_group(particles.id(), "discs");
     write_fixed(discs.id(), "radius", layout.radii);
@@ -113,6 +124,21 @@ constexpr const char* edges_path = "/particles/discs/box/edges/value";
 void set_frames(hid_t file, const TrajectoryLayout& layout, hsize_t n) {
     for (const Field& field : fields_of(layout)) set_length(file, value_path(field).c_str(), n);
     for (const char* path : {step_path, time_path, edges_path}) set_length(file, path, n);
+}
+
+std::array<double, 3> edges_of(const TrajectoryLayout& layout) { return {layout.box_size, layout.box_size, 1}; }
+
+/// Walls that move make the box that holds all frames depend on the last step, which a restart may change.
+void renew_box(hid_t file, const TrajectoryLayout& layout, hsize_t n_frames) {
+    std::vector<double> there(3 * n_frames), wanted;
+    for (hsize_t frame = 0; frame < n_frames; ++frame)
+        for (const double edge : edges_of(layout)) wanted.push_back(edge);
+    const std::array<hsize_t, 2> start = {0, 0}, count = {n_frames, 3};
+    {
+        const h5::Dataset edges = h5::open_checked(file, edges_path, {n_frames, 3});
+        h5::checked(H5Dread(edges.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, there.data()), edges_path);
+    }
+    if (there != wanted) write_block(file, edges_path, start, count, H5T_NATIVE_DOUBLE, wanted.data());
 }
 
 void check_layout(hid_t file, const TrajectoryLayout& layout) {
@@ -182,10 +208,10 @@ void write_slab(hid_t file, const TrajectoryLayout& layout, hsize_t frame, std::
 }
 
 /// Step, time and edges come last: a frame counts once it has them.
-void write_labels(hid_t file, hsize_t frame, std::int64_t step, double box_size) {
+void write_labels(hid_t file, hsize_t frame, std::int64_t step, const TrajectoryLayout& layout) {
     const std::array<hsize_t, 1> place = {frame}, one = {1};
     const auto time = static_cast<double>(step);
-    const std::array<double, 3> edges = {box_size, box_size, 1};
+    const std::array<double, 3> edges = edges_of(layout);
     write_block(file, edges_path, std::array<hsize_t, 2>{frame, 0}, std::array<hsize_t, 2>{1, 3}, H5T_NATIVE_DOUBLE, edges.data());
     write_block(file, time_path, place, one, H5T_NATIVE_DOUBLE, &time);
     write_block(file, step_path, place, one, H5T_NATIVE_INT64, &step);
@@ -226,6 +252,8 @@ void Trajectory::go_on(std::int64_t step) {
         state_->file.change([&](hid_t file) {
             const hsize_t n = count_up_to(file, step_path, step);
             set_frames(file, layout_, n);
+            renew_box(file, layout_, n);
+            if (H5Lexists(file, open_sides_path, H5P_DEFAULT) == 0) write_open_sides(file, layout_); // an older version's
             state_->steps = read_numbers(file, step_path);
         });
     });
@@ -247,7 +275,7 @@ void Trajectory::append(std::int64_t step, std::span<const Disc> discs, double c
             state_->file.attempt([&](hid_t file) { write_slab(file, layout_, frame, begin, slab); });
     }
     on_root(communicator_, path_, ExitCode::output_failure, [&] {
-        state_->file.attempt([&](hid_t file) { write_labels(file, frame, step, layout_.box_size); });
+        state_->file.attempt([&](hid_t file) { write_labels(file, frame, step, layout_); });
         state_->file.close();
         state_->steps.push_back(step);
     });

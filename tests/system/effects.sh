@@ -47,7 +47,7 @@ expect_code 0 'the second stretch'
 tail -n 400 "$test_folder/out" | cmp - "$test_folder/end" || complain 'other lines after a restart'
 
 sed 's/^left = .*/left = { kind = "open" }/; s/^right = .*/right = { kind = "open" }/' fall.toml >leak.toml
-run 2 run leak.toml --quiet --report leak.json --set output.text=ends
+run 2 run leak.toml --quiet --report leak.json --set output.text=ends --set output.trajectory.file=leak.h5 --set output.trajectory.every_steps=30
 expect_code 0 'open sides'
 tail -n 400 "$test_folder/out" >"$test_folder/end"
 run 3 run leak.toml --steps 70 --quiet --set output.checkpoint.folder=leaking
@@ -59,6 +59,74 @@ expect_code 0 'open sides, the second stretch'
 expect_told ' of 400 discs: left ' 'the summary of open sides'
 [ "$(json_value leak_rest.json state_hash)" = "$(json_value leak.json state_hash)" ] || complain 'open sides: another state hash after a restart'
 tail -n 400 "$test_folder/out" | cmp - "$test_folder/end" || complain 'open sides: other lines after a restart'
+
+run 1 verify leak.h5
+expect_code 0 'the trajectory of a box that some have left'
+
+# A trajectory tells which sides are open: discs lie a radius beyond those, no further, and beyond no wall. 0.53125 is 3fe1000000000000.
+cat >out.toml <<'SCENE'
+[box]
+size = 20
+right = { kind = "open" }
+[discs]
+count = 20
+radius = 0.53125
+speed = 1
+[time]
+steps = 100
+[output.trajectory]
+file = "out.h5"
+every_steps = 50
+SCENE
+run 1 run out.toml
+expect_code 0 'an open side, rule "one"'
+expect_told ' of 20 discs: right ' 'an open side, rule "one"'
+run 1 verify out.h5
+expect_code 0 'the trajectory of an open side, rule "one"'
+LC_ALL=C sed 's/\x00\x00\x00\x00\x00\x00\xe1\x3f/\x00\x00\x00\x00\x00\x00\xd1\x3f/' out.h5 >smaller.h5
+LC_ALL=C sed 's/open_sides/open_walls/' out.h5 >walled.h5
+for file in smaller.h5 walled.h5; do
+    ! cmp -s out.h5 "$file" || complain "$file is out.h5"
+    run 1 verify "$file"
+    expect_code 2 "discs too far outside: $file"
+    expect_told 'is outside the box or not finite at step 50' "discs too far outside: $file"
+done
+
+# The box of a trajectory holds all frames, so it depends on the last step where walls move out; a restart may change that.
+cat >grow.toml <<'SCENE'
+[box]
+size = 20
+right = { kind = "moving", speed = 0.1 }
+[discs]
+count = 60
+radius = 0.5
+speed = 1
+[time]
+steps = 100
+collisions = "all"
+[output.trajectory]
+every_steps = 5
+SCENE
+grow() { # FOLDER OPTION...
+    mkdir -p "$1"
+    run 1 run grow.toml --quiet --set "output.trajectory.file=$1/t.h5" --set "output.checkpoint.folder=$1" "${@:2}"
+    expect_code 0 "a moving wall: $*"
+}
+same_as() { # FOLDER BOX
+    run 1 diff "$1/t.h5" parts/t.h5
+    expect_code 0 "the trajectory of a moving wall: $1 and parts"
+    run 1 info parts/t.h5
+    grep -q "^discs *60 in a box of $2\$" "$test_folder/out" || complain "not the box of the last step, $2: $(cat "$test_folder/out")"
+}
+grow whole
+grow shorter --steps 60
+grow parts --steps 10
+grow parts --restart latest
+same_as whole 30
+run 1 verify parts/t.h5
+expect_code 0 'the trajectory of a moving wall, in two stretches'
+grow parts --restart parts/checkpoint-000000000010.h5 --steps 60
+same_as shorter 26
 
 run 1 run leak.toml --set output.measurements.folder=measured
 expect_code 2 'measurements in an open box'

@@ -2,6 +2,7 @@
 // What this program's files hold, to be looked at by one rank, block by block: a checkpoint is a file of one frame.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -30,6 +31,7 @@ struct FileSummary {
     std::vector<std::int64_t> steps;       ///< of the frames
     std::uint64_t n_logged = 0;            ///< collisions in a log
     std::string state_hash;                ///< of a checkpoint
+    std::array<bool, 4> open_sides{};      ///< of a trajectory: left, right, bottom, top
 };
 
 /// All functions throw InputError naming the file. Not collective.

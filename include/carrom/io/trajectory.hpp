@@ -6,6 +6,7 @@
 // on. Beside the file lies an XDMF description, by which ParaView and VisIt open it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -23,6 +24,7 @@ struct TrajectoryLayout {
     double box_size = 0, radius = 0;
     std::vector<double> radii, masses; ///< by id; empty where all are of one radius and mass 1
     bool is_periodic_x = false, is_periodic_y = false;
+    std::array<bool, 4> open_sides{}; ///< left, right, bottom, top: discs may lie beyond these
     double velocity_unit = 1; ///< what stored velocities are multiplied by to be per step
     bool has_position = true, has_velocity = true, has_collisions = false;
     bool has_angular_velocity = false; ///< of discs that turn, per step, counterclockwise
@@ -40,8 +42,8 @@ public:
     /// and the file is as it was at the last commit. **Collective.**
     void begin();
 
-    /// Goes on with the file, cut back to frames up to `step`. Begins a new one where there is none. Throws code 2 where
-    /// the file has another layout. **Collective.**
+    /// Goes on with the file, cut back to frames up to `step`, which get this layout's box. Begins a new one where there is
+    /// none. Throws code 2 where the file has another layout. **Collective.**
     void go_on(std::int64_t step);
 
     /// Adds a frame: the discs, spread over the ranks in any way, at `clock`; their spins along them, where the layout has

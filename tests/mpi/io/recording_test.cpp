@@ -3,6 +3,7 @@
 #include "carrom/io/trajectory.hpp"
 
 #include <filesystem>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -79,13 +80,14 @@ TrajectoryLayout layout_of(std::uint64_t n) {
 }
 
 /// Whether rank 0 reads just these frames; true elsewhere.
-bool holds(const std::string& path, std::uint64_t n, const std::vector<std::int64_t>& steps, const Communicator& world, bool are_turning = false) {
+bool holds(const std::string& path, std::uint64_t n, const std::vector<std::int64_t>& steps, const Communicator& world, bool are_turning = false,
+           double box_size = 64) {
     world.barrier();
     bool is_right = true;
     if (world.is_root()) {
         const FrameFile file(path);
         is_right = file.summary().kind == FileKind::trajectory && file.summary().n_discs == n && file.summary().steps == steps && file.summary().has_angular_velocity == are_turning &&
-                   (steps.empty() || file.summary().box_size == 64) && file.summary().program_version == "0.0.1";
+                   (steps.empty() || file.summary().box_size == box_size) && file.summary().program_version == "0.0.1";
         std::vector<FrameRow> rows;
         for (std::size_t frame = 0; is_right && frame < steps.size(); ++frame) {
             file.read(frame, 0, n, rows);
@@ -163,6 +165,41 @@ TEST_CASE("going on takes a trajectory back to its last commit, and further back
     }
     CHECK(is_refused);
     CHECK(holds(path, 300, {0, 1, 2, 4}, world));
+}
+
+TEST_CASE("going on to another last step gives all frames the box of that step, once it is committed") {
+    const Communicator world = Communicator::world();
+    const TestFolder folder(world);
+    const std::string path = folder.file("t.h5");
+    const auto layout_with = [](double box_size) {
+        TrajectoryLayout layout = layout_of(40);
+        layout.box_size = box_size;
+        return layout;
+    };
+    Trajectory first(path, layout_with(64), world);
+    first.begin();
+    for (std::int64_t step = 0; step < 300; ++step) first.append(step, share(40, step, world), 1.5); // more than a chunk of labels
+    first.commit();
+    std::vector<std::int64_t> steps(300);
+    std::iota(steps.begin(), steps.end(), 0);
+    {
+        Trajectory killed(path, layout_with(80), world);
+        killed.go_on(299);
+        CHECK(holds(path, 40, steps, world, false, 80));
+    } // never committed
+    CHECK_THROWS_AS(Trajectory(path, layout_of(41), world).go_on(299), CollectiveError); // has taken it back before it looks
+    CHECK(holds(path, 40, steps, world, false, 64));
+    for (const double box_size : {80.0, 72.0}) { // longer, shorter
+        Trajectory trajectory(path, layout_with(box_size), world);
+        trajectory.go_on(steps.back());
+        steps.push_back(steps.back() + 1);
+        trajectory.append(steps.back(), share(40, steps.back(), world), 1.5);
+        trajectory.commit();
+        CHECK(holds(path, 40, steps, world, false, box_size));
+    }
+    Trajectory none(path, layout_with(64), world);
+    none.go_on(-1);
+    CHECK(holds(path, 40, {}, world));
 }
 
 TEST_CASE("a log of collisions keeps the order of the ranks and is cut back") {
