@@ -27,6 +27,12 @@ inline bool is_left_to_others(std::size_t run, std::size_t n_sharing) {
     return part && (run + part->number) % n_sharing != 0;
 }
 
+/// Whether it is when all shapes share.
+inline bool is_left_to_others(std::size_t run) {
+    const std::optional<ShapePart> part = shape_part();
+    return part && is_left_to_others(run, part->count);
+}
+
 /// So many share where `n_threads` run at once: machines of continuous integration have few cores.
 inline std::size_t n_sharing(int n_threads) { return n_threads <= 2 ? 1 : n_threads <= 4 ? 2 : 4; }
 

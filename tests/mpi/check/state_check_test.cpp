@@ -200,7 +200,7 @@ TEST_CASE("check: nothing is wrong in the scenes of the tests") {
     for (const TestScene& scene : small_scenes()) {
         ++number;
         for (const CollisionRule rule : both) {
-            if (is_left_to_others(number + (rule == CollisionRule::one), 2)) continue;
+            if (is_left_to_others(number + (rule == CollisionRule::one))) continue;
             if (rule == CollisionRule::all && (scene.is_endless_under_all || scene.discs.size() > 100)) continue;
             INFO(scene.name << (rule == CollisionRule::one ? ", one" : ", all"));
             CHECK(failure_of(scene, rule, world) == "");
@@ -218,7 +218,7 @@ TEST_CASE("check: nothing is wrong in scenes with effects") {
     for (const NamedEffects& named : all_effects()) {
         ++number;
         for (const CollisionRule rule : both) {
-            if (is_left_to_others(number + (rule == CollisionRule::one), 2)) continue;
+            if (is_left_to_others(number + (rule == CollisionRule::one))) continue;
             if (rule == CollisionRule::one && !named.is_for_one) continue;
             TestScene scene = gas_of(named.effects);
             scene.steps = 60;
