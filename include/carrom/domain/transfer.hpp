@@ -35,9 +35,11 @@ TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own
 TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& strips, int rank, std::span<const Disc> own,
                                      double time, double farthest, const Periods& periods);
 /// `looked_at`: of the own discs, in order, all that may have to go: those outside of `interior`, or displaced.
-Inside interior(const Strips& strips, int rank, double reach, const Periods& periods);
 TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const Disc> own, std::span<const LocalIndex> looked_at,
                                 double time, double reach, const Periods& periods);
+
+/// Places in the rank's strip that are further than `reach` from its ends, and from the box's where it repeats itself along y.
+Inside interior(const Strips& strips, int rank, double reach, const Periods& periods);
 
 /// Sends what `plan` says of an array that runs along the own discs; returns what came, grouped by partner.
 /// **Collective.**
