@@ -16,6 +16,8 @@ namespace {
 
 /// Rate times the time between syncs.
 constexpr double longest_drag = 4;
+/// Of a fixed disc's radius and that of a disc, over the box: a disc touches the nearest images of a body at most.
+constexpr double largest_in_period = 0.99;
 
 /// Refuses `key` where it is set, for want of what would make use of it.
 void refuse_without(const Check& check, std::string_view key, std::string_view needed) {
@@ -107,7 +109,6 @@ void check_beside_periodic_sides(const Check& check) {
     if (std::any_of(effects.sides.begin(), effects.sides.end(), [](const Side& side) { return side.kind == SideKind::open; })) refuse("open sides");
     if (effects.contact.kind == ContactKind::rough) refuse("rough discs");
     if (!effects.classes.empty()) refuse("discs of several classes");
-    if (effects.obstacles.are_any()) refuse("obstacles");
 }
 
 /// Sides are periodic in pairs.
@@ -223,7 +224,8 @@ void refuse_rows(const Check& check, std::string_view key, const std::function<s
 }
 
 void check_obstacles(const Check& check) {
-    const double size = check.scene.box_size;
+    const double size = check.scene.box_size, radius = check.scene.radius;
+    const bool is_periodic = check.scene.effects.are_periodic();
     const Generator generator = check.scene.generator;
     if (check.scene.effects.obstacles.are_any() && (generator == Generator::lattice || generator == Generator::ancestor)) {
         const Setting* setting = check.settings.find("discs.generator");
@@ -235,6 +237,8 @@ void check_obstacles(const Check& check) {
     refuse_rows(check, "effects.obstacles.discs", [&](const std::vector<double>& n) -> std::string {
         if (!is_inside(n[0], n[1])) return fmt::format("the centre ({}, {}) is not in the box", n[0], n[1]);
         if (!(n[2] >= 0 && n[2] <= size)) return fmt::format("the radius must be from 0 to {}, not {}", size, n[2]);
+        if (is_periodic && !(n[2] + radius <= largest_in_period * size))
+            return fmt::format("the radius must be at most {:g}, not {}: with a disc's it would reach through a periodic box and into itself", largest_in_period * size - radius, n[2]);
         return {};
     });
     refuse_rows(check, "effects.obstacles.segments", [&](const std::vector<double>& n) -> std::string {

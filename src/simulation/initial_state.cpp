@@ -115,10 +115,11 @@ void refuse_in_obstacles(const Scene& scene, const std::vector<InputDisc>& discs
     constexpr std::size_t most_named = 5;
     if (!scene.effects.obstacles.are_any()) return;
     const Obstacles obstacles(scene.box_size, scene.radius, scene.effects);
+    const DiscBodies bodies(scene.effects.classes, scene.radius);
     const double least = 2 * std::max(2e-12 * scene.radius, 32 * 0x1p-53 * scene.box_size);
     std::vector<Problem> problems;
     for (const InputDisc& disc : discs) {
-        const auto overlap = obstacles.deepest_overlap(disc.x, disc.y, least);
+        const auto overlap = obstacles.deepest_overlap(disc.x, disc.y, bodies.of(disc.id).radius, least);
         if (overlap.body == ObstacleContact::no_body || problems.size() == most_named) continue;
         problems.push_back({scene.name, 0, fmt::format("disc {} at ({}, {}) overlaps {} by {:.3g}; move one of them", disc.id, disc.x, disc.y,
                                                        obstacles.name_of(overlap.body), overlap.depth)});

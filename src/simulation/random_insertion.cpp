@@ -149,7 +149,7 @@ private:
     /// Whether discs accepted earlier in this round are seen here makes no difference: they have lower ids and overlap,
     /// or they do not overlap.
     bool is_refused(const Notice& notice) const {
-        if (obstacles_ && obstacles_->deepest_overlap(notice.x, notice.y, 0).body != ObstacleContact::no_body) return true;
+        if (obstacles_ && obstacles_->deepest_overlap(notice.x, notice.y, bodies_.of(notice.id).radius, 0).body != ObstacleContact::no_body) return true;
         if (is_refused_at({notice.x, notice.y}, notice)) return true;
         if (!periods_.are_any()) return false;
         // Discs across a seam are near its images; grids file what is beyond their ends with what is at them.

@@ -77,10 +77,12 @@ void EventDrivenReference::predict_obstacle(DiscId p) {
     if (bodies_->are_none()) return;
     const Past& past = past_[p];
     const bool has_just_left = past.time == discs_[p].tau;
-    const BodyMeeting first = bodies_->first_meeting(discs_[p], discs_[p].tau, has_just_left ? past.body : FixedBodies::none);
+    const BodyMeeting first = bodies_->first_meeting(discs_[p], discs_[p].tau, setting_.clock_at(setting_.sync_every),
+                                                      {0, has_just_left ? past.body : FixedBodies::none, past.copy});
     if (first.body == FixedBodies::none) return;
     Event event{first.time, 0, p, false, first.body, 0};
     event.is_obstacle = true;
+    event.copy = first.copy;
     push(event);
 }
 
@@ -247,7 +249,7 @@ void EventDrivenReference::carry_out(const Event& event) {
         note(event.q, event.p, event);
     } else {
         if (event.is_obstacle) {
-            bodies_->reflect(p, event.q, event.time, is_touched);
+            bodies_->reflect(p, {event.time, event.q, event.copy}, event.time, is_touched);
         } else if (setting_.effects.sides[2 * event.q + (is_high ? 1 : 0)].kind == SideKind::open) {
             restart_frame(p, event.time);
             set_left(setting_, p, 2 * event.q + (is_high ? 1 : 0));
@@ -256,7 +258,10 @@ void EventDrivenReference::carry_out(const Event& event) {
         wall_collisions_ += 1;
     }
     note(event.p, event.is_pair ? event.q : Past::no_partner, event);
-    if (event.is_obstacle) past_[event.p].body = event.q;
+    if (event.is_obstacle) {
+        past_[event.p].body = event.q;
+        past_[event.p].copy = event.copy;
+    }
     log_.push_back(event);
     log_.back().sync = micro_step_ / setting_.sync_every;
 }

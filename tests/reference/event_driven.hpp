@@ -33,7 +33,7 @@ struct Event {
     DiscId q = wall_x;
     std::int64_t sync = 0;
     bool is_obstacle = false; ///< comes before walls
-    Copy copy{}; ///< which image of q it is
+    Copy copy{}; ///< which image of q it is, be that a disc or an obstacle
 
     friend bool operator==(const Event&, const Event&) = default;
 };
@@ -64,6 +64,7 @@ private:
         double time = -1;
         DiscId partner = no_partner;
         std::size_t body = ~std::size_t{0}; ///< an obstacle
+        Copy copy{};                        ///< and which image of it
         std::uint32_t generation = 0;
         std::uint64_t version = 0;
     };

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fixed_bodies.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace carrom::reference {
 
@@ -25,9 +27,28 @@ FixedBodies::FixedBodies(const Setting& setting) : setting_(setting) {
     }
 }
 
+/// All those that the flight comes near, and more.
+std::vector<Copy> FixedBodies::copies(const Disc& disc, const Body& body, double until) const {
+    const double length = setting_.box_size;
+    const auto range = [&](bool is_periodic, double from, double to) {
+        if (!is_periodic) return std::pair(0, 0);
+        const double away = 1.5 * body.reach + body.length;
+        return std::pair(static_cast<int>(std::floor((std::min(from, to) - away) / length)) - 1, static_cast<int>(std::ceil((std::max(from, to) + away) / length)));
+    };
+    const double time = until - disc.tau;
+    const auto [x_low, x_high] = range(setting_.effects.is_periodic_x(), disc.x, disc.x + disc.vx * time);
+    const auto [y_low, y_high] = range(setting_.effects.is_periodic_y(), disc.y, disc.y + disc.vy * time);
+    std::vector<Copy> all;
+    for (int x = x_low; x <= x_high; ++x)
+        for (int y = y_low; y <= y_high; ++y) all.push_back({x, y});
+    return all;
+}
+
 /// Where the disc would be in the box at its own time, and how fast; then the distance from there on.
-double FixedBodies::meeting_time(const Disc& disc, const Body& body) const {
-    const double x = (disc.x + (0.5 * gx_ * disc.tau) * disc.tau) - body.x, y = (disc.y + (0.5 * gy_ * disc.tau) * disc.tau) - body.y;
+double FixedBodies::meeting_time(const Disc& disc, const Body& body, Copy copy) const {
+    const double length = setting_.box_size;
+    const double x = ((disc.x + (0.5 * gx_ * disc.tau) * disc.tau) - body.x) - copy.x * length;
+    const double y = ((disc.y + (0.5 * gy_ * disc.tau) * disc.tau) - body.y) - copy.y * length;
     const double vx = disc.vx + gx_ * disc.tau, vy = disc.vy + gy_ * disc.tau;
     if (body.length == 0 && (gx_ != 0 || gy_ != 0)) return disc.tau + setting_.falling_contact(x, y, vx, vy, gx_, gy_, body.reach);
     if (body.length == 0) {
@@ -35,7 +56,7 @@ double FixedBodies::meeting_time(const Disc& disc, const Body& body) const {
         fixed.x = body.x;
         fixed.y = body.y;
         fixed.tau = disc.tau;
-        const Contact found = contact(disc, fixed, body.reach, never);
+        const Contact found = contact(disc, fixed, body.reach, never, copy, length);
         return found.delay < 0 ? never : found.base + found.delay;
     }
     // Off the line to its left, along it, and what changes both.
@@ -63,19 +84,23 @@ double FixedBodies::meeting_time(const Disc& disc, const Body& body) const {
     return disc.tau + first;
 }
 
-BodyMeeting FixedBodies::first_meeting(const Disc& disc, double from, std::size_t left) const {
+BodyMeeting FixedBodies::first_meeting(const Disc& disc, double from, double until, const BodyMeeting& left) const {
     BodyMeeting first{never, none};
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
-        const double time = meeting_time(disc, bodies_[k]);
-        if (time < from || (k == left && time == disc.tau)) continue;
-        if (time < first.time) first = {time, k};
+        for (const Copy copy : copies(disc, bodies_[k], until)) {
+            const double time = meeting_time(disc, bodies_[k], copy);
+            if (time < from || (k == left.body && copy == left.copy && time == disc.tau)) continue;
+            if (time < first.time) first = {time, k, copy};
+        }
     }
     return first;
 }
 
-void FixedBodies::reflect(Disc& disc, std::size_t number, double time, bool is_touched) const {
-    const Body& body = bodies_[number];
-    const double x = (disc.x + (0.5 * gx_ * time) * time) - body.x, y = (disc.y + (0.5 * gy_ * time) * time) - body.y;
+void FixedBodies::reflect(Disc& disc, const BodyMeeting& at, double time, bool is_touched) const {
+    const Body& body = bodies_[at.body];
+    const double length = setting_.box_size;
+    const double x = ((disc.x + (0.5 * gx_ * time) * time) - body.x) - at.copy.x * length;
+    const double y = ((disc.y + (0.5 * gy_ * time) * time) - body.y) - at.copy.y * length;
     const bool is_line = body.length > 0, is_left = body.ux * y - body.uy * x >= 0;
     const double distance = std::sqrt(x * x + y * y);
     const double nx = is_line ? (is_left ? -body.uy : body.uy) : x / distance, ny = is_line ? (is_left ? body.ux : -body.ux) : y / distance;

@@ -18,6 +18,7 @@ struct Body {
 struct BodyMeeting {
     double time = 0;
     std::size_t body = 0;
+    Copy copy{}; ///< which image of the body it is, in a box with periodic sides
 };
 
 class FixedBodies {
@@ -25,15 +26,19 @@ public:
     explicit FixedBodies(const Setting& setting);
 
     bool are_none() const { return bodies_.empty(); }
-    /// The first meeting from `from` on, that with `left` at the disc's own time left out. Infinite if there is none.
-    BodyMeeting first_meeting(const Disc& disc, double from, std::size_t left) const;
+    /// The first meeting from `from` on, that with `left` at the disc's own time left out. Infinite if there is none. Images of bodies are
+    /// looked at as far as the disc gets until `until`.
+    BodyMeeting first_meeting(const Disc& disc, double from, double until, const BodyMeeting& left) const;
     /// Turns the velocity of a disc round that is at the body at `time`.
-    void reflect(Disc& disc, std::size_t body, double time, bool is_touched) const;
+    void reflect(Disc& disc, const BodyMeeting& at, double time, bool is_touched) const;
 
     static constexpr std::size_t none = ~std::size_t{0};
 
+    static constexpr BodyMeeting nowhere() { return {0, none}; }
+
 private:
-    double meeting_time(const Disc& disc, const Body& body) const;
+    double meeting_time(const Disc& disc, const Body& body, Copy copy) const;
+    std::vector<Copy> copies(const Disc& disc, const Body& body, double until) const;
 
     Setting setting_;
     double gx_, gy_;

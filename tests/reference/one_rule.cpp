@@ -222,7 +222,7 @@ void OneRuleReference::keep(const Collision& candidate, double m) {
         bounce(p, m, candidate.t);
         p.wall_collisions += 1;
         if (has_left(p)) return;
-        stop_at_wall(p, m, candidate.t, FixedBodies::none);
+        stop_at_wall(p, m, candidate.t, FixedBodies::nowhere());
         return;
     }
     Disc& q = discs_[candidate.q];
@@ -233,16 +233,16 @@ void OneRuleReference::keep(const Collision& candidate, double m) {
     p.pair_collisions += 1;
     q.pair_collisions += 1;
     counters_.pair_collisions += 1;
-    stop_at_wall(p, m, candidate.t, FixedBodies::none);
-    stop_at_wall(q, m, candidate.t, FixedBodies::none);
+    stop_at_wall(p, m, candidate.t, FixedBodies::nowhere());
+    stop_at_wall(q, m, candidate.t, FixedBodies::nowhere());
 }
 
 void OneRuleReference::bounce_off(Disc& disc, double m, double t) const {
-    const BodyMeeting meeting = bodies_->first_meeting(disc, m, FixedBodies::none);
+    const BodyMeeting meeting = bodies_->first_meeting(disc, m, m + 1, FixedBodies::nowhere());
     advance(disc, meeting.time);
-    bodies_->reflect(disc, meeting.body, 0, false);
+    bodies_->reflect(disc, meeting, 0, false);
     disc.wall_collisions += 1;
-    stop_at_wall(disc, m, t, meeting.body);
+    stop_at_wall(disc, m, t, meeting);
 }
 
 void OneRuleReference::synchronize() {
@@ -278,7 +278,7 @@ double OneRuleReference::axis_time(DiscId id, double x, double v, double tau, do
 double OneRuleReference::wall_time(const Disc& disc, double m) const {
     const double at_wall = axes_time(disc, m);
     if (bodies_->are_none()) return at_wall;
-    const double at_body = bodies_->first_meeting(disc, m, FixedBodies::none).time;
+    const double at_body = bodies_->first_meeting(disc, m, m + 1, FixedBodies::nowhere()).time;
     return at_body <= m + 1 && at_body - m < at_wall ? at_body - m : at_wall;
 }
 
@@ -325,11 +325,11 @@ double OneRuleReference::stop_time(DiscId id, double x, double v, double t, std:
 }
 
 /// `left` is the body that it has just been reflected from.
-void OneRuleReference::stop_at_wall(Disc& disc, double m, double t, std::size_t left) const {
+void OneRuleReference::stop_at_wall(Disc& disc, double m, double t, const BodyMeeting& left) const {
     const double sx = setting_.effects.is_periodic_x() ? never : stop_time(disc.id, disc.x, disc.vx, t, 0);
     const double sy = setting_.effects.is_periodic_y() ? never : stop_time(disc.id, disc.y, disc.vy, t, 2);
     const double ts = sx < sy ? sx : sy;
-    const BodyMeeting meeting = bodies_->first_meeting(disc, disc.tau, left);
+    const BodyMeeting meeting = bodies_->first_meeting(disc, disc.tau, m + 1, left);
     if (meeting.time < m + 1 && meeting.time - disc.tau < ts) {
         advance(disc, meeting.time);
         disc.tau = m + 1;

@@ -56,6 +56,7 @@ struct Setting {
 };
 
 class FixedBodies;
+struct BodyMeeting;
 
 struct Counters {
     std::uint64_t candidates = 0;
@@ -142,7 +143,7 @@ private:
     double axis_time(DiscId id, double x, double v, double tau, double m, std::size_t low_side) const;
     void bounce(Disc& disc, double m, double t) const;
     void bounce_off(Disc& disc, double m, double t) const;
-    void stop_at_wall(Disc& disc, double m, double t, std::size_t left) const;
+    void stop_at_wall(Disc& disc, double m, double t, const BodyMeeting& left) const;
     double stop_time(DiscId id, double x, double v, double t, std::size_t low_side) const;
     bool leads_out(double v, std::size_t low_side) const;
 

@@ -109,7 +109,7 @@ public:
     void bounce_y_at(Disc& disc, double time) const { sides_.bounce_at(disc, Axis::y, time); }
     /// The first obstacle that the disc comes to.
     ObstacleContact first_obstacle(const Disc& disc, const ContactTimes& times) const {
-        return disc.is_gone() ? ObstacleContact{} : obstacles_->first_contact(disc, times);
+        return disc.is_gone() ? ObstacleContact{} : obstacles_->first_contact(disc, radius_of(disc), times);
     }
     void bounce_off_at(Disc& disc, std::uint32_t body, double time) const {
         const bool is_touched = time - disc.tau < contact_time_;
@@ -118,8 +118,36 @@ public:
         disc.wall_collisions += 1;
     }
 
-private:
+protected:
     ObstacleContact obstacle_contact(const Disc& disc, double m) const { return first_obstacle(disc, {m, m + 1}); }
+
+    /// Reflects the disc from the obstacle that it comes to in the micro-step, and returns which that is.
+    std::uint32_t rebound_in(Disc& disc, double m) const {
+        const ObstacleContact contact = obstacle_contact(disc, m);
+        advance(disc, contact.time);
+        obstacles_->rebound(disc, contact.body, 0, false);
+        disc.wall_collisions += 1;
+        return contact.body;
+    }
+
+    /// As at walls: what would run into an obstacle before the micro-step ends waits there. `at_wall`: when it does so at a side; `left`
+    /// is the obstacle just left.
+    void stop_at(Disc& disc, double m, double at_wall, std::uint32_t left) const {
+        const ObstacleContact contact = has_obstacles() ? first_obstacle(disc, {disc.tau, m + 1, true, left}) : ObstacleContact{};
+        if (contact.time < m + 1 && contact.time - disc.tau < at_wall) {
+            advance(disc, contact.time);
+        } else if (at_wall != never) {
+            disc.x += disc.vx * at_wall;
+            disc.y += disc.vy * at_wall;
+        } else return;
+        disc.tau = m + 1;
+    }
+
+private:
+    double radius_of(const Disc& disc) const {
+        if constexpr (is_mixed) return bodies_.of(disc.id).radius;
+        return radius_;
+    }
 
     bool is_open(const Disc& disc, Axis axis) const { return sides_.is_open(Sides::side_ahead(disc, axis)); }
 
@@ -137,26 +165,11 @@ private:
         return v == 0 || is_open(disc, axis) ? never : axis_stop(x, v, rest);
     }
 
-    void bounce_off(Disc& disc, double m, double t) const {
-        const ObstacleContact contact = obstacle_contact(disc, m);
-        advance(disc, contact.time);
-        obstacles_->rebound(disc, contact.body, 0, false);
-        disc.wall_collisions += 1;
-        stop(disc, m, t, contact.body);
-    }
+    void bounce_off(Disc& disc, double m, double t) const { stop(disc, m, t, rebound_in(disc, m)); }
 
-    /// As at walls: what would run into an obstacle before the micro-step ends waits there. `left` is one just left.
     void stop(Disc& disc, double m, double t, std::uint32_t left = ObstacleContact::no_body) const {
         if (!has_obstacles() && !sides_.are_any_open()) return wall_law(disc).stop_at_wall(disc, m, t);
-        const double at_wall = std::min(side_stop(disc, Axis::x, 1 - t), side_stop(disc, Axis::y, 1 - t));
-        const ObstacleContact contact = has_obstacles() ? first_obstacle(disc, {disc.tau, m + 1, true, left}) : ObstacleContact{};
-        if (contact.time < m + 1 && contact.time - disc.tau < at_wall) {
-            advance(disc, contact.time);
-        } else if (at_wall != never) {
-            disc.x += disc.vx * at_wall;
-            disc.y += disc.vy * at_wall;
-        } else return;
-        disc.tau = m + 1;
+        stop_at(disc, m, std::min(side_stop(disc, Axis::x, 1 - t), side_stop(disc, Axis::y, 1 - t)), left);
     }
 
     /// The plain law as a pair, or a disc at walls, needs it. Sums of two numbers are the same in any order.

@@ -14,15 +14,13 @@ template <class Walled> class PeriodicLaw : public Walled {
 public:
     static constexpr bool is_periodic = true;
     static constexpr bool may_lose_discs = false; // a side is periodic or open
-    static constexpr bool may_have_obstacles = false;
-    static constexpr bool has_obstacles() { return false; }
 
     /// `effects` per micro-step.
     PeriodicLaw(double box_size, double radius, const Effects& effects)
         : Walled(box_size, radius, effects), periods_(effects.periods(box_size)) {}
 
     const Periods& periods() const { return periods_; }
-    bool has_walls() const { return periods_.x == 0 || periods_.y == 0; }
+    bool has_walls() const { return periods_.x == 0 || periods_.y == 0 || this->has_obstacles(); }
     /// Places are rounded as coarsely as stored ones are far from the box.
     double slack() const { return 0x1p-36 * this->box_size(); }
     double search_diameter() const { return this->diameter() + 2 * slack(); }
@@ -32,22 +30,26 @@ public:
 
     void collide(Disc& p, Disc& q, double m, double t) const {
         collide_with(p, q, m + t, this->contact_.impulse());
-        stop_at_wall(p, m, t);
-        stop_at_wall(q, m, t);
+        stop(p, m, t);
+        stop(q, m, t);
     }
     void collide_at(Disc& p, Disc& q, double time) const { collide_with(p, q, time, this->contact_.impulse_at(p, q, time)); }
 
     double wall_time(const Disc& disc, double m) const {
-        if (periods_.x == 0) return this->axis_time(disc.x, disc.vx, disc.tau, m);
-        return periods_.y == 0 ? this->axis_time(disc.y, disc.vy, disc.tau, m) : Walled::never;
+        const double at_wall = side_time(disc, m);
+        return this->has_obstacles() ? std::min(at_wall, this->obstacle_contact(disc, m).time - m) : at_wall;
     }
-    PlainLaw::MetWalls met_walls(const Disc& /*disc*/, double /*m*/, double /*t*/) const { return {periods_.x == 0, periods_.y == 0}; }
+    PlainLaw::MetWalls met_walls(const Disc& disc, double m, double t) const {
+        if (this->has_obstacles() && t != side_time(disc, m)) return {};
+        return {periods_.x == 0, periods_.y == 0};
+    }
     /// There is one axis with walls at most, and so no corner.
     void bounce(Disc& disc, double m, double t) const {
+        if (this->has_obstacles() && t != side_time(disc, m)) return stop(disc, m, t, this->rebound_in(disc, m));
         this->advance(disc, m + t);
         this->sides().reverse(disc, periods_.x == 0 ? Axis::x : Axis::y);
         disc.wall_collisions += 1;
-        stop_at_wall(disc, m, t);
+        stop(disc, m, t);
     }
 
     /// Brings a state that a sync has just rewritten into the box.
@@ -73,14 +75,19 @@ private:
         this->push_apart(p, q, (q.x - p.x) + periods_.x_between(p, q), (q.y - p.y) + periods_.y_between(p, q), impulse);
     }
 
-    void stop_at_wall(Disc& disc, double m, double t) const {
-        if (periods_.x != 0 && periods_.y != 0) return;
+    double side_time(const Disc& disc, double m) const {
+        if (periods_.x == 0) return this->axis_time(disc.x, disc.vx, disc.tau, m);
+        return periods_.y == 0 ? this->axis_time(disc.y, disc.vy, disc.tau, m) : Walled::never;
+    }
+
+    void stop(Disc& disc, double m, double t, std::uint32_t left = ObstacleContact::no_body) const {
+        const bool has_sides = periods_.x == 0 || periods_.y == 0;
+        if (!has_sides && !this->has_obstacles()) return;
         const double rest = 1 - t;
-        const double stop = periods_.x == 0 ? this->axis_stop(disc.x, disc.vx, rest) : this->axis_stop(disc.y, disc.vy, rest);
-        if (stop == Walled::never) return;
-        disc.x = disc.x + disc.vx * stop;
-        disc.y = disc.y + disc.vy * stop;
-        disc.tau = m + 1;
+        const double at_wall = !has_sides         ? Walled::never
+                               : periods_.x == 0 ? this->axis_stop(disc.x, disc.vx, rest)
+                                                 : this->axis_stop(disc.y, disc.vy, rest);
+        this->stop_at(disc, m, at_wall, left);
     }
 
     Periods periods_;

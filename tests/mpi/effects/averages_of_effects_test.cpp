@@ -2,12 +2,10 @@
 // What the averages of a run say under effects, where it is known.
 #include <cmath>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
-#include "carrom/effects/obstacles.hpp"
 #include "effect_runs.hpp"
 
 using namespace carrom;
@@ -75,10 +73,7 @@ TEST_CASE("effects: averages of what is slowed down, leaves, or flies among obst
     TestScene lorentz = swarm(0.5, 160);
     const double size = lorentz.setting.box_size;
     lorentz.setting.effects.obstacles = {{{0.3 * size, 0.4 * size, 0.1 * size}}, {{0.5 * size, 0.8 * size, 0.8 * size, 0.6 * size}}, 1};
-    const Obstacles obstacles(size, lorentz.setting.radius, lorentz.setting.effects);
-    const std::vector<InputDisc> discs = std::exchange(lorentz.discs, {});
-    for (const InputDisc& disc : discs)
-        if (obstacles.deepest_overlap(disc.x, disc.y, 0).body == ObstacleContact::no_body) add_disc(lorentz, disc.x, disc.y, disc.vx, disc.vy);
+    make_room_for_obstacles(lorentz);
     const Averages among_obstacles = averages_of(lorentz);
     CHECK(among_obstacles.mean_speed.value == Approx(0.5).epsilon(1e-12));
     CHECK(among_obstacles.collision_frequency.value == 0);

@@ -11,7 +11,6 @@
 #include <catch2/catch.hpp>
 
 #include "carrom/effects/falling_contact.hpp"
-#include "carrom/effects/obstacles.hpp"
 #include "reference_bits.hpp"
 
 using namespace carrom;
@@ -36,9 +35,8 @@ std::vector<TestScene> obstructed_scenes() {
         }
         list.segments.push_back({0, 0.3 * size, 0.3 * size, 0.25 * size}); // a funnel's two sides, of which one meets a wall
         list.segments.push_back({0.3 * size, 0.25 * size, 0.3 * size, 0.1 * size});
-        const Obstacles obstacles(size, scene.setting.radius, scene.setting.effects);
-        for (const InputDisc& disc : gas.discs)
-            if (obstacles.deepest_overlap(disc.x, disc.y, 0).body == ObstacleContact::no_body) add_disc(scene, disc.x, disc.y, disc.vx, disc.vy);
+        scene.discs = gas.discs;
+        make_room_for_obstacles(scene);
         scenes.push_back(scene);
     }
     return scenes;

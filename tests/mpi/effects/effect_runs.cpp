@@ -9,6 +9,7 @@
 
 #include "carrom/effects/drag.hpp"
 #include "carrom/effects/fall.hpp"
+#include "carrom/effects/obstacles.hpp"
 
 namespace carrom::test {
 
@@ -37,6 +38,13 @@ Simulation simulation_of(const TestScene& scene, CollisionRule rule, const Commu
 
 void advance_to(Simulation& simulation, std::int64_t step) {
     while (simulation.step() < step) simulation.advance_towards(step);
+}
+
+void make_room_for_obstacles(TestScene& scene) {
+    const reference::Setting& setting = scene.setting;
+    const Obstacles obstacles(setting.box_size, setting.radius, setting.effects);
+    for (const InputDisc& disc : std::exchange(scene.discs, {}))
+        if (obstacles.deepest_overlap(disc.x, disc.y, setting.radius, 0).body == ObstacleContact::no_body) add_disc(scene, disc.x, disc.y, disc.vx, disc.vy);
 }
 
 void set_drag(TestScene& scene, double rate) {

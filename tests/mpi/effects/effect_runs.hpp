@@ -15,6 +15,9 @@ Totals run(const TestScene& scene, CollisionRule rule, const Communicator& world
 
 void advance_to(Simulation& simulation, std::int64_t step);
 
+/// Discs that are where obstacles are leave the scene; the others are numbered anew.
+void make_room_for_obstacles(TestScene& scene);
+
 /// Drag of that rate per step, and what the references are told of it.
 void set_drag(TestScene& scene, double rate);
 

@@ -142,6 +142,37 @@ TestScene between_warm_walls(const TestScene& base) {
     return scene;
 }
 
+/// Bodies on a corner and at the seams, which are seen from all sides; segments that end on a seam, run along one and stand near one.
+TestScene among_bodies(const TestScene& base, const std::array<Side, 4>& sides) {
+    TestScene scene = moved_along(base, sides);
+    const double size = scene.setting.box_size;
+    scene.setting.effects.obstacles = {{{0, 0, 0.08 * size}, {0.99 * size, 0.5 * size, 0.04 * size}, {0.4 * size, size, 0}},
+                                       {{0, 0.3 * size, 0.2 * size, 0.35 * size}, {0.995 * size, 0.7 * size, 0.995 * size, 0.9 * size}, {0.6 * size, size, 0.7 * size, 0.85 * size}},
+                                       0.9};
+    make_room_for_obstacles(scene);
+    scene.name += ", bodies";
+    return scene;
+}
+
+/// One disc, which flies through the box `speed` times in a step, and a body around the corner.
+TestScene sinai(const char* name, double radius, double reach, double speed, double x, double y, double angle) {
+    TestScene scene = empty_scene(name, 10, radius, 12);
+    scene.setting.sync_every = 5;
+    scene.setting.effects.sides = both;
+    scene.setting.effects.obstacles.discs = {{0, 0, reach - radius}};
+    add_disc(scene, x, y, 10 * speed * std::cos(angle), 10 * speed * std::sin(angle));
+    return scene;
+}
+
+/// With little room; with none between bodies, where a disc is trapped and may touch two images of one at once; flights of many boxes;
+/// a disc on a seam that touches a body from the other side.
+std::vector<TestScene> scenes_of_one_disc() {
+    TestScene touching = sinai("a disc on the seam at a body", 1, 3, 0.3, 0, 5, 0.2);
+    touching.setting.effects.obstacles.discs = {{7, 5, 2}};
+    return {sinai("a body of nearly half the box", 0.5, 4.9, 0.7, 5, 5, 0.3), sinai("a trap", 1, 6, 0.5, 5, 5, 0.4),
+            sinai("a trap, along its axis", 1, 6, 0.5, 5, 5, std::acos(0.0)), sinai("far flights", 0.001, 0.002, 60, 3, 4, 0.7), touching};
+}
+
 std::vector<TestScene> base_scenes() {
     std::vector<TestScene> scenes{gas(120, 0.05, 0.8, 801), gas(100, 0.6, 0.3, 802), ring(7, 0.5, false), ring(6, 0, true), tied(6), narrow(), fast(40)};
     for (TestScene& scene : scenes) {
@@ -201,5 +232,19 @@ TEST_CASE("periodic: beside other effects, the rule all has the reference's bits
         scene.setting.effects.sides[3] = {SideKind::moving, 1, 0, -0.01};
         scene.setting.effects.gravity = {0, -0.03};
         check_bits(scene, CollisionRule::all);
+    }
+}
+
+TEST_CASE("periodic: among fixed bodies, both rules have the reference's bits") {
+    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+        for (const TestScene& scene : scenes_of_one_disc()) check_bits(scene, rule);
+        for (const auto& sides : {both, along_x, along_y}) {
+            for (const TestScene& base : {base_scenes()[0], base_scenes()[1], fast(40)}) check_bits(among_bodies(base, sides), rule);
+            TestScene scene = among_bodies(base_scenes()[1], sides);
+            for (const ContactEffect& contact : {ContactEffect{ContactKind::none, 1, 0.001}, ContactEffect{ContactKind::restitution, 0.8, 0.002}}) {
+                scene.setting.effects.contact = contact;
+                check_bits(scene, rule);
+            }
+        }
     }
 }

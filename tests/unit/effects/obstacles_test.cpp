@@ -30,8 +30,8 @@ Disc flying(double x, double y, double vx, double vy, double tau = 0) {
 double uniform(std::mt19937_64& random, double low, double high) { return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53); }
 
 /// Reflects `disc` at the first obstacle it comes to.
-ObstacleContact reflect(const Obstacles& obstacles, Disc& disc) {
-    const ObstacleContact contact = obstacles.first_contact(disc, {disc.tau, 1e6});
+ObstacleContact reflect(const Obstacles& obstacles, Disc& disc, double radius = 1) {
+    const ObstacleContact contact = obstacles.first_contact(disc, radius, {disc.tau, 1e6});
     disc = {disc.x_at(contact.time), disc.y_at(contact.time), disc.vx, disc.vy, contact.time};
     obstacles.rebound(disc, contact.body, contact.time, false);
     return contact;
@@ -72,7 +72,7 @@ TEST_CASE("obstacles: a disc is reflected as from a mirror") {
         Disc disc = flying(20, 50, 1, 0);
         CHECK(reflect(obstacles, disc).time == 19);
         CHECK(disc.vx == -1);
-        CHECK(!obstacles.first_contact(flying(20, 51.5, 1, 0), {0, 1e6}).exists());
+        CHECK(!obstacles.first_contact(flying(20, 51.5, 1, 0), 1, {0, 1e6}).exists());
     }
 }
 
@@ -120,14 +120,14 @@ TEST_CASE("obstacles: looked for in cells or one by one, the first contact is th
             const double to = k % 2 == 0 ? tau + 3 : tau + 30;
             ObstacleContact first;
             for (const Effects& single : singles) {
-                const ObstacleContact contact = Obstacles(100, 0.5, single).first_contact(disc, {tau, to});
+                const ObstacleContact contact = Obstacles(100, 0.5, single).first_contact(disc, 0.5, {tau, to});
                 if (contact.time < first.time) first = contact;
             }
-            const ObstacleContact found = all.first_contact(disc, {tau, to});
+            const ObstacleContact found = all.first_contact(disc, 0.5, {tau, to});
             CHECK(found.time == first.time);
             n_found += found.exists();
             const double half = (tau + to) / 2; // the same in two looks
-            const ObstacleContact early = all.first_contact(disc, {tau, half}), late = all.first_contact(disc, {half, to, false});
+            const ObstacleContact early = all.first_contact(disc, 0.5, {tau, half}), late = all.first_contact(disc, 0.5, {half, to, false});
             CHECK((early.exists() ? early.time : late.time) == found.time);
         }
         CHECK(n_found > 100);
@@ -138,9 +138,9 @@ TEST_CASE("obstacles: what a disc overlaps is named") {
     Effects effects = one_disc(50, 50, 4);
     effects.obstacles.segments = {{10, 10, 20, 10}, {70, 70, 90, 90}};
     const Obstacles obstacles(100, 1, effects);
-    CHECK(obstacles.deepest_overlap(50, 55.1, 0).body == ObstacleContact::no_body);
-    CHECK(obstacles.deepest_overlap(50, 54.5, 0).depth == Approx(0.5));
-    CHECK(obstacles.name_of(obstacles.deepest_overlap(50, 54.5, 0).body) == "fixed disc 1");
-    CHECK(obstacles.name_of(obstacles.deepest_overlap(80, 80.5, 0).body) == "segment 2");
-    CHECK(obstacles.name_of(obstacles.deepest_overlap(9.5, 10, 0).body) == "segment 1");
+    CHECK(obstacles.deepest_overlap(50, 55.1, 1, 0).body == ObstacleContact::no_body);
+    CHECK(obstacles.deepest_overlap(50, 54.5, 1, 0).depth == Approx(0.5));
+    CHECK(obstacles.name_of(obstacles.deepest_overlap(50, 54.5, 1, 0).body) == "fixed disc 1");
+    CHECK(obstacles.name_of(obstacles.deepest_overlap(80, 80.5, 1, 0).body) == "segment 2");
+    CHECK(obstacles.name_of(obstacles.deepest_overlap(9.5, 10, 1, 0).body) == "segment 1");
 }

@@ -189,7 +189,8 @@ TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
     CHECK(has(with({"box.top.speed=1"}), "no meaning without box.top.kind = \"moving\""));
     CHECK(has(with({"effects.gravity.y=-0.01", "time.collisions=all"}), "would fall for ever"));
     CHECK_FALSE(has(with({"effects.gravity.x=-0.01", "time.collisions=all"}), "would fall for ever"));
-    CHECK(has(with({"effects.obstacles.discs=[[50,50,5]]"}), "no periodic sides together with obstacles"));
+    CHECK(with({"effects.obstacles.discs=[[0,100,40]]"}).empty());
+    CHECK(has(with({"effects.obstacles.discs=[[50,50,5], [50,50,99]]"}), "row 2 of 'effects.obstacles.discs': the radius must be at most 98, not 99"));
     CHECK(has(with({"box.left.kind=open"}), "no periodic sides together with open sides"));
     CHECK(has(with({"effects.contact.kind=rough", "effects.contact.restitution=0.9", "effects.contact.tangential_restitution=0.5"}),
               "no periodic sides together with rough discs"));
