@@ -56,6 +56,18 @@ void fill_machine(RunResult& result, const Communicator& ranks) {
     result.peak_bytes_per_disc = static_cast<double>(bytes) / static_cast<double>(result.end.n_discs);
 }
 
+/// For what is measured of effects: a fiftieth of the run's time, and some moments of a short run.
+CostsOfRun costs_of(const RunResult& result) {
+    constexpr double least_budget = 0.05, largest_budget = 0.5; // seconds
+    const double n_disc_steps = static_cast<double>(result.end.n_discs) * static_cast<double>(result.last_step - result.first_step);
+    const double processor_seconds = result.wall_seconds * result.ranks * result.threads;
+    CostsOfRun costs;
+    costs.kinetic_energy = result.end.kinetic_energy;
+    if (n_disc_steps > 0) costs.seconds_per_disc_step = std::max(processor_seconds / n_disc_steps, 1e-9);
+    costs.budget = std::clamp(0.02 * result.wall_seconds, least_budget, largest_budget);
+    return costs;
+}
+
 /// Summary and report, by rank 0. If the report cannot be written every rank throws. **Collective.**
 void tell_result(const RunOptions& options, const Scene& scene, const RunResult& result, const Communicator& ranks) {
     std::string failure;
@@ -144,13 +156,13 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     result.end = simulation.totals();
     result.averages = simulation.averages();
     result.replays = simulation.replay_counts();
-    if (scene.effects.are_any() && ranks.is_root()) result.effect_costs = effect_costs(scene, simulation.discs());
 
     PhaseSeconds phases = simulation.phase_seconds();
     phases.emplace_back("set-up", setup_seconds);
     phases.emplace_back("output", output_seconds);
     fill_times(result, phases, ranks);
     fill_machine(result, ranks);
+    if (scene.effects.are_any() && ranks.is_root()) result.effect_costs = effect_costs(scene, costs_of(result));
     tell_result(options, scene, result, ranks);
     if (!is_done && ranks.is_root())
         tell("stopped on request at step {} of {}; {}\n", result.last_step, scene.steps,

@@ -139,27 +139,24 @@ nlohmann::ordered_json tables_json(const std::vector<MeasuredTable>& tables) {
     return all;
 }
 
-/// Of the processor time that stepping has taken.
-double time_share_of(const RunResult& result, const EffectCost& cost) {
-    return time_share(cost, result.end.wall_collisions - result.start.wall_collisions, result.end.pair_collisions - result.start.pair_collisions,
-                      result.wall_seconds * result.ranks * result.threads);
-}
-
 std::string effects_text(const RunResult& result) {
     std::string text;
-    for (const EffectCost& cost : result.effect_costs)
-        text += fmt::format("{}{} (collisions: {:.2g} % of the time more, {:g} bytes per disc)", text.empty() ? "" : "; ", cost.name, 100 * time_share_of(result, cost), cost.bytes_per_disc);
+    for (const EffectCost& cost : result.effect_costs) {
+        const std::string time = cost.time_ratio ? fmt::format("{:.0f} % of the time", 100 * cost.time_share) : "time not measured";
+        text += fmt::format("{}{} ({}, {:g} bytes per disc)", text.empty() ? "" : "; ", cost.name, time, cost.bytes_per_disc);
+    }
     return text;
 }
 
 nlohmann::ordered_json effect_costs_json(const RunResult& result) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const EffectCost& cost : result.effect_costs)
+    for (const EffectCost& cost : result.effect_costs) {
+        const bool is_measured = cost.time_ratio.has_value();
         list.push_back({{"effect", cost.name},
-                        {"time_share", time_share_of(result, cost)},
-                        {"nanoseconds_per_wall_collision", cost.nanoseconds_per_wall},
-                        {"nanoseconds_per_pair_collision", cost.nanoseconds_per_pair},
+                        {"time_share", is_measured ? nlohmann::ordered_json(cost.time_share) : nullptr},
+                        {"time_ratio", is_measured ? nlohmann::ordered_json(*cost.time_ratio) : nullptr},
                         {"bytes_per_disc", cost.bytes_per_disc}});
+    }
     return list;
 }
 

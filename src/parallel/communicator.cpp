@@ -40,6 +40,12 @@ Communicator Communicator::world(std::size_t max_message) {
     return Communicator(std::make_shared<Handle>(comm, max_message));
 }
 
+Communicator Communicator::of_this_rank() {
+    MPI_Comm comm = MPI_COMM_NULL;
+    MPI_Comm_dup(MPI_COMM_SELF, &comm);
+    return Communicator(std::make_shared<Handle>(comm, largest_message));
+}
+
 int Communicator::rank() const { return handle_->rank; }
 int Communicator::size() const { return handle_->size; }
 Traffic Communicator::traffic() const { return handle_->traffic; }

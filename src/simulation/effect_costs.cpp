@@ -2,18 +2,23 @@
 #include "carrom/simulation/effect_costs.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <limits>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <time.h>
 
 #include "carrom/effects/obstacles.hpp"
-#include "law_of_scene.hpp"
+#include "carrom/scene/lattice.hpp"
+#include "carrom/simulation/initial_state.hpp"
+#include "carrom/simulation/simulation.hpp"
 
 namespace carrom {
 
 namespace {
 
-constexpr std::size_t most_discs = 256;
-constexpr int n_rounds = 40, n_tries = 5;
+constexpr std::uint64_t fewest_discs = 500, most_discs = 16000;
+constexpr int n_rounds = 5; ///< that count; one goes before
 
 /// The effects one by one. What a new effect is called, and what of it stands alone, is a line here.
 std::vector<Effects> single_effects(const Effects& all) {
@@ -39,99 +44,187 @@ std::vector<Effects> single_effects(const Effects& all) {
     return singles;
 }
 
-struct Nanoseconds {
-    double wall = 0, pair = 0;
+/// Two scenes of as many discs, as dense and as fast; the same discs in the same places unless they are of several sizes.
+struct Sample {
+    Scene with, without;
+    std::vector<InputDisc> discs, discs_without;
+    std::int64_t steps = 1; ///< of a round
+    double scale = 1;       ///< its box over the scene's
 };
 
-/// The least of some tries, of each call of `work(disc)`.
-template <class Work> double nanoseconds_of(std::span<const Disc> discs, const Work& work) {
-    using Clock = std::chrono::steady_clock;
-    double least = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < n_tries; ++k) {
-        double sum = 0;
-        const auto start = Clock::now();
-        for (int round = 0; round < n_rounds; ++round)
-            for (std::size_t i = 0; i < discs.size(); ++i) sum += work(discs[i], discs[(i + 1) % discs.size()]);
-        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-        volatile double kept = sum; // so that the work is done
-        static_cast<void>(kept);
-        least = std::min(least, 1e9 * seconds / (n_rounds * static_cast<double>(discs.size())));
-    }
-    return least;
+double extra_bytes(const Effects& one) {
+    if (one.contact.kind == ContactKind::rough) return sizeof(double); // the spin
+    return one.classes.size() > 8 ? 16 : 0;                            // what the law keeps of each disc (disc_classes.hpp), on each rank
 }
 
-template <class Law> Nanoseconds measure(const Law& law, CollisionRule rule, std::span<const Disc> discs) {
-    Nanoseconds found;
-    if (rule == CollisionRule::one) {
-        found.wall = nanoseconds_of(discs, [&](const Disc& before, const Disc&) {
-            Disc disc = before;
-            const double t = law.wall_time(disc, 0);
-            // Where there is nothing to bounce off, sides bear being asked, obstacles do not.
-            if (t != Law::never || !law.has_obstacles()) law.bounce(disc, 0, std::min(t, 1.0));
-            return disc.vx + disc.vy;
-        });
-        found.pair = nanoseconds_of(discs, [&](const Disc& first, const Disc& second) {
-            Disc p = first, q = second;
-            double p_spin = 0, q_spin = 0;
-            if constexpr (Law::has_spin) law.collide(p, q, 0, 1, p_spin, q_spin);
-            else law.collide(p, q, 0, 1);
-            return p.vx + q.vy + p_spin + q_spin;
-        });
-        return found;
+/// Whether there are single sides and nothing else.
+bool is_at_sides(const Effects& one) { return !one.have_plain_sides() && !one.are_periodic(); }
+
+/// As many of each class as there are among `n` discs of `n_all`, ids in the same order.
+std::vector<DiscClass> thinned(const std::vector<DiscClass>& classes, std::uint64_t n, std::uint64_t n_all) {
+    std::vector<DiscClass> fewer;
+    std::uint64_t n_seen = 0, n_taken = 0;
+    for (const DiscClass& one : classes) {
+        n_seen += one.count;
+        const auto n_due = static_cast<std::uint64_t>(static_cast<double>(n) * (static_cast<double>(n_seen) / static_cast<double>(n_all)) + 0.5);
+        if (n_due > n_taken) fewer.push_back({n_due - n_taken, one.radius, one.mass});
+        n_taken = std::max(n_taken, n_due);
     }
-    const auto look_for_obstacle = [&](const Disc& disc) { // after each collision of any kind
-        if constexpr (Law::may_have_obstacles)
-            if (law.has_obstacles()) return law.first_obstacle(disc, {disc.tau, disc.tau + 1, true, ObstacleContact::no_body}).time;
-        return 0.0;
+    return fewer;
+}
+
+/// The obstacles whose centres lie in one of the squares of side `size` that fit into the box, moved to the origin: those of
+/// the square that has most nearly as many as the mean.
+ObstacleList part_of(const ObstacleList& all, double box_size, double size) {
+    const auto n_squares = static_cast<std::size_t>(std::max(1.0, std::floor(box_size / size * (1 + 1e-9))));
+    std::vector<ObstacleList> parts(n_squares * n_squares);
+    const auto square = [&](double x, double y) {
+        const auto row = [&](double at) { return static_cast<std::size_t>(std::clamp(at / size, 0.0, static_cast<double>(n_squares - 1))); };
+        return row(x) * n_squares + row(y);
     };
-    found.wall = nanoseconds_of(discs, [&](const Disc& before, const Disc&) {
-        Disc disc = before;
-        const double x = law.x_wall_time(disc), y = law.y_wall_time(disc);
-        if (x < y) law.bounce_x_at(disc, x);
-        else if (y < std::numeric_limits<double>::infinity()) law.bounce_y_at(disc, y);
-        return std::min(disc.vx + disc.vy, look_for_obstacle(disc));
+    const auto x_of = [&](std::size_t k) { return static_cast<double>(k / n_squares) * size; };
+    const auto y_of = [&](std::size_t k) { return static_cast<double>(k % n_squares) * size; };
+    for (const FixedDisc& disc : all.discs) {
+        const std::size_t k = square(disc.x, disc.y);
+        parts[k].discs.push_back({disc.x - x_of(k), disc.y - y_of(k), disc.radius});
+    }
+    for (const Segment& line : all.segments) {
+        const std::size_t k = square((line.x0 + line.x1) / 2, (line.y0 + line.y1) / 2);
+        parts[k].segments.push_back({line.x0 - x_of(k), line.y0 - y_of(k), line.x1 - x_of(k), line.y1 - y_of(k)});
+    }
+    const auto count = [](const ObstacleList& part) { return static_cast<double>(part.discs.size() + part.segments.size()); };
+    const double mean = count(all) / static_cast<double>(parts.size());
+    ObstacleList typical = *std::min_element(parts.begin(), parts.end(), [&](const ObstacleList& a, const ObstacleList& b) {
+        return std::fabs(count(a) - mean) < std::fabs(count(b) - mean);
     });
-    found.pair = nanoseconds_of(discs, [&](const Disc& first, const Disc& second) {
-        Disc p = first, q = second;
-        double p_spin = 0, q_spin = 0;
-        if constexpr (Law::has_spin) law.collide_at(p, q, std::max(p.tau, q.tau), p_spin, q_spin);
-        else law.collide_at(p, q, std::max(p.tau, q.tau));
-        return p.vx + q.vy + p_spin + q_spin + std::min(1.0, look_for_obstacle(p)) + std::min(1.0, look_for_obstacle(q));
-    });
-    return found;
+    typical.restitution = all.restitution;
+    return typical;
 }
 
-Nanoseconds measure(const Scene& scene, std::span<const Disc> discs) {
-    return with_law_of(scene, [&]<class Law>() { return measure(law_of<Law>(scene), scene.rule, discs); });
+/// Discs that are clear of all obstacles, numbered anew.
+void keep_clear(const Scene& scene, std::vector<InputDisc>& discs) {
+    const Obstacles obstacles(scene.box_size, scene.radius, scene.effects);
+    std::erase_if(discs, [&](const InputDisc& disc) { return obstacles.deepest_overlap(disc.x, disc.y, 0).body != ObstacleContact::no_body; });
+    for (std::size_t i = 0; i < discs.size(); ++i) discs[i].id = i;
+}
+
+/// Root mean square of velocities per step.
+double speed_of(const Scene& scene, double kinetic_energy) {
+    double mass = scene.effects.classes.empty() ? static_cast<double>(scene.n_discs) : 0;
+    for (const DiscClass& one : scene.effects.classes) mass += static_cast<double>(one.count) * one.mass;
+    return std::sqrt(2 * kinetic_energy / mass);
+}
+
+/// What the discs and gravity need of a box from sync to sync: it is not to be crossed thousands of times (core/image.hpp), nor fallen through.
+bool has_room(const Scene& part) {
+    const double time = static_cast<double>(part.sync_every) / static_cast<double>(part.micro_steps);
+    const double fall = 0.5 * std::hypot(part.effects.gravity.x, part.effects.gravity.y) * time * time;
+    return part.speed * time < 500 * part.box_size && fall <= 0.5 * part.box_size;
+}
+
+/// Whether discs of one size fit on a lattice, and those of several can be inserted at random for sure.
+bool has_places(const Scene& part) {
+    constexpr double random_packing = 0.4;
+    if (part.generator == Generator::lattice) return widest_lattice(part.n_discs, part.box_size, part.radius).has_value();
+    return part.packing() < random_packing && part.box_size > 6 * part.radius;
+}
+
+/// Nothing where the scene does not allow a small one.
+std::optional<Sample> sample_of(const Scene& scene, const Effects& one, const CostsOfRun& run, double disc_steps, const Communicator& alone) {
+    Sample sample;
+    const auto wanted = static_cast<std::uint64_t>(std::clamp(disc_steps / 4, static_cast<double>(fewest_discs), static_cast<double>(most_discs)));
+    Scene& part = sample.with;
+    part.name = scene.name;
+    part.n_discs = std::min(scene.n_discs, wanted);
+    sample.scale = std::sqrt(static_cast<double>(part.n_discs) / static_cast<double>(scene.n_discs));
+    part.box_size = scene.box_size * sample.scale;
+    part.radius = scene.radius;
+    part.generator = Generator::lattice;
+    part.speed = speed_of(scene, run.kinetic_energy);
+    part.rule = scene.rule;
+    part.micro_steps = scene.micro_steps;
+    part.sync_every = scene.sync_every;
+    part.effects = one;
+    sample.steps = std::max<std::int64_t>(1, static_cast<std::int64_t>(disc_steps / static_cast<double>(part.n_discs)));
+    part.steps = sample.steps * (n_rounds + 1);
+    if (!has_room(part)) return {};
+    if (!one.classes.empty()) {
+        part.effects.classes = thinned(one.classes, part.n_discs, scene.n_discs);
+        part.generator = Generator::random;
+    }
+    if (one.obstacles.are_any()) part.effects.obstacles = part_of(one.obstacles, scene.box_size, part.box_size);
+    while (!has_places(part)) part.box_size *= 1.02;
+    for (Side& side : part.effects.sides) { // a wall does not get far in so few steps
+        const double farthest = 0.05 * part.box_size / static_cast<double>(part.steps);
+        side.speed = std::clamp(side.speed, -farthest, farthest);
+    }
+    sample.discs = initial_state(part, nullptr, alone);
+    if (one.obstacles.are_any()) keep_clear(part, sample.discs);
+    if (sample.discs.empty()) return {};
+    part.n_discs = sample.discs.size();
+    sample.without = part;
+    sample.without.effects = {};
+    sample.discs_without = sample.discs;
+    if (!one.classes.empty()) { // as many equal discs that cover as much
+        sample.without.radius = part.box_size * std::sqrt(part.packing() / (std::numbers::pi * static_cast<double>(part.n_discs)));
+        sample.without.generator = Generator::lattice;
+        sample.discs_without = initial_state(sample.without, nullptr, alone);
+    }
+    return sample;
+}
+
+/// Of this thread: what other programs take is not in it.
+double thread_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double seconds_to(Simulation& simulation, std::int64_t step) {
+    const double begin = thread_seconds();
+    while (simulation.step() < step) simulation.advance_towards(step);
+    return thread_seconds() - begin;
+}
+
+/// Median of the rounds' ratios.
+double ratio_of_times(const Sample& sample, const Communicator& alone) {
+    Simulation with(sample.with, sample.discs, alone, {}), without(sample.without, sample.discs_without, alone, {});
+    std::array<double, n_rounds> ratios{};
+    for (int round = 0; round <= n_rounds; ++round) {
+        const std::int64_t step = (round + 1) * sample.steps;
+        const double seconds = seconds_to(with, step), plain_seconds = seconds_to(without, step);
+        if (round > 0) ratios[static_cast<std::size_t>(round - 1)] = seconds / std::max(plain_seconds, 1e-9);
+    }
+    std::sort(ratios.begin(), ratios.end());
+    return ratios[n_rounds / 2];
+}
+
+std::optional<double> time_ratio(const Scene& scene, const Effects& one, const CostsOfRun& run, double budget, const Communicator& alone) {
+    const double disc_steps = budget / (2 * (n_rounds + 1) * run.seconds_per_disc_step);
+    if (disc_steps < 0.1 * static_cast<double>(std::min(scene.n_discs, fewest_discs))) return {};
+    const auto sample = sample_of(scene, one, run, disc_steps, alone);
+    if (!sample) return {};
+    const double ratio = ratio_of_times(*sample, alone);
+    return is_at_sides(one) ? 1 + (ratio - 1) * sample->scale : ratio;
 }
 
 } // namespace
 
-std::vector<EffectCost> effect_costs(const Scene& scene, std::span<const Disc> discs) {
-    discs = discs.first(std::min(discs.size(), most_discs));
-    Scene small;
-    small.box_size = scene.box_size;
-    small.radius = scene.radius;
-    small.micro_steps = scene.micro_steps;
-    small.rule = scene.rule;
-    const Nanoseconds plain = discs.empty() ? Nanoseconds{} : measure(small, discs);
+std::vector<EffectCost> effect_costs(const Scene& scene, const CostsOfRun& run) {
+    const Communicator alone = Communicator::of_this_rank();
+    const std::vector<Effects> singles = single_effects(scene.effects);
     std::vector<EffectCost> costs;
-    for (const Effects& one : single_effects(scene.effects)) {
-        small.effects = one;
-        const Nanoseconds with = discs.empty() ? Nanoseconds{} : measure(small, discs);
+    double whole = 1;
+    for (const Effects& one : singles) {
         EffectCost& cost = costs.emplace_back();
         cost.name = description(one);
-        cost.nanoseconds_per_wall = with.wall - plain.wall;
-        cost.nanoseconds_per_pair = with.pair - plain.pair;
-        if (one.contact.kind == ContactKind::rough) cost.bytes_per_disc = sizeof(double); // the spin
-        if (one.classes.size() > 8) cost.bytes_per_disc = 16; // what the law keeps of each disc (disc_classes.hpp), on each rank
+        cost.time_ratio = time_ratio(scene, one, run, run.budget / static_cast<double>(singles.size()), alone);
+        cost.time_share = std::max(0.0, cost.time_ratio.value_or(1) - 1);
+        cost.bytes_per_disc = extra_bytes(one);
+        whole += cost.time_share;
     }
+    for (EffectCost& cost : costs) cost.time_share /= whole;
     return costs;
-}
-
-double time_share(const EffectCost& cost, std::uint64_t wall_collisions, std::uint64_t pair_collisions, double seconds) {
-    const double nanoseconds = cost.nanoseconds_per_wall * static_cast<double>(wall_collisions) + cost.nanoseconds_per_pair * static_cast<double>(pair_collisions);
-    return seconds > 0 ? std::clamp(nanoseconds / (1e9 * seconds), 0.0, 1.0) : 0;
 }
 
 } // namespace carrom

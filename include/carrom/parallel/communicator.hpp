@@ -38,6 +38,8 @@ public:
     /// All ranks of the run. **Collective.** Needs a live `Mpi`, and must not outlive it.
     /// Data above `max_message` bytes (the same on all ranks) is split; tests make it small.
     static Communicator world(std::size_t max_message = largest_message);
+    /// This rank and no other: what is collective over it involves nobody else. Not collective.
+    static Communicator of_this_rank();
 
     int rank() const;
     int size() const;

@@ -1,30 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What each effect of a scene costs. Laws are compiled into the kernels, where nothing of an effect could be timed without
-// slowing it down; so its own arithmetic is timed at the end, on discs of the run, and counted as often as discs have collided.
+// slowing it down. So a sample of the scene is run with that effect alone, and without any, in turns.
 #pragma once
 
-#include <cstdint>
-#include <span>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "carrom/core/disc.hpp"
 #include "carrom/scene/scene.hpp"
 
 namespace carrom {
 
 struct EffectCost {
     std::string name;
-    double nanoseconds_per_wall = 0; ///< more than a plain wall's, of a collision with one: its time, its bounce
-    double nanoseconds_per_pair = 0; ///< more than an elastic pair's, of its impulse; negative where discs do not meet
-    double bytes_per_disc = 0;       ///< of memory and of checkpoints, beyond a plain disc's
+    std::optional<double> time_ratio; ///< of the scene with this effect alone to the scene without; nothing where a sample would take too long
+    double time_share = 0;            ///< of the time of stepping, what this effect has made it longer by; 0 to 1
+    double bytes_per_disc = 0;        ///< of memory and of checkpoints, beyond a plain disc's
 };
 
-/// Each effect of the scene by itself, against the plain law. Takes some milliseconds for each; times depend on the machine.
-/// `discs` are some of the run's, as they are stored; none, no times. Not collective.
-std::vector<EffectCost> effect_costs(const Scene& scene, std::span<const Disc> discs);
+/// What is known of the run that effects are measured for.
+struct CostsOfRun {
+    double kinetic_energy = 0;            ///< of all discs, as in Totals
+    double seconds_per_disc_step = 1e-6;  ///< of processor time
+    double budget = 0.1;                  ///< seconds that all samples together may take, more or less
+};
 
-/// Of `seconds` of processor time: what so many collisions have cost more. Between 0 and 1.
-double time_share(const EffectCost& cost, std::uint64_t wall_collisions, std::uint64_t pair_collisions, double seconds);
+/// Each effect of the scene by itself. A sample is a part of the box with as many of its discs as the budget allows (500 to
+/// 16,000, or all there are), as dense and as fast as the scene's: on a lattice, those of several sizes at random up to a packing
+/// of 0.4 and against as many equal ones; obstacles are those of a typical part of the box.
+/// What single sides cost is told for the whole box, whose sides are longer. One thread, not collective. Times depend on the machine.
+std::vector<EffectCost> effect_costs(const Scene& scene, const CostsOfRun& run);
 
 } // namespace carrom

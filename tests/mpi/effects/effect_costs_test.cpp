@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What effects are said to have cost: a number for each that a scene names, under both rules, wherever its discs are.
+// What effects are said to have cost: each one that a scene names by itself, in a bounded time, whatever the scene is like.
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -13,29 +13,84 @@
 using namespace carrom;
 using namespace carrom::test;
 
+namespace {
+
+constexpr CostsOfRun short_run = {1000, 1e-6, 0.02};
+
+Scene scene_with(const std::function<void(Scene&)>& set, CollisionRule rule) {
+    Scene scene = scene_of(gas(200, 0.05, 0.8, 821)); // r = 0.5
+    scene.rule = rule;
+    set(scene);
+    return scene;
+}
+
+void check_costs(const Scene& scene) {
+    const std::vector<EffectCost> costs = effect_costs(scene, short_run);
+    REQUIRE(costs.size() == 1);
+    CHECK(!costs[0].name.empty());
+    REQUIRE(costs[0].time_ratio);
+    CHECK(*costs[0].time_ratio > 0);
+    CHECK(std::isfinite(*costs[0].time_ratio));
+    CHECK(costs[0].time_share >= 0);
+    CHECK(costs[0].time_share < 1);
+}
+
+} // namespace
+
 TEST_CASE("effects: each one's cost is a number") {
-    const std::vector<std::function<void(Effects&)>> all_kinds = {
-        [](Effects& effects) { effects.contact = {ContactKind::restitution, 0.9, 0.01}; },
-        [](Effects& effects) { effects.contact.kind = ContactKind::none; },
-        [](Effects& effects) { effects.contact = {ContactKind::rough, 0.9, 0.01, 0.5, 0.3}; },
-        [](Effects& effects) { effects.sides[0] = {SideKind::thermal, 1, 0.2, 0}; },
-        [](Effects& effects) { effects.sides[2].restitution = 0.5; },
-        [](Effects& effects) { effects.sides[1] = {SideKind::open, 1, 0, 0}; },
-        [](Effects& effects) { effects.sides[0].kind = effects.sides[1].kind = SideKind::periodic; },
-        [](Effects& effects) { effects.obstacles = {{{7, 7, 0.5}}, {{1, 2, 9, 2}}, 0.8}; },
-        [](Effects& effects) { effects.classes = {{100, 1.0, 1.0}, {100, 0.9, 4.0}}; }};
-    const TestScene test_scene = gas(200, 0.05, 0.8, 821);
-    const std::vector<Disc> discs = reference::stored_states(test_scene.setting, test_scene.discs);
+    const std::vector<std::function<void(Scene&)>> all_kinds = {
+        [](Scene& scene) { scene.effects.contact = {ContactKind::restitution, 0.9, 0.01}; },
+        [](Scene& scene) { scene.effects.contact.kind = ContactKind::none; },
+        [](Scene& scene) { scene.effects.contact.kind = ContactKind::none, scene.radius *= 10; }, // no lattice of so many
+        [](Scene& scene) { scene.effects.contact = {ContactKind::rough, 0.9, 0.01, 0.5, 0.3}; },
+        [](Scene& scene) { scene.effects.sides[0] = {SideKind::thermal, 1, 0.2, 0}; },
+        [](Scene& scene) { scene.effects.sides[2].restitution = 0.5; },
+        [](Scene& scene) { scene.effects.sides[1] = {SideKind::open, 1, 0, 0}; },
+        [](Scene& scene) { scene.effects.sides[1] = {SideKind::moving, 1, 0, -0.5 * scene.box_size}; },
+        [](Scene& scene) { scene.effects.sides[0].kind = scene.effects.sides[1].kind = SideKind::periodic; },
+        [](Scene& scene) { scene.effects.gravity = {0, -1e-4}; },
+        [](Scene& scene) { scene.effects.drag = 1e-4; },
+        [](Scene& scene) { scene.effects.obstacles = {{{7, 7, 0.5}}, {{1, 2, 9, 2}}, 0.8}; },
+        [](Scene& scene) { scene.effects.classes = {{100, 1.0, 1.0}, {100, 0.9, 4.0}}; },
+        [](Scene& scene) { scene.effects.classes = {{1, 2 * scene.radius, 100}, {199, scene.radius, 1}}, scene.radius *= 2; }};
+    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all})
+        for (const auto& set : all_kinds) check_costs(scene_with(set, rule));
+}
+
+// Beyond what timing scatters by: a forest of obstacles is looked through by each disc in each step, a wall's restitution by next to none.
+TEST_CASE("effects: what costs much is told from what costs little") {
+    const auto set = [](Scene& scene) {
+        for (double x = 1; x < scene.box_size; x += 2.5)
+            for (double y = 1; y < scene.box_size; y += 2.5) scene.effects.obstacles.discs.push_back({x, y, 0.1});
+        scene.effects.sides[2].restitution = 0.999;
+    };
     for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
-        for (const auto& make : all_kinds) {
-            Scene scene = scene_of(test_scene);
-            scene.rule = rule;
-            make(scene.effects);
-            const std::vector<EffectCost> costs = effect_costs(scene, discs);
-            REQUIRE(costs.size() == 1);
-            CHECK(!costs[0].name.empty());
-            CHECK(std::isfinite(costs[0].nanoseconds_per_wall));
-            CHECK(std::isfinite(costs[0].nanoseconds_per_pair));
-        }
+        const std::vector<EffectCost> costs = effect_costs(scene_with(set, rule), {1000, 1e-6, 0.1});
+        REQUIRE(costs.size() == 2);
+        CHECK(costs[1].time_share > 0.1);
+        CHECK(costs[1].time_share > 2 * costs[0].time_share);
+        CHECK(costs[0].time_share + costs[1].time_share < 1);
     }
+}
+
+TEST_CASE("effects: a sample that would take too long is left out") {
+    const Scene scene = scene_with([](Scene& all) { all.effects.contact.kind = ContactKind::none; }, CollisionRule::one);
+    const std::vector<EffectCost> slow = effect_costs(scene, {1000, 1, 0.1}); // a second per disc and step
+    REQUIRE(slow.size() == 1);
+    CHECK(!slow[0].time_ratio);
+    const std::vector<EffectCost> fast_discs = effect_costs(scene, {1e12, 1e-6, 0.1}); // through the box a thousand times from sync to sync
+    CHECK(!fast_discs[0].time_ratio);
+}
+
+TEST_CASE("effects: large scenes are sampled, spins and many classes counted in bytes") {
+    Scene scene = scene_with([](Scene& all) { all.effects.contact = {ContactKind::rough, 0.9, 0.01, 0.5, 0.3}; }, CollisionRule::one);
+    scene.n_discs = 1000000;
+    scene.box_size *= std::sqrt(5000.0);
+    for (int k = 0; k < 10; ++k) scene.effects.classes.push_back({100000, scene.radius, 1.0 + k});
+    const std::vector<EffectCost> costs = effect_costs(scene, short_run);
+    REQUIRE(costs.size() == 2);
+    CHECK(costs[0].time_ratio.has_value());
+    CHECK(costs[0].bytes_per_disc == 8);
+    CHECK(costs[1].time_ratio.has_value());
+    CHECK(costs[1].bytes_per_disc == 16);
 }

@@ -28,6 +28,16 @@ TEST_CASE("reductions give every rank the value over all ranks") {
     CHECK(world.all(world.rank() != last) == false);
 }
 
+TEST_CASE("what one rank does by itself waits for no other") {
+    const Communicator world = Communicator::world();
+    if (!world.is_root()) return;
+    const Communicator alone = Communicator::of_this_rank();
+    CHECK(alone.size() == 1);
+    CHECK(alone.is_root());
+    CHECK(alone.sum(std::uint64_t{7}) == 7);
+    alone.barrier();
+}
+
 TEST_CASE("a zero comes out of a reduction without a sign") {
     const Communicator world = Communicator::world();
     CHECK_FALSE(std::signbit(world.max(-0.0)));
