@@ -294,8 +294,6 @@ void fill_effects(const Check& check) {
     const bool are_mixed = !effects.classes.empty();
     if (are_mixed && effects.contact.kind == ContactKind::none)
         check.refuse(*check.settings.find("effects.contact.kind"), "this version has no discs of several classes that pass through each other");
-    if (are_mixed && effects.obstacles.are_any())
-        add_problem(check.problems, {check.scene.name, 0}, "this version has no obstacles together with discs of several classes");
     for (const Side& side : effects.sides)
         if (side.kind == SideKind::open && has_table(check, "output.measurements"))
             add_problem(check.problems, {check.scene.name, 0}, "this version measures nothing ('output.measurements') in boxes with open sides");

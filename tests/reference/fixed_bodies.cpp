@@ -18,12 +18,12 @@ FixedBodies::FixedBodies(const Setting& setting) : setting_(setting) {
     const double k = static_cast<double>(setting.micro_steps);
     gx_ = setting.effects.gravity.x / (k * k);
     gy_ = setting.effects.gravity.y / (k * k);
-    for (const FixedDisc& disc : setting.effects.obstacles.discs) bodies_.push_back({disc.x, disc.y, setting.radius + disc.radius});
+    for (const FixedDisc& disc : setting.effects.obstacles.discs) bodies_.push_back({disc.x, disc.y, disc.radius});
     for (const Segment& s : setting.effects.obstacles.segments) {
         const double x = s.x1 - s.x0, y = s.y1 - s.y0, length = std::sqrt(x * x + y * y);
-        bodies_.push_back({s.x0, s.y0, setting.radius, x / length, y / length, length});
-        bodies_.push_back({s.x0, s.y0, setting.radius});
-        bodies_.push_back({s.x1, s.y1, setting.radius});
+        bodies_.push_back({s.x0, s.y0, 0, x / length, y / length, length});
+        bodies_.push_back({s.x0, s.y0, 0});
+        bodies_.push_back({s.x1, s.y1, 0});
     }
 }
 
@@ -32,7 +32,7 @@ std::vector<Copy> FixedBodies::copies(const Disc& disc, const Body& body, double
     const double length = setting_.box_size;
     const auto range = [&](bool is_periodic, double from, double to) {
         if (!is_periodic) return std::pair(0, 0);
-        const double away = 1.5 * body.reach + body.length;
+        const double away = 1.5 * (body.radius + setting_.radius) + body.length;
         return std::pair(static_cast<int>(std::floor((std::min(from, to) - away) / length)) - 1, static_cast<int>(std::ceil((std::max(from, to) + away) / length)));
     };
     const double time = until - disc.tau;
@@ -46,17 +46,17 @@ std::vector<Copy> FixedBodies::copies(const Disc& disc, const Body& body, double
 
 /// Where the disc would be in the box at its own time, and how fast; then the distance from there on.
 double FixedBodies::meeting_time(const Disc& disc, const Body& body, Copy copy) const {
-    const double length = setting_.box_size;
+    const double length = setting_.box_size, reach = body.radius + setting_.radius_of(disc.id);
     const double x = ((disc.x + (0.5 * gx_ * disc.tau) * disc.tau) - body.x) - copy.x * length;
     const double y = ((disc.y + (0.5 * gy_ * disc.tau) * disc.tau) - body.y) - copy.y * length;
     const double vx = disc.vx + gx_ * disc.tau, vy = disc.vy + gy_ * disc.tau;
-    if (body.length == 0 && (gx_ != 0 || gy_ != 0)) return disc.tau + setting_.falling_contact(x, y, vx, vy, gx_, gy_, body.reach);
+    if (body.length == 0 && (gx_ != 0 || gy_ != 0)) return disc.tau + setting_.falling_contact(x, y, vx, vy, gx_, gy_, reach);
     if (body.length == 0) {
         Disc fixed;
         fixed.x = body.x;
         fixed.y = body.y;
         fixed.tau = disc.tau;
-        const Contact found = contact(disc, fixed, body.reach, never, copy, length);
+        const Contact found = contact(disc, fixed, reach, never, copy, length);
         return found.delay < 0 ? never : found.base + found.delay;
     }
     // Off the line to its left, along it, and what changes both.
@@ -64,7 +64,7 @@ double FixedBodies::meeting_time(const Disc& disc, const Body& body, Copy copy) 
     const double along = body.ux * x + body.uy * y, along_rate = body.ux * vx + body.uy * vy, along_pull = body.ux * gx_ + body.uy * gy_;
     double first = never;
     for (const bool is_left : {true, false}) {
-        const double gap = (is_left ? off : -off) - body.reach, rate = is_left ? off_rate : -off_rate, pull = is_left ? off_pull : -off_pull;
+        const double gap = (is_left ? off : -off) - reach, rate = is_left ? off_rate : -off_rate, pull = is_left ? off_pull : -off_pull;
         const bool is_here = is_left ? off >= 0 : off <= 0;
         const double square = rate * rate - 2 * pull * gap;
         double s = never;

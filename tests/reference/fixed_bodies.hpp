@@ -11,7 +11,7 @@ namespace carrom::reference {
 
 /// A fixed disc, or the line of a segment from (x, y) in the direction (ux, uy); its ends are fixed discs of radius 0.
 struct Body {
-    double x = 0, y = 0, reach = 0;
+    double x = 0, y = 0, radius = 0;
     double ux = 0, uy = 0, length = 0;
 };
 

@@ -15,7 +15,7 @@
 
 namespace carrom {
 
-/// `is_mixed`: discs are of several radii and masses (and there are neither obstacles nor open sides then). Then the plain law's radius is the largest, and so are its bands and tolerances.
+/// `is_mixed`: discs are of several radii and masses (and there are no open sides then). Then the plain law's radius is the largest, and so are its bands and tolerances.
 template <class Contact, bool is_mixed = false> class EffectLaw : public PlainLaw {
 public:
     static constexpr bool has_pairs = Contact::has_pairs;
@@ -60,7 +60,7 @@ public:
 
     /// As of plain discs, but for obstacles.
     MetWalls met_walls(const Disc& disc, double m, double t) const {
-        if (has_obstacles() && t != PlainLaw::wall_time(disc, m)) return {};
+        if (has_obstacles() && t != side_time(disc, m)) return {};
         return wall_law(disc).met_walls(disc, m, t);
     }
 

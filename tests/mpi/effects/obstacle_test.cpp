@@ -154,3 +154,24 @@ TEST_CASE("effects: discs that fall through elastic pins keep their energy, and 
     CHECK(rest.kinetic_energy < 1e-3 * start.potential_energy);
     CHECK(rest.overlapping_pairs == 0);
 }
+
+TEST_CASE("effects: discs of several classes meet obstacles where their own radii say, under both rules") {
+    const Communicator world = Communicator::world();
+    TestScene scene = empty_scene("two sizes", 100, 1, 20);
+    scene.setting.effects.classes = {{2, 1, 3}, {2, 0.3, 0.1}};
+    scene.setting.effects.obstacles = {{{50, 50, 4}}, {{50, 0, 50, 19.25}, {50, 20.75, 50, 45}}, 1};
+    add_disc(scene, 10, 50, 2, 0);
+    add_disc(scene, 20, 20, 2, 0); // to a slit of 1.5
+    add_disc(scene, 90, 50, -2, 0);
+    add_disc(scene, 40, 20.1, 2, 0);
+    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+        Simulation simulation = simulation_of(scene, rule, world);
+        advance_to(simulation, 20);
+        const std::vector<Disc> end = all_discs(simulation, world);
+        CHECK(end[0].x == Approx(45 - 2 * (20 - 17.5)).epsilon(1e-14));
+        CHECK(end[1].x < 49);
+        CHECK(end[2].x == Approx(54.3 + 2 * (20 - 17.85)).epsilon(1e-14));
+        CHECK(end[3].x == Approx(80).epsilon(1e-14));
+        CHECK(end[3].vx == 2);
+    }
+}
