@@ -104,7 +104,7 @@ ObstacleList part_of(const ObstacleList& all, double box_size, double size) {
 /// Discs that are clear of all obstacles, numbered anew.
 void keep_clear(const Scene& scene, std::vector<InputDisc>& discs) {
     const Obstacles obstacles(scene.box_size, scene.radius, scene.effects);
-    std::erase_if(discs, [&](const InputDisc& disc) { return obstacles.deepest_overlap(disc.x, disc.y, 0).body != ObstacleContact::no_body; });
+    std::erase_if(discs, [&](const InputDisc& disc) { return obstacles.deepest_overlap(disc.x, disc.y, scene.radius, 0).body != ObstacleContact::no_body; });
     for (std::size_t i = 0; i < discs.size(); ++i) discs[i].id = i;
 }
 
