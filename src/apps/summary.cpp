@@ -86,6 +86,7 @@ std::string estimate_text(const Estimate& estimate) {
 }
 
 std::string collision_rate_text(const Averages& averages) {
+    if (averages.collision_frequency.value == 0) return "no disc met another one";
     return fmt::format("{} with other discs per disc and step; mean free time {} steps",
                        estimate_text(averages.collision_frequency), estimate_text(averages.mean_free_time));
 }

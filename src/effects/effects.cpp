@@ -2,6 +2,7 @@
 #include "carrom/effects/effects.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -15,8 +16,8 @@ std::string description(const ContactEffect& contact) {
     case ContactKind::none: return "discs pass through each other";
     case ContactKind::restitution: return fmt::format("restitution {:g} of pairs", contact.restitution);
     case ContactKind::rough:
-        return fmt::format("rough discs of restitution {:g}, tangential {:g}, friction {:g}", contact.restitution, contact.tangential_restitution,
-                           contact.friction);
+        return fmt::format("rough discs of restitution {:g}, tangential {:g}{}", contact.restitution, contact.tangential_restitution,
+                           std::isfinite(contact.friction) ? fmt::format(", friction {:g}", contact.friction) : "");
     }
     return {};
 }
