@@ -29,6 +29,7 @@ template <class Law> void BlockReplay<Law>::Scratch::mirror(std::uint32_t slot, 
         discs[other] = discs[slot];
         set_image(discs[other], image);
         pasts[other] = pasts[slot];
+        if constexpr (Law::has_spin) spins[other] = spins[slot];
         const double speed_squared = discs[other].vx * discs[other].vx + discs[other].vy * discs[other].vy;
         const float before = vx[other] * vx[other] + vy[other] * vy[other];
         if (is_own[other] != 0 && (speed_squared > bound_squared || before > bound_lane_squared)) hold_to_schedule(other, time);

@@ -12,9 +12,11 @@ namespace carrom {
 /// Calls `make.template operator()<Law>()` with the scene's law and returns what it gives, the same type for every law.
 /// Effects have the default precision and arithmetic: the reader of scenes sees to that.
 template <class Make> auto with_law_of(const Scene& scene, const Make& make) {
-    if (scene.effects.contact.kind == ContactKind::rough) return make.template operator()<RoughLaw>();
-    if (!scene.effects.classes.empty()) return make.template operator()<MixedLaw>();
-    if (scene.effects.are_periodic()) {
+    const bool is_periodic = scene.effects.are_periodic();
+    if (scene.effects.contact.kind == ContactKind::rough)
+        return is_periodic ? make.template operator()<PeriodicRoughLaw>() : make.template operator()<RoughLaw>();
+    if (!scene.effects.classes.empty()) return is_periodic ? make.template operator()<PeriodicMixedLaw>() : make.template operator()<MixedLaw>();
+    if (is_periodic) {
         switch (scene.effects.contact.kind) {
         case ContactKind::none: return make.template operator()<PeriodicIdealGasLaw>();
         case ContactKind::restitution: return make.template operator()<PeriodicInelasticLaw>();

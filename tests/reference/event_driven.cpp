@@ -241,7 +241,7 @@ void EventDrivenReference::carry_out(const Event& event) {
     if (event.is_pair) {
         Disc& q = discs_[event.q];
         advance(q, event.time);
-        if (setting_.are_rough()) collide_rough(setting_, p, q, spins_[event.p], spins_[event.q], is_touched);
+        if (setting_.are_rough()) collide_rough(setting_, p, q, spins_[event.p], spins_[event.q], is_touched, event.copy, setting_.box_size);
         else exchange_momentum(setting_, p, q, is_touched ? 1 : setting_.restitution(), event.copy, setting_.box_size);
         p.pair_collisions += 1;
         q.pair_collisions += 1;

@@ -105,9 +105,9 @@ void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitut
     q.vy -= k * (mp / mean) * ey;
 }
 
-void collide_rough(const Setting& setting, Disc& p, Disc& q, double& p_spin, double& q_spin, bool is_touched) {
+void collide_rough(const Setting& setting, Disc& p, Disc& q, double& p_spin, double& q_spin, bool is_touched, Copy copy, double period) {
     const ContactEffect& contact = setting.effects.contact;
-    const double ex = q.x - p.x, ey = q.y - p.y;
+    const double ex = (q.x - p.x) + copy.x * period, ey = (q.y - p.y) + copy.y * period;
     const double wx = q.vx - p.vx, wy = q.vy - p.vy;
     const double rp = setting.radius_of(p.id), rq = setting.radius_of(q.id);
     const double mp = setting.mass_of(p.id), mq = setting.mass_of(q.id), mean = (mp + mq) / 2;
@@ -228,7 +228,7 @@ void OneRuleReference::keep(const Collision& candidate, double m) {
     Disc& q = discs_[candidate.q];
     advance(p, m + candidate.t);
     advance(q, m + candidate.t);
-    if (setting_.are_rough()) collide_rough(setting_, p, q, spins_[p.id], spins_[q.id], false);
+    if (setting_.are_rough()) collide_rough(setting_, p, q, spins_[p.id], spins_[q.id], false, candidate.copy, setting_.box_size);
     else exchange_momentum(setting_, p, q, setting_.restitution(), candidate.copy, setting_.box_size);
     p.pair_collisions += 1;
     q.pair_collisions += 1;

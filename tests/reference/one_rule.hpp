@@ -111,7 +111,7 @@ void set_left(const Setting& setting, Disc& disc, std::size_t side);
 void advance(Disc& disc, double time);
 void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitution, Copy copy = {}, double period = 0);
 /// The same of rough discs, by the page's formulas; `is_touched` ones part as elastic and smooth.
-void collide_rough(const Setting& setting, Disc& p, Disc& q, double& p_spin, double& q_spin, bool is_touched);
+void collide_rough(const Setting& setting, Disc& p, Disc& q, double& p_spin, double& q_spin, bool is_touched, Copy copy = {}, double period = 0);
 
 /// Numbers the discs 0 .. N-1 as given (ids must be a permutation of that) and divides velocities by `micro_steps`.
 std::vector<Disc> stored_states(const Setting& setting, std::span<const InputDisc> discs);

@@ -172,34 +172,52 @@ private:
         stop_at(disc, m, std::min(side_stop(disc, Axis::x, 1 - t), side_stop(disc, Axis::y, 1 - t)), left);
     }
 
-    /// The plain law as a pair, or a disc at walls, needs it. Sums of two numbers are the same in any order.
     [[gnu::always_inline]] PlainLaw pair_law(const Disc& p, const Disc& q) const {
-        if constexpr (is_mixed) return with_sizes(radius_, bodies_.of(p.id).radius + bodies_.of(q.id).radius);
+        if constexpr (is_mixed) return with_sizes(radius_, pair_diameter(p, q));
         return *this;
     }
+
+    [[gnu::always_inline]] void exchange_momentum(Disc& p, Disc& q, double time, double impulse) const {
+        advance(p, time);
+        advance(q, time);
+        exchange_momentum_at(p, q, q.x - p.x, q.y - p.y, impulse);
+    }
+    [[gnu::always_inline]] void exchange_spin(Disc& p, Disc& q, double time, bool is_guarded, double& p_spin, double& q_spin) const {
+        advance(p, time);
+        advance(q, time);
+        exchange_spin_at(p, q, q.x - p.x, q.y - p.y, is_guarded, p_spin, q_spin);
+    }
+
+protected:
+    // What pairs and walls are told of sizes and masses, for laws of images too. Discs are advanced to where they touch, at the separation (ex, ey).
+
+    /// Sums of two numbers are the same in any order.
+    [[gnu::always_inline]] double pair_diameter(const Disc& p, const Disc& q) const {
+        if constexpr (is_mixed) return bodies_.of(p.id).radius + bodies_.of(q.id).radius;
+        return diameter_;
+    }
+    /// The plain law as a disc at walls needs it.
     [[gnu::always_inline]] PlainLaw wall_law(const Disc& disc) const {
         if constexpr (is_mixed) return with_sizes(bodies_.of(disc.id).radius, diameter_);
         return *this;
     }
 
     /// Of the momentum that equal discs would exchange each takes 2 m' / (m + m') as velocity, m' being the other's mass; 1 if they are equal.
-    [[gnu::always_inline]] void exchange_momentum(Disc& p, Disc& q, double time, double impulse) const {
+    [[gnu::always_inline]] void exchange_momentum_at(Disc& p, Disc& q, double ex, double ey, double impulse) const {
         if constexpr (is_mixed) {
             const double p_mass = bodies_.of(p.id).mass, q_mass = bodies_.of(q.id).mass;
             const double half = (p_mass + q_mass) / 2;
-            collide_with(p, q, time, impulse, q_mass / half, p_mass / half);
+            push_apart(p, q, ex, ey, impulse, q_mass / half, p_mass / half);
         } else {
-            collide_with(p, q, time, impulse);
+            push_apart(p, q, ex, ey, impulse);
         }
     }
 
-    /// As exchange_momentum, with an impulse s along the surfaces, which acts on both spins alike; in units of the distance of centres,
+    /// As exchange_momentum_at, with an impulse s along the surfaces, which acts on both spins alike; in units of the distance of centres,
     /// as k is. With s = 0 its bits.
-    [[gnu::always_inline]] void exchange_spin(Disc& p, Disc& q, double time, bool is_guarded, double& p_spin, double& q_spin) const {
+    [[gnu::always_inline]] void exchange_spin_at(Disc& p, Disc& q, double ex, double ey, bool is_guarded, double& p_spin, double& q_spin) const {
         const Body &p_body = bodies_.of(p.id), &q_body = bodies_.of(q.id);
-        advance(p, time);
-        advance(q, time);
-        const double ex = q.x - p.x, ey = q.y - p.y, wx = q.vx - p.vx, wy = q.vy - p.vy;
+        const double wx = q.vx - p.vx, wy = q.vy - p.vy;
         const double square = ex * ex + ey * ey, distance = std::sqrt(square);
         const double k = (is_guarded ? 1 : contact_.normal()) * ((wx * ex + wy * ey) / square);
         const double slip = (wy * ex - wx * ey) / square - (p_spin * p_body.radius + q_spin * q_body.radius) / distance;
@@ -216,7 +234,6 @@ private:
         q.pair_collisions += 1;
     }
 
-protected:
     Contact contact_;
 
 private:

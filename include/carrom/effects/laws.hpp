@@ -7,7 +7,8 @@
 #include "carrom/effects/plain_law.hpp"
 
 // make(law) for each.
-#define CARROM_FOR_EACH_PERIODIC_LAW(make) make(PeriodicElasticLaw) make(PeriodicIdealGasLaw) make(PeriodicInelasticLaw)
+#define CARROM_FOR_EACH_PERIODIC_LAW(make) \
+    make(PeriodicElasticLaw) make(PeriodicIdealGasLaw) make(PeriodicInelasticLaw) make(PeriodicMixedLaw) make(PeriodicRoughLaw)
 #define CARROM_FOR_EACH_LAW(make) \
     make(PlainLaw) make(NaiveLaw) make(ContractedLaw) make(SingleLaw) make(SingleNaiveLaw) make(SingleContractedLaw) \
     make(ElasticLaw) make(IdealGasLaw) make(InelasticLaw) make(MixedLaw) make(RoughLaw) \

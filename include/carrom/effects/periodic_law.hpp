@@ -29,11 +29,21 @@ public:
     PairContact<double> exact_contact(const Disc& p, const Disc& q) const { return contact(p, q, Walled::never); }
 
     void collide(Disc& p, Disc& q, double m, double t) const {
-        collide_with(p, q, m + t, this->contact_.impulse());
+        exchange_momentum(p, q, m + t, this->contact_.impulse());
         stop(p, m, t);
         stop(q, m, t);
     }
-    void collide_at(Disc& p, Disc& q, double time) const { collide_with(p, q, time, this->contact_.impulse_at(p, q, time)); }
+    void collide_at(Disc& p, Disc& q, double time) const { exchange_momentum(p, q, time, this->contact_.impulse_at(p, q, time)); }
+
+    /// Rough discs.
+    void collide(Disc& p, Disc& q, double m, double t, double& p_spin, double& q_spin) const {
+        exchange_spin(p, q, m + t, false, p_spin, q_spin);
+        stop(p, m, t);
+        stop(q, m, t);
+    }
+    void collide_at(Disc& p, Disc& q, double time, double& p_spin, double& q_spin) const {
+        exchange_spin(p, q, time, this->contact_.is_guarded(p, q, time), p_spin, q_spin);
+    }
 
     double wall_time(const Disc& disc, double m) const {
         const double at_wall = side_time(disc, m);
@@ -64,29 +74,35 @@ private:
             const double base = std::max(p.tau, q.tau);
             const double dx = (q.x_at(base) - p.x_at(base)) + periods_.x_between(p, q);
             const double dy = (q.y_at(base) - p.y_at(base)) + periods_.y_between(p, q);
-            return {base, contact_delay(dx, dy, q.vx - p.vx, q.vy - p.vy, this->diameter(), deepest_overlap)};
+            return {base, contact_delay(dx, dy, q.vx - p.vx, q.vy - p.vy, this->pair_diameter(p, q), deepest_overlap)};
         }
         return {};
     }
 
-    void collide_with(Disc& p, Disc& q, double time, double impulse) const {
+    void exchange_momentum(Disc& p, Disc& q, double time, double impulse) const {
         this->advance(p, time);
         this->advance(q, time);
-        this->push_apart(p, q, (q.x - p.x) + periods_.x_between(p, q), (q.y - p.y) + periods_.y_between(p, q), impulse);
+        this->exchange_momentum_at(p, q, (q.x - p.x) + periods_.x_between(p, q), (q.y - p.y) + periods_.y_between(p, q), impulse);
+    }
+    void exchange_spin(Disc& p, Disc& q, double time, bool is_guarded, double& p_spin, double& q_spin) const {
+        this->advance(p, time);
+        this->advance(q, time);
+        this->exchange_spin_at(p, q, (q.x - p.x) + periods_.x_between(p, q), (q.y - p.y) + periods_.y_between(p, q), is_guarded, p_spin, q_spin);
     }
 
     double side_time(const Disc& disc, double m) const {
-        if (periods_.x == 0) return this->axis_time(disc.x, disc.vx, disc.tau, m);
-        return periods_.y == 0 ? this->axis_time(disc.y, disc.vy, disc.tau, m) : Walled::never;
+        if (periods_.x == 0) return this->wall_law(disc).axis_time(disc.x, disc.vx, disc.tau, m);
+        return periods_.y == 0 ? this->wall_law(disc).axis_time(disc.y, disc.vy, disc.tau, m) : Walled::never;
     }
 
     void stop(Disc& disc, double m, double t, std::uint32_t left = ObstacleContact::no_body) const {
         const bool has_sides = periods_.x == 0 || periods_.y == 0;
         if (!has_sides && !this->has_obstacles()) return;
         const double rest = 1 - t;
+        const PlainLaw walls = this->wall_law(disc);
         const double at_wall = !has_sides         ? Walled::never
-                               : periods_.x == 0 ? this->axis_stop(disc.x, disc.vx, rest)
-                                                 : this->axis_stop(disc.y, disc.vy, rest);
+                               : periods_.x == 0 ? walls.axis_stop(disc.x, disc.vx, rest)
+                                                 : walls.axis_stop(disc.y, disc.vy, rest);
         this->stop_at(disc, m, at_wall, left);
     }
 
@@ -96,5 +112,7 @@ private:
 using PeriodicElasticLaw = PeriodicLaw<ElasticLaw>;
 using PeriodicIdealGasLaw = PeriodicLaw<IdealGasLaw>;
 using PeriodicInelasticLaw = PeriodicLaw<InelasticLaw>;
+using PeriodicMixedLaw = PeriodicLaw<MixedLaw>;
+using PeriodicRoughLaw = PeriodicLaw<RoughLaw>;
 
 } // namespace carrom

@@ -217,6 +217,14 @@ public:
         disc.tau = m + 1;
     }
 
+    /// How far into the `rest` of a micro-step a disc would leave the box.
+    [[gnu::always_inline]] Real axis_stop(double x, double v, Real rest) const {
+        const Real at_end = real(x) + real(v) * rest;
+        if (v < 0 && at_end < low()) return std::max((low() - real(x)) / real(v), Real{0});
+        if (v > 0 && at_end > high()) return std::max((high() - real(x)) / real(v), Real{0});
+        return real(never);
+    }
+
 protected:
     /// `impulse` in units of that of an elastic contact of equal masses, of which p and q take their shares; multiplying by 1
     /// leaves every bit, and no instruction.
@@ -268,13 +276,6 @@ protected:
         if (v == 0) return never;
         const Real delay = ((v < 0 ? low() : high()) - real(x)) / real(v);
         return real(tau) + (delay > 0 ? delay : 0);
-    }
-
-    [[gnu::always_inline]] Real axis_stop(double x, double v, Real rest) const {
-        const Real at_end = real(x) + real(v) * rest;
-        if (v < 0 && at_end < low()) return std::max((low() - real(x)) / real(v), Real{0});
-        if (v > 0 && at_end > high()) return std::max((high() - real(x)) / real(v), Real{0});
-        return real(never);
     }
 
     Real low() const { return radius_; }

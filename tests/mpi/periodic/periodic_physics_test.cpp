@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is known of gases in boxes with periodic sides.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -65,6 +67,45 @@ TEST_CASE("periodic: momentum and energy are conserved to rounding under both ru
         CHECK(std::fabs(end.kinetic_energy / start.kinetic_energy - 1) < 1e-12);
         if (rule == CollisionRule::all) CHECK(end.overlapping_pairs == 0);
     }
+}
+
+// At rest together N discs have 3 N - 2 ways to move, N of them turning. Of the others a class of N_k discs has 2 N_k (1 - m_k / M), M being all mass.
+TEST_CASE("periodic: a mixture of perfectly rough discs keeps momentum and energy, and shares it among masses and spins") {
+    const Communicator world = Communicator::world();
+    TestScene scene = periodic_gas(180, 0.45, 0.5, 902);
+    constexpr std::array<double, 2> counts{60, 120}, masses{5, 1};
+    constexpr double n = 180, mass = 60 * 5 + 120;
+    scene.setting.effects.classes = {{60, 1, masses[0]}, {120, 0.7, masses[1]}};
+    scene.setting.effects.contact = {ContactKind::rough, 1, 0.001, 1, std::numeric_limits<double>::infinity(), 0.5};
+    double x = 0, y = 0;
+    for (const InputDisc& disc : scene.discs) x += scene.setting.mass_of(disc.id) * disc.vx, y += scene.setting.mass_of(disc.id) * disc.vy;
+    for (InputDisc& disc : scene.discs) disc.vx -= x / mass, disc.vy -= y / mass;
+    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    const Totals start = simulation.totals();
+    advance_to(simulation, 120);
+    constexpr int n_looks = 20;
+    std::array<double, 3> energies{}; // of the classes' flight, of spins
+    for (int look = 0; look < n_looks; ++look) {
+        advance_to(simulation, simulation.step() + 20);
+        for (const Disc& disc : simulation.discs()) energies[disc.id < 60 ? 0 : 1] += 0.5 * scene.setting.mass_of(disc.id) * (disc.vx * disc.vx + disc.vy * disc.vy) / n_looks;
+        energies[2] += simulation.totals().rotational_energy / world.size() / n_looks;
+    }
+    std::array<double, 3> sums{};
+    for (const auto& part : world.all_gather(energies))
+        for (std::size_t k = 0; k < 3; ++k) sums[k] += part[k];
+    const Totals end = simulation.totals();
+    CHECK(end.pair_collisions > 4000);
+    CHECK(end.kinetic_energy + end.rotational_energy == Approx(start.kinetic_energy).epsilon(1e-12));
+    const double bound = static_cast<double>(end.pair_collisions) * masses[0] * 4 * 2 * 0x1p-53;
+    CHECK(std::fabs(end.momentum_x - start.momentum_x) < bound);
+    CHECK(std::fabs(end.momentum_y - start.momentum_y) < bound);
+    CHECK(end.overlapping_pairs == 0);
+    const double half_temperature = start.kinetic_energy / (3 * n - 2);
+    for (const std::size_t k : {0u, 1u}) {
+        const double ways = 2 * counts[k] * (1 - masses[k] / mass);
+        CHECK(sums[k] == Approx(ways * half_temperature).epsilon(4 * std::sqrt(2 / (ways * n_looks))));
+    }
+    CHECK(sums[2] == Approx(n * half_temperature).epsilon(4 * std::sqrt(2 / (n * n_looks))));
 }
 
 TEST_CASE("periodic: a disc alone flies on, and comes in where it has left") {
