@@ -162,7 +162,7 @@ private:
     double side_time(const Disc& disc, double m) const { return std::min(side_time(disc, Axis::x, m), side_time(disc, Axis::y, m)); }
     double side_stop(const Disc& disc, Axis axis, double rest) const {
         const double x = axis == Axis::x ? disc.x : disc.y, v = axis == Axis::x ? disc.vx : disc.vy;
-        return v == 0 || is_open(disc, axis) ? never : axis_stop(x, v, rest);
+        return v == 0 || is_open(disc, axis) ? never : wall_law(disc).axis_stop(x, v, rest);
     }
 
     void bounce_off(Disc& disc, double m, double t) const { stop(disc, m, t, rebound_in(disc, m)); }
