@@ -207,14 +207,6 @@ public:
         return (v < 0 && x <= radius_ + band_) || (v > 0 && x >= high() - band_);
     }
 
-    /// How long a disc flies to the wall that it would pass in a time of `rest`, or `never`.
-    [[gnu::always_inline]] Real axis_stop(double x, double v, Real rest) const {
-        const Real at_end = real(x) + real(v) * rest;
-        if (v < 0 && at_end < low()) return std::max((low() - real(x)) / real(v), Real{0});
-        if (v > 0 && at_end > high()) return std::max((high() - real(x)) / real(v), Real{0});
-        return real(never);
-    }
-
     /// A disc that would leave the box before the micro-step ends waits at the wall; it bounces in the next one.
     [[gnu::always_inline]] void stop_at_wall(Disc& disc, double m, double t) const {
         const Real rest = 1 - real(t);
