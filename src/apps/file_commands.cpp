@@ -182,7 +182,7 @@ bool is_possible(const FrameRow& row, const FileSummary& summary) {
     const bool is_at_rest = summary.has_velocity && row.vx == 0 && row.vy == 0;
     bool has_left = false;
     for (std::size_t side = 0; side < beyond.size(); ++side)
-        has_left |= summary.open_sides[side] && is_at_rest && std::fabs(beyond[side] - summary.radius) <= reach - summary.radius;
+        has_left |= summary.open_sides[side] && is_at_rest && beyond[side] > 0 && beyond[side] <= reach; // smaller discs than the largest leave before
     for (std::size_t side = 0; side < beyond.size(); ++side) {
         if (beyond[side] <= 0) continue;
         if (!summary.open_sides[side]) return false;

@@ -43,7 +43,8 @@ Extent Sides::walls_between(double begin, double end) const {
     const Extent first = extent_at(begin), last = extent_at(end);
     // A chord is no further from its curve than that times the largest acceleration in between, the last.
     const double eighth = std::pow((end - begin) / slowing_at(end), 2) / 8;
-    const auto bend = [&](std::size_t side) { return std::fabs(pull_at(side)) * eighth; };
+    // And a small disc departs before a large one does.
+    const auto bend = [&](std::size_t side) { return std::fabs(pull_at(side)) * eighth + (is_open(side) ? radius_ : 0); };
     return {std::max(first.x_low, last.x_low) + bend(0), std::min(first.x_high, last.x_high) - bend(1),
             std::max(first.y_low, last.y_low) + bend(2), std::min(first.y_high, last.y_high) - bend(3)};
 }
@@ -89,7 +90,7 @@ void Sides::bounce_at(Disc& disc, Axis axis, double time) const {
 
 void Sides::depart(Disc& disc, std::size_t side, double time) const {
     disc = frame_at(time).in_box(disc, time);
-    (side / 2 == 0 ? disc.x : disc.y) = departure(side);
+    (side / 2 == 0 ? disc.x : disc.y) = departure(disc, side);
     disc.vx = disc.vy = 0;
     disc.tau = Disc::gone;
     disc.wall_collisions += 1;

@@ -304,6 +304,8 @@ template <class Law> void BlockReplay<Law>::Scratch::carry_out(const Event& even
         else law.collide_at(p, discs[event.q], event.time);
         note(event.q, event.p, event);
     }
+    if constexpr (Law::has_spin && Law::may_lose_discs)
+        if (p.is_gone()) spins[event.p] = 0;
     note(event.p, event.q, event);
     if (is_own_image(event.p)) {
         outcome->n_events += 1;

@@ -295,12 +295,6 @@ void fill_effects(const Check& check) {
     for (const Side& side : effects.sides)
         if (side.kind == SideKind::open && has_table(check, "output.measurements"))
             add_problem(check.problems, {check.scene.name, 0}, "this version measures nothing ('output.measurements') in boxes with open sides");
-    for (const Side& side : effects.sides)
-        if (effects.contact.kind == ContactKind::rough && side.kind == SideKind::open)
-            add_problem(check.problems, {check.scene.name, 0}, "this version has no open sides together with rough discs");
-    for (const Side& side : effects.sides)
-        if (are_mixed && side.kind == SideKind::open)
-            add_problem(check.problems, {check.scene.name, 0}, "this version has no open sides together with discs of several classes");
     for (const std::string_view key : {"time.precision", "time.arithmetic", "time.accuracy"}) {
         const Setting* setting = check.settings.find(key);
         const bool is_default = setting && std::holds_alternative<std::string>(setting->value) &&

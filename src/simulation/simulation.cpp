@@ -97,7 +97,12 @@ std::span<const Disc> Simulation::discs() const {
     return stored_;
 }
 
-std::span<const double> Simulation::spins() const { return engine_->spins(); }
+std::span<const double> Simulation::spins() const {
+    if (engine_->gone().empty() || effects_.contact.kind != ContactKind::rough) return engine_->spins();
+    stored_spins_.assign(engine_->spins().begin(), engine_->spins().end());
+    stored_spins_.resize(engine_->spins().size() + engine_->gone().size(), 0);
+    return stored_spins_;
+}
 
 Frame Simulation::frame() const { return engine_->frame(); }
 
@@ -137,7 +142,7 @@ void Simulation::count_pair_distances(double bin_width, std::span<std::uint64_t>
 Totals Simulation::totals() const {
     Totals totals;
     totals.n_discs = engine_->n_discs();
-    measure_collisions(discs(), engine_->spins(), communicator_, totals);
+    measure_collisions(discs(), spins(), communicator_, totals);
     measure_departures(discs(), box_size_, communicator_, totals);
     const DiscBodies* const bodies = effects_.classes.empty() ? nullptr : &bodies_;
     measure_motion(in_motion(), bodies, velocity_unit_, communicator_, totals);

@@ -58,6 +58,12 @@ void StripDiscs::set_gone_aside() {
     // Not std::stable_partition: its buffer is aligned for less than a disc.
     const auto is_gone = [](const Disc& disc) { return disc.is_gone(); };
     std::copy_if(discs_.begin(), discs_.end(), std::back_inserter(gone_), is_gone);
+    if (has_spins_) {
+        std::size_t n_left = 0;
+        for (std::size_t i = 0; i < discs_.size(); ++i)
+            if (!is_gone(discs_[i])) spins_[n_left++] = spins_[i];
+        spins_.resize(n_left);
+    }
     std::erase_if(discs_, is_gone);
     n_own_ = discs_.size();
     n_total_ = communicator_.sum(std::uint64_t{n_own_});

@@ -253,6 +253,7 @@ void EventDrivenReference::carry_out(const Event& event) {
         } else if (setting_.effects.sides[2 * event.q + (is_high ? 1 : 0)].kind == SideKind::open) {
             restart_frame(p, event.time);
             set_left(setting_, p, 2 * event.q + (is_high ? 1 : 0));
+            if (setting_.are_rough()) spins_[event.p] = 0;
         } else rebound(p, event.q, is_high, event.time, is_touched);
         p.wall_collisions += 1;
         wall_collisions_ += 1;

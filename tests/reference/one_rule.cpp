@@ -50,7 +50,7 @@ Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance, Co
 bool has_left(const Disc& disc) { return disc.tau == -1; }
 
 void set_left(const Setting& setting, Disc& disc, std::size_t side) {
-    const double line = side % 2 == 0 ? -setting.radius : setting.box_size + setting.radius;
+    const double radius = setting.radius_of(disc.id), line = side % 2 == 0 ? -radius : setting.box_size + radius;
     (side < 2 ? disc.x : disc.y) = line;
     disc.vx = disc.vy = 0;
     disc.tau = -1;
@@ -221,6 +221,7 @@ void OneRuleReference::keep(const Collision& candidate, double m) {
         if (candidate.t != axes_time(p, m)) return bounce_off(p, m, candidate.t);
         bounce(p, m, candidate.t);
         p.wall_collisions += 1;
+        if (has_left(p) && setting_.are_rough()) spins_[p.id] = 0;
         if (has_left(p)) return;
         stop_at_wall(p, m, candidate.t, FixedBodies::nowhere());
         return;
@@ -261,7 +262,7 @@ bool OneRuleReference::leads_out(double v, std::size_t low_side) const {
 double OneRuleReference::axis_time(DiscId id, double x, double v, double tau, double m, std::size_t low_side) const {
     double wall = 0;
     if (leads_out(v, low_side)) {
-        wall = v < 0 ? -setting_.radius : setting_.box_size + setting_.radius;
+        wall = v < 0 ? -setting_.radius_of(id) : setting_.box_size + setting_.radius_of(id);
         const double at_end = x + v * ((m + 1) - tau);
         if (v < 0 ? at_end >= wall : at_end <= wall) return never;
     } else if (v < 0 && x + v * ((m + 1) - tau) < low(id) + band_) {

@@ -15,7 +15,7 @@
 
 namespace carrom {
 
-/// `is_mixed`: discs are of several radii and masses (and there are no open sides then). Then the plain law's radius is the largest, and so are its bands and tolerances.
+/// `is_mixed`: discs are of several radii and masses. Then the plain law's radius is the largest, and so are its bands and tolerances.
 template <class Contact, bool is_mixed = false> class EffectLaw : public PlainLaw {
 public:
     static constexpr bool has_pairs = Contact::has_pairs;
@@ -155,7 +155,7 @@ private:
     double side_time(const Disc& disc, Axis axis, double m) const {
         const double x = axis == Axis::x ? disc.x : disc.y, v = axis == Axis::x ? disc.vx : disc.vy;
         if (v == 0 || !is_open(disc, axis)) return wall_law(disc).axis_time(x, v, disc.tau, m);
-        const double line = sides_.departure(Sides::side_ahead(disc, axis)), at_end = x + v * ((m + 1) - disc.tau);
+        const double line = sides_.departure(disc, Sides::side_ahead(disc, axis)), at_end = x + v * ((m + 1) - disc.tau);
         if (v < 0 ? !(at_end < line) : !(at_end > line)) return never;
         return std::clamp((disc.tau - m) + (line - x) / v, 0.0, 1.0);
     }

@@ -61,8 +61,8 @@ public:
     static std::size_t side_ahead(const Disc& disc, Axis axis) { return 2 * static_cast<std::size_t>(axis) + (velocity_of(disc, static_cast<std::size_t>(axis)) < 0 ? 0 : 1); }
     bool is_open(std::size_t side) const { return effects_.sides[side].kind == SideKind::open; }
     bool are_any_open() const { return is_open(0) || is_open(1) || is_open(2) || is_open(3); }
-    /// Where a disc's centre is that is just outside an open side, in the box.
-    double departure(std::size_t side) const { return departure_or_touch(side, radius_); }
+    /// Where the disc's centre is when it is just outside an open side, in the box.
+    double departure(const Disc& disc, std::size_t side) const { return departure_or_touch(side, bodies_.of(disc.id).radius); }
     /// What becomes of a disc that has come there, advanced to `time`.
     void depart(Disc& disc, std::size_t side, double time) const;
 

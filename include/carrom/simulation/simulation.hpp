@@ -161,6 +161,7 @@ private:
     std::unique_ptr<StateCheck> check_;
     mutable std::vector<Disc> shown_;  ///< under gravity
     mutable std::vector<Disc> stored_; ///< once discs have left
+    mutable std::vector<double> stored_spins_;
     std::vector<Collision>* log_ = nullptr; ///< the user's, while the check has a log of its own
 };
 

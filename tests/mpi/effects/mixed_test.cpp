@@ -93,6 +93,32 @@ TEST_CASE("effects: mixtures among obstacles have the references' bits") {
     }
 }
 
+TEST_CASE("effects: mixtures leave through open sides, each disc a radius of its own beyond them, with the references' bits") {
+    const Communicator world = Communicator::world();
+    for (TestScene scene : mixtures()) {
+        const double size = scene.setting.box_size;
+        scene.setting.effects.sides[0] = scene.setting.effects.sides[3] = {SideKind::open, 1, 0, 0};
+        for (const ContactEffect& contact : {ContactEffect{}, ContactEffect{ContactKind::rough, 0.9, 0.002, 0.4, 0.3, 0.5}}) {
+            scene.setting.effects.contact = contact;
+            for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+                check_bits(scene, rule);
+                Simulation simulation = simulation_of(scene, rule, world);
+                advance_to(simulation, scene.steps);
+                const Totals totals = simulation.totals();
+                CHECK((totals.gone[0] > 2 && totals.gone[3] > 2));
+                const std::span<const Disc> discs = simulation.discs();
+                const std::span<const double> spins = simulation.spins();
+                for (std::size_t i = 0; i < discs.size(); ++i) {
+                    if (!discs[i].is_gone()) continue;
+                    const double radius = scene.setting.radius_of(discs[i].id);
+                    CHECK((discs[i].x == -radius || discs[i].y == size + radius));
+                    CHECK((discs[i].vx == 0 && discs[i].vy == 0 && (spins.empty() || spins[i] == 0)));
+                }
+            }
+        }
+    }
+}
+
 TEST_CASE("effects: classes of one radius and one mass are the plain law to the bit") {
     const Communicator world = Communicator::world();
     for (TestScene scene : base_scenes()) {
