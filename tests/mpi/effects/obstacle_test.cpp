@@ -129,6 +129,54 @@ TEST_CASE("effects: where the seams are in a periodic box is of no account, unde
     }
 }
 
+// Machta and Zwanzig, Phys. Rev. Lett. 50, 1959 (1983): between fixed discs of radius R on a triangular lattice with gaps w points are trapped in
+// cells of area A, and hop to the next one, l off, through three gaps after a mean time of pi A / (3 w v): D = l^2 / 4 over that.
+// It is right for narrow gaps (Klages and Dellago, J. Stat. Phys. 101, 145 (2000)); 26 columns and 30 rows are a lattice in a square to 0.1 %.
+TEST_CASE("effects: diffusion in a periodic Lorentz gas is that of hops from trap to trap") {
+    const Communicator world = Communicator::world();
+    constexpr double w = 0.1, spacing = 2 + w, size = 26 * spacing, point = 0.001;
+    constexpr std::int64_t n_discs = 1000, lag = 100, look = 20, n_lags = 8;
+    TestScene scene = empty_scene("triangular Lorentz gas", size, point, n_lags * lag);
+    scene.setting.effects.sides.fill(periodic);
+    scene.setting.effects.contact.kind = ContactKind::none;
+    for (int row = 0; row < 30; ++row)
+        for (int k = 0; k < 26; ++k) scene.setting.effects.obstacles.discs.push_back({(k + 0.5 * (row % 2)) * spacing, row * size / 30, 1 - point});
+    Random random(761);
+    while (scene.discs.size() < n_discs) {
+        for (int k = 0; k < n_discs; ++k) {
+            const auto [vx, vy] = random.direction();
+            const double x = random.uniform(0, size);
+            add_disc(scene, x, random.uniform(0, size), vx, vy);
+        }
+        make_room_for_obstacles(scene);
+    }
+    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    std::vector<Disc> before = all_discs(simulation, world);
+    std::vector<double> x(before.size(), 0), y(before.size(), 0); // since the lag began
+    double squares_at_look = 0, squares_at_lag = 0;
+    for (std::int64_t step = look; step <= scene.steps; step += look) {
+        advance_to(simulation, step);
+        const std::vector<Disc> now = all_discs(simulation, world);
+        double squares = 0;
+        for (std::size_t i = 0; i < now.size(); ++i) { // none flies half the box in so many steps
+            x[i] += std::remainder(now[i].x - before[i].x, size);
+            y[i] += std::remainder(now[i].y - before[i].y, size);
+            squares += x[i] * x[i] + y[i] * y[i];
+        }
+        before = now;
+        if (step % lag == look) squares_at_look += squares;
+        if (step % lag != 0) continue;
+        squares_at_lag += squares;
+        std::fill(x.begin(), x.end(), 0);
+        std::fill(y.begin(), y.end(), 0);
+    }
+    const auto n = static_cast<double>(before.size()) * n_lags;
+    const double measured = (squares_at_lag - squares_at_look) / n / (4 * static_cast<double>(lag - look));
+    const double area = std::sqrt(3.0) / 4 * spacing * spacing - std::numbers::pi / 2;
+    const double hop = spacing / std::sqrt(3.0), residence = std::numbers::pi * area / (3 * w);
+    CHECK(measured == Approx(hop * hop / (4 * residence)).epsilon(0.07)); // a standard error of 1.8 %, and what the theory leaves out
+}
+
 TEST_CASE("effects: discs that fall through elastic pins keep their energy, and lossy ones come to rest on them") {
     const Communicator world = Communicator::world();
     TestScene scene = empty_scene("pins", 60, 0.5, 300);
