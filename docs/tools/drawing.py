@@ -70,9 +70,12 @@ class Picture:
 
     def _add_obstacles(self, path):
         with open(path, "rb") as file:
-            obstacles = tomllib.load(file).get("effects", {}).get("obstacles", {})
-        circles = [Circle((x, y), max(radius, 0.002 * self.frames.size)) for x, y, radius in obstacles.get("discs", [])]
-        lines = [((x0, y0), (x1, y1)) for x0, y0, x1, y1 in obstacles.get("segments", [])]
+            scene = tomllib.load(file)
+        obstacles, size = scene.get("effects", {}).get("obstacles", {}), self.frames.size
+        repeats = [(-size, 0, size) if scene["box"].get(side, {}).get("kind") == "periodic" else (0,) for side in ("left", "bottom")]
+        shifts = [(dx, dy) for dx in repeats[0] for dy in repeats[1]]
+        circles = [Circle((x + dx, y + dy), max(radius, 0.002 * size)) for x, y, radius in obstacles.get("discs", []) for dx, dy in shifts]
+        lines = [((x0 + dx, y0 + dy), (x1 + dx, y1 + dy)) for x0, y0, x1, y1 in obstacles.get("segments", []) for dx, dy in shifts]
         self.axes.add_collection(PatchCollection(circles, facecolors="0.6", edgecolors="none"))
         self.axes.add_collection(LineCollection(lines, colors="0.4", linewidths=1))
 

@@ -45,7 +45,6 @@ Obstacles::Obstacles(double box_size, double largest_radius, const Effects& effe
         bodies_.push_back({segment.x0, segment.y0, 0});
         bodies_.push_back({segment.x1, segment.y1, 0});
     }
-    if (are_none()) return;
     const auto n = static_cast<double>(bodies_.size());
     n_rows_ = static_cast<std::int64_t>(std::clamp(std::sqrt(2 * n), 4.0, 4096.0));
     cell_width_ = box_size / static_cast<double>(n_rows_);

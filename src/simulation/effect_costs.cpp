@@ -152,7 +152,10 @@ std::optional<Sample> sample_of(const Scene& scene, const Effects& one, const Co
         part.effects.classes = thinned(one.classes, part.n_discs, scene.n_discs);
         part.generator = Generator::random;
     }
-    if (one.obstacles.are_any()) part.effects.obstacles = part_of(one.obstacles, scene.box_size, part.box_size);
+    if (one.obstacles.are_any()) {
+        part.effects.obstacles = part_of(one.obstacles, scene.box_size, part.box_size);
+        if (!part.effects.obstacles.are_any()) return {}; // few and far between
+    }
     while (!has_places(part)) part.box_size *= 1.02;
     for (Side& side : part.effects.sides) { // a wall does not get far in so few steps
         const double farthest = 0.05 * part.box_size / static_cast<double>(part.steps);

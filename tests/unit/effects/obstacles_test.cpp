@@ -143,4 +143,9 @@ TEST_CASE("obstacles: what a disc overlaps is named") {
     CHECK(obstacles.name_of(obstacles.deepest_overlap(50, 54.5, 1, 0).body) == "fixed disc 1");
     CHECK(obstacles.name_of(obstacles.deepest_overlap(80, 80.5, 1, 0).body) == "segment 2");
     CHECK(obstacles.name_of(obstacles.deepest_overlap(9.5, 10, 1, 0).body) == "segment 1");
+    CHECK(Obstacles(100, 1, Effects{}).deepest_overlap(50, 50, 1, 0).body == ObstacleContact::no_body);
+    for (const std::size_t side : {0u, 1u}) effects.sides[side].kind = SideKind::periodic;
+    effects.obstacles.discs.push_back({99, 30, 3});
+    CHECK(Obstacles(100, 1, effects).deepest_overlap(2, 30, 1, 0).depth == Approx(1));
+    CHECK(Obstacles(100, 1, effects).name_of(Obstacles(100, 1, effects).deepest_overlap(2, 30, 1, 0).body) == "fixed disc 2");
 }
