@@ -93,8 +93,9 @@ void check_measured_box(const Check& check) {
     const Setting* setting = check.settings.find(distance_key);
     scene.measurements->is_distance_default = !setting;
     if (!setting) distance = std::min(10 * scene.radius, largest);
-    if (const Setting* quantities = check.settings.find("output.measurements.quantities"); quantities && !scene.effects.classes.empty())
-        check.refuse(*quantities, "this version has no radial distribution of discs of several classes");
+    if (const Setting* quantities = check.settings.find("output.measurements.quantities"); quantities && !scene.effects.classes.empty() && !(goes_round_x && goes_round_y))
+        check.refuse(*quantities, "between walls centres of large discs have less room than those of small ones: the radial distribution of discs of several classes "
+                                  "needs a box that is periodic all round");
     if (distance <= largest && distance > 0) return;
     if (!setting) setting = check.settings.find("output.measurements.quantities");
     if (setting)

@@ -8,9 +8,21 @@
 
 namespace carrom {
 
-void count_pair_distances(const Settled& settled, double bin_width, int n_threads, std::span<std::uint64_t> counts) {
+namespace {
+
+std::size_t class_of(DiscId id, std::span<const DiscId> class_ends) {
+    std::size_t k = 0;
+    while (id >= class_ends[k]) ++k;
+    return k;
+}
+
+} // namespace
+
+void count_pair_distances(const Settled& settled, double bin_width, std::span<const DiscId> class_ends, int n_threads, std::span<std::uint64_t> counts) {
     const Population& population = settled.population;
-    const double bins_per_length = 1 / bin_width, n_bins = static_cast<double>(counts.size());
+    const std::size_t n_each = counts.size() / n_pair_kinds(class_ends.size());
+    const double bins_per_length = 1 / bin_width, n_bins = static_cast<double>(n_each);
+    const bool are_alike = class_ends.size() == 1;
     const bool is_periodic = settled.periods.are_any();
     const int n_columns = settled.grid->frame().n_columns;
 #pragma omp parallel num_threads(n_threads)
@@ -26,7 +38,9 @@ void count_pair_distances(const Settled& settled, double bin_width, int n_thread
                 double dx = q.x_at(settled.time) - p.x_at(settled.time), dy = q.y_at(settled.time) - p.y_at(settled.time);
                 if (is_periodic) dx += settled.periods.x_between(p, q), dy += settled.periods.y_between(p, q);
                 const double bin = std::sqrt(dx * dx + dy * dy) * bins_per_length;
-                if (bin < n_bins) ++mine[static_cast<std::size_t>(bin)];
+                if (!(bin < n_bins)) return;
+                const std::size_t kind = are_alike ? 0 : pair_kind(class_of(p.id, class_ends), class_of(q.id, class_ends));
+                ++mine[kind * n_each + static_cast<std::size_t>(bin)];
             });
         }
 #pragma omp critical(pair_distances)

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "carrom/parallel/pieces.hpp"
+#include "pair_distances.hpp"
 
 namespace carrom {
 
@@ -105,6 +106,13 @@ void add_over(const Communicator& ranks, std::vector<std::uint64_t>&& mine, std:
 
 } // namespace
 
+std::vector<DiscClass> told_apart(const Scene& scene) {
+    constexpr std::size_t most = 8;
+    const std::vector<DiscClass>& classes = scene.effects.classes;
+    if (classes.empty() || classes.size() > most) return {{scene.n_discs, scene.radius, 1}};
+    return classes;
+}
+
 double share_of_ideal_pairs(double a, double b, double distance) {
     const double r = distance;
     return 4 / (a * a * b * b) * r * r * (a * b * (0.25 * std::numbers::pi) - (a + b) * r / 3 + r * r / 8);
@@ -133,7 +141,7 @@ SampleSums Sampler::wanted() const {
     sums.wanted_from = output_.from_step;
     sums.largest_distance = output_.largest_distance;
     sums.largest_velocity = output_.largest_velocity.value_or(0);
-    if (output_.radial_distribution) sums.pairs.assign(output_.bins, 0);
+    if (output_.radial_distribution) sums.pairs.assign(output_.bins * n_pair_kinds(told_apart(scene_).size()), 0);
     sums.ideal_pairs.assign(sums.pairs.size(), 0);
     for (auto* counts : {&sums.vx, &sums.vy, &sums.speeds})
         if (output_.velocities) counts->assign(output_.bins, 0);
@@ -225,7 +233,7 @@ void Sampler::sample(std::int64_t step) {
     if (output_.displacement && !scene_.effects.are_periodic()) sample_displacement(discs, n_discs, is_first);
     else if (output_.displacement) sample_displacement(flown_on(simulation_), n_discs, is_first);
     if (output_.wall_pressure && !is_first) sample_impulses(step);
-    if (output_.radial_distribution) sample_distances(n_discs, box); // moves discs in memory: last
+    if (output_.radial_distribution) sample_distances(box); // moves discs in memory: last
     ++sums_.n_samples;
     sums_.last_step = step;
 }
@@ -259,13 +267,15 @@ void Sampler::sample_density(std::span<const Disc> discs, const Extent& box) {
     add_over(ranks_, std::move(y), sums_.y);
 }
 
-void Sampler::sample_distances(std::uint64_t n_discs, const Extent& box) {
+void Sampler::sample_distances(const Extent& box) {
     const std::size_t n = output_.bins;
     const double width = sums_.largest_distance / static_cast<double>(n);
-    std::vector<std::uint64_t> pairs(n, 0);
-    simulation_.count_pair_distances(width, pairs);
+    std::vector<std::uint64_t> pairs(sums_.pairs.size(), 0);
+    const std::vector<DiscClass> classes = told_apart(scene_);
+    std::vector<DiscId> class_ends;
+    for (const DiscClass& one : classes) class_ends.push_back((class_ends.empty() ? 0 : class_ends.back()) + one.count);
+    simulation_.count_pair_distances(width, class_ends, pairs);
     add_over(ranks_, std::move(pairs), sums_.pairs);
-    const double all = 0.5 * static_cast<double>(n_discs) * (static_cast<double>(n_discs) - 1);
     const double a = box.x_high - box.x_low - 2 * scene_.radius, b = box.y_high - box.y_low - 2 * scene_.radius;
     const bool goes_round_x = scene_.effects.is_periodic_x(), goes_round_y = scene_.effects.is_periodic_y();
     const auto share = [&](double distance) {
@@ -273,9 +283,15 @@ void Sampler::sample_distances(std::uint64_t n_discs, const Extent& box) {
         if (goes_round_x || goes_round_y) return share_of_ideal_pairs_around_x(scene_.box_size, goes_round_x ? b : a, distance);
         return share_of_ideal_pairs(a, b, distance);
     };
-    for (std::size_t k = 0; k < n; ++k) {
-        const double inner = static_cast<double>(k) * width, outer = static_cast<double>(k + 1) * width;
-        sums_.ideal_pairs[k] += all * (share(outer) - share(inner));
+    for (std::size_t second = 0; second < classes.size(); ++second) {
+        for (std::size_t first = 0; first <= second; ++first) {
+            const auto n_first = static_cast<double>(classes[first].count), n_second = static_cast<double>(classes[second].count);
+            const double all = first == second ? 0.5 * n_first * (n_first - 1) : n_first * n_second;
+            for (std::size_t k = 0; k < n; ++k) {
+                const double inner = static_cast<double>(k) * width, outer = static_cast<double>(k + 1) * width;
+                sums_.ideal_pairs[pair_kind(first, second) * n + k] += all * (share(outer) - share(inner));
+            }
+        }
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include "block_averages.hpp"
 #include "carrom/simulation/sampler.hpp"
+#include "pair_distances.hpp"
 
 namespace carrom {
 
@@ -19,15 +20,30 @@ double share(std::uint64_t count, std::uint64_t all, double width) { return stat
 
 std::uint64_t total(const std::vector<std::uint64_t>& counts) { return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}); }
 
-MeasuredTable radial_distribution(const SampleSums& s) {
+MeasuredTable radial_distribution(const SampleSums& s, const Scene& scene) {
     MeasuredTable table{"radial_distribution",
                         {"g: pairs at a distance from `from` to `to`, over those that as many discs without size would have, anywhere in the box that centres have",
                          "distances in the scene's unit of length; pairs: of all samples"},
                         {"from", "to", "pairs", "g"}, {}};
-    const std::size_t n = s.pairs.size();
-    for (std::size_t k = 0; k < n; ++k)
-        table.rows.push_back({edge(0, s.largest_distance, k, n), edge(0, s.largest_distance, k + 1, n), static_cast<double>(s.pairs[k]),
-                              s.ideal_pairs[k] > 0 ? static_cast<double>(s.pairs[k]) / s.ideal_pairs[k] : 0});
+    const std::size_t n_classes = told_apart(scene).size(), n_kinds = n_pair_kinds(n_classes), n = s.pairs.size() / n_kinds;
+    if (n_kinds > 1) table.remarks.push_back("pairs_a_b, g_a_b: of a disc of class a and one of class b, classes counted from 1 in the order of ids");
+    for (std::size_t b = 1; b <= n_classes && n_kinds > 1; ++b)
+        for (std::size_t a = 1; a <= b; ++a)
+            for (const char* what : {"pairs", "g"}) table.columns.push_back(fmt::format("{}_{}_{}", what, a, b));
+    for (std::size_t k = 0; k < n; ++k) {
+        std::vector<double> row = {edge(0, s.largest_distance, k, n), edge(0, s.largest_distance, k + 1, n), 0, 0};
+        std::uint64_t all = 0;
+        double ideal = 0;
+        const auto g = [](std::uint64_t pairs, double ideal_pairs) { return ideal_pairs > 0 ? static_cast<double>(pairs) / ideal_pairs : 0; };
+        for (std::size_t place = k; place < s.pairs.size(); place += n) {
+            all += s.pairs[place];
+            ideal += s.ideal_pairs[place];
+            if (n_kinds > 1) row.insert(row.end(), {static_cast<double>(s.pairs[place]), g(s.pairs[place], s.ideal_pairs[place])});
+        }
+        row[2] = static_cast<double>(all);
+        row[3] = g(all, ideal);
+        table.rows.push_back(std::move(row));
+    }
     return table;
 }
 
@@ -137,7 +153,7 @@ std::vector<MeasuredTable> tables_of(const SampleSums& sums, const Scene& scene)
         tables.push_back(wall_pressure(sums, history));
         tables.push_back(std::move(history));
     }
-    if (output.radial_distribution) tables.push_back(radial_distribution(sums));
+    if (output.radial_distribution) tables.push_back(radial_distribution(sums, scene));
     if (output.velocities) {
         tables.push_back(velocities(sums));
         tables.push_back(speeds(sums));

@@ -133,9 +133,9 @@ void Engine::note_crossing(const Disc& disc, double x, double y, const Periods& 
 
 void Simulation::note_crossings_in(std::vector<Crossing>* crossings) { engine_->note_crossings_in(crossings); }
 
-void Simulation::count_pair_distances(double bin_width, std::span<std::uint64_t> counts) const {
-    const Settled now = engine_->settled(bin_width * static_cast<double>(counts.size()));
-    carrom::count_pair_distances(now, bin_width, n_threads_, counts);
+void Simulation::count_pair_distances(double bin_width, std::span<const DiscId> class_ends, std::span<std::uint64_t> counts) const {
+    const Settled now = engine_->settled(bin_width * static_cast<double>(counts.size() / n_pair_kinds(class_ends.size())));
+    carrom::count_pair_distances(now, bin_width, class_ends, n_threads_, counts);
     engine_->forget_images();
 }
 

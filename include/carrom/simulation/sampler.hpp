@@ -45,8 +45,8 @@ struct SampleSums {
     std::int64_t first_step = 0, last_step = -1; ///< of the samples
     double speed_scale = 0;                      ///< that the unit of impulses was chosen by
     std::uint64_t n_samples = 0, n_discs = 0;    ///< n_discs: over all samples
-    std::vector<std::uint64_t> pairs, vx, vy, speeds, x, y;
-    std::vector<double> ideal_pairs;             ///< what discs without size would have
+    std::vector<std::uint64_t> pairs, vx, vy, speeds, x, y; ///< pairs: all bins of the first kind (pair_distances.hpp), then of the second ...
+    std::vector<double> ideal_pairs;             ///< likewise, what discs without size would have
     double area = 0;                             ///< of the box, over all samples
     std::array<std::uint64_t, 4> wall_collisions{};
     std::vector<double> impulses;                ///< of each interval: of the four sides
@@ -81,7 +81,7 @@ private:
     void sample(std::int64_t step);
     void sample_velocities(std::span<const Disc> discs);
     void sample_density(std::span<const Disc> discs, const Extent& box);
-    void sample_distances(std::uint64_t n_discs, const Extent& box);
+    void sample_distances(const Extent& box);
     void sample_impulses(std::int64_t step);
     void sample_displacement(std::span<const Disc> discs, std::uint64_t n_discs, bool is_first);
     void place_first(std::span<const FirstPlace> places);
@@ -102,6 +102,9 @@ private:
     mutable std::vector<Crossing> crossings_;                  ///< of a periodic box's own discs, not yet told
     mutable std::vector<std::array<double, 2>> lengths_; ///< along the first places, there: what discs have been brought back by
 };
+
+/// The classes whose pairs are counted apart: the scene's, or one of all discs where they are alike or of more than eight classes.
+std::vector<DiscClass> told_apart(const Scene& scene);
 
 /// The share of pairs of points, anywhere in a box of a by b independently, that are at most `distance` apart; up to the
 /// shorter side. (From the distribution of each component's difference, as in Ghosh, Bull. Calcutta Math. Soc. 43, 17 (1951).)

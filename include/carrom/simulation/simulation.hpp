@@ -127,8 +127,9 @@ public:
     /// From now on what own discs are brought back by at syncs, in a periodic box, is appended to `crossings`; null ends that.
     void note_crossings_in(std::vector<Crossing>* crossings);
     /// Adds to counts[k] this rank's pairs of discs at distances from k to k + 1 times `bin_width`, now; over all ranks each
-    /// pair is counted once. The counts of all bins reach no further than half the box. **Collective.**
-    void count_pair_distances(double bin_width, std::span<std::uint64_t> counts) const;
+    /// pair is counted once. The counts of all bins reach no further than half the box. `class_ends`: the ids before which classes end, the
+    /// last one the number of discs; as many counts follow each other for pairs of classes (0, 0), (0, 1), (1, 1), (0, 2) and so on. **Collective.**
+    void count_pair_distances(double bin_width, std::span<const DiscId> class_ends, std::span<std::uint64_t> counts) const;
 
     /// From now on every step is held to the invariants of check_failure.hpp: `advance_towards` goes one step at a time and
     /// throws CheckFailure on every rank when one is broken. `scene` must outlive the run, and be of the default precision

@@ -2,6 +2,9 @@
 // What is measured in boxes with periodic sides: pairs as nearest images, displacements on through the seams.
 #include <array>
 #include <cmath>
+#include <map>
+#include <numbers>
+#include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -28,10 +31,15 @@ std::vector<Case> cases() {
     along_x.sides = {periodic, periodic, Side{}, Side{SideKind::thermal, 1, 0.2, 0}};
     apart = around;
     apart.contact.kind = ContactKind::none;
+    Effects mixed = around, each_its_own = around;
+    mixed.classes = {{40, 1, 2}, {60, 0.7, 1}, {50, 0.3, 1}};
+    for (int k = 0; k < 150; ++k) each_its_own.classes.push_back({1, 1 - 0.002 * k, 1});
+    each_its_own.contact = {ContactKind::rough, 1, 0.001, 1, 1, 0.5};
     Effects falling = along_x;
     falling.gravity = {0, -0.003};
     return {{"rule one, all round", CollisionRule::one, around}, {"rule one, along x", CollisionRule::one, along_x}, {"rule all, all round", CollisionRule::all, around},
-            {"rule all, along x, with gravity", CollisionRule::all, falling}, {"no contact", CollisionRule::all, apart}};
+            {"rule all, along x, with gravity", CollisionRule::all, falling}, {"no contact", CollisionRule::all, apart},
+            {"several classes, rule one", CollisionRule::one, mixed}, {"several classes", CollisionRule::all, mixed}, {"rough discs, each its own class", CollisionRule::all, each_its_own}};
 }
 
 /// A gas that flies some box lengths in its time, a few between syncs.
@@ -81,6 +89,8 @@ TEST_CASE("measurements: in periodic boxes, distances of nearest images and disp
         std::vector<Seen> before;
         std::vector<std::array<double, 2>> flown(test.discs.size());
         std::vector<double> pairs(20, 0), squares;
+        std::map<std::string, std::vector<double>> pairs_of; // of two classes, by the column's name
+        const auto class_of = [&](DiscId id) { return id < 40 ? 1 : id < 100 ? 2 : 3; };
         double farthest = 0;
         for (std::int64_t step = 5; step <= 64; ++step) {
             advance_to(simulation, sampler, step);
@@ -96,7 +106,11 @@ TEST_CASE("measurements: in periodic boxes, distances of nearest images and disp
                 for (std::size_t j = 0; j < i && (step - 5) % 9 == 0; ++j) {
                     const double distance = std::hypot(to_nearest_image(now[i].x - now[j].x, period_x), to_nearest_image(now[i].y - now[j].y, period_y));
                     const double bin = distance / scene.measurements->largest_distance * 20;
-                    if (bin < 20) pairs[static_cast<std::size_t>(bin)] += 1;
+                    if (!(bin < 20)) continue;
+                    pairs[static_cast<std::size_t>(bin)] += 1;
+                    std::vector<double>& of_classes = pairs_of[std::to_string(class_of(now[j].id)) + "_" + std::to_string(class_of(now[i].id))];
+                    of_classes.resize(20, 0);
+                    of_classes[static_cast<std::size_t>(bin)] += 1;
                 }
             }
             if ((step - 5) % 9 == 0) squares.push_back(sum / static_cast<double>(now.size()));
@@ -105,6 +119,19 @@ TEST_CASE("measurements: in periodic boxes, distances of nearest images and disp
         CHECK(farthest > scene.box_size);
         const std::vector<MeasuredTable> tables = sampler.tables();
         CHECK(column_of(tables, "radial_distribution", "pairs") == pairs);
+        const bool are_told_apart = scene.effects.classes.size() == 3;
+        CHECK(table_of(tables, "radial_distribution").columns.size() == (are_told_apart ? 16 : 4));
+        for (const auto& [classes, counted] : pairs_of) {
+            if (!are_told_apart) continue;
+            CHECK(column_of(tables, "radial_distribution", "pairs_" + classes) == counted);
+            const double n_a = classes[0] == '1' ? 40 : classes[0] == '2' ? 60 : 50, n_b = classes[2] == '1' ? 40 : classes[2] == '2' ? 60 : 50;
+            const double n_pairs = classes[0] == classes[2] ? n_a * (n_a - 1) / 2 : n_a * n_b, width = scene.measurements->largest_distance / 20;
+            const std::vector<double> g = column_of(tables, "radial_distribution", "g_" + classes);
+            for (std::size_t k = 0; k < 20; ++k) { // a ring's area over the box's, for each sample
+                const double ring = std::numbers::pi * width * width * static_cast<double>(2 * k + 1) / (period_x * period_y);
+                CHECK(g[k] == Approx(counted[k] / (n_pairs * ring * static_cast<double>(squares.size()))).epsilon(1e-12));
+            }
+        }
         const std::vector<double> displacement = column_of(tables, "displacement", "sum");
         REQUIRE(displacement.size() == squares.size());
         for (std::size_t k = 0; k < squares.size(); ++k) CHECK(displacement[k] == Approx(squares[k]).epsilon(1e-11));
@@ -149,7 +176,7 @@ TEST_CASE("measurements: in periodic boxes, a run that stores them and goes on h
         Simulation first = simulation_of(scene, test, world);
         Sampler first_sampler(scene, first, world);
         advance_to(first, first_sampler, 33); // between samples, and between syncs
-        StoredState state = {{first.discs().begin(), first.discs().end()}, first.micro_steps_done()};
+        StoredState state = {{first.discs().begin(), first.discs().end()}, first.micro_steps_done(), {first.spins().begin(), first.spins().end()}};
         Simulation second(scene, std::move(state), world, {});
         Sampler sampler(scene, second, world);
         sampler.go_on(first_sampler.stored());

@@ -208,6 +208,16 @@ TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
         return problems_of([&] { read_scene("[box]\nsize = " + size + "\n[time]\nsteps = 10\n" + two, "s.toml", along_y); });
     };
     CHECK(mixed_in("100").empty());
+    const Texts measuring_g{"output.measurements.folder=tables", "output.measurements.quantities=[\"radial_distribution\"]"};
+    Texts all_round{"box.left.kind=periodic", "box.right.kind=periodic"};
+    all_round.insert(all_round.end(), along_y.begin(), along_y.end());
+    for (const bool is_all_round : {false, true}) {
+        Texts texts = is_all_round ? all_round : along_y;
+        texts.insert(texts.end(), measuring_g.begin(), measuring_g.end());
+        const auto found = problems_of([&] { read_scene("[box]\nsize = 100\n[time]\nsteps = 10\n" + two, "s.toml", texts); });
+        CHECK(found.empty() == is_all_round);
+        if (!is_all_round) CHECK(has(found.front().text, "needs a box that is periodic all round"));
+    }
     const auto small = mixed_in("7.9"); // of the largest disc four radii
     CHECK(std::any_of(small.begin(), small.end(), [](const Problem& problem) { return problem.text.find("too small to be periodic") != std::string::npos; }));
     CHECK(has(with({"discs.radius=26", "discs.count=1"}), "too small to be periodic"));
