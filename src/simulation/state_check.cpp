@@ -59,6 +59,7 @@ StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64
         may_lose_energy_ = may_lose_energy_ || side.restitution < 1;
         walls_give_energy_ = walls_give_energy_ || side.kind == SideKind::thermal || side.speed != 0;
     }
+    if (effects_.obstacles.are_any()) obstacles_.emplace(scene.box_size, scene.radius, effects_);
     known_.resize(slab_begin(communicator.rank() + 1, scene.n_discs, communicator.size()) - first_id_);
     for (Known& known : known_) known.free_from = micro_steps_done;
     fail_if_found(first_not_finite(own), {});
@@ -79,6 +80,7 @@ void StateCheck::look(const Settled& now, std::int64_t micro_steps_done, Log log
     note_speeds();
     take_log(log);
     fail_if_found(first_out_of_place(now), log);
+    fail_if_found(first_in_obstacle(now), log);
     fail_if_found(first_wrong_count(), log);
     fail_if_found(first_other_motion(), log);
     fail_if_found(first_overlap(now), log);
@@ -160,6 +162,18 @@ StateCheck::Finding StateCheck::first_out_of_place(const Settled& now) const {
             add(Invariant::in_cell, disc.id, 0, 0);
     }
     return first.value_or(Finding{});
+}
+
+/// Under both rules: what would run into an obstacle within a micro-step stops there. `partner` says which one it is.
+StateCheck::Finding StateCheck::first_in_obstacle(const Settled& now) const {
+    if (!obstacles_) return {};
+    const double bound = 2 * tolerance_ + blur(64);
+    for (const Disc& disc : now.population.discs.first(now.population.n_own)) {
+        const Disc seen = now.frame.in_box(disc, now.time);
+        const auto overlap = obstacles_->deepest_overlap(seen.x, seen.y, scene_.radius, bound);
+        if (overlap.body != ObstacleContact::no_body) return {Invariant::clear, communicator_.rank(), 1, disc.id, overlap.body, overlap.depth, bound};
+    }
+    return {};
 }
 
 StateCheck::Finding StateCheck::first_wrong_count() const {

@@ -13,10 +13,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "carrom/core/disc.hpp"
+#include "carrom/effects/obstacles.hpp"
 #include "carrom/parallel/communicator.hpp"
 #include "carrom/scene/scene.hpp"
 #include "carrom/simulation/check_failure.hpp"
@@ -67,6 +69,7 @@ private:
     Finding take_records(std::span<const Disc> own, const Frame& frame, double time);
     void take_log(Log log);
     Finding first_out_of_place(const Settled& now) const;
+    Finding first_in_obstacle(const Settled& now) const;
     Finding first_wrong_count() const;
     Finding first_other_motion() const;
     Finding first_overlap(const Settled& now) const;
@@ -90,6 +93,7 @@ private:
 
     const Scene& scene_;
     Effects effects_; ///< times in micro-steps
+    std::optional<Obstacles> obstacles_;
     bool may_lose_energy_ = false, walls_give_energy_ = false;
     Communicator communicator_;
     std::uint64_t first_id_ = 0;

@@ -74,6 +74,8 @@ std::string StateCheck::text_of(const Finding& f) const {
     case Invariant::in_box: return who + fmt::format("is {:.3g} outside the box; rounding explains {:.3g}", f.value, f.bound);
     case Invariant::in_strip: return who + fmt::format("is in the strip of rank {}", f.value);
     case Invariant::in_cell: return who + "is not in the cell that it is filed under";
+    case Invariant::clear:
+        return who + fmt::format("overlaps {} by {:.3g}; rounding explains {:.3g}", obstacles_->name_of(static_cast<std::uint32_t>(f.partner)), f.value, f.bound);
     case Invariant::counters:
         return who + fmt::format("has counted {} collisions with {} in this step, but had {}", f.value, f.partner == 0 ? "walls" : "discs", f.bound);
     case Invariant::motion: return who + fmt::format("has changed its velocity by {:.3g} a micro-step without a collision", f.value);

@@ -18,6 +18,7 @@ enum class Invariant : int {
     in_box,     ///< its centre is a radius from every wall, to within rounding
     in_strip,   ///< its owner's strip holds it
     in_cell,    ///< and the cell that it is filed under
+    clear,      ///< it is in no obstacle
     counters,   ///< its counters have grown by the collisions that were carried out with it, for both discs of a pair
     motion,     ///< its velocity has changed by collisions only
     overlap,    ///< no pair overlaps, unless the rule "one" explains it

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The self-check in boxes with periodic sides: silent on what is right, and it sees an overlap across a seam.
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -40,6 +44,28 @@ StateHash hash_after(const TestScene& test, CollisionRule rule, bool is_checked,
     return simulation.totals().hash;
 }
 
+/// What the check finds as discs that have flown on for a micro-step meet nobody, whatever is there.
+std::optional<CheckFailure> failure_of_flight(const TestScene& test, const Communicator& world) {
+    const Scene scene = scene_of(test, CollisionRule::one);
+    std::vector<Disc> before, now;
+    for (const InputDisc& input : share_of(test.discs, world)) {
+        Disc& disc = before.emplace_back();
+        disc.id = input.id;
+        disc.x = input.x, disc.y = input.y, disc.vx = input.vx;
+        now.push_back(disc);
+        now.back().x += disc.vx;
+        now.back().tau = 1;
+    }
+    StateCheck check(scene, before, 0, world);
+    const std::unique_ptr<Engine> engine = make_one_engine(scene, {now, 1}, world, {});
+    try {
+        check.look(engine->settled(), 1, {});
+    } catch (const CheckFailure& found) {
+        return found;
+    }
+    return {};
+}
+
 } // namespace
 
 TEST_CASE("check: runs in periodic boxes break no invariant, and have their bits") {
@@ -54,6 +80,14 @@ TEST_CASE("check: runs in periodic boxes break no invariant, and have their bits
                 test.setting.effects.contact = {ContactKind::restitution, 0.95, 0.001};
                 if (rule == CollisionRule::all) test.setting.effects.gravity = {0, -0.01};
             }
+            test.setting.effects.obstacles = {{{0, 0, 1}, {test.setting.box_size, 9, 0.5}}, {{0, 15, 5, 18}}, 1};
+            std::erase_if(test.discs, [&](const InputDisc& disc) { // those that are in the way
+                const auto far = [&](double x, double y, double reach) {
+                    return std::hypot(std::remainder(disc.x - x, test.setting.box_size), std::remainder(disc.y - y, test.setting.box_size)) > reach;
+                };
+                return !(far(0, 0, 2.01) && far(0, 9, 1.51) && far(2.5, 16.5, 4.01));
+            });
+            for (std::size_t k = 0; k < test.discs.size(); ++k) test.discs[k].id = k;
             test.setting.sync_every = 12;
             test.steps = 30;
             INFO((rule == CollisionRule::one ? "rule one" : "rule all") << (is_along_x ? ", along x" : ", all round"));
@@ -64,33 +98,28 @@ TEST_CASE("check: runs in periodic boxes break no invariant, and have their bits
 
 // Two discs that were apart a micro-step ago and are 0.4 apart now, through the seam.
 TEST_CASE("check: an overlap across a seam is found") {
-    const Communicator world = Communicator::world();
     TestScene test = empty_scene("across the seam", 40, 1, 10);
     test.setting.effects.sides = {periodic, periodic, periodic, periodic};
     add_disc(test, 2.2, 39.9, -2, 0);
     add_disc(test, 37.8, 0.1, 2, 0);
-    const Scene scene = scene_of(test, CollisionRule::one);
-    std::vector<Disc> before, now;
-    for (const InputDisc& input : share_of(test.discs, world)) {
-        Disc& disc = before.emplace_back();
-        disc.id = input.id;
-        disc.x = input.x, disc.y = input.y, disc.vx = input.vx;
-        now.push_back(disc);
-        now.back().x += disc.vx;
-        now.back().tau = 1;
-    }
-    StateCheck check(scene, before, 0, world);
-    std::optional<CheckFailure> failure;
-    {
-        const std::unique_ptr<Engine> engine = make_one_engine(scene, {now, 1}, world, {});
-        try {
-            check.look(engine->settled(), 1, {});
-        } catch (const CheckFailure& found) {
-            failure = found;
-        }
-    }
+    const auto failure = failure_of_flight(test, Communicator::world());
     REQUIRE(failure);
     CHECK(failure->invariant == Invariant::overlap);
     CHECK(failure->disc == 0);
     CHECK(failure->neighbourhood.size() == 2);
+}
+
+TEST_CASE("check: a disc in an obstacle is found, across a seam too") {
+    TestScene test = empty_scene("into a body", 40, 1, 10);
+    test.setting.effects.sides = {periodic, periodic, periodic, periodic};
+    test.setting.effects.obstacles = {{{20, 20, 1}, {39, 10, 2}}, {}, 1};
+    add_disc(test, 4, 10, -2, 0); // 3 from its centre then
+    add_disc(test, 10, 30, 1, 0);
+    CHECK_FALSE(failure_of_flight(test, Communicator::world()));
+    test.discs[0].vx = -2.5;
+    const auto failure = failure_of_flight(test, Communicator::world());
+    REQUIRE(failure);
+    CHECK(failure->invariant == Invariant::clear);
+    CHECK(failure->disc == 0);
+    CHECK(std::string(failure->what()).find("overlaps fixed disc 2 by 0.5;") != std::string::npos);
 }
