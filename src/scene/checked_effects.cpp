@@ -292,9 +292,6 @@ void fill_effects(const Check& check) {
     const bool are_mixed = !effects.classes.empty();
     if (are_mixed && effects.contact.kind == ContactKind::none)
         check.refuse(*check.settings.find("effects.contact.kind"), "this version has no discs of several classes that pass through each other");
-    for (const Side& side : effects.sides)
-        if (side.kind == SideKind::open && has_table(check, "output.measurements"))
-            add_problem(check.problems, {check.scene.name, 0}, "this version measures nothing ('output.measurements') in boxes with open sides");
     for (const std::string_view key : {"time.precision", "time.arithmetic", "time.accuracy"}) {
         const Setting* setting = check.settings.find(key);
         const bool is_default = setting && std::holds_alternative<std::string>(setting->value) &&

@@ -22,6 +22,9 @@ void measure_departures(std::span<const Disc> own, double box_size, const Commun
 /// Fills in energy and momentum; `velocity_unit` turns stored velocities into those per step. `bodies`: null for masses of 1. **Collective.**
 void measure_motion(std::span<const Disc> own, const DiscBodies* bodies, double velocity_unit, const Communicator& communicator, Totals& totals);
 
+/// The discs themselves, or where `effects` open sides those whose centres are in the box at `time`, copied to `kept`.
+std::span<const Disc> discs_in_box(std::span<const Disc> discs, const Effects& effects, const Extent& box, double time, std::vector<Disc>& kept);
+
 /// Fills in the energy of spins; moments of inertia are `inertia` m r^2. **Collective.**
 void measure_rotation(std::span<const Disc> own, std::span<const double> spins, const DiscBodies& bodies, double inertia, double velocity_unit,
                       const Communicator& communicator, Totals& totals);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "carrom/parallel/pieces.hpp"
+#include "measurements.hpp"
 #include "pair_distances.hpp"
 
 namespace carrom {
@@ -226,12 +227,13 @@ void Sampler::sample(std::int64_t step) {
     const std::uint64_t n_discs = ranks_.sum(std::uint64_t{discs.size()});
     const Extent box = extent_at(scene_.effects, scene_.box_size, static_cast<double>(step));
     const bool is_first = sums_.n_samples == 0;
-    sums_.n_discs += n_discs;
+    std::vector<Disc> kept;
+    const std::span<const Disc> inside = discs_in_box(discs, scene_.effects, box, simulation_.clock(), kept);
+    sums_.n_discs += ranks_.sum(std::uint64_t{inside.size()});
     sums_.area += (box.x_high - box.x_low) * (box.y_high - box.y_low);
-    if (output_.velocities) sample_velocities(discs);
-    if (output_.density) sample_density(discs, box);
-    if (output_.displacement && !scene_.effects.are_periodic()) sample_displacement(discs, n_discs, is_first);
-    else if (output_.displacement) sample_displacement(flown_on(simulation_), n_discs, is_first);
+    if (output_.velocities) sample_velocities(inside);
+    if (output_.density) sample_density(inside, box);
+    if (output_.displacement) sample_displacement(scene_.effects.are_periodic() ? std::span<const Disc>(flown_on(simulation_)) : discs, n_discs, is_first);
     if (output_.wall_pressure && !is_first) sample_impulses(step);
     if (output_.radial_distribution) sample_distances(box); // moves discs in memory: last
     ++sums_.n_samples;

@@ -131,7 +131,7 @@ expect_code 0 'the trajectory of a moving wall, in two stretches'
 grow parts --restart parts/checkpoint-000000000010.h5 --steps 60
 same_as shorter 26
 
-run 1 run leak.toml --set output.measurements.folder=measured
+run 1 run leak.toml --set output.measurements.folder=measured --set 'output.measurements.quantities=["displacement"]'
 expect_code 2 'measurements in an open box'
 expect_told 'in boxes with open sides' 'measurements in an open box'
 

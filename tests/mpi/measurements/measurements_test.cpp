@@ -115,6 +115,38 @@ TEST_CASE("measurements: tables are what all discs and pairs give") {
     }
 }
 
+TEST_CASE("measurements: with open sides, velocities and places of discs that are in the box") {
+    const Communicator world = Communicator::world();
+    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+        TestScene test = gas(300, 0.2, 0.5, 73);
+        test.setting.effects.sides[0] = test.setting.effects.sides[3] = {SideKind::open, 1, 0, 0};
+        test.steps = 60;
+        Scene scene = measured(test, rule, 9, 5);
+        scene.measurements->largest_velocity = 1;
+        scene.measurements->radial_distribution = scene.measurements->displacement = scene.measurements->wall_pressure = false;
+        Simulation simulation = simulation_of(scene, test, world);
+        Sampler sampler(scene, simulation, world);
+        ByHand expected;
+        const double size = scene.box_size;
+        std::size_t n_seen = 0;
+        for (std::int64_t step = 5; step <= 60; step += 9) {
+            advance_to(simulation, sampler, step);
+            std::vector<Seen> discs = all_of(simulation, world);
+            std::erase_if(discs, [size](const Seen& disc) { return disc.x < 0 || disc.y > size; });
+            expected.first.clear();
+            expected.look(discs, {0, size, 0, size}, 1, 1);
+            n_seen += discs.size();
+        }
+        CHECK((simulation.totals().gone[0] > 10 && simulation.totals().gone[3] > 10));
+        const std::vector<MeasuredTable> tables = sampler.tables();
+        CHECK(column_of(tables, "velocities", "vx_count") == expected.vx);
+        CHECK(column_of(tables, "speeds", "count") == expected.speeds);
+        CHECK(column_of(tables, "density_x", "count") == expected.x);
+        CHECK(column_of(tables, "density_y", "count") == expected.y);
+        CHECK(column_of(tables, "velocities", "vx_density")[10] == Approx(expected.vx[10] / static_cast<double>(n_seen) / 0.1).epsilon(1e-12));
+    }
+}
+
 TEST_CASE("measurements: what walls have got is what discs have lost") {
     const Communicator world = Communicator::world();
     for (const Case& each : cases()) {
