@@ -86,7 +86,7 @@ TEST_CASE("effects: mixtures have the references' bits, alone and with other eff
 
 TEST_CASE("effects: mixtures among obstacles have the references' bits") {
     for (TestScene scene : mixtures()) {
-        put_bodies_between(scene, 12, 711);
+        put_bodies_between(scene, 5, 711);
         scene.setting.effects.obstacles.restitution = 0.9;
         for (InputDisc& disc : scene.discs) disc.vx *= 2, disc.vy *= 2; // so that many meet something else in the same micro-step
         for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
