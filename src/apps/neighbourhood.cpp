@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "neighbourhood.hpp"
 
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -35,6 +36,11 @@ std::string effects_text(const Effects& effects) {
     if (effects.contact.kind == ContactKind::none) text += "[effects.contact]\nkind = \"none\"\n";
     if (effects.contact.kind == ContactKind::restitution)
         text += fmt::format("[effects.contact]\nkind = \"restitution\"\nrestitution = {}\ncontact_time = {}\n", effects.contact.restitution, effects.contact.contact_time);
+    if (const ContactEffect& contact = effects.contact; contact.kind == ContactKind::rough) {
+        text += fmt::format("[effects.contact]\nkind = \"rough\"\nrestitution = {}\ncontact_time = {}\ntangential_restitution = {}\nmoment_of_inertia = {}\n",
+                            contact.restitution, contact.contact_time, contact.tangential_restitution, contact.inertia);
+        if (std::isfinite(contact.friction)) text += fmt::format("friction = {}\n", contact.friction);
+    }
     return text;
 }
 
@@ -42,17 +48,26 @@ std::string scene_text(const Scene& scene, const CheckFailure& failure, const st
     std::string text = fmt::format("# {}\n# Discs as they were at step {}; their ids in {}:", failure.what(), failure.step - 1, scene.name);
     for (std::size_t i = 0; i < failure.neighbourhood.size(); ++i) text += fmt::format(" {} was {};", i, failure.neighbourhood[i].id);
     text.back() = '.';
-    return text + fmt::format("\n[box]\nsize = {}\n[discs]\nradius = {}\ncount = {}\nfile = \"{}\"\n"
+    const bool are_mixed = !scene.effects.classes.empty(), do_turn = !failure.spins.empty();
+    std::string sizes = are_mixed ? "columns = [\"radius\", \"mass\"" : fmt::format("radius = {}\n", scene.radius);
+    if (do_turn) sizes += are_mixed ? ", \"spin\"]\n" : "columns = [\"spin\"]\n";
+    else if (are_mixed) sizes += "]\n";
+    return text + fmt::format("\n[box]\nsize = {}\n[discs]\n{}count = {}\nfile = \"{}\"\n"
                               "[time]\nsteps = 1\nmicro_steps = {}\nsync_every = {}\ncollisions = \"{}\"\n",
-                              scene.box_size, scene.radius, failure.neighbourhood.size(), discs_file, scene.micro_steps, scene.sync_every,
+                              scene.box_size, sizes, failure.neighbourhood.size(), discs_file, scene.micro_steps, scene.sync_every,
                               scene.rule == CollisionRule::one ? "one" : "all") +
            effects_text(scene.effects);
 }
 
-std::string disc_lines(const std::vector<InputDisc>& discs) {
+std::string disc_lines(const Scene& scene, const CheckFailure& failure) {
+    const DiscBodies bodies(scene.effects.classes, scene.radius);
+    const std::vector<InputDisc>& discs = failure.neighbourhood;
     std::string text;
-    for (std::size_t i = 0; i < discs.size(); ++i)
-        text += fmt::format("{} {} {} {} {}\n", i, discs[i].x, discs[i].y, discs[i].vx, discs[i].vy);
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        text += fmt::format("{} {} {} {} {}", i, discs[i].x, discs[i].y, discs[i].vx, discs[i].vy);
+        if (const Body& body = bodies.of(discs[i].id); !scene.effects.classes.empty()) text += fmt::format(" {} {}", body.radius, body.mass);
+        text += failure.spins.empty() ? "\n" : fmt::format(" {}\n", failure.spins[i]);
+    }
     return text;
 }
 
@@ -62,7 +77,7 @@ std::string write_neighbourhood(const std::string& folder, const Scene& scene, c
     if (failure.neighbourhood.empty()) return "there are no discs around it to show";
     const std::string name = fmt::format("check_step_{}_disc_{}", failure.step, failure.disc);
     const std::string scene_path = (std::filesystem::path(folder) / (name + ".toml")).string();
-    std::string obstacle = write_whole_file((std::filesystem::path(folder) / (name + ".discs")).string(), disc_lines(failure.neighbourhood));
+    std::string obstacle = write_whole_file((std::filesystem::path(folder) / (name + ".discs")).string(), disc_lines(scene, failure));
     if (obstacle.empty()) obstacle = write_whole_file(scene_path, scene_text(scene, failure, name + ".discs"));
     if (!obstacle.empty()) return "the discs around it could not be written: " + obstacle;
     return fmt::format("{} discs around it, from the step before, are in {}", failure.neighbourhood.size(), scene_path);

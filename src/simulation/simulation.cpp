@@ -66,7 +66,7 @@ void Simulation::advance_towards(std::int64_t last_step) {
 }
 
 void Simulation::check_every_step(const Scene& scene) {
-    check_ = std::make_unique<StateCheck>(scene, discs(), micro_steps_done(), communicator_, frame(), clock());
+    check_ = std::make_unique<StateCheck>(scene, discs(), micro_steps_done(), communicator_, frame(), clock(), spins());
 }
 
 void Simulation::advance_checked() {
@@ -74,7 +74,8 @@ void Simulation::advance_checked() {
     engine_->log_to(&collisions);
     engine_->advance_towards(step() + 1);
     engine_->log_to(log_);
-    check_->look(engine_->settled(), micro_steps_done(), collisions);
+    const Settled now = engine_->settled();
+    check_->look(now, micro_steps_done(), collisions, engine_->spins());
     engine_->forget_images();
     if (log_) log_->insert(log_->end(), collisions.begin(), collisions.end());
 }

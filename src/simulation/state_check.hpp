@@ -8,7 +8,7 @@
 // straight: had they been apart then, their contact was a candidate that nothing could have taken from them.
 // What effects do is allowed for: discs are looked at as the box sees them, fall and slow down as they should, may overlap
 // where they do not meet, and lose energy where collisions take some; what they have from thermal and moving walls is not known
-// beforehand, so the energy of discs that have met a wall is not held to anything there.
+// beforehand, so the energy of discs that have met a wall is not held to anything there. Energies are those with masses, and of spins.
 // Price: 128 bytes a disc, every disc and collision sent once a step, collisions to rank 0.
 #pragma once
 
@@ -31,12 +31,13 @@ namespace carrom {
 class StateCheck {
 public:
     /// Takes over what is there now as right. `scene` must outlive it; its arithmetic is the default's. **Collective.**
+    /// `spins`, per micro-step, run along the discs, of rough ones.
     StateCheck(const Scene& scene, std::span<const Disc> own, std::int64_t micro_steps_done, const Communicator& communicator, const Frame& frame = {},
-               double time = 0);
+               double time = 0, std::span<const double> spins = {});
 
     /// Looks at the end of a step; `log` has this rank's share of the collisions since the last look. If an invariant is
     /// broken every rank throws the same CheckFailure. **Collective.**
-    void look(const Settled& now, std::int64_t micro_steps_done, std::span<const Collision> log);
+    void look(const Settled& now, std::int64_t micro_steps_done, std::span<const Collision> log, std::span<const double> spins = {});
 
 private:
     struct Finding {
@@ -48,6 +49,7 @@ private:
     };
     struct Known {
         Disc disc;
+        double spin = 0;
         std::int64_t free_from = 0; ///< the end of the last micro-step in which it had a collision, or the check's begin
         std::uint64_t walls = 0, pairs = 0; ///< collisions since the last look
         int owner = -1;
@@ -63,10 +65,14 @@ private:
     /// The first finding of all ranks becomes a failure; nothing happens where there is none. **Collective.**
     void fail_if_found(const Finding& mine, Log log);
     std::string text_of(const Finding& finding) const;
-    std::vector<InputDisc> around(const Finding& finding, Log log) const;
+    struct Around {
+        std::vector<InputDisc> discs;
+        std::vector<double> spins;
+    };
+    Around around(const Finding& finding, Log log) const;
 
-    Finding first_not_finite(std::span<const Disc> own) const;
-    Finding take_records(std::span<const Disc> own, const Frame& frame, double time);
+    Finding first_not_finite(std::span<const Disc> own, std::span<const double> spins) const;
+    Finding take_records(std::span<const Disc> own, std::span<const double> spins, const Frame& frame, double time);
     void take_log(Log log);
     Finding first_out_of_place(const Settled& now) const;
     Finding first_in_obstacle(const Settled& now) const;
@@ -78,7 +84,10 @@ private:
     Finding first_other_total(std::span<const Disc> own, const std::vector<SharedEnergy>& mine);
     SharedEnergy shared_energy_of(std::size_t i) const;
     double energy_of(std::span<const Disc> own) const;
-    double twice_energy(const Disc& seen) const;
+    double twice_energy(const Known& known) const;
+    bool may_lose_in_contacts() const;
+    double mass_of(DiscId id) const { return bodies_.of(id).mass; }
+    double diameter_of(const Disc& p, const Disc& q) const { return bodies_.of(p.id).radius + bodies_.of(q.id).radius; }
     double resting_gain(const Known& known) const;
     /// What is left of a velocity after the last look's stretch of time, and how long that was.
     double slowing() const;
@@ -94,6 +103,8 @@ private:
     const Scene& scene_;
     Effects effects_; ///< times in micro-steps
     std::optional<Obstacles> obstacles_;
+    DiscBodies bodies_;
+    double total_mass_ = 0, smallest_mass_ = 1;
     bool may_lose_energy_ = false, walls_give_energy_ = false;
     Communicator communicator_;
     std::uint64_t first_id_ = 0;

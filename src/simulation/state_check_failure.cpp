@@ -19,6 +19,7 @@ constexpr std::size_t most_struck = 6; ///< partners in collisions that a rank n
 
 struct Neighbour {
     InputDisc disc;
+    double spin = 0; ///< per step
     double order = std::numeric_limits<double>::infinity(); ///< squared distance; negative for discs that must be there
 };
 using Neighbours = std::array<Neighbour, most_around>;
@@ -61,7 +62,8 @@ void StateCheck::fail_if_found(const Finding& mine, Log log) {
         if (keeper == communicator_.rank()) first.rank = known_[first.disc - first_id_].owner;
         communicator_.broadcast(first.rank, keeper);
     }
-    throw CheckFailure(text_of(first), first.invariant, micro_steps_done_ / scene_.micro_steps, first.disc, first.rank, around(first, log));
+    auto [discs, spins] = around(first, log);
+    throw CheckFailure(text_of(first), first.invariant, micro_steps_done_ / scene_.micro_steps, first.disc, first.rank, std::move(discs), std::move(spins));
 }
 
 std::string StateCheck::text_of(const Finding& f) const {
@@ -78,7 +80,7 @@ std::string StateCheck::text_of(const Finding& f) const {
         return who + fmt::format("overlaps {} by {:.3g}; rounding explains {:.3g}", obstacles_->name_of(static_cast<std::uint32_t>(f.partner)), f.value, f.bound);
     case Invariant::counters:
         return who + fmt::format("has counted {} collisions with {} in this step, but had {}", f.value, f.partner == 0 ? "walls" : "discs", f.bound);
-    case Invariant::motion: return who + fmt::format("has changed its velocity by {:.3g} a micro-step without a collision", f.value);
+    case Invariant::motion: return who + fmt::format("has changed its {} by {:.3g} a micro-step without a collision", f.partner == 0 ? "velocity" : "spin", f.value);
     case Invariant::overlap:
         return who + fmt::format("overlaps disc {} by {:.3g}{}; rounding explains {:.3g}", f.partner, f.value,
                                  scene_.rule == CollisionRule::one ? ", though both were free to collide" : "", f.bound);
@@ -90,16 +92,17 @@ std::string StateCheck::text_of(const Finding& f) const {
 }
 
 /// As they were at the last look.
-std::vector<InputDisc> StateCheck::around(const Finding& finding, Log log) const {
+StateCheck::Around StateCheck::around(const Finding& finding, Log log) const {
     if (finding.disc >= scene_.n_discs) return {};
     const auto clock = static_cast<double>(micro_steps_before_ % scene_.sync_every);
     const auto unit = static_cast<double>(scene_.micro_steps);
     const Periods periods = scene_.effects.periods(scene_.box_size);
-    const auto inside = [&](double x, double period) {
-        return period != 0 ? wrapped(x, period) : std::clamp(x, scene_.radius, scene_.box_size - scene_.radius);
+    const auto inside = [&](double x, double period, double radius) {
+        return period != 0 ? wrapped(x, period) : std::clamp(x, radius, scene_.box_size - radius);
     };
     const auto then = [&](const Disc& disc) {
-        return InputDisc{disc.id, inside(disc.x_at(clock), periods.x), inside(disc.y_at(clock), periods.y), disc.vx * unit, disc.vy * unit};
+        const double radius = bodies_.of(disc.id).radius;
+        return InputDisc{disc.id, inside(disc.x_at(clock), periods.x, radius), inside(disc.y_at(clock), periods.y, radius), disc.vx * unit, disc.vy * unit};
     };
     const auto to_nearest_image = [](double d, double period) { return period != 0 ? d - period * std::round(d / period) : d; };
     const int keeper = slab_of_disc(finding.disc);
@@ -119,7 +122,7 @@ std::vector<InputDisc> StateCheck::around(const Finding& finding, Log log) const
         const double dx = to_nearest_image(disc.x - centre.x, periods.x), dy = to_nearest_image(disc.y - centre.y, periods.y);
         const auto place = std::find(wanted.begin(), wanted.end(), disc.id);
         const bool is_wanted = place != wanted.end();
-        mine.push_back({disc, is_wanted ? static_cast<double>(place - wanted.end()) : dx * dx + dy * dy});
+        mine.push_back({disc, known.spin * unit, is_wanted ? static_cast<double>(place - wanted.end()) : dx * dx + dy * dy});
     }
     keep_first(mine);
     Neighbours padded;
@@ -128,10 +131,13 @@ std::vector<InputDisc> StateCheck::around(const Finding& finding, Log log) const
     for (const Neighbours& part : communicator_.all_gather(padded)) all.insert(all.end(), part.begin(), part.end());
     keep_first(all);
     std::erase_if(all, [](const Neighbour& n) { return n.order == std::numeric_limits<double>::infinity(); });
-    std::vector<InputDisc> discs;
-    for (const Neighbour& neighbour : all) discs.push_back(neighbour.disc);
-    std::sort(discs.begin(), discs.end(), [](const InputDisc& a, const InputDisc& b) { return a.id < b.id; });
-    return discs;
+    std::sort(all.begin(), all.end(), [](const Neighbour& a, const Neighbour& b) { return a.disc.id < b.disc.id; });
+    Around found;
+    for (const Neighbour& neighbour : all) {
+        found.discs.push_back(neighbour.disc);
+        if (effects_.contact.kind == ContactKind::rough) found.spins.push_back(neighbour.spin);
+    }
+    return found;
 }
 
 } // namespace carrom

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # failed_check.sh MISSED_CONTACT RANKS: a run that misses a contact ends with code 70 on every rank, names step, disc and
-# rank, and leaves a scene in which the contact is not missed.
+# rank, and leaves a scene in which the contact is not missed. Under "all" discs are rough and of two classes.
 source "$CARROM_SOURCE_DIR/tests/system/common.sh"
 missed_contact=$1
 n_ranks=$2
@@ -17,6 +17,7 @@ for rule in one all; do
     run "$n_ranks" run check_step_2_disc_5.toml --check --report report.json
     expect_code 0 "the neighbourhood again under $rule"
     [ "$(json_value report.json pair_collisions)" = 1 ] || complain "the contact is missed again under $rule"
+    [ $rule = one ] || grep -qx '4 31 15 4 0 1 2.5 0.625' check_step_2_disc_5.discs || complain 'no radius, mass and spin of disc 5'
     [ "$(json_value report.json rule)" = $rule ] || complain "the neighbourhood is run by another rule than $rule"
 done
 finish

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ends like a run whose search has missed a contact: disc 5 has flown into disc 9, and nobody has collided.
 //
-// missed_contact RULE: writes the neighbourhood to where it runs and leaves with code 70 on every rank.
+// missed_contact RULE: writes the neighbourhood to where it runs and leaves with code 70 on every rank. Under "all" discs are rough and of two masses.
 #include <cstdio>
 #include <string>
 
@@ -42,12 +42,24 @@ int main(int argc, char** argv) {
         scene.radius = 1;
         scene.n_discs = 30;
         scene.rule = argc > 1 && std::string(argv[1]) == "all" ? CollisionRule::all : CollisionRule::one;
+        if (scene.rule == CollisionRule::all) {
+            scene.effects.classes = {{9, 1, 2.5}, {21, 1, 0.5}};
+            scene.effects.contact = {ContactKind::rough, 0.9, 0.001, 0.5, 0.25, 0.5};
+        }
         const std::vector<Disc> discs = thirty_discs();
         const auto at = [&](double time) { return settled_by_hand(discs, time, scene.box_size, scene.radius, world.rank(), world.size()); };
         const SettledDiscs start = at(0);
-        StateCheck check(scene, std::span(start.discs).first(start.n_own), 0, world);
+        const auto spins_of = [&](const SettledDiscs& settled) {
+            std::vector<double> spins;
+            for (std::size_t i = 0; i < settled.n_own && scene.rule == CollisionRule::all; ++i) spins.push_back(0.125 * static_cast<double>(settled.discs[i].id));
+            return spins;
+        };
+        StateCheck check(scene, std::span(start.discs).first(start.n_own), 0, world, {}, 0, spins_of(start));
         try {
-            for (const std::int64_t step : {1, 2}) check.look(at(static_cast<double>(step)).view(), step, {});
+            for (const std::int64_t step : {1, 2}) {
+                const SettledDiscs now = at(static_cast<double>(step));
+                check.look(now.view(), step, {}, spins_of(now));
+            }
         } catch (const CheckFailure& failure) {
             throw told(failure, scene, world);
         }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -71,7 +72,7 @@ std::optional<CheckFailure> failure_of_flight(const TestScene& test, const Commu
 TEST_CASE("check: runs in periodic boxes break no invariant, and have their bits") {
     const Communicator world = Communicator::world();
     for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
-        for (const bool is_along_x : {false, true}) {
+        for (const auto& [is_along_x, are_rough] : {std::pair(false, false), {true, false}, {false, true}, {true, true}}) {
             TestScene test = gas(60, 0.4, 1.5, 61); // flies through the box once between syncs, some discs more often
             test.setting.effects.sides = {periodic, periodic, periodic, periodic};
             if (is_along_x) {
@@ -88,25 +89,33 @@ TEST_CASE("check: runs in periodic boxes break no invariant, and have their bits
                 return !(far(0, 0, 2.01) && far(0, 9, 1.51) && far(2.5, 16.5, 4.01));
             });
             for (std::size_t k = 0; k < test.discs.size(); ++k) test.discs[k].id = k;
+            if (are_rough) {
+                test.setting.effects.classes = {{20, 1, 5}, {test.discs.size() - 20, 0.7, 0.3}};
+                test.setting.effects.contact = {ContactKind::rough, is_along_x ? 0.95 : 1, 0.001, is_along_x ? 0.3 : 1, std::numeric_limits<double>::infinity(), 0.5};
+            }
             test.setting.sync_every = 12;
             test.steps = 30;
-            INFO((rule == CollisionRule::one ? "rule one" : "rule all") << (is_along_x ? ", along x" : ", all round"));
+            INFO((rule == CollisionRule::one ? "rule one" : "rule all") << (is_along_x ? ", along x" : ", all round") << (are_rough ? ", rough" : ""));
             CHECK(to_string(hash_after(test, rule, true, world)) == to_string(hash_after(test, rule, false, world)));
         }
     }
 }
 
-// Two discs that were apart a micro-step ago and are 0.4 apart now, through the seam.
-TEST_CASE("check: an overlap across a seam is found") {
-    TestScene test = empty_scene("across the seam", 40, 1, 10);
-    test.setting.effects.sides = {periodic, periodic, periodic, periodic};
-    add_disc(test, 2.2, 39.9, -2, 0);
-    add_disc(test, 37.8, 0.1, 2, 0);
-    const auto failure = failure_of_flight(test, Communicator::world());
-    REQUIRE(failure);
-    CHECK(failure->invariant == Invariant::overlap);
-    CHECK(failure->disc == 0);
-    CHECK(failure->neighbourhood.size() == 2);
+// Two discs that were apart a micro-step ago and are 0.45 apart now, through the seam.
+TEST_CASE("check: an overlap across a seam is found, of discs that are as large as that") {
+    for (const double radius : {1.0, 0.23, 0.22}) {
+        TestScene test = empty_scene("across the seam", 40, 1, 10);
+        test.setting.effects.sides = {periodic, periodic, periodic, periodic};
+        add_disc(test, 2.2, 39.9, -2, 0);
+        add_disc(test, 37.8, 0.1, 2, 0);
+        if (radius < 1) test.setting.effects.classes = {{1, radius, 1}, {1, radius, 3}};
+        const auto failure = failure_of_flight(test, Communicator::world());
+        CHECK(failure.has_value() == (2 * radius > std::hypot(0.4, 0.2)));
+        if (!failure) continue;
+        CHECK(failure->invariant == Invariant::overlap);
+        CHECK(failure->disc == 0);
+        CHECK(failure->neighbourhood.size() == 2);
+    }
 }
 
 TEST_CASE("check: a disc in an obstacle is found, across a seam too") {

@@ -93,9 +93,17 @@ std::vector<NamedEffects> all_effects() {
     slowed.drag = 0.05;
     sinking = pile;
     sinking.drag = 0.05;
+    Effects mixed, heaps, rubbing, rolling; // the last keeps its energy
+    mixed.classes = {{14, 1, 4}, {30, 0.8, 1}, {20, 0.5, 0.5}};
+    heaps = pile;
+    heaps.classes = mixed.classes;
+    rubbing.contact = {ContactKind::rough, 0.9, 0.001, 0.3, 0.4, 0.5};
+    rolling = mixed;
+    rolling.contact = {ContactKind::rough, 1, 0.001, 1, std::numeric_limits<double>::infinity(), 0.3};
     return {{"no contact", none, true},  {"restitution", lossy, true},  {"lossy walls", lossy_walls, true}, {"a thermal wall", thermal, true},
             {"pistons", piston, false}, {"gravity", falling, false}, {"a pile", pile, false},            {"drag", slowed, false},
-            {"gravity and drag", sinking, false}};
+            {"gravity and drag", sinking, false}, {"several classes", mixed, true}, {"a pile of several classes", heaps, false},
+            {"rough discs", rubbing, true}, {"perfectly rough discs of several classes", rolling, true}};
 }
 
 /// What the check sees after the first step of a gas, and what it says when that has been spoilt.
@@ -103,10 +111,11 @@ class OneStep {
 public:
     explicit OneStep(CollisionRule rule, const Effects& effects = {})
         : world_(Communicator::world()), test_scene_(gas_of(effects)), scene_(checked_scene(test_scene_, rule)),
-          engine_(engine_of(scene_, {share_of(test_scene_, world_), 0}, world_)), check_(scene_, engine_->own(), 0, world_) {
+          engine_(engine_of(scene_, {share_of(test_scene_, world_), 0}, world_)), check_(scene_, engine_->own(), 0, world_, {}, 0, engine_->spins()) {
         engine_->log_to(&log);
         engine_->advance_towards(1);
         settled = copy_of(engine_->settled());
+        spins.assign(engine_->spins().begin(), engine_->spins().end());
     }
 
     /// This rank's own disc of that id, or null.
@@ -147,7 +156,7 @@ public:
     std::optional<CheckFailure> look() {
         std::optional<CheckFailure> met;
         try {
-            check_.look(settled.view(), engine_->micro_steps_done(), log);
+            check_.look(settled.view(), engine_->micro_steps_done(), log, spins);
         } catch (const CheckFailure& failure) {
             met = failure;
         }
@@ -158,6 +167,7 @@ public:
     }
 
     SettledDiscs settled;
+    std::vector<double> spins; ///< along the own discs, of rough ones
     std::vector<Collision> log;
 
 private:
@@ -266,6 +276,15 @@ TEST_CASE("check: with effects, what is wrong is found all the same") {
         CHECK(found_in(named.effects, [](OneStep& step) { if (step.own(7)) ++step.own(7)->wall_collisions; }) == Invariant::counters);
         if (named.effects.contact.kind == ContactKind::none) continue;
         CHECK(found_in(named.effects, collided_disc_faster(3)) == Invariant::energy);
+    }
+    const auto turns_faster = [](OneStep& step, DiscId id) {
+        if (const Disc* const disc = step.own(id)) step.spins[static_cast<std::size_t>(disc - step.settled.discs.data())] += 0.2;
+    };
+    for (const NamedEffects& named : all_effects()) {
+        if (named.effects.contact.kind != ContactKind::rough) continue;
+        CHECK(found_in(named.effects, [&](OneStep& step) { turns_faster(step, step.free_disc()); }) == Invariant::motion);
+        CHECK(found_in(named.effects, [&](OneStep& step) { turns_faster(step, step.first_pair().p); }) ==
+              (named.effects.contact.restitution == 1 ? std::optional(Invariant::energy) : std::nullopt)); // else it might be what is lost
     }
     Effects piston;
     piston.sides[1] = {SideKind::moving, 1, 0, -0.5};
