@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -59,9 +60,11 @@ void fill_machine(RunResult& result, const Communicator& ranks) {
 /// For what is measured of effects: a fiftieth of the run's time, and some moments of a short run.
 CostsOfRun costs_of(const RunResult& result) {
     constexpr double least_budget = 0.05, largest_budget = 0.5; // seconds
-    const double n_disc_steps = static_cast<double>(result.end.n_discs) * static_cast<double>(result.last_step - result.first_step);
+    const std::uint64_t n_discs = result.end.n_discs - std::accumulate(result.end.gone.begin(), result.end.gone.end(), std::uint64_t{0});
+    const double n_disc_steps = static_cast<double>(n_discs) * static_cast<double>(result.last_step - result.first_step);
     const double processor_seconds = result.wall_seconds * result.ranks * result.threads;
     CostsOfRun costs;
+    costs.n_discs = n_discs;
     costs.kinetic_energy = result.end.kinetic_energy;
     if (n_disc_steps > 0) costs.seconds_per_disc_step = std::max(processor_seconds / n_disc_steps, 1e-9);
     costs.budget = std::clamp(0.02 * result.wall_seconds, least_budget, largest_budget);
@@ -158,7 +161,8 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     phases.emplace_back("output", output_seconds);
     fill_times(result, phases, ranks);
     fill_machine(result, ranks);
-    if (scene.effects.are_any() && ranks.is_root()) result.effect_costs = effect_costs(scene, costs_of(result));
+    const bool is_told = !options.quiet || !options.report.empty();
+    if (scene.effects.are_any() && ranks.is_root() && is_told && is_done) result.effect_costs = effect_costs(scene, costs_of(result));
     tell_result(options, scene, result, ranks);
     if (!is_done && ranks.is_root())
         tell("stopped on request at step {} of {}; {}\n", result.last_step, scene.steps,

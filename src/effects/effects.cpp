@@ -53,7 +53,7 @@ std::string description(const std::vector<DiscClass>& classes) {
     }
     std::string text;
     for (const DiscClass& one : classes)
-        text += fmt::format("{}{} discs of radius {:g} and mass {:g}", text.empty() ? "" : ", ", one.count, one.radius, one.mass);
+        text += fmt::format("{}{} disc{} of radius {:g} and mass {:g}", text.empty() ? "" : ", ", one.count, one.count == 1 ? "" : "s", one.radius, one.mass);
     return text;
 }
 

@@ -240,7 +240,7 @@ void check_obstacles(const Check& check) {
         return {};
     });
     refuse_rows(check, "effects.obstacles.segments", [&](const std::vector<double>& n) -> std::string {
-        if (!is_inside(n[0], n[1]) || !is_inside(n[2], n[3])) return fmt::format("the segment from ({}, {}) to ({}, {}) is not in the box", n[0], n[1], n[2], n[3]);
+        if (!is_inside(n[0], n[1]) || !is_inside(n[2], n[3])) return fmt::format("the segment from ({}, {}) to ({}, {}) has an end outside the box", n[0], n[1], n[2], n[3]);
         const double length = std::hypot(n[2] - n[0], n[3] - n[1]);
         if (!(length > 0x1p-30 * size)) return fmt::format("a segment of length {}: a point is a fixed disc of radius 0", length);
         return {};

@@ -2,7 +2,6 @@
 #include "carrom/simulation/effect_costs.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -18,7 +17,9 @@ namespace carrom {
 namespace {
 
 constexpr std::uint64_t fewest_discs = 500, most_discs = 16000;
-constexpr int n_rounds = 5; ///< that count; one goes before
+constexpr int n_rounds = 5;              ///< that count; one goes before
+constexpr double meetings_in_sample = 2; ///< of a disc, so that its effect does not change what the gas is like
+constexpr std::int64_t no_last_step = std::int64_t{1} << 40;
 
 /// The effects one by one. What a new effect is called, and what of it stands alone, is a line here.
 std::vector<Effects> single_effects(const Effects& all) {
@@ -48,8 +49,8 @@ std::vector<Effects> single_effects(const Effects& all) {
 struct Sample {
     Scene with, without;
     std::vector<InputDisc> discs, discs_without;
-    std::int64_t steps = 1; ///< of a round
-    double scale = 1;       ///< its box over the scene's
+    double share = 1; ///< what the effect costs a disc of the scene, of what it costs one of these
+    std::int64_t longest_round = 1; ///< in steps
 };
 
 double extra_bytes(const Effects& one) {
@@ -73,8 +74,17 @@ std::vector<DiscClass> thinned(const std::vector<DiscClass>& classes, std::uint6
     return fewer;
 }
 
+double count(const ObstacleList& list) { return static_cast<double>(list.discs.size() + list.segments.size()); }
+
+double largest_size(const ObstacleList& list) {
+    double largest = 0;
+    for (const FixedDisc& disc : list.discs) largest = std::max(largest, 2 * disc.radius);
+    for (const Segment& line : list.segments) largest = std::max(largest, std::hypot(line.x1 - line.x0, line.y1 - line.y0));
+    return largest;
+}
+
 /// The obstacles whose centres lie in one of the squares of side `size` that fit into the box, moved to the origin: those of
-/// the square that has most nearly as many as the mean.
+/// the square that has most nearly as many as the mean, and some.
 ObstacleList part_of(const ObstacleList& all, double box_size, double size) {
     const auto n_squares = static_cast<std::size_t>(std::max(1.0, std::floor(box_size / size * (1 + 1e-9))));
     std::vector<ObstacleList> parts(n_squares * n_squares);
@@ -92,11 +102,11 @@ ObstacleList part_of(const ObstacleList& all, double box_size, double size) {
         const std::size_t k = square((line.x0 + line.x1) / 2, (line.y0 + line.y1) / 2);
         parts[k].segments.push_back({line.x0 - x_of(k), line.y0 - y_of(k), line.x1 - x_of(k), line.y1 - y_of(k)});
     }
-    const auto count = [](const ObstacleList& part) { return static_cast<double>(part.discs.size() + part.segments.size()); };
     const double mean = count(all) / static_cast<double>(parts.size());
-    ObstacleList typical = *std::min_element(parts.begin(), parts.end(), [&](const ObstacleList& a, const ObstacleList& b) {
-        return std::fabs(count(a) - mean) < std::fabs(count(b) - mean);
-    });
+    const auto is_better = [mean](const ObstacleList& a, const ObstacleList& b) {
+        return a.are_any() && (!b.are_any() || std::fabs(count(a) - mean) < std::fabs(count(b) - mean));
+    };
+    ObstacleList typical = *std::min_element(parts.begin(), parts.end(), is_better);
     typical.restitution = all.restitution;
     return typical;
 }
@@ -108,16 +118,34 @@ void keep_clear(const Scene& scene, std::vector<InputDisc>& discs) {
     for (std::size_t i = 0; i < discs.size(); ++i) discs[i].id = i;
 }
 
-/// Root mean square of velocities per step.
-double speed_of(const Scene& scene, double kinetic_energy) {
+/// Root mean square of velocities per step, of discs in the box.
+double speed_of(const Scene& scene, const CostsOfRun& run) {
     double mass = scene.effects.classes.empty() ? static_cast<double>(scene.n_discs) : 0;
     for (const DiscClass& one : scene.effects.classes) mass += static_cast<double>(one.count) * one.mass;
-    return std::sqrt(2 * kinetic_energy / mass);
+    return std::sqrt(2 * run.kinetic_energy / (mass * (static_cast<double>(run.n_discs) / static_cast<double>(scene.n_discs))));
+}
+
+/// About how often a disc meets others, walls and obstacles in a step: Enskog's rate for equal discs, and free paths.
+double meetings_per_step(const Scene& scene, const CostsOfRun& run, double speed) {
+    const double area = scene.box_size * scene.box_size, density = static_cast<double>(run.n_discs) / area;
+    const double packing = std::min(scene.packing(), 0.9), chi = (1 - 7 * packing / 16) / ((1 - packing) * (1 - packing));
+    double width = 4 / scene.box_size + 4 * scene.radius * density * chi;
+    for (const FixedDisc& disc : scene.effects.obstacles.discs) width += 2 * (disc.radius + scene.radius) / area;
+    for (const Segment& line : scene.effects.obstacles.segments) width += std::hypot(line.x1 - line.x0, line.y1 - line.y0) / area;
+    return 1.25 * speed * width;
+}
+
+/// A sample's steps are micro-steps, under the rule "all" so short that discs seldom meet anything in one.
+double steps_in_one(const Scene& scene, const CostsOfRun& run) {
+    const auto k = static_cast<double>(scene.micro_steps);
+    if (scene.rule == CollisionRule::one) return k;
+    const double too_often = meetings_per_step(scene, run, speed_of(scene, run)) / k / (meetings_in_sample / (4 * (n_rounds + 1)));
+    return too_often > 1 ? k * std::exp2(std::ceil(std::log2(too_often))) : k;
 }
 
 /// What the discs and gravity need of a box from sync to sync: it is not to be crossed thousands of times (core/image.hpp), nor fallen through.
 bool has_room(const Scene& part) {
-    const double time = static_cast<double>(part.sync_every) / static_cast<double>(part.micro_steps);
+    const auto time = static_cast<double>(part.sync_every);
     const double fall = 0.5 * std::hypot(part.effects.gravity.x, part.effects.gravity.y) * time * time;
     return part.speed * time < 500 * part.box_size && fall <= 0.5 * part.box_size;
 }
@@ -132,21 +160,29 @@ bool has_places(const Scene& part) {
 /// Nothing where the scene does not allow a small one.
 std::optional<Sample> sample_of(const Scene& scene, const Effects& one, const CostsOfRun& run, double disc_steps, const Communicator& alone) {
     Sample sample;
-    const auto wanted = static_cast<std::uint64_t>(std::clamp(disc_steps / 4, static_cast<double>(fewest_discs), static_cast<double>(most_discs)));
+    const auto wanted = static_cast<std::uint64_t>(std::clamp(disc_steps, static_cast<double>(fewest_discs), static_cast<double>(most_discs)));
     Scene& part = sample.with;
     part.name = scene.name;
-    part.n_discs = std::min(scene.n_discs, wanted);
-    sample.scale = std::sqrt(static_cast<double>(part.n_discs) / static_cast<double>(scene.n_discs));
-    part.box_size = scene.box_size * sample.scale;
+    part.n_discs = std::min(run.n_discs, wanted);
+    double scale = std::sqrt(static_cast<double>(part.n_discs) / static_cast<double>(run.n_discs));
+    if (largest_size(one.obstacles) > 0.25 * scale * scene.box_size) { // room for it
+        part.n_discs = std::min(run.n_discs, most_discs);
+        scale = std::sqrt(static_cast<double>(part.n_discs) / static_cast<double>(run.n_discs));
+    }
+    part.box_size = scene.box_size * scale;
+    if (is_at_sides(one)) sample.share = scale;
     part.radius = scene.radius;
     part.generator = Generator::lattice;
-    part.speed = speed_of(scene, run.kinetic_energy);
+    const double n_steps = steps_in_one(scene, run);
+    part.speed = speed_of(scene, run) / n_steps;
     part.rule = scene.rule;
-    part.micro_steps = scene.micro_steps;
-    part.sync_every = scene.sync_every;
-    part.effects = one;
-    sample.steps = std::max<std::int64_t>(1, static_cast<std::int64_t>(disc_steps / static_cast<double>(part.n_discs)));
-    part.steps = sample.steps * (n_rounds + 1);
+    part.sync_every = static_cast<std::int64_t>(std::min(static_cast<double>(scene.sync_every) * (n_steps / static_cast<double>(scene.micro_steps)), 0x1p30));
+    part.effects = per_micro_step(one, n_steps);
+    part.steps = no_last_step;
+    const double meetings = meetings_per_step(scene, run, part.speed);
+    sample.longest_round = static_cast<std::int64_t>(std::clamp(meetings_in_sample / (meetings * (n_rounds + 1)), 1.0, 1000.0));
+    const double pull = std::hypot(part.effects.gravity.x, part.effects.gravity.y), far = 0.05 * part.box_size;
+    if (pull > 0) sample.longest_round = std::clamp<std::int64_t>(static_cast<std::int64_t>(std::sqrt(2 * far / pull) / (n_rounds + 1)), 1, sample.longest_round);
     if (!has_room(part)) return {};
     if (!one.classes.empty()) {
         part.effects.classes = thinned(one.classes, part.n_discs, scene.n_discs);
@@ -154,11 +190,11 @@ std::optional<Sample> sample_of(const Scene& scene, const Effects& one, const Co
     }
     if (one.obstacles.are_any()) {
         part.effects.obstacles = part_of(one.obstacles, scene.box_size, part.box_size);
-        if (!part.effects.obstacles.are_any()) return {}; // few and far between
+        sample.share = count(one.obstacles) * scale * scale / count(part.effects.obstacles);
     }
     while (!has_places(part)) part.box_size *= 1.02;
     for (Side& side : part.effects.sides) { // a wall does not get far in so few steps
-        const double farthest = 0.05 * part.box_size / static_cast<double>(part.steps);
+        const double farthest = 0.05 * part.box_size / static_cast<double>((n_rounds + 1) * sample.longest_round);
         side.speed = std::clamp(side.speed, -farthest, farthest);
     }
     sample.discs = initial_state(part, nullptr, alone);
@@ -189,26 +225,54 @@ double seconds_to(Simulation& simulation, std::int64_t step) {
     return thread_seconds() - begin;
 }
 
-/// Median of the rounds' ratios.
-double ratio_of_times(const Sample& sample, const Communicator& alone) {
+/// What samples have taken so far.
+struct Timings {
+    double spent = 0;           ///< seconds
+    std::vector<double> ratios; ///< of rounds
+};
+
+/// Runs both scenes from their start. False if some steps take longer than `budget`, seconds, or all rounds several times that.
+bool add_rounds(const Sample& sample, double budget, const Communicator& alone, Timings& timings) {
     Simulation with(sample.with, sample.discs, alone, {}), without(sample.without, sample.discs_without, alone, {});
-    std::array<double, n_rounds> ratios{};
-    for (int round = 0; round <= n_rounds; ++round) {
-        const std::int64_t step = (round + 1) * sample.steps;
+    const double begin = timings.spent;
+    std::int64_t steps = 0; // as many as fit: a round is a sixth of the time
+    do {
+        steps = std::max<std::int64_t>(1, 2 * steps);
+        timings.spent += seconds_to(with, steps) + seconds_to(without, steps);
+        if (timings.spent - begin > budget) return false;
+    } while (timings.spent - begin < budget / (2 * (n_rounds + 1)) && 2 * steps <= sample.longest_round);
+    for (int round = 1; round <= n_rounds; ++round) {
+        if (timings.spent > 3 * budget) return false;
+        const std::int64_t step = (round + 1) * steps;
         const double seconds = seconds_to(with, step), plain_seconds = seconds_to(without, step);
-        if (round > 0) ratios[static_cast<std::size_t>(round - 1)] = seconds / std::max(plain_seconds, 1e-9);
+        timings.ratios.push_back(seconds / std::max(plain_seconds, 1e-9));
+        timings.spent += seconds + plain_seconds;
     }
-    std::sort(ratios.begin(), ratios.end());
-    return ratios[n_rounds / 2];
+    return true;
+}
+
+/// Median of the rounds' ratios, of as many rounds as fit; nothing where those of one sample do not.
+std::optional<double> ratio_of_times(const Sample& sample, double budget, const Communicator& alone) {
+    constexpr std::size_t most_rounds = 20 * n_rounds;
+    Timings timings;
+    while (add_rounds(sample, budget, alone, timings) && timings.spent < budget && timings.ratios.size() < most_rounds) {}
+    std::vector<double>& ratios = timings.ratios;
+    if (ratios.size() < n_rounds) return {};
+    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+    std::nth_element(ratios.begin(), middle, ratios.end());
+    return *middle;
 }
 
 std::optional<double> time_ratio(const Scene& scene, const Effects& one, const CostsOfRun& run, double budget, const Communicator& alone) {
-    const double disc_steps = budget / (2 * (n_rounds + 1) * run.seconds_per_disc_step);
-    if (disc_steps < 0.1 * static_cast<double>(std::min(scene.n_discs, fewest_discs))) return {};
+    constexpr double least_seconds = 1e-7; // of a disc and step
+    const double seconds = std::max(least_seconds, run.seconds_per_disc_step / steps_in_one(scene, run));
+    const double disc_steps = budget / (2 * (n_rounds + 1) * seconds);
+    if (run.n_discs == 0 || disc_steps < 0.1 * static_cast<double>(std::min(run.n_discs, fewest_discs))) return {};
     const auto sample = sample_of(scene, one, run, disc_steps, alone);
     if (!sample) return {};
-    const double ratio = ratio_of_times(*sample, alone);
-    return is_at_sides(one) ? 1 + (ratio - 1) * sample->scale : ratio;
+    const auto ratio = ratio_of_times(*sample, budget, alone);
+    if (!ratio) return {};
+    return 1 + (*ratio - 1) * sample->share;
 }
 
 } // namespace

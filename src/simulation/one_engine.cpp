@@ -278,8 +278,7 @@ template <class Law> void OneEngine<Law>::apply(const Window& window, int m) {
             if (c.is_wall()) {
                 law_.bounce(results[c.p], m, c.time);
                 if constexpr (!Law::has_mirror_walls) fastest = std::max(fastest, squared_speed_of(results[c.p]));
-                if constexpr (Law::has_spin && Law::may_lose_discs)
-                    if (results[c.p].is_gone()) discs_.spins()[c.p] = 0;
+                if (Law::has_spin && Law::may_lose_discs && results[c.p].is_gone()) discs_.spins()[c.p] = 0;
             } else {
                 // A spin has no say in what is found, so it need not wait for the micro-step's end as states in parts do.
                 if constexpr (Law::has_spin) law_.collide(results[c.p], results[c.q], m, c.time, discs_.spins()[c.p], discs_.spins()[c.q]);

@@ -3,6 +3,7 @@
 // slowing it down. So a sample of the scene is run with that effect alone, and without any, in turns.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct EffectCost {
 
 /// What is known of the run that effects are measured for.
 struct CostsOfRun {
+    std::uint64_t n_discs = 0;            ///< in the box
     double kinetic_energy = 0;            ///< of all discs, as in Totals
     double seconds_per_disc_step = 1e-6;  ///< of processor time
     double budget = 0.1;                  ///< seconds that all samples together may take, more or less
@@ -28,7 +30,8 @@ struct CostsOfRun {
 /// Each effect of the scene by itself. A sample is a part of the box with as many of its discs as the budget allows (500 to
 /// 16,000, or all there are), as dense and as fast as the scene's: on a lattice, those of several sizes at random up to a packing
 /// of 0.4 and against as many equal ones; obstacles are those of a typical part of the box.
-/// What single sides cost is told for the whole box, whose sides are longer. One thread, not collective. Times depend on the machine.
+/// What single sides cost is told for the whole box, whose sides are longer. A sample that is not done in several times its share
+/// of the budget has no ratio. One thread, not collective. Times depend on the machine.
 std::vector<EffectCost> effect_costs(const Scene& scene, const CostsOfRun& run);
 
 } // namespace carrom

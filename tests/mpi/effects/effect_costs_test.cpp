@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What effects are said to have cost: each one that a scene names by itself, in a bounded time, whatever the scene is like.
 #include <cmath>
+#include <ctime>
 #include <functional>
 #include <vector>
 
@@ -15,7 +16,7 @@ using namespace carrom::test;
 
 namespace {
 
-constexpr CostsOfRun short_run = {1000, 1e-6, 0.02};
+constexpr CostsOfRun short_run = {200, 1000, 1e-6, 0.02};
 
 Scene scene_with(const std::function<void(Scene&)>& set, CollisionRule rule) {
     Scene scene = scene_of(gas(200, 0.05, 0.8, 821)); // r = 0.5
@@ -65,7 +66,7 @@ TEST_CASE("effects: what costs much is told from what costs little") {
         scene.effects.sides[2].restitution = 0.999;
     };
     for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
-        const std::vector<EffectCost> costs = effect_costs(scene_with(set, rule), {1000, 1e-6, 0.1});
+        const std::vector<EffectCost> costs = effect_costs(scene_with(set, rule), {200, 1000, 1e-6, 0.1});
         REQUIRE(costs.size() == 2);
         CHECK(costs[1].time_share > 0.1);
         CHECK(costs[1].time_share > 2 * costs[0].time_share);
@@ -75,11 +76,37 @@ TEST_CASE("effects: what costs much is told from what costs little") {
 
 TEST_CASE("effects: a sample that would take too long is left out") {
     const Scene scene = scene_with([](Scene& all) { all.effects.contact.kind = ContactKind::none; }, CollisionRule::one);
-    const std::vector<EffectCost> slow = effect_costs(scene, {1000, 1, 0.1}); // a second per disc and step
+    const std::vector<EffectCost> slow = effect_costs(scene, {200, 1000, 1, 0.1}); // a second per disc and step
     REQUIRE(slow.size() == 1);
     CHECK(!slow[0].time_ratio);
-    const std::vector<EffectCost> fast_discs = effect_costs(scene, {1e12, 1e-6, 0.1}); // through the box a thousand times from sync to sync
+    const std::vector<EffectCost> fast_discs = effect_costs(scene, {200, 1e12, 1e-6, 0.1}); // through the box a thousand times from sync to sync
     CHECK(!fast_discs[0].time_ratio);
+}
+
+// Where the run was cheap, its sample need not be: discs that do not meet beside dense ones that do, no step at all, most discs gone.
+TEST_CASE("effects: a sample keeps to its time, whatever the run was like") {
+    const auto seconds_of = [](const Scene& scene, const CostsOfRun& run) {
+        const std::clock_t begin = std::clock();
+        effect_costs(scene, run);
+        return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    };
+    constexpr double limit = 2; // seconds of this process, and 0.05 are asked for: far above what a slow machine makes of that
+    const auto crowd = [](Scene& scene) {
+        scene.n_discs = 3000;
+        scene.box_size = 2 * scene.radius * std::sqrt(3000.0) * 0.93; // packing 0.9
+        scene.effects.contact.kind = ContactKind::none;
+    };
+    const auto sizes = [](Scene& scene) {
+        scene.n_discs = 40;
+        scene.box_size = 21 * scene.radius;
+        scene.effects.classes = {{30, scene.radius, 0.01}, {10, 0.5 * scene.radius, 100}};
+    };
+    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all})
+        for (const double energy : {1e3, 1e6, 1e9}) {
+            CHECK(seconds_of(scene_with(crowd, rule), {3000, energy, 1e-9, 0.05}) < limit);
+            CHECK(seconds_of(scene_with(sizes, rule), {40, energy, 1e-6, 0.05}) < limit);
+            CHECK(seconds_of(scene_with([](Scene& scene) { scene.effects.sides[0].kind = SideKind::open; }, rule), {1, energy, 1e-9, 0.05}) < limit);
+        }
 }
 
 TEST_CASE("effects: large scenes are sampled, spins and many classes counted in bytes") {
@@ -87,7 +114,9 @@ TEST_CASE("effects: large scenes are sampled, spins and many classes counted in 
     scene.n_discs = 1000000;
     scene.box_size *= std::sqrt(5000.0);
     for (int k = 0; k < 10; ++k) scene.effects.classes.push_back({100000, scene.radius, 1.0 + k});
-    const std::vector<EffectCost> costs = effect_costs(scene, short_run);
+    CostsOfRun run = short_run;
+    run.n_discs = scene.n_discs;
+    const std::vector<EffectCost> costs = effect_costs(scene, run);
     REQUIRE(costs.size() == 2);
     CHECK(costs[0].time_ratio.has_value());
     CHECK(costs[0].bytes_per_disc == 8);
