@@ -119,8 +119,8 @@ bool step_to_end(Simulation& simulation, RunResult& result, double& output_secon
 void check_every_step(Simulation& simulation, const Scene& scene) {
     if (scene.precision != Precision::double_ || scene.arithmetic != Arithmetic::stable)
         throw InputError({{"--check", 0, "its bounds are those of time.precision = \"double\" and time.arithmetic = \"stable\"; leave one out"}});
-    for (const Side& side : scene.effects.sides)
-        if (side.kind == SideKind::open) throw InputError({{"--check", 0, "it knows closed boxes only; leave sides of kind = \"open\" or --check out"}});
+    if (scene.effects.have_open_sides())
+        throw InputError({{"--check", 0, "it knows closed boxes only; leave sides of kind = \"open\" or --check out"}});
     simulation.check_every_step(scene);
 }
 

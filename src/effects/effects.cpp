@@ -63,6 +63,10 @@ bool Effects::have_plain_sides() const {
     return std::all_of(sides.begin(), sides.end(), [](const Side& side) { return side.is_plain(); });
 }
 
+bool Effects::have_open_sides() const {
+    return std::any_of(sides.begin(), sides.end(), [](const Side& side) { return side.kind == SideKind::open; });
+}
+
 Effects per_micro_step(const Effects& effects, double micro_steps) {
     Effects scaled = effects;
     scaled.contact.contact_time *= micro_steps;

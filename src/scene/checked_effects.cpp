@@ -106,7 +106,7 @@ void check_beside_periodic_sides(const Check& check) {
     if (!effects.are_periodic()) return;
     const Setting& kind = *check.settings.find(std::string("box.") + side_names[effects.is_periodic_x() ? 0 : 2] + ".kind");
     const auto refuse = [&](std::string_view other) { check.refuse(kind, fmt::format("this version has no periodic sides together with {}", other)); };
-    if (std::any_of(effects.sides.begin(), effects.sides.end(), [](const Side& side) { return side.kind == SideKind::open; })) refuse("open sides");
+    if (effects.have_open_sides()) refuse("open sides");
 }
 
 /// Sides are periodic in pairs.

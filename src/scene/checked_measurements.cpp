@@ -84,10 +84,8 @@ void check_measured_box(const Check& check) {
     const bool goes_round_x = scene.effects.is_periodic_x(), goes_round_y = scene.effects.is_periodic_y();
     if (const Setting* setting = check.settings.find("output.measurements.quantities"); setting && scene.measurements && scene.measurements->wall_pressure && goes_round_x && goes_round_y)
         check.refuse(*setting, "there is no \"wall_pressure\" in a box without walls: all of its sides are periodic");
-    const auto& sides = scene.effects.sides;
-    const bool is_open = std::any_of(sides.begin(), sides.end(), [](const Side& side) { return side.kind == SideKind::open; });
     const bool is_about_all = scene.measurements && (scene.measurements->wall_pressure || scene.measurements->radial_distribution || scene.measurements->displacement);
-    if (const Setting* setting = check.settings.find("output.measurements.quantities"); setting && is_open && is_about_all)
+    if (const Setting* setting = check.settings.find("output.measurements.quantities"); setting && scene.effects.have_open_sides() && is_about_all)
         check.refuse(*setting, "in boxes with open sides this version measures \"velocities\" and \"density\" alone");
     if (!scene.measurements || !scene.measurements->radial_distribution) return;
     // Walls may come in; the box is the smallest at its start or at its end.

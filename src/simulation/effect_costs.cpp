@@ -24,7 +24,11 @@ constexpr std::int64_t no_last_step = std::int64_t{1} << 40;
 /// The effects one by one. What a new effect is called, and what of it stands alone, is a line here.
 std::vector<Effects> single_effects(const Effects& all) {
     std::vector<Effects> singles;
-    const auto add = [&singles](auto&& set) { set(singles.emplace_back()); };
+    const auto add = [&](auto&& set) {
+        Effects& one = singles.emplace_back();
+        one.contact.contact_time = all.contact.contact_time; // the guard of walls, obstacles and gravity too
+        set(one);
+    };
     if (all.contact.kind != ContactKind::elastic) add([&](Effects& one) { one.contact = all.contact; });
     for (std::size_t k = 0; k < all.sides.size(); ++k)
         if (!all.sides[k].is_plain() && all.sides[k].kind != SideKind::periodic)
@@ -157,41 +161,59 @@ bool has_places(const Scene& part) {
     return part.packing() < random_packing && part.box_size > 6 * part.radius;
 }
 
-/// Nothing where the scene does not allow a small one.
-std::optional<Sample> sample_of(const Scene& scene, const Effects& one, const CostsOfRun& run, double disc_steps, const Communicator& alone) {
-    Sample sample;
+/// As many as there is time for, or at least as many as an obstacle needs room among.
+std::uint64_t discs_in_sample(const Scene& scene, const Effects& one, const CostsOfRun& run, double disc_steps) {
     const auto wanted = static_cast<std::uint64_t>(std::clamp(disc_steps, static_cast<double>(fewest_discs), static_cast<double>(most_discs)));
-    Scene& part = sample.with;
-    part.name = scene.name;
-    part.n_discs = std::min(run.n_discs, wanted);
-    double scale = std::sqrt(static_cast<double>(part.n_discs) / static_cast<double>(run.n_discs));
-    if (largest_size(one.obstacles) > 0.25 * scale * scene.box_size) { // room for it
-        part.n_discs = std::min(run.n_discs, most_discs);
-        scale = std::sqrt(static_cast<double>(part.n_discs) / static_cast<double>(run.n_discs));
-    }
-    part.box_size = scene.box_size * scale;
-    if (is_at_sides(one)) sample.share = scale;
-    part.radius = scene.radius;
-    part.generator = Generator::lattice;
+    const double width = scene.box_size * std::sqrt(static_cast<double>(wanted) / static_cast<double>(run.n_discs));
+    return std::min(run.n_discs, largest_size(one.obstacles) > 0.25 * width ? most_discs : wanted);
+}
+
+/// A box of a side `scale` times the scene's, as dense and as fast, with one of its effects. Its discs have no places yet.
+Scene part_of(const Scene& scene, const Effects& one, const CostsOfRun& run, std::uint64_t n_discs, double scale) {
     const double n_steps = steps_in_one(scene, run);
+    Scene part;
+    part.name = scene.name;
+    part.n_discs = n_discs;
+    part.box_size = scene.box_size * scale;
+    part.radius = scene.radius;
+    part.generator = one.classes.empty() ? Generator::lattice : Generator::random;
     part.speed = speed_of(scene, run) / n_steps;
     part.rule = scene.rule;
     part.sync_every = static_cast<std::int64_t>(std::min(static_cast<double>(scene.sync_every) * (n_steps / static_cast<double>(scene.micro_steps)), 0x1p30));
-    part.effects = per_micro_step(one, n_steps);
     part.steps = no_last_step;
-    const double meetings = meetings_per_step(scene, run, part.speed);
-    sample.longest_round = static_cast<std::int64_t>(std::clamp(meetings_in_sample / (meetings * (n_rounds + 1)), 1.0, 1000.0));
+    part.effects = per_micro_step(one, n_steps);
+    if (!one.classes.empty()) part.effects.classes = thinned(one.classes, n_discs, scene.n_discs);
+    if (one.obstacles.are_any()) part.effects.obstacles = part_of(one.obstacles, scene.box_size, part.box_size);
+    return part;
+}
+
+/// Steps in which neither collisions nor gravity change much.
+std::int64_t longest_round(const Scene& part, double meetings) {
     const double pull = std::hypot(part.effects.gravity.x, part.effects.gravity.y), far = 0.05 * part.box_size;
-    if (pull > 0) sample.longest_round = std::clamp<std::int64_t>(static_cast<std::int64_t>(std::sqrt(2 * far / pull) / (n_rounds + 1)), 1, sample.longest_round);
+    const double steps = std::min(meetings_in_sample / meetings, std::sqrt(2 * far / pull)) / (n_rounds + 1);
+    return static_cast<std::int64_t>(std::clamp(steps, 1.0, 1000.0));
+}
+
+/// As many discs that cover as much, of one size and without effects.
+Scene without_effects(const Scene& part) {
+    Scene plain = part;
+    plain.effects = {};
+    if (part.effects.classes.empty()) return plain;
+    plain.generator = Generator::lattice;
+    plain.radius = part.box_size * std::sqrt(part.packing() / (std::numbers::pi * static_cast<double>(part.n_discs)));
+    return plain;
+}
+
+/// Nothing where the scene does not allow a small one.
+std::optional<Sample> sample_of(const Scene& scene, const Effects& one, const CostsOfRun& run, double disc_steps, const Communicator& alone) {
+    const std::uint64_t n_discs = discs_in_sample(scene, one, run, disc_steps);
+    const double scale = std::sqrt(static_cast<double>(n_discs) / static_cast<double>(run.n_discs));
+    Sample sample;
+    Scene& part = sample.with = part_of(scene, one, run, n_discs, scale);
     if (!has_room(part)) return {};
-    if (!one.classes.empty()) {
-        part.effects.classes = thinned(one.classes, part.n_discs, scene.n_discs);
-        part.generator = Generator::random;
-    }
-    if (one.obstacles.are_any()) {
-        part.effects.obstacles = part_of(one.obstacles, scene.box_size, part.box_size);
-        sample.share = count(one.obstacles) * scale * scale / count(part.effects.obstacles);
-    }
+    sample.longest_round = longest_round(part, meetings_per_step(scene, run, part.speed));
+    if (is_at_sides(one)) sample.share = scale;
+    if (one.obstacles.are_any()) sample.share = count(one.obstacles) * scale * scale / count(part.effects.obstacles);
     while (!has_places(part)) part.box_size *= 1.02;
     for (Side& side : part.effects.sides) { // a wall does not get far in so few steps
         const double farthest = 0.05 * part.box_size / static_cast<double>((n_rounds + 1) * sample.longest_round);
@@ -201,14 +223,8 @@ std::optional<Sample> sample_of(const Scene& scene, const Effects& one, const Co
     if (one.obstacles.are_any()) keep_clear(part, sample.discs);
     if (sample.discs.empty()) return {};
     part.n_discs = sample.discs.size();
-    sample.without = part;
-    sample.without.effects = {};
-    sample.discs_without = sample.discs;
-    if (!one.classes.empty()) { // as many equal discs that cover as much
-        sample.without.radius = part.box_size * std::sqrt(part.packing() / (std::numbers::pi * static_cast<double>(part.n_discs)));
-        sample.without.generator = Generator::lattice;
-        sample.discs_without = initial_state(sample.without, nullptr, alone);
-    }
+    sample.without = without_effects(part);
+    sample.discs_without = one.classes.empty() ? sample.discs : initial_state(sample.without, nullptr, alone);
     return sample;
 }
 

@@ -50,6 +50,7 @@ public:
     virtual std::span<const Disc> own() const = 0;
     virtual std::span<const Disc> gone() const = 0; ///< of this rank, those that have left the box and are no more among its own
     virtual std::span<const double> spins() const { return {}; } ///< along `own()`; empty where discs do not turn
+    virtual const DiscBodies* bodies() const { return nullptr; } ///< of laws that know several
     virtual double clock() const = 0;
     virtual Frame frame() const { return {}; } ///< of the own discs' coordinates, at `clock()`
     virtual std::uint64_t n_discs() const = 0; ///< over all ranks, those that are gone too

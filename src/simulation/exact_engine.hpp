@@ -46,6 +46,10 @@ public:
     std::int64_t micro_steps_done() const override { return n_micro_done_; }
     std::span<const Disc> own() const override { return discs_.own(); }
     std::span<const double> spins() const override { return discs_.own_spins(); }
+    const DiscBodies* bodies() const override {
+        if constexpr (Law::has_bodies) return &law_.bodies();
+        return nullptr;
+    }
     double clock() const override { return time_; }
     Frame frame() const override;
     std::span<const Disc> gone() const override { return discs_.gone(); }

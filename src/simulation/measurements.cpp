@@ -2,9 +2,9 @@
 #include "measurements.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -39,7 +39,7 @@ void measure_departures(std::span<const Disc> own, double box_size, const Commun
 }
 
 std::span<const Disc> discs_in_box(std::span<const Disc> discs, const Effects& effects, const Extent& box, double time, std::vector<Disc>& kept) {
-    if (std::none_of(effects.sides.begin(), effects.sides.end(), [](const Side& side) { return side.kind == SideKind::open; })) return discs;
+    if (!effects.have_open_sides()) return discs;
     std::copy_if(discs.begin(), discs.end(), std::back_inserter(kept), [&](const Disc& disc) {
         const double x = disc.x_at(time), y = disc.y_at(time);
         return x >= box.x_low && x <= box.x_high && y >= box.y_low && y <= box.y_high;

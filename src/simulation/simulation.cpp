@@ -34,10 +34,6 @@ StoredState first_state(const Scene& scene, std::vector<InputDisc> inputs) {
     return state;
 }
 
-bool has_open_side(const Effects& effects) {
-    return std::any_of(effects.sides.begin(), effects.sides.end(), [](const Side& side) { return side.kind == SideKind::open; });
-}
-
 std::unique_ptr<Engine> engine_for(const Scene& scene, StoredState state, const Communicator& communicator,
                                    const Tuning& tuning) {
     if (scene.rule == CollisionRule::all) return make_exact_engine(scene, std::move(state), communicator, tuning);
@@ -51,10 +47,10 @@ Simulation::Simulation(const Scene& scene, std::vector<InputDisc> discs, const C
     : Simulation(scene, first_state(scene, std::move(discs)), communicator, tuning) {}
 
 Simulation::Simulation(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning)
-    : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)), effects_(scene.effects), bodies_(scene.effects.classes, scene.radius), box_size_(scene.box_size),
+    : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)), effects_(scene.effects), box_size_(scene.box_size),
       n_threads_(tuning.threads), engine_(engine_for(scene, std::move(state), communicator, tuning)),
       averages_(std::make_unique<BlockAverages>(AveragedSystem{static_cast<double>(engine_->n_discs()), scene.box_size, scene.radius,
-                                                               velocity_unit_, scene.micro_steps, scene.sync_every, !scene.effects.are_any(), !has_open_side(scene.effects)})) {}
+                                                               velocity_unit_, scene.micro_steps, scene.sync_every, !scene.effects.are_any(), !scene.effects.have_open_sides()})) {}
 
 Simulation::~Simulation() = default;
 
@@ -145,10 +141,10 @@ Totals Simulation::totals() const {
     totals.n_discs = engine_->n_discs();
     measure_collisions(discs(), spins(), communicator_, totals);
     measure_departures(discs(), box_size_, communicator_, totals);
-    const DiscBodies* const bodies = effects_.classes.empty() ? nullptr : &bodies_;
+    const DiscBodies* const bodies = effects_.classes.empty() ? nullptr : engine_->bodies();
     measure_motion(in_motion(), bodies, velocity_unit_, communicator_, totals);
     if (effects_.contact.kind == ContactKind::rough)
-        measure_rotation(discs(), spins(), bodies_, effects_.contact.inertia, velocity_unit_, communicator_, totals);
+        measure_rotation(discs(), spins(), *engine_->bodies(), effects_.contact.inertia, velocity_unit_, communicator_, totals);
     if (effects_.gravity.is_any()) measure_height(shown(), bodies, effects_.gravity, box_size_, communicator_, totals);
     engine_->add_to(totals);
     return totals;

@@ -87,6 +87,7 @@ struct Effects {
     std::vector<DiscClass> classes{}; ///< in the order of ids; empty where all discs are of one radius and mass 1
 
     bool have_plain_sides() const;
+    bool have_open_sides() const;
     /// The reader of scenes makes opposite sides periodic together.
     bool is_periodic_x() const { return sides[0].kind == SideKind::periodic; }
     bool is_periodic_y() const { return sides[2].kind == SideKind::periodic; }

@@ -154,7 +154,6 @@ private:
     Communicator communicator_;
     double velocity_unit_;
     Effects effects_;                 ///< times in steps
-    DiscBodies bodies_;
     double box_size_;
     int n_threads_;
     std::unique_ptr<Engine> engine_;
