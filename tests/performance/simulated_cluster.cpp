@@ -4,11 +4,12 @@
 // are the ones that a real run sends; what computing takes is told to the simulation instead of measured, so that the
 // same run gives the same numbers on any machine.
 //
-//   simulated_cluster PLATFORM RANKS SCENE STEPS NS_OWN NS_HALO STANDS_FOR
+//   simulated_cluster PLATFORM RANKS SCENE STEPS NS_OWN NS_HALO STANDS_FOR WINDOW
 //
 // The first interval between two syncs is left out of the tallies; then STEPS steps count. A rank computes for NS_OWN
 // nanoseconds per own disc and micro-step and for NS_HALO per disc that it has sent (as many come). A disc may stand for
-// several: then all this takes so many times as long, and so does a byte on its way. One line on standard output, as in the
+// several: then all this takes so many times as long, and so does a byte on its way, and WINDOW says how many micro-steps a
+// window has (0: as the engine chooses), for it would choose longer ones where discs meet less often. One line on standard output, as in the
 // heading that `simulated_cluster` alone prints: per rank and step, means over ranks where nothing else is said.
 #include <algorithm>
 #include <cstdint>
@@ -62,6 +63,7 @@ struct Job {
     std::string scene;
     std::int64_t steps;
     double ns_own, ns_halo;
+    Tuning tuning;
     std::vector<Tally> tallies;
     std::vector<std::vector<InputDisc>> dealt{}; ///< by the rank whose strip they begin in
     std::uint64_t network_messages = 0;
@@ -88,7 +90,7 @@ void step(Job& job, int rank) {
     const Communicator world = Communicator::world();
     std::ifstream file = open_input(job.scene);
     const Scene scene = read_scene(read_scene_text(file, job.scene));
-    Simulation simulation(scene, discs_of_strip(job, rank, scene, world), world, Tuning{});
+    Simulation simulation(scene, discs_of_strip(job, rank, scene, world), world, job.tuning);
     const std::int64_t first = scene.sync_every / scene.micro_steps, last = first + job.steps;
     while (simulation.step() < first) simulation.advance_towards(first);
     world.barrier();
@@ -152,13 +154,14 @@ int main(int argc, char** argv) {
         return 0;
     }
     simgrid::s4u::Engine engine(&argc, argv); // takes its own options out
-    if (argc != 8) {
-        std::fprintf(stderr, "simulated_cluster PLATFORM RANKS SCENE STEPS NS_OWN NS_HALO STANDS_FOR\n");
+    if (argc != 9) {
+        std::fprintf(stderr, "simulated_cluster PLATFORM RANKS SCENE STEPS NS_OWN NS_HALO STANDS_FOR WINDOW\n");
         return 2;
     }
     const int n_ranks = std::stoi(argv[2]);
     const double stands_for = std::stod(argv[7]);
-    Job job{argv[3], std::stoll(argv[4]), std::stod(argv[5]) * stands_for, std::stod(argv[6]) * stands_for, {}};
+    Job job{argv[3], std::stoll(argv[4]), std::stod(argv[5]) * stands_for, std::stod(argv[6]) * stands_for, {}, {}};
+    if (const double window = std::stod(argv[8]); window > 0) job.tuning.window = window;
     job.tallies.resize(static_cast<std::size_t>(n_ranks));
     job.dealt.resize(job.tallies.size());
     SMPI_init(); // knows the settings from here on

@@ -52,7 +52,7 @@ long_case() {
 mapfile -t cases < <("$build/tests/stability_mpi_test" --list-test-names-only "[hours]${family:+[$family]}" || true) # says how many
 [ ${#cases[@]} -gt 0 ] || { echo "there are no long cases of the family $family" >&2; exit 2; }
 for number in "${!cases[@]}"; do
-    while [ "$(jobs -rp | wc -l)" -ge "${JOBS:-$(nproc)}" ]; do wait -n || true; done
+    while [ "$(jobs -rp | wc -l)" -ge "${JOBS:-$(nproc)}" ]; do sleep 1; done # `wait -n` has been seen to miss an end
     long_case "$number" "${cases[number]}" &
 done
 wait
