@@ -41,7 +41,7 @@ template <class Law> void BlockReplay<Law>::Scratch::mirror(std::uint32_t slot, 
 template <class Law> void BlockReplay<Law>::Scratch::predict_images(std::uint32_t slot) {
     for (std::uint32_t other = next_image[slot]; other != slot; other = next_image[other]) {
         if (law.has_walls()) predict_walls(other);
-        predict_pairs(other, Past::nobody);
+        predict_pairs(other);
     }
 }
 

@@ -150,19 +150,28 @@ template <class Law> [[gnu::always_inline]] inline Flight BlockReplay<Law>::Scra
     flight.vx = vx[slot];
     flight.vy = vy[slot];
     flight.now = static_cast<float>((disc.tau - ground.window.begin) * windows_per_time);
+    flight.slot = slot;
     return flight;
 }
 
-/// Fills `runs` with slots whose discs the flight may meet in what is left of the
-/// window, and makes room for all of them in `partners`.
-template <class Law> void BlockReplay<Law>::Scratch::look_around(const Flight& flight) {
-    const float rest = 1 - flight.now;
-    const float dx = flight.vx * rest, dy = flight.vy * rest;
-    const auto cell = [](float place, float last) { return static_cast<int>(std::min(std::max(place, 0.0f), last)); };
-    const int left = cell(flight.x + std::min(dx, 0.0f) - farthest, column_limit);
-    const int right = cell(flight.x + std::max(dx, 0.0f) + farthest, column_limit);
-    const int bottom = cell(flight.y + std::min(dy, 0.0f) - farthest, row_limit);
-    const int top = cell(flight.y + std::max(dy, 0.0f) + farthest, row_limit);
+/// No branches on signs, which are anything: a flight ends where it began or on either side of it.
+template <class Law> FlightBox BlockReplay<Law>::Scratch::box_of(const Flight& flight) const {
+    const float half = (1 - flight.now) / 2;
+    const float dx = flight.vx * half, dy = flight.vy * half;
+    const float x_middle = flight.x + dx, y_middle = flight.y + dy;
+    const float wide = std::abs(dx) + farthest, high = std::abs(dy) + farthest;
+    return {x_middle - wide, x_middle + wide, y_middle - high, y_middle + high};
+}
+
+/// Fills `runs` with the slots of discs that were in the box at the window's start, and makes room for all of them in
+/// the lists of partners.
+template <class Law> void BlockReplay<Law>::Scratch::look_around(const FlightBox& box) {
+    const auto cell = [](float place, float last) {
+        const float above = place > 0 ? place : 0;
+        return static_cast<int>(above < last ? above : last);
+    };
+    const int left = cell(box.left, column_limit), right = cell(box.right, column_limit);
+    const int bottom = cell(box.bottom, row_limit), top = cell(box.top, row_limit);
     SlotRange* run = runs.data();
     std::uint32_t n_slots = 0;
     const std::uint32_t* starts = cell_starts.data() + static_cast<std::size_t>(left) * cell_rows;
@@ -172,7 +181,10 @@ template <class Law> void BlockReplay<Law>::Scratch::look_around(const Flight& f
         run += run->begin < run->end;
     }
     n_runs = static_cast<std::size_t>(run - runs.data());
-    if (partners.size() < n_slots + filter_padding) partners.resize(2 * n_slots + filter_padding);
+    if (partners.size() < n_slots + filter_padding) {
+        partners.resize(2 * n_slots + filter_padding);
+        others_partners.resize(partners.size());
+    }
 }
 
 template <class Law> void BlockReplay<Law>::Scratch::predict_all() {
@@ -193,15 +205,27 @@ template <class Law> void BlockReplay<Law>::Scratch::predict_all() {
     }
 }
 
-template <class Law>
-void BlockReplay<Law>::Scratch::predict_pairs(std::uint32_t slot, std::uint32_t except) {
+template <class Law> void BlockReplay<Law>::Scratch::predict_pairs(std::uint32_t slot) {
     if constexpr (!Law::has_pairs) return;
     const Flight flight = flight_of(slot);
-    look_around(flight);
+    look_around(box_of(flight));
     const std::size_t n_partners = filter_flights(lanes, std::span(runs).first(n_runs), flight, touching_squared, partners.data());
-    for (std::size_t k = 0; k < n_partners; ++k) {
-        if (partners[k] != slot && partners[k] != except) predict_pair(slot, partners[k]);
-    }
+    for (std::size_t k = 0; k < n_partners; ++k) predict_pair(slot, partners[k]);
+}
+
+/// Of two discs that have just collided: they touch, so both look at nearly the same cells.
+template <class Law> void BlockReplay<Law>::Scratch::predict_pairs_of(std::uint32_t p, std::uint32_t q) {
+    if constexpr (!Law::has_pairs) return;
+    const Flight p_flight = flight_of(p), q_flight = flight_of(q);
+    const FlightBox a = box_of(p_flight), b = box_of(q_flight);
+    const auto least = [](float u, float v) { return u < v ? u : v; };
+    const auto most = [](float u, float v) { return u > v ? u : v; };
+    look_around({least(a.left, b.left), most(a.right, b.right), least(a.bottom, b.bottom), most(a.top, b.top)});
+    const PartnerCounts n = filter_two_flights(lanes, std::span(runs).first(n_runs), p_flight, q_flight, touching_squared,
+                                               partners.data(), others_partners.data());
+    predict_pair(p, q);
+    for (std::size_t k = 0; k < n.p; ++k) predict_pair(p, partners[k]);
+    for (std::size_t k = 0; k < n.q; ++k) predict_pair(q, others_partners[k]);
 }
 
 template <class Law> void BlockReplay<Law>::Scratch::predict_pair(std::uint32_t a, std::uint32_t b) {
@@ -279,14 +303,17 @@ template <class Law> void BlockReplay<Law>::Scratch::happen(const Event& event) 
         if (is_mirrored && !is_wall(event.q)) mirror(event.q, event.time);
     }
     if (law.has_walls()) predict_walls(event.p);
-    predict_pairs(event.p, Past::nobody);
-    if constexpr (Law::is_periodic)
-        if (is_mirrored) predict_images(event.p);
-    if (is_wall(event.q)) return;
-    if (law.has_walls()) predict_walls(event.q);
-    predict_pairs(event.q, event.p);
-    if constexpr (Law::is_periodic)
-        if (is_mirrored) predict_images(event.q);
+    if (is_wall(event.q)) {
+        predict_pairs(event.p);
+    } else {
+        if (law.has_walls()) predict_walls(event.q);
+        predict_pairs_of(event.p, event.q);
+    }
+    if constexpr (Law::is_periodic) {
+        if (!is_mirrored) return;
+        predict_images(event.p);
+        if (!is_wall(event.q)) predict_images(event.q);
+    }
 }
 
 /// Rewrites the states of an event's discs and writes down what has happened to them.

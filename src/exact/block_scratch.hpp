@@ -36,6 +36,11 @@ static_assert(sizeof(Past) == 16);
 
 inline double speed_squared(const Disc& disc) { return disc.vx * disc.vx + disc.vy * disc.vy; }
 
+/// Where the partners of a flight can have been at the window's start, in cells.
+struct FlightBox {
+    float left = 0, right = 0, bottom = 0, top = 0;
+};
+
 template <class Law> struct BlockReplay<Law>::Scratch {
     explicit Scratch(const Law& of_scene) : law(of_scene) {}
 
@@ -57,8 +62,10 @@ template <class Law> struct BlockReplay<Law>::Scratch {
     void carry_out(const Event& event);
     void note(std::uint32_t slot, std::uint32_t partner, const Event& event);
     void hold_to_schedule(std::uint32_t slot, double time);
-    void look_around(const Flight& flight);
-    void predict_pairs(std::uint32_t slot, std::uint32_t except);
+    FlightBox box_of(const Flight& flight) const;
+    void look_around(const FlightBox& box);
+    void predict_pairs(std::uint32_t slot);
+    void predict_pairs_of(std::uint32_t p, std::uint32_t q);
     void predict_pair(std::uint32_t a, std::uint32_t b);
     void predict_walls(std::uint32_t slot);
     void predict_obstacle(std::uint32_t slot);
@@ -142,7 +149,7 @@ template <class Law> struct BlockReplay<Law>::Scratch {
     EventQueue queue;
     std::vector<SlotRange> runs; ///< the first n_runs; room for all columns
     std::size_t n_runs = 0;
-    std::vector<std::uint32_t> partners;
+    std::vector<std::uint32_t> partners, others_partners; ///< of one disc, and of the one that it has met
     std::vector<std::uint32_t> later, later_ends; ///< of a column: partners behind its discs, and where each one's end
     double crowd_begin = 0; ///< when the present crowd of collisions at one time began
     std::uint64_t crowd = 0;

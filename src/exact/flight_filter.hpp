@@ -16,13 +16,22 @@ namespace carrom {
 struct Flight {
     float x = 0, y = 0, vx = 0, vy = 0;
     float now = 0;
+    std::uint32_t slot = 0;
 };
 
-/// Writes the slots of `runs` that might come within the square root of `touching_squared` of `flight`; returns how
-/// many. Lanes hold positions extrapolated to the window's start. `out` has room for all slots of the runs and
-/// `filter_padding` more; lanes can be read as far beyond the last slot.
+/// Writes the slots of `runs`, other than the flight's own, that might come within the square root of `touching_squared`
+/// of `flight`; returns how many. Lanes hold positions extrapolated to the window's start. `out` has room for all slots of
+/// the runs and `filter_padding` more; lanes can be read as far beyond the last slot.
 std::size_t filter_flights(const FlightLanes& lanes, std::span<const SlotRange> runs, const Flight& flight,
                            float touching_squared, std::uint32_t* out);
+
+struct PartnerCounts {
+    std::size_t p = 0, q = 0;
+};
+
+/// The same for two flights with the same `now` at once, into a list each: all slots but those of the two.
+PartnerCounts filter_two_flights(const FlightLanes& lanes, std::span<const SlotRange> runs, const Flight& p, const Flight& q,
+                                 float touching_squared, std::uint32_t* p_out, std::uint32_t* q_out);
 
 /// Cells of a block, column by column: slots of cell (c, r) begin at starts[c * column_length + r] and end where the next
 /// cell's begin; column_length is one more than the rows.
