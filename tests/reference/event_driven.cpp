@@ -12,7 +12,7 @@ namespace carrom::reference {
 
 EventDrivenReference::EventDrivenReference(const Setting& setting, std::span<const InputDisc> discs, std::size_t most_events)
     : setting_(setting), bodies_(std::make_shared<FixedBodies>(setting)), discs_(stored_states(setting, discs)),
-      spins_(setting.are_rough() ? discs.size() : 0, 0.0), past_(discs.size()), most_events_(most_events) {
+      spins_(stored_spins(setting, discs.size())), past_(discs.size()), most_events_(most_events) {
     predict_all();
 }
 

@@ -162,10 +162,16 @@ std::vector<Disc> stored_states(const Setting& setting, std::span<const InputDis
     return states;
 }
 
+std::vector<double> stored_spins(const Setting& setting, std::size_t n_discs) {
+    std::vector<double> spins(setting.are_rough() ? n_discs : 0, 0.0);
+    for (std::size_t i = 0; i < setting.first_spins.size(); ++i) spins.at(i) = setting.first_spins[i] / static_cast<double>(setting.micro_steps);
+    return spins;
+}
+
 OneRuleReference::OneRuleReference(const Setting& setting, std::span<const InputDisc> discs)
     : setting_(setting), bodies_(std::make_shared<FixedBodies>(setting)), band_(1e-8 * setting.radius),
       tolerance_(std::max(1e-12 * (2 * setting.radius), 32 * 0x1p-53 * setting.box_size)),
-      discs_(stored_states(setting, discs)), spins_(setting.are_rough() ? discs.size() : 0, 0.0) {}
+      discs_(stored_states(setting, discs)), spins_(stored_spins(setting, discs.size())) {}
 
 void OneRuleReference::run_micro_steps(std::int64_t count) {
     for (std::int64_t i = 0; i < count; ++i) run_micro_step();

@@ -26,6 +26,7 @@ struct Setting {
     std::int64_t micro_steps = 1;
     std::int64_t sync_every = 64;
     Effects effects{}; ///< times in steps
+    std::vector<double> first_spins{}; ///< of rough discs by id, per step; empty where all begin without
     /// What leaves a thermal wall: the velocity away from it and along it, in the unit of the side's temperature.
     std::function<std::array<double, 2>(const Side& side, DiscId id, std::uint64_t wall_collisions, std::size_t number)> thermal_draw{};
 
@@ -115,6 +116,8 @@ void collide_rough(const Setting& setting, Disc& p, Disc& q, double& p_spin, dou
 
 /// Numbers the discs 0 .. N-1 as given (ids must be a permutation of that) and divides velocities by `micro_steps`.
 std::vector<Disc> stored_states(const Setting& setting, std::span<const InputDisc> discs);
+/// By id, per micro-step; empty where discs are not rough.
+std::vector<double> stored_spins(const Setting& setting, std::size_t n_discs);
 
 class OneRuleReference {
 public:

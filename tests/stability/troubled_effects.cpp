@@ -7,6 +7,7 @@
 
 #include "carrom/effects/drag.hpp"
 #include "carrom/effects/fall.hpp"
+#include "carrom/effects/falling_contact.hpp"
 #include "scene_tools.hpp"
 
 namespace carrom::test {
@@ -37,7 +38,9 @@ Side troubled_wall(std::size_t number, bool may_move, Random& random) {
 
 void hand_to_reference(reference::Setting& setting) {
     set_thermal_seed(setting, setting.effects.thermal_seed);
+    setting.falling_contact = falling_contact;
     const double c = setting.effects.drag / static_cast<double>(setting.micro_steps);
+    setting.drag_clock = {};
     if (!(c > 0)) return;
     setting.drag_clock = [c](double n) { return drag_clock(c, n); };
     setting.dragged_fall = [c](double clock) { return dragged_fall(c, clock); };

@@ -4,15 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <tuple>
 
-#include <fmt/format.h>
-
-#include "carrom/scene/read_scene.hpp"
 #include "scene_tools.hpp"
-#include "troubled_effects.hpp"
 
 namespace carrom::test {
 
@@ -56,21 +50,6 @@ bool is_free(const TestScene& scene, double x, double y) {
     return std::none_of(scene.discs.begin(), scene.discs.end(), [&](const InputDisc& disc) {
         return std::sqrt((disc.x - x) * (disc.x - x) + (disc.y - y) * (disc.y - y)) < sigma * (1 - 0x1p-50);
     });
-}
-
-/// Calls `change(scene)` on a copy and keeps it if it still fails.
-template <class Change> bool keep_if_it_fails(TestScene& scene, const std::function<bool(const TestScene&)>& fails, const Change& change) {
-    TestScene trial = scene;
-    change(trial);
-    if (!fails(trial)) return false;
-    scene = trial;
-    return true;
-}
-
-void leave_out(TestScene& scene, std::size_t place) {
-    const DiscId gone = scene.discs[place].id;
-    scene.discs.erase(scene.discs.begin() + static_cast<std::ptrdiff_t>(place));
-    for (InputDisc& disc : scene.discs) disc.id -= disc.id > gone;
 }
 
 } // namespace
@@ -156,52 +135,6 @@ TestScene wildly_troubled_scene(std::uint64_t seed, bool may_overlap) {
         disc.vy *= speed;
     }
     return random.index(3) == 0 ? scaled(scene, static_cast<int>(random.index(400)) - 200) : scene;
-}
-
-TestScene shrunk(TestScene scene, const std::function<bool(const TestScene&)>& fails) {
-    for (bool has_changed = true; has_changed;) {
-        has_changed = false;
-        for (std::size_t i = scene.discs.size(); i-- > 0 && scene.discs.size() > 1;)
-            has_changed |= keep_if_it_fails(scene, fails, [i](TestScene& trial) { leave_out(trial, i); });
-        while (scene.steps > 1 && keep_if_it_fails(scene, fails, [](TestScene& trial) { trial.steps -= 1; })) has_changed = true;
-        for (InputDisc& disc : scene.discs) {
-            for (double InputDisc::*const number : {&InputDisc::vx, &InputDisc::vy, &InputDisc::x, &InputDisc::y}) {
-                const double unit = scene.setting.radius / 16, rounded = std::round(disc.*number / unit) * unit;
-                const bool is_place = number == &InputDisc::x || number == &InputDisc::y;
-                if (rounded == disc.*number) continue;
-                if (is_place && !(rounded >= scene.setting.radius && rounded <= scene.setting.box_size - scene.setting.radius)) continue;
-                const auto place = &disc - scene.discs.data();
-                has_changed |= keep_if_it_fails(scene, fails, [&](TestScene& trial) {
-                    trial.discs[static_cast<std::size_t>(place)].*number = rounded;
-                });
-            }
-        }
-    }
-    return scene;
-}
-
-std::string toml_of(const TestScene& scene) {
-    std::vector<InputDisc> discs = scene.discs;
-    std::sort(discs.begin(), discs.end(), [](const InputDisc& a, const InputDisc& b) { return a.id < b.id; });
-    std::string rows;
-    for (const InputDisc& disc : discs) rows += fmt::format("  [{:.17g}, {:.17g}, {:.17g}, {:.17g}],\n", disc.x, disc.y, disc.vx, disc.vy);
-    return fmt::format("[box]\nsize = {:.17g}\n[discs]\nradius = {:.17g}\nlist = [\n{}]\n[time]\nsteps = {}\nmicro_steps = {}\nsync_every = {}\n",
-                       scene.setting.box_size, scene.setting.radius, rows, scene.steps, scene.setting.micro_steps,
-                       scene.setting.sync_every);
-}
-
-Regression read_regression(const std::string& path) {
-    std::ifstream file(path);
-    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    const Scene read = read_scene(text, path);
-    TestScene scene = empty_scene(path, read.box_size, read.radius, read.steps);
-    scene.setting.micro_steps = read.micro_steps;
-    scene.setting.sync_every = read.sync_every;
-    scene.setting.effects = read.effects;
-    scene.discs = read.listed_discs;
-    if (!read.effects.are_any()) return {scene, {CollisionRule::one, CollisionRule::all}};
-    hand_to_reference(scene.setting);
-    return {scene, {read.rule}};
 }
 
 } // namespace carrom::test

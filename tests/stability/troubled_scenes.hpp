@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Random scenes drawn for trouble: touching, aligned, at walls and in corners, equal and opposite speeds, exact binary
-// fractions beside numbers that are not. And how a scene that fails is made small.
+// fractions beside numbers that are not.
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <string>
-#include <vector>
 
 #include "scenes.hpp"
 
@@ -19,18 +16,5 @@ TestScene troubled_scene(std::uint64_t seed);
 /// boxes of up to 1e6 radii, speeds from 1e-12 to 1e3 diameters a step, velocities that differ by an ulp, overlaps (under the rule
 /// "one" only), micro-steps that are no power of two, long sync intervals, all lengths times a power of two.
 TestScene wildly_troubled_scene(std::uint64_t seed, bool may_overlap);
-
-/// The smallest scene found, by leaving out discs, steps and digits, for which `fails` still holds.
-TestScene shrunk(TestScene scene, const std::function<bool(const TestScene&)>& fails);
-
-/// The scene as TOML that reads back to the same bits, to be kept in tests/stability/regressions.
-std::string toml_of(const TestScene& scene);
-
-/// A scene kept there. With effects it is for its own rule, else for both.
-struct Regression {
-    TestScene scene;
-    std::vector<CollisionRule> rules;
-};
-Regression read_regression(const std::string& path);
 
 } // namespace carrom::test

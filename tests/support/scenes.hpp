@@ -29,7 +29,7 @@ struct TestScene {
     std::optional<std::uint64_t> expected_pair_collisions;
 };
 
-/// The same scene in the engine's own input type.
+/// The same scene in the engine's own input type, spins included.
 Scene scene_of(const TestScene& scene);
 
 /// x and y exchanged: states must come out exchanged, bit for bit.

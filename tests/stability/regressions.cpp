@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "regressions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "carrom/scene/read_scene.hpp"
+#include "runs.hpp"
+#include "scene_tools.hpp"
+#include "troubled_effects.hpp"
+
+namespace carrom::test {
+
+namespace {
+
+using Fails = std::function<bool(const TestScene&)>;
+
+/// Calls `change(scene)` on a copy and keeps it if it still fails.
+template <class Change> bool keep_if_it_fails(TestScene& scene, const Fails& fails, const Change& change) {
+    TestScene trial = scene;
+    change(trial);
+    if (!fails(trial)) return false;
+    scene = trial;
+    return true;
+}
+
+/// One disc fewer; the largest radius is that of those that are left.
+void leave_out_class(reference::Setting& setting, DiscId gone) {
+    std::vector<DiscClass>& classes = setting.effects.classes;
+    if (classes.empty()) return;
+    auto its = classes.begin();
+    while (gone >= its->count) gone -= (its++)->count;
+    if (--its->count == 0) classes.erase(its);
+    setting.radius = 0;
+    for (const DiscClass& one : classes) setting.radius = std::max(setting.radius, one.radius);
+}
+
+void leave_out(TestScene& scene, std::size_t place) {
+    const DiscId gone = scene.discs[place].id;
+    scene.discs.erase(scene.discs.begin() + static_cast<std::ptrdiff_t>(place));
+    for (InputDisc& disc : scene.discs) disc.id -= disc.id > gone;
+    leave_out_class(scene.setting, gone);
+    std::vector<double>& spins = scene.setting.first_spins;
+    if (!spins.empty()) spins.erase(spins.begin() + static_cast<std::ptrdiff_t>(gone));
+}
+
+/// One effect fewer, or one that is simpler: each is tried by itself. A change that changes nothing is no success.
+bool shrink_effects(TestScene& scene, const Fails& fails) {
+    bool has_changed = false;
+    const auto without = [&](const auto& change) {
+        TestScene trial = scene;
+        change(trial.setting);
+        if (trial.setting.effects == scene.setting.effects && trial.setting.first_spins == scene.setting.first_spins) return;
+        hand_to_reference(trial.setting);
+        has_changed |= keep_if_it_fails(scene, fails, [&trial](TestScene& copy) { copy = trial; });
+    };
+    const ObstacleList& obstacles = scene.setting.effects.obstacles;
+    const auto nth = [](auto& list, std::size_t i) { return list.begin() + static_cast<std::ptrdiff_t>(i); };
+    for (std::size_t i = obstacles.discs.size(); i-- > 0;) without([&](reference::Setting& s) { s.effects.obstacles.discs.erase(nth(s.effects.obstacles.discs, i)); });
+    for (std::size_t i = obstacles.segments.size(); i-- > 0;) without([&](reference::Setting& s) { s.effects.obstacles.segments.erase(nth(s.effects.obstacles.segments, i)); });
+    without([](reference::Setting& s) { s.effects.obstacles.restitution = 1; });
+    for (const std::size_t low : {0u, 2u}) {
+        without([low](reference::Setting& s) { s.effects.sides[low] = s.effects.sides[low + 1] = {}; });
+        if (scene.setting.effects.sides[low].kind == SideKind::periodic) continue;
+        for (const std::size_t side : {low, low + 1}) without([side](reference::Setting& s) { s.effects.sides[side] = {}; });
+    }
+    without([](reference::Setting& s) { s.effects.gravity = {}; });
+    without([](reference::Setting& s) { s.effects.drag = 0; });
+    without([](reference::Setting& s) { s.effects.contact = {}, s.first_spins.clear(); });
+    without([](reference::Setting& s) { s.first_spins.clear(); });
+    without([](reference::Setting& s) { for (DiscClass& one : s.effects.classes) one.mass = 1; });
+    return has_changed;
+}
+
+/// Effects, key by key, and the rule.
+std::string toml_of(const Effects& effects, CollisionRule rule) {
+    std::string text = fmt::format("collisions = \"{}\"\n", name_of(rule));
+    bool is_lossy = effects.gravity.is_any() || effects.obstacles.restitution < 1;
+    for (std::size_t k = 0; k < side_names.size(); ++k) {
+        const Side& side = effects.sides[k];
+        is_lossy = is_lossy || side.restitution < 1 || (effects.drag > 0 && side.speed != 0);
+        if (side.is_plain()) continue;
+        text += fmt::format("[box.{}]\n", side_names[k]);
+        switch (side.kind) {
+        case SideKind::thermal: text += fmt::format("kind = \"thermal\"\ntemperature = {:.17g}\n", side.temperature); break;
+        case SideKind::moving: text += fmt::format("kind = \"moving\"\nspeed = {:.17g}\n", side.speed); break;
+        case SideKind::open: text += "kind = \"open\"\n"; break;
+        case SideKind::periodic: text += "kind = \"periodic\"\n"; break;
+        case SideKind::fixed: break;
+        }
+        if (side.restitution < 1) text += fmt::format("restitution = {:.17g}\n", side.restitution);
+    }
+    const ContactEffect& contact = effects.contact;
+    const bool is_rough = contact.kind == ContactKind::rough, is_dull = is_rough || contact.kind == ContactKind::restitution;
+    if (contact.kind != ContactKind::elastic || is_lossy) text += "[effects.contact]\n";
+    if (contact.kind == ContactKind::none) text += "kind = \"none\"\n";
+    if (is_dull) text += fmt::format("kind = \"{}\"\nrestitution = {:.17g}\n", is_rough ? "rough" : "restitution", contact.restitution);
+    if (is_rough) text += fmt::format("tangential_restitution = {:.17g}\nmoment_of_inertia = {:.17g}\n", contact.tangential_restitution, contact.inertia);
+    if (is_rough && std::isfinite(contact.friction)) text += fmt::format("friction = {:.17g}\n", contact.friction);
+    if (is_dull || is_lossy) text += fmt::format("contact_time = {:.17g}\n", contact.contact_time);
+    if (effects.gravity.is_any()) text += fmt::format("[effects.gravity]\nx = {:.17g}\ny = {:.17g}\n", effects.gravity.x, effects.gravity.y);
+    if (effects.drag > 0) text += fmt::format("[effects.drag]\nrate = {:.17g}\n", effects.drag);
+    const bool is_thermal = std::any_of(effects.sides.begin(), effects.sides.end(), [](const Side& side) { return side.kind == SideKind::thermal; });
+    if (is_thermal) text += fmt::format("[effects.thermal]\nseed = {}\n", effects.thermal_seed);
+    if (!effects.obstacles.are_any()) return text;
+    text += "[effects.obstacles]\ndiscs = [\n";
+    for (const FixedDisc& disc : effects.obstacles.discs) text += fmt::format("  [{:.17g}, {:.17g}, {:.17g}],\n", disc.x, disc.y, disc.radius);
+    text += "]\nsegments = [\n";
+    for (const Segment& s : effects.obstacles.segments) text += fmt::format("  [{:.17g}, {:.17g}, {:.17g}, {:.17g}],\n", s.x0, s.y0, s.x1, s.y1);
+    return text + fmt::format("]\nrestitution = {:.17g}\n", effects.obstacles.restitution);
+}
+
+} // namespace
+
+TestScene shrunk(TestScene scene, const Fails& fails) {
+    for (bool has_changed = true; has_changed;) {
+        has_changed = false;
+        for (std::size_t i = scene.discs.size(); i-- > 0 && scene.discs.size() > 1;)
+            has_changed |= keep_if_it_fails(scene, fails, [i](TestScene& trial) { leave_out(trial, i); });
+        while (scene.steps > 1 && keep_if_it_fails(scene, fails, [](TestScene& trial) { trial.steps -= 1; })) has_changed = true;
+        has_changed |= shrink_effects(scene, fails);
+        for (InputDisc& disc : scene.discs) {
+            for (double InputDisc::*const number : {&InputDisc::vx, &InputDisc::vy, &InputDisc::x, &InputDisc::y}) {
+                const double unit = scene.setting.radius / 16, rounded = std::round(disc.*number / unit) * unit;
+                const bool is_place = number == &InputDisc::x || number == &InputDisc::y;
+                if (rounded == disc.*number) continue;
+                if (is_place && !(rounded >= scene.setting.radius && rounded <= scene.setting.box_size - scene.setting.radius)) continue;
+                const auto place = &disc - scene.discs.data();
+                has_changed |= keep_if_it_fails(scene, fails, [&](TestScene& trial) {
+                    trial.discs[static_cast<std::size_t>(place)].*number = rounded;
+                });
+            }
+        }
+    }
+    return scene;
+}
+
+std::string toml_of(const TestScene& scene, CollisionRule rule) {
+    const reference::Setting& setting = scene.setting;
+    std::vector<InputDisc> discs = scene.discs;
+    std::sort(discs.begin(), discs.end(), [](const InputDisc& a, const InputDisc& b) { return a.id < b.id; });
+    std::string rows;
+    for (const InputDisc& disc : discs) {
+        rows += fmt::format("  [{:.17g}, {:.17g}, {:.17g}, {:.17g}", disc.x, disc.y, disc.vx, disc.vy);
+        if (!setting.effects.classes.empty()) rows += fmt::format(", {:.17g}, {:.17g}", setting.radius_of(disc.id), setting.mass_of(disc.id));
+        if (!setting.first_spins.empty()) rows += fmt::format(", {:.17g}", setting.first_spins[disc.id]);
+        rows += "],\n";
+    }
+    const std::string radius = setting.effects.classes.empty() ? fmt::format("radius = {:.17g}\n", setting.radius) : "";
+    return fmt::format("[box]\nsize = {:.17g}\n[discs]\n{}list = [\n{}]\n[time]\nsteps = {}\nmicro_steps = {}\nsync_every = {}\n{}", setting.box_size, radius,
+                       rows, scene.steps, setting.micro_steps, setting.sync_every, setting.effects.are_any() ? toml_of(setting.effects, rule) : "");
+}
+
+Regression regression_of(const std::string& text, const std::string& name) {
+    const Scene read = read_scene(text, name);
+    TestScene scene = empty_scene(name, read.box_size, read.radius, read.steps);
+    scene.setting.micro_steps = read.micro_steps;
+    scene.setting.sync_every = read.sync_every;
+    scene.setting.effects = read.effects;
+    scene.discs = read.listed_discs;
+    for (std::size_t id = 0; id < scene.discs.size() && !read.spins.empty(); ++id) scene.setting.first_spins.push_back(first_spin(read, id));
+    if (!read.effects.are_any()) return {scene, {CollisionRule::one, CollisionRule::all}};
+    hand_to_reference(scene.setting);
+    return {scene, {read.rule}};
+}
+
+Regression read_regression(const std::string& path) {
+    std::ifstream file(path);
+    return regression_of({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()}, path);
+}
+
+} // namespace carrom::test
