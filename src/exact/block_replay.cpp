@@ -290,7 +290,8 @@ template <class Law> void BlockReplay<Law>::Scratch::happen(const Event& event) 
     const bool is_corner = event.q == x_wall && law.y_wall_time(discs[event.p]) == event.time;
     const double vy_before = discs[event.p].vy; // a thermal wall changes it, and so what comes next
     carry_out(event);
-    if (is_corner && (Law::has_mirror_walls || discs[event.p].vy == vy_before)) { // nothing may come between its two sides: x and y are alike
+    const bool has_left = Law::may_lose_discs && discs[event.p].is_gone(); // through the first side: then the other one is none
+    if (is_corner && !has_left && (Law::has_mirror_walls || discs[event.p].vy == vy_before)) { // nothing may come between its two sides: x and y are alike
         Event other_side = event;
         other_side.q = y_wall;
         other_side.generation += 1;

@@ -56,7 +56,7 @@ std::optional<EnergyChange> worst_energy_change(std::span<const SharedEnergy> di
         Sums& sum = sums[clusters.of(i)];
         sum.before += sorted[i].before;
         sum.change += static_cast<long double>(sorted[i].after) - sorted[i].before;
-        sum.n_roundings += 1 + n_collisions[i];
+        sum.n_roundings += 1 + n_collisions[i] + sorted[i].n_reflections;
         sum.allowance += sorted[i].allowance;
     }
     std::optional<EnergyChange> worst;

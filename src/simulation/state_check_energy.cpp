@@ -81,6 +81,7 @@ SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     const Known& known = known_[i];
     SharedEnergy energy = {first_id_ + i, twice_energy(before_[i]) * energy_left(), twice_energy(known)};
     energy.allowance = resting_gain(known);
+    if (obstacles_) energy.n_reflections = static_cast<double>(known.walls);
     if (effects_.drag != 0) energy.allowance += energy_bound * energy.before;
     if (walls_give_energy_ && known.walls > 0) energy.allowance = std::numeric_limits<double>::infinity();
     return energy;

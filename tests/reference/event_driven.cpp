@@ -218,7 +218,7 @@ void EventDrivenReference::happen(const Event& event) {
     const bool is_corner = !event.is_pair && !event.is_obstacle && event.q == Event::wall_x && meeting(first, Event::wall_y).time == event.time;
     const double vy_before = first.vy;
     carry_out(event);
-    if (is_corner && first.vy == vy_before) {
+    if (is_corner && !has_left(first) && first.vy == vy_before) {
         Event other_side = event;
         other_side.q = Event::wall_y;
         other_side.generation += 1;

@@ -3,11 +3,13 @@
 // the reference's bits; no disc lost; energy to 1e-12; nothing outside the box; counters that agree with the log; the
 // log in order; transposed scenes have transposed bits; another storage order has the same bits. With effects drawn as well
 // (troubled_effects.hpp): the reference's bits, no disc lost, a log that agrees, another storage order. With discs that differ, turn, leave
-// and meet obstacles (troubled_bodies.hpp): the same, each disc's own counters, energy, and what the self-check holds a run to.
+// and meet obstacles (troubled_bodies.hpp): the same, each disc's own counters, energy, what the self-check holds
+// a run to, and a restart.
 //
 // A scene that fails is made small and printed; kept in tests/stability/regressions it is tried for ever after.
 // $CARROM_TEST_SCENES sets how many scenes are drawn, $CARROM_TEST_SEED where they begin.
 #include <catch2/catch.hpp>
+#include <omp.h>
 
 #include <algorithm>
 #include <array>
@@ -81,9 +83,9 @@ bool log_agrees(const TestScene& scene, CollisionRule rule, const Totals& totals
     return n_walls == totals.wall_collisions && n_pairs == totals.pair_collisions;
 }
 
-bool has_same_bits_in_another_order(const TestScene& scene, CollisionRule rule, const Outcome& end) {
+bool has_same_bits_in_another_order(const TestScene& scene, CollisionRule rule, const Outcome& end, double window = 0.37) {
     Tuning tuning;
-    tuning.window = 0.37;
+    tuning.window = window;
     tuning.cell_width = 0.5;
     return run(scene, rule, tuning, 7).totals.hash == end.totals.hash;
 }
@@ -144,6 +146,20 @@ bool reads_back(const TestScene& scene, CollisionRule rule) {
            (spins_read == spins || (has_no_spin(spins) && has_no_spin(spins_read)));
 }
 
+/// The same run, stopped half-way and begun again from what is stored.
+bool has_same_bits_begun_again(const TestScene& scene, CollisionRule rule, const Outcome& end) {
+    Scene again = scene_of(scene);
+    again.rule = rule;
+    Tuning tuning;
+    tuning.threads = omp_get_max_threads();
+    tuning.discs_per_thread = 1;
+    Simulation first = start(scene, rule);
+    run_to(first, scene.steps / 2);
+    Simulation second(again, {{first.discs().begin(), first.discs().end()}, first.micro_steps_done(), {first.spins().begin(), first.spins().end()}}, Communicator::world(), tuning);
+    run_to(second, scene.steps);
+    return second.totals().hash == end.totals.hash;
+}
+
 /// The scene with every step checked, but for boxes with open sides.
 Outcome run_checked(const TestScene& scene, CollisionRule rule) {
     Scene checked = scene_of(scene);
@@ -166,7 +182,8 @@ std::string broken_among_bodies(const TestScene& scene, CollisionRule rule) {
         if (end.totals.hash != expected->hash()) return "other bits than the reference";
         if (!energy_is_right(scene, *expected)) return "the energy has changed";
         if (!log_agrees(scene, rule, end.totals) || !counters_agree(scene, rule, end.discs)) return "log and counters do not agree";
-        if (!has_same_bits_in_another_order(scene, rule, end)) return "other bits in another storage order";
+        if (!has_same_bits_in_another_order(scene, rule, end) || !has_same_bits_in_another_order(scene, rule, end, 2.7)) return "other bits in another storage order";
+        if (!has_same_bits_begun_again(scene, rule, end)) return "other bits after a restart";
     } catch (const InputError& error) {
         return std::string("refused: ") + error.what();
     } catch (const CollectiveError& error) {
@@ -226,7 +243,7 @@ TestScene wildly_troubled(std::uint64_t seed, CollisionRule rule) { return wildl
 } // namespace
 
 TEST_CASE("property: random scenes drawn for trouble", "[property]") {
-    const std::uint64_t few = Communicator::world().size() == 1 ? 300 : 12;
+    const std::uint64_t few = Communicator::world().size() == 1 ? 200 : 8;
     try_scenes("for trouble", number_from("CARROM_TEST_SEED", 1), number_from("CARROM_TEST_SCENES", few), troubled);
 }
 
@@ -236,7 +253,7 @@ TEST_CASE("property: random scenes drawn wildly", "[property]") {
 }
 
 TEST_CASE("property: random scenes drawn for trouble, with effects", "[property]") {
-    const std::uint64_t few = Communicator::world().size() == 1 ? 100 : 6;
+    const std::uint64_t few = Communicator::world().size() == 1 ? 50 : 4;
     try_scenes("for trouble, with effects", number_from("CARROM_TEST_SEED", 1), number_from("CARROM_TEST_SCENES", few), troubled_with_effects,
                broken_with_effects);
 }

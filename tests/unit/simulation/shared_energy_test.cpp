@@ -45,6 +45,15 @@ TEST_CASE("energy: rounding is within the bound, ten times as much is not") {
     }
 }
 
+TEST_CASE("energy: reflections from bodies round as collisions do, and nobody else's count") {
+    const SharedEnergy often{0, 1, 1 + 4000 * 0x1p-53, 0, 90}, rarely{1, 1, 1 + 4000 * 0x1p-53, 0, 3};
+    CHECK(!worst_energy_change(std::vector{often}, {}));
+    const auto change = worst_energy_change(std::vector{often, rarely}, {});
+    REQUIRE(change);
+    CHECK(change->disc == 1);
+    CHECK(change->bound == 4 * 64 * 0x1p-53);
+}
+
 TEST_CASE("energy: out of nothing is an infinite change") {
     const auto change = worst_energy_change(std::vector<SharedEnergy>{{3, 0, 1}}, {});
     REQUIRE(change);
