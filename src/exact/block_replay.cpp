@@ -213,7 +213,8 @@ template <class Law> void BlockReplay<Law>::Scratch::predict_pairs(std::uint32_t
     for (std::size_t k = 0; k < n_partners; ++k) predict_pair(slot, partners[k]);
 }
 
-/// Of two discs that have just collided: they touch, so both look at nearly the same cells.
+/// Of two discs that have just collided: they touch, so both look at nearly the same cells. Whether they meet again is
+/// asked once and of the predicate alone; who comes near either of them lies in the box that holds both of theirs.
 template <class Law> void BlockReplay<Law>::Scratch::predict_pairs_of(std::uint32_t p, std::uint32_t q) {
     if constexpr (!Law::has_pairs) return;
     const Flight p_flight = flight_of(p), q_flight = flight_of(q);
