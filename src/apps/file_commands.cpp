@@ -254,8 +254,9 @@ enum class Format { xyz, text, csv };
 void append_header(fmt::memory_buffer& out, Format format, const FileSummary& summary, std::int64_t step) {
     if (format != Format::xyz) return;
     fmt::format_to(std::back_inserter(out),
-                   "{}\nLattice=\"{} 0 0 0 {} 0 0 0 1\" Properties=species:S:1:pos:R:3:velo:R:3:id:I:1{} Time={} pbc=\"F F F\"\n",
-                   summary.n_discs, summary.box_size, summary.box_size, summary.has_angular_velocity ? ":angular_velocity:R:1" : "", step);
+                   "{}\nLattice=\"{} 0 0 0 {} 0 0 0 1\" Properties=species:S:1:pos:R:3:velo:R:3:id:I:1{} Time={} pbc=\"{} {} F\"\n",
+                   summary.n_discs, summary.box_size, summary.box_size, summary.has_angular_velocity ? ":angular_velocity:R:1" : "", step,
+                   summary.is_periodic_x ? 'T' : 'F', summary.is_periodic_y ? 'T' : 'F');
 }
 
 void append_row(fmt::memory_buffer& out, Format format, std::int64_t step, std::uint64_t id, const FrameRow& row, const FileSummary& summary) {

@@ -15,7 +15,7 @@ namespace carrom {
 
 namespace {
 
-constexpr std::size_t longest_version = 1000;
+constexpr std::size_t longest_word = 1000;
 
 /// HDF5 wants every group on the way to be asked for.
 bool has(hid_t file, const std::string& path) {
@@ -42,16 +42,16 @@ void read_block(hid_t file, const std::string& path, std::size_t frame, std::uin
     h5::checked(H5Dread(dataset.id(), type, memory.id(), source.id(), H5P_DEFAULT, values), path.c_str());
 }
 
-std::string version_in(hid_t file) {
-    const h5::Group creator(h5::checked(H5Gopen2(file, "/h5md/creator", H5P_DEFAULT), "has no /h5md/creator"));
-    const h5::Attribute attribute(h5::checked(H5Aopen(creator.id(), "version", H5P_DEFAULT), "has no version"));
-    const h5::Type type(h5::checked(H5Aget_type(attribute.id()), "has no version"));
-    const h5::Space shape(h5::checked(H5Aget_space(attribute.id()), "has no version"));
-    const bool is_text = H5Tget_class(type.id()) == H5T_STRING && H5Tis_variable_str(type.id()) == 0 && H5Tget_size(type.id()) <= longest_version;
-    if (!is_text || H5Sget_simple_extent_npoints(shape.id()) != 1) throw FileError("was written by another program");
-    std::string text(H5Tget_size(type.id()), '\0');
-    h5::checked(H5Aread(attribute.id(), type.id(), text.data()), "has no version");
-    return text;
+/// The words of an attribute, each as long as the others, side by side.
+std::string letters_of(hid_t file, const char* object, const char* name, hssize_t n_words) {
+    const h5::Attribute attribute(h5::checked(H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT), name));
+    const h5::Type type(h5::checked(H5Aget_type(attribute.id()), name));
+    const h5::Space shape(h5::checked(H5Aget_space(attribute.id()), name));
+    const bool is_text = H5Tget_class(type.id()) == H5T_STRING && H5Tis_variable_str(type.id()) == 0 && H5Tget_size(type.id()) <= longest_word;
+    if (!is_text || H5Sget_simple_extent_npoints(shape.id()) != n_words) throw FileError("was written by another program");
+    std::string letters(H5Tget_size(type.id()) * static_cast<std::size_t>(n_words), '\0');
+    h5::checked(H5Aread(attribute.id(), type.id(), letters.data()), name);
+    return letters;
 }
 
 template <class Act> void guarded(const std::string& path, const Act& act) {
@@ -112,6 +112,9 @@ FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_un
                 if (element.width != 2) summary_.bytes_per_number = H5Tget_size(type.id());
             }
             h5::read_scalar(file, "/parameters/radius", summary_.radius);
+            const std::string boundary = letters_of(file, "/particles/discs/box", "boundary", 3), periodic = "periodic";
+            summary_.is_periodic_x = boundary.compare(0, periodic.size(), periodic) == 0;
+            summary_.is_periodic_y = boundary.compare(boundary.size() / 3, periodic.size(), periodic) == 0;
             std::array<std::int32_t, 4> open_sides{};
             if (has(file, "/parameters/open_sides")) read_block(file, "/parameters/open_sides", 0, 0, 4, 1, H5T_NATIVE_INT32, open_sides.data());
             for (std::size_t side = 0; side < open_sides.size(); ++side) summary_.open_sides[side] = open_sides[side] != 0;
@@ -121,7 +124,7 @@ FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_un
         } else {
             throw FileError("holds nothing that carrom writes");
         }
-        if (summary_.kind != FileKind::checkpoint) summary_.program_version = version_in(file);
+        if (summary_.kind != FileKind::checkpoint) summary_.program_version = letters_of(file, "/h5md/creator", "version", 1);
         state_->file = std::move(opened);
     });
 }

@@ -35,6 +35,12 @@ shown t.h5 --to xyz --output t.xyz
 [ "$(grep -c '^300$' t.xyz)" -eq 21 ] || complain 'not 21 frames of 300 discs'
 [ "$(wc -l <t.xyz)" -eq $((21 * 302)) ] || complain 'extended XYZ of another length'
 sed -n 2p t.xyz | grep -q '^Lattice="1023 0 0 0 1023 0 0 0 1" Properties=species:S:1:pos:R:3:velo:R:3:id:I:1 Time=0' || complain 'another second line'
+sed -n 2p t.xyz | grep -q 'pbc="F F F"$' || complain 'walls are told as periodic'
+run 1 run "$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=100 --set box.left.kind=periodic --set box.right.kind=periodic --steps 1 --quiet \
+    --set output.trajectory.file=periodic.h5 --set output.trajectory.every_steps=1
+expect_code 0 'a periodic box'
+shown periodic.h5 --to xyz
+sed -n 2p "$test_folder/out" | grep -q 'pbc="T F F"$' || complain 'periodic sides are not told'
 shown "$last" --to csv
 [ "$(sed -n '2s/,.*//p' "$test_folder/out")" = 20 ] || complain 'CSV without the step'
 shown c.h5 --to csv

@@ -32,6 +32,7 @@ struct FileSummary {
     std::uint64_t n_logged = 0;            ///< collisions in a log
     std::string state_hash;                ///< of a checkpoint
     std::array<bool, 4> open_sides{};      ///< of a trajectory: left, right, bottom, top
+    bool is_periodic_x = false, is_periodic_y = false; ///< of a trajectory: checkpoints leave it to the scene
 };
 
 /// All functions throw InputError naming the file. Not collective.
