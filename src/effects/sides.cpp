@@ -45,8 +45,11 @@ Extent Sides::walls_between(double begin, double end) const {
     const double eighth = std::pow((end - begin) / slowing_at(end), 2) / 8;
     // And a small disc departs before a large one does.
     const auto bend = [&](std::size_t side) { return std::fabs(pull_at(side)) * eighth + (is_open(side) ? radius_ : 0); };
-    return {std::max(first.x_low, last.x_low) + bend(0), std::min(first.x_high, last.x_high) - bend(1),
-            std::max(first.y_low, last.y_low) + bend(2), std::min(first.y_high, last.y_high) - bend(3)};
+    // A wall that moves in, and that all falls away from, may have hit discs that are far from it at the end, but none that is
+    // further than its first velocity would have taken it: discs are slower than the wall when it hits them.
+    const auto led = [&](std::size_t side) { return wall_velocity(side, begin) * (end - begin); };
+    return {std::max({first.x_low, last.x_low, first.x_low + led(0)}) + bend(0), std::min({first.x_high, last.x_high, first.x_high + led(1)}) - bend(1),
+            std::max({first.y_low, last.y_low, first.y_low + led(2)}) + bend(2), std::min({first.y_high, last.y_high, first.y_high + led(3)}) - bend(3)};
 }
 
 /// With drag a frame and a clock that begin at `time` see the same flight: F(s + d) - F(s) - F'(s) d = F(d / (1 - c s)).

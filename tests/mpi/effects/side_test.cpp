@@ -96,6 +96,32 @@ TEST_CASE("effects: a disc before a piston is where arithmetic says") {
     }
 }
 
+// A wall catches up with a disc that gravity pulls away from it: of x = d + (v - u) t + g t^2 / 2 = 0 the first root. At the end the
+// disc is far from where any wall has been.
+TEST_CASE("effects: a wall hits a disc that falls away from it afterwards") {
+    const Communicator world = Communicator::world();
+    for (const std::size_t side : {0u, 1u, 2u, 3u}) {
+        INFO("side " << side);
+        TestScene scene = empty_scene("wall behind a falling disc", 102, 1, 32);
+        const double d = 0.01, u = 0.04, v = 0.03, g = 0.002, sign = side % 2 == 0 ? 1 : -1;
+        const double place = side % 2 == 0 ? 1 + d : 101 - d;
+        if (side < 2) add_disc(scene, place, 50, sign * v, 0);
+        else add_disc(scene, 50, place, 0, sign * v);
+        scene.setting.effects.sides[side] = {SideKind::moving, 1, 0, sign * u};
+        (side < 2 ? scene.setting.effects.gravity.x : scene.setting.effects.gravity.y) = sign * g;
+        Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+        advance_to(simulation, scene.steps);
+        const long double hit = ((static_cast<long double>(u) - v) - std::sqrt((u - static_cast<long double>(v)) * (u - static_cast<long double>(v)) - 2.0L * g * d)) / g;
+        const long double after = 2.0L * u - (v + g * hit), rest = 32 - hit;
+        const long double x = u * hit + after * rest + 0.5L * g * rest * rest; // of the disc's edge, from where the wall began
+        CHECK(simulation.totals().wall_collisions == 1);
+        for (const Disc& disc : simulation.shown()) {
+            const double at = side < 2 ? disc.x : disc.y, from_wall = side % 2 == 0 ? at - 1 : 101 - at;
+            CHECK(from_wall == Approx(static_cast<double>(x)).epsilon(1e-12));
+        }
+    }
+}
+
 // All four walls move in: each component of a velocity times its length is an adiabatic invariant, so E L^2 (p V^2, V = L^2)
 // stays; and every impulse J of a wall with the speed u does the work J u.
 TEST_CASE("effects: an ideal gas is compressed adiabatically, and its energy is the work done") {
