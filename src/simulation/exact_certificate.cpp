@@ -157,7 +157,7 @@ template <class Law> void ExactEngine<Law>::fail_if_endless() const {
                            (static_cast<double>(micro_step) + outcome.endless_time) / static_cast<double>(micro_steps_),
                            partner,
                            Law::is_loose ? "it has no room to move, or the scene's precision and arithmetic do not tell when it moves"
-                                         : "it has no room to move");
+                                         : "it has no room to move, or is so fast that steps should be shorter");
         break;
     }
     agree(communicator_, text.empty(), text);

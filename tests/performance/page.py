@@ -84,7 +84,7 @@ def draw_cluster(rows, folder):
         series = {}
         for row in rows:
             if row["case"].startswith(kind):
-                series.setdefault(row["case"].split(", ")[1], []).append((int(row["ranks"]), float(row["efficiency"])))
+                series.setdefault(row["case"].split(", ", 1)[1], []).append((int(row["ranks"]), float(row["efficiency"])))
         if not series:
             continue
         figure, axes = new_axes("ranks, one a node (simulated)", "time of own computing / time of a step")
