@@ -5,9 +5,9 @@
 #   tests/performance/measure_all.sh [BUILD [FOLDER]]       BUILD: build; FOLDER: docs/performance
 #   tests/performance/page.py                               then draws the page anew
 #
-# Builds what is missing. MINUTES (6.5) is for the comparison with peers, the rest takes five; MOST_RANKS=1024 takes much longer
-# on the simulated cluster (256). SHORT=1 runs everything for a
-# fraction of its time, to see that it works: the numbers mean nothing then. What needs SimGrid or Google Benchmark is left out,
+# Builds what is missing. MINUTES (6.5) is for the comparison with peers, the rest takes five and more; MOST_RANKS=1024 takes
+# half an hour longer on the simulated cluster (256), and 13 GB for each of as many simulations as there are cores: see
+# `simulate.py --jobs`. SHORT=1 runs everything for a fraction of its time, to see that it works: the numbers mean nothing then. What needs SimGrid or Google Benchmark is left out,
 # and named, where they are missing.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

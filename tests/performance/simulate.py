@@ -136,7 +136,7 @@ def main():
     parser.add_argument("program", metavar="SIMULATED_CLUSTER")
     parser.add_argument("--record", action="store_true")
     parser.add_argument("--study", metavar="FILE")
-    parser.add_argument("--largest", type=float, default=5.2e6, help="of the study: leave out what has more discs; 5e6 take 1.8 GB, 2e7, which 1024 ranks need, 13 GB")
+    parser.add_argument("--largest", type=float, default=2.1e7, help="of the study: leave out what has more discs; 5e6 take 1.8 GB, 2e7, which 1024 ranks need, 13 GB")
     parser.add_argument("--most-ranks", type=int, default=1024, help="of the study; 1024 take some six minutes a case")
     parser.add_argument("--jobs", type=int, default=2, help="of the study: so many simulations side by side")
     options = parser.parse_args()

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# One fingerprint of some 800 runs, whatever the compiler, the optimisation and the instruction set.
+# One fingerprint of some 1400 runs, whatever the compiler, the optimisation and the instruction set.
 #
 #   tests/stability/compilers.sh FOLDER [PATTERN]
 #
