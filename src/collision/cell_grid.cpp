@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-
-#include <omp.h>
+#include <utility>
 
 #include "carrom/core/errors.hpp"
 
@@ -14,16 +13,15 @@ namespace carrom {
 namespace {
 
 /// First index of the `part`-th of `n_parts` equal shares of n.
-std::size_t share(std::size_t n, int part, int n_parts) {
-    return n * static_cast<std::size_t>(part) / static_cast<std::size_t>(n_parts);
-}
+std::size_t share(std::size_t n, std::size_t part, std::size_t n_parts) { return n * part / n_parts; }
 
-/// Discs placed later whose states are asked for now.
-constexpr std::uint32_t states_ahead = 8;
-
-/// Windows of many lengths have cells of many sizes: memory of the smallest ones is not kept for all.
+/// Windows of many lengths have cells of many sizes: memory of the smallest ones is not kept for all, and a few more cells than
+/// last time do not take twice the memory. What was in `numbers` may be gone.
 void resize_close(std::vector<std::uint32_t>& numbers, std::size_t size) {
-    if (numbers.capacity() > size + size / 2) std::vector<std::uint32_t>().swap(numbers);
+    if (numbers.capacity() < size || numbers.capacity() > size + size / 2) {
+        std::vector<std::uint32_t>().swap(numbers);
+        numbers.reserve(size + size / 8);
+    }
     numbers.resize(size);
 }
 
@@ -57,12 +55,33 @@ GridFrame make_frame(double x_low, double x_high, double y_low, double y_high, d
     return frame;
 }
 
+GridFrame make_sparse_frame(double x_low, double x_high, double y_low, double y_high, double reach, std::size_t n_discs) {
+    const double area = std::max(x_high - x_low, 0.0) * std::max(y_high - y_low, 0.0);
+    const double width = std::sqrt(2 * area / static_cast<double>(n_discs + 16)) / reach;
+    return make_frame(x_low, x_high, y_low, y_high, reach, n_discs, width > 1 ? width : 0);
+}
+
 void CellGrid::build(std::span<const Disc> discs, const GridFrame& frame, double anchor, double time, double duration, int n_threads,
                      const Periods& periods) {
     frame_ = frame;
     periods_ = periods;
     time_ = time;
     duration_ = duration;
+    has_flights_ = true;
+    build(discs, anchor, n_threads);
+    for (std::size_t lane = 1; lane <= 4; ++lane) {
+        std::fill_n(lanes_.begin() + static_cast<std::ptrdiff_t>(lane * lane_length_ - filter_padding), filter_padding, 0.0f);
+    }
+}
+
+void CellGrid::build_cells(std::span<const Disc> discs, const GridFrame& frame, double time, int n_threads, const Periods& periods) {
+    frame_ = frame;
+    periods_ = periods;
+    has_flights_ = false;
+    build(discs, time, n_threads);
+}
+
+void CellGrid::build(std::span<const Disc> discs, double anchor, int n_threads) {
     apart_.clear();
     longest_flight_ = 0;
     n_rows_inverse_ = rows() == 1 ? 0 : ~std::uint64_t{0} / rows() + 1;
@@ -72,12 +91,9 @@ void CellGrid::build(std::span<const Disc> discs, const GridFrame& frame, double
     slot_of_.resize(n);
     lane_length_ = n + filter_padding;
     lanes_.resize(4 * lane_length_);
-    resize_close(cell_start_, static_cast<std::size_t>(frame.n_columns) * rows() + 1);
-    if (periods.are_any()) sort(periods, discs, anchor, n_threads);
+    resize_close(cell_start_, static_cast<std::size_t>(frame_.n_columns) * rows() + 1);
+    if (periods_.are_any()) sort(periods_, discs, anchor, n_threads);
     else sort(StoredPlaces{}, discs, anchor, n_threads);
-    for (std::size_t lane = 1; lane <= 4; ++lane) {
-        std::fill_n(lanes_.begin() + static_cast<std::ptrdiff_t>(lane * lane_length_ - filter_padding), filter_padding, 0.0f);
-    }
 }
 
 template <class Places> void CellGrid::sort(const Places& places, std::span<const Disc> discs, double anchor, int n_threads) {
@@ -109,78 +125,136 @@ template <class Places> void CellGrid::sort_alone(const Places& places, std::spa
         const std::uint32_t slot = next[cell_of_[i]]++;
         order_[slot] = static_cast<LocalIndex>(i);
         slot_of_[i] = slot;
-        place(places, slot, discs[i]);
+        if (has_flights_) place(places, slot, discs[i]);
     }
 }
 
-// Two counting sorts, first by column over equal shares of the discs, then by row inside each column: no atomics,
-// and the scattered writes of the second stay within one column.
+// The same by several threads: each sorter counts only between the first and the last cell of its share of the discs. Those lie
+// nearly in the order of their cells, so all counts together are not many more than there are cells.
 template <class Places>
 void CellGrid::sort_together(const Places& places, std::span<const Disc> discs, double anchor, int n_threads) {
-    const std::size_t n = discs.size(), n_columns = static_cast<std::size_t>(frame_.n_columns);
-    column_start_.resize(n_columns + 1);
-    thread_column_start_.assign(n_columns * static_cast<std::size_t>(n_threads), 0);
+    const std::size_t n_cells = cell_start_.size() - 1;
+    share_out(discs.size(), n_threads);
+#pragma omp parallel for num_threads(n_threads) schedule(static, 1)
+    for (std::size_t k = 0; k < sorters_.size(); ++k) {
+        Sorter& sorter = sorters_[k];
+        std::uint32_t first = ~std::uint32_t{0}, last = 0;
+        for (std::size_t i = sorter.first_disc; i < sorter.end_disc; ++i) {
+            const std::uint32_t cell = cell_at(places, discs[i], anchor);
+            cell_of_[i] = cell;
+            first = std::min(first, cell);
+            last = std::max(last, cell);
+        }
+        sorter.first_cell = std::min(first, last);
+        sorter.end_cell = last + 1;
+    }
+    make_room_for_counts(n_cells);
+    const auto n_shares = static_cast<std::size_t>(n_threads);
+    std::vector<std::uint32_t> starts(n_shares + 1, 0); // of shares of the cells
 #pragma omp parallel num_threads(n_threads)
     {
-        const int thread = omp_get_thread_num();
-        std::uint32_t* counts = thread_column_start_.data() + n_columns * static_cast<std::size_t>(thread);
-        const std::size_t begin = share(n, thread, n_threads), end = share(n, thread + 1, n_threads);
-        for (std::size_t i = begin; i < end; ++i) {
-            cell_of_[i] = cell_at(places, discs[i], anchor);
-            ++counts[column_of_cell(cell_of_[i])];
+#pragma omp for schedule(static, 1)
+        for (std::size_t k = 0; k < sorters_.size(); ++k) {
+            const Sorter& sorter = sorters_[k];
+            std::fill_n(counts_.begin() + static_cast<std::ptrdiff_t>(sorter.counts), sorter.end_cell - sorter.first_cell, 0u);
+            std::uint32_t* const counts = counts_.data() + sorter.counts;
+            for (std::size_t i = sorter.first_disc; i < sorter.end_disc; ++i) ++counts[cell_of_[i] - sorter.first_cell];
         }
-#pragma omp barrier
+#pragma omp for schedule(static, 1)
+        for (std::size_t k = 0; k < n_shares; ++k) {
+            std::uint32_t n_discs = 0;
+            for_each_count(share(n_cells, k, n_shares), share(n_cells, k + 1, n_shares),
+                           [&](std::size_t, std::uint32_t& count) { n_discs += count; });
+            starts[k + 1] = n_discs;
+        }
 #pragma omp single
-        {
-            std::uint32_t start = 0;
-            for (std::size_t column = 0; column < n_columns; ++column) {
-                column_start_[column] = start;
-                for (int t = 0; t < n_threads; ++t) {
-                    std::uint32_t& count = thread_column_start_[n_columns * static_cast<std::size_t>(t) + column];
-                    const std::uint32_t next = start + count;
-                    count = start;
-                    start = next;
-                }
+        for (std::size_t k = 0; k < n_shares; ++k) starts[k + 1] += starts[k];
+#pragma omp for schedule(static, 1)
+        for (std::size_t k = 0; k < n_shares; ++k) {
+            std::uint32_t start = starts[k]; // each count becomes the slot of the sorter's next disc there
+            const std::size_t begin = share(n_cells, k, n_shares), end = share(n_cells, k + 1, n_shares);
+            std::size_t next = begin;
+            for_each_count(begin, end, [&](std::size_t cell, std::uint32_t& count) {
+                while (next <= cell) cell_start_[next++] = start;
+                start += std::exchange(count, start);
+            });
+            while (next < end) cell_start_[next++] = start;
+        }
+#pragma omp for schedule(static, 1)
+        for (std::size_t k = 0; k < sorters_.size(); ++k) {
+            const Sorter& sorter = sorters_[k];
+            std::uint32_t* const next = counts_.data() + sorter.counts;
+            for (std::size_t i = sorter.first_disc; i < sorter.end_disc; ++i) {
+                const std::uint32_t slot = next[cell_of_[i] - sorter.first_cell]++;
+                order_[slot] = static_cast<LocalIndex>(i);
+                slot_of_[i] = slot;
+                if (has_flights_) place(places, slot, discs[i]);
             }
-            column_start_[n_columns] = start;
-            cell_start_.back() = start;
         }
-        for (std::size_t i = begin; i < end; ++i) {
-            // slot_of_ serves as the list of discs by column until the second sort has read it.
-            slot_of_[counts[column_of_cell(cell_of_[i])]++] = static_cast<LocalIndex>(i);
-        }
-#pragma omp barrier
-#pragma omp for schedule(static)
-        for (int column = 0; column < frame_.n_columns; ++column) sort_column(places, discs, column);
-        // slot_of_ is free again once every column is sorted (the loop ends with a barrier).
-#pragma omp for schedule(static)
-        for (std::size_t slot = 0; slot < n; ++slot) slot_of_[order_[slot]] = static_cast<std::uint32_t>(slot);
+    }
+    cell_start_[n_cells] = static_cast<std::uint32_t>(discs.size());
+}
+
+void CellGrid::share_out(std::size_t n_discs, int n_sorters) {
+    const auto n = static_cast<std::size_t>(n_sorters);
+    sorters_.resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        sorters_[k].first_disc = share(n_discs, k, n);
+        sorters_[k].end_disc = share(n_discs, k + 1, n);
     }
 }
 
-template <class Places> void CellGrid::sort_column(const Places& places, std::span<const Disc> discs, int column) {
-    const std::size_t base = static_cast<std::size_t>(column) * rows();
-    const std::uint32_t begin = column_start_[static_cast<std::size_t>(column)];
-    const std::uint32_t end = column_start_[static_cast<std::size_t>(column) + 1];
-    std::uint32_t* starts = cell_start_.data() + base;
-    std::fill(starts, starts + rows(), 0u);
-    for (std::uint32_t k = begin; k < end; ++k) ++starts[cell_of_[slot_of_[k]] - base];
-    std::uint32_t start = begin;
-    for (std::uint32_t row = 0; row < rows(); ++row) {
-        const std::uint32_t count = starts[row];
-        starts[row] = start;
-        start += count;
+/// Discs in no order have all sorters count in all cells: then only a few of them work.
+void CellGrid::make_room_for_counts(std::size_t n_cells) {
+    constexpr std::size_t most_counting_all = 4;
+    const auto lay_out = [this] {
+        std::size_t n_counts = 0;
+        for (Sorter& sorter : sorters_) {
+            sorter.counts = n_counts;
+            n_counts += sorter.end_cell - sorter.first_cell;
+        }
+        return n_counts;
+    };
+    std::size_t n_counts = lay_out();
+    if (n_counts > most_counting_all * n_cells) {
+        share_out(order_.size(), most_counting_all);
+        for (Sorter& sorter : sorters_) {
+            sorter.first_cell = 0;
+            sorter.end_cell = static_cast<std::uint32_t>(n_cells);
+        }
+        n_counts = lay_out();
     }
-    for (std::uint32_t k = begin; k < end; ++k) {
-        if (k + states_ahead < end) __builtin_prefetch(&discs[slot_of_[k + states_ahead]]);
-        const LocalIndex index = slot_of_[k];
-        const std::uint32_t slot = starts[cell_of_[index] - base]++;
-        order_[slot] = index;
-        place(places, slot, discs[index]);
+    resize_close(counts_, n_counts);
+}
+
+/// Calls visit(cell, count) for all sorters' counts of the cells begin .. end, cell by cell.
+template <class Visit> void CellGrid::for_each_count(std::size_t begin, std::size_t end, const Visit& visit) {
+    struct Row {
+        std::uint32_t* counts; ///< of `first` and the cells behind it
+        std::size_t first, end;
+    };
+    std::vector<Row> rows_here;
+    for (const Sorter& sorter : sorters_)
+        if (sorter.first_cell < end && sorter.end_cell > begin) rows_here.push_back({counts_.data() + sorter.counts, sorter.first_cell, sorter.end_cell});
+    for (std::size_t cell = begin; cell < end;) { // up to where another sorter begins or ends, mostly one counts
+        std::size_t stretch_end = end;
+        const Row* here = nullptr;
+        std::size_t n_here = 0;
+        for (const Row& row : rows_here) {
+            if (row.first > cell) stretch_end = std::min(stretch_end, row.first);
+            if (row.end > cell) stretch_end = std::min(stretch_end, row.end);
+            if (row.first > cell || row.end <= cell) continue;
+            here = &row;
+            ++n_here;
+        }
+        if (n_here == 1) {
+            for (std::uint32_t* count = here->counts + (cell - here->first); cell < stretch_end; ++cell, ++count) visit(cell, *count);
+        }
+        for (; cell < stretch_end; ++cell) {
+            for (const Row& row : rows_here)
+                if (row.first <= cell && cell < row.end) visit(cell, row.counts[cell - row.first]);
+        }
     }
-    // Each start has moved to its cell's end, which is the next cell's start: shift them back by one cell.
-    for (std::uint32_t row = rows() - 1; row > 0; --row) starts[row] = starts[row - 1];
-    starts[0] = begin;
 }
 
 template <class Places> void CellGrid::place(const Places& places, std::uint32_t slot, const Disc& disc) {
@@ -220,7 +294,7 @@ std::vector<std::int64_t> CellGrid::column_shares(int n_shares) const {
     std::vector<std::int64_t> bounds;
     int column = 0;
     for (int k = 0; k < n_shares; ++k) {
-        const std::size_t before = share(order_.size(), k, n_shares);
+        const std::size_t before = share(order_.size(), static_cast<std::size_t>(k), static_cast<std::size_t>(n_shares));
         while (column < frame_.n_columns && cell_start_[static_cast<std::size_t>(column) * rows()] < before) ++column;
         bounds.push_back(column);
     }
@@ -277,8 +351,7 @@ float CellGrid::cells_of(double length) const {
 
 std::size_t CellGrid::bytes() const {
     return sizeof(float) * lanes_.capacity() +
-           sizeof(std::uint32_t) * (cell_start_.capacity() + column_start_.capacity() + thread_column_start_.capacity() +
-                                    order_.capacity() + cell_of_.capacity() + slot_of_.capacity());
+           sizeof(std::uint32_t) * (cell_start_.capacity() + counts_.capacity() + order_.capacity() + cell_of_.capacity() + slot_of_.capacity());
 }
 
 bool CellGrid::is_valid(std::size_t n_discs) const {

@@ -20,23 +20,29 @@ bool has_halo_disc(const Candidate& candidate, std::size_t n_own) {
     return candidate.p >= n_own || (!candidate.is_wall() && candidate.q >= n_own);
 }
 
-/// Puts candidate `number` into `mark` if it comes before the one that is there.
+std::uint32_t read(std::uint32_t& mark) { return std::atomic_ref<std::uint32_t>(mark).load(std::memory_order_relaxed); }
+void write(std::uint32_t& mark, std::uint32_t value) {
+    std::atomic_ref<std::uint32_t>(mark).store(value, std::memory_order_relaxed);
+}
+
+/// Puts candidate `number` into `mark` if it comes before the one that is there. Where threads do so at once one of them may be lost.
 template <bool concurrent>
 void offer(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate> live, const TotalOrder& before) {
     if constexpr (concurrent) {
-        std::atomic_ref<std::uint32_t> place(mark);
-        std::uint32_t seen = place.load(std::memory_order_relaxed);
-        while (seen == free_disc || before(live[number], live[seen])) {
-            if (place.compare_exchange_weak(seen, number, std::memory_order_relaxed)) return;
-        }
+        const std::uint32_t seen = read(mark);
+        if (seen == free_disc || before(live[number], live[seen])) write(mark, number);
     } else if (mark == free_disc || before(live[number], live[mark])) {
         mark = number;
     }
 }
 
-std::uint32_t read(std::uint32_t& mark) { return std::atomic_ref<std::uint32_t>(mark).load(std::memory_order_relaxed); }
-void write(std::uint32_t& mark, std::uint32_t value) {
-    std::atomic_ref<std::uint32_t>(mark).store(value, std::memory_order_relaxed);
+/// The same when all have offered, for what was lost then: hardly any.
+void insist(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate> live, const TotalOrder& before) {
+    std::atomic_ref<std::uint32_t> place(mark);
+    std::uint32_t seen = place.load(std::memory_order_relaxed);
+    while (seen != number && (seen == free_disc || before(live[number], live[seen]))) {
+        if (place.compare_exchange_weak(seen, number, std::memory_order_relaxed)) return;
+    }
 }
 
 } // namespace
@@ -79,6 +85,15 @@ std::size_t LocalResolution::round(const Population& population, std::vector<Can
             const auto number = static_cast<std::uint32_t>(k);
             offer<concurrent>(first_[candidate.p], number, live, before);
             if (!candidate.is_wall()) offer<concurrent>(first_[candidate.q], number, live, before);
+        }
+        if (concurrent) { // an exchange that compares costs as much as all else that is done for a candidate
+#pragma omp for schedule(static)
+            for (std::int64_t k = 0; k < n_live; ++k) {
+                const Candidate& candidate = live[static_cast<std::size_t>(k)];
+                const auto number = static_cast<std::uint32_t>(k);
+                insist(first_[candidate.p], number, live, before);
+                if (!candidate.is_wall()) insist(first_[candidate.q], number, live, before);
+            }
         }
 #pragma omp for schedule(static)
         for (std::int64_t k = 0; k < n_live; ++k) {

@@ -33,36 +33,41 @@ private:
 } // namespace
 
 TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int rank, std::span<const Disc> own,
-                            double time, double farthest) {
+                            std::span<const PlaceRange> looked_at, double time, double farthest) {
     TransferPlan plan;
     plan.partners = movers_between(old_strips, strips, rank, farthest);
     plan.leaving.resize(plan.partners.size());
     if (strips.size() == 1) return plan;
     const PartnerPlaces places(plan.partners);
     const double low = strips.low(rank), high = strips.high(rank);
-    for (std::size_t i = 0; i < own.size(); ++i) {
-        const double x = own[i].x_at(time);
-        if (x >= low && x < high) continue; // nearly all
-        const int owner = strips.owner(x);
-        if (owner != rank) plan.leaving[places[owner]].push_back(static_cast<LocalIndex>(i));
+    for (const PlaceRange range : looked_at) {
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+            const double x = own[i].x_at(time);
+            if (x >= low && x < high) continue;
+            const int owner = strips.owner(x);
+            if (owner != rank) plan.leaving[places[owner]].push_back(static_cast<LocalIndex>(i));
+        }
     }
     return plan;
 }
 
-TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own, double time, double reach) {
+TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own, std::span<const PlaceRange> looked_at, double time,
+                       double reach) {
     TransferPlan plan;
     plan.partners = strips.neighbours_within(rank, reach);
     plan.leaving.resize(plan.partners.size());
     if (plan.partners.empty()) return plan;
     const PartnerPlaces places(plan.partners);
     const double low = strips.low(rank), high = strips.high(rank);
-    for (std::size_t i = 0; i < own.size(); ++i) {
-        const double x = own[i].x_at(time);
-        if (x - reach >= low && x + reach < high) continue; // nearly all
-        const auto [first, last] = strips.ranks_touching(x - reach, x + reach);
-        for (int other = first; other <= last; ++other) {
-            if (other == rank || strips.is_empty(other)) continue;
-            plan.leaving[places[other]].push_back(static_cast<LocalIndex>(i));
+    for (const PlaceRange range : looked_at) {
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+            const double x = own[i].x_at(time);
+            if (x - reach >= low && x + reach < high) continue;
+            const auto [first, last] = strips.ranks_touching(x - reach, x + reach);
+            for (int other = first; other <= last; ++other) {
+                if (other == rank || strips.is_empty(other)) continue;
+                plan.leaving[places[other]].push_back(static_cast<LocalIndex>(i));
+            }
         }
     }
     return plan;

@@ -58,7 +58,9 @@ ExactEngine<Law>::ExactEngine(const Scene& scene, StoredState state, const Commu
     settle_now();
     if (Law::has_pairs && (Law::parts_overlaps || n_micro_done_ == 0)) // else the run itself may have come to them
         refuse_overlaps(discs_.population(), grid_, time_, touching_of(law_, discs_.periods()), communicator_, scene.name);
+    discs_.reorder(grid_, tuning_.threads); // discs come in any order
     discs_.forget_images();
+    clock_ = {};
 }
 
 template <class Law> void ExactEngine<Law>::advance_towards(std::int64_t last_step) {
@@ -80,7 +82,7 @@ template <class Law> void ExactEngine<Law>::advance_towards(std::int64_t last_st
 template <class Law> void ExactEngine<Law>::run_window(double target) {
     if (n_windows_ % windows_per_reorder == 0 && n_windows_ > 0) {
         const PhaseClock::Scope scope(clock_, Phase::settle);
-        grid_.reorder(discs_.all(), discs_.n_own(), tuning_.threads, discs_.spins());
+        discs_.reorder(grid_, tuning_.threads);
     }
     set_gone_aside();
     migrate();
@@ -189,7 +191,7 @@ template <class Law> void ExactEngine<Law>::settle() {
     frame.n_rows = end_own_row_ + first_own_row_;
     frame.x_low = x_from - first_own_column_ * frame.cell_width;
     frame.y_low = box.y_low - first_own_row_ * frame.cell_width;
-    grid_.build(discs_.all(), frame, time_, time_, window_.duration(), tuning_.threads, discs_.periods());
+    grid_.build_cells(discs_.all(), frame, time_, tuning_.threads, discs_.periods());
     histories_.resize(discs_.all().size());
     make_blocks();
 }
@@ -354,7 +356,7 @@ template <class Law> void ExactEngine<Law>::settle_now(double least_reach) {
     discs_.fetch_halo(time_, reach, nullptr);
     const Extent box = extent();
     const Extent seen = discs_.extent_seen(box, reach);
-    const GridFrame frame = make_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high, reach, discs_.all().size(), 0);
+    const GridFrame frame = make_sparse_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high, reach, discs_.all().size());
     grid_.build(discs_.all(), frame, time_, time_, 1, tuning_.threads, discs_.periods());
 }
 

@@ -44,6 +44,10 @@ OneEngine<Law>::OneEngine(const Scene& scene, StoredState state, const Communica
     hits_per_micro_step_ = std::min(1.0, 2 * density * law_.diameter() * communicator_.max(largest_speed_)); // a first guess
     set_gone_aside();
     discs_.rebalance(micro_, tuning_.rebalance_above);
+    settle_now();
+    reorder(); // discs come in any order
+    discs_.forget_images();
+    clock_ = {};
 }
 
 /// Discs that have left the box stay where they are in the arrays until those are put in order anyway.
@@ -52,11 +56,6 @@ template <class Law> void OneEngine<Law>::set_gone_aside() {
 }
 
 template <class Law> void OneEngine<Law>::advance_towards(std::int64_t last_step) {
-    if (n_windows_ == 0) { // discs come in any order
-        const PhaseClock::Scope scope(clock_, Phase::settle);
-        settle_now();
-        reorder();
-    }
     const std::int64_t next_sync = n_micro_done_ - micro_ + sync_every_;
     const std::int64_t good_stop = (next_sync + micro_steps_ - 1) / micro_steps_ * micro_steps_;
     const std::int64_t stop = std::min(last_step * micro_steps_, good_stop);
@@ -65,7 +64,12 @@ template <class Law> void OneEngine<Law>::advance_towards(std::int64_t last_step
         if (micro_ == sync_every_) sync();
     }
     discs_.forget_images();
-    if (n_micro_done_ == last_micro_step_) grid_ = {}; // memory for what follows a run
+    if (n_micro_done_ != last_micro_step_) return;
+    grid_ = {}; // memory for what follows a run
+    search_ = Search<Law>(law_, tuning_.threads);
+    local_ = LocalResolution(tuning_.threads);
+    live_ = {};
+    verdicts_ = {};
 }
 
 /// Runs one window of at most `n_left` micro-steps: to its end, or to where discs have become too fast for it.
@@ -106,7 +110,7 @@ template <class Law> Window OneEngine<Law>::settle(int n_left) {
     return window;
 }
 
-template <class Law> void OneEngine<Law>::reorder() { grid_.reorder(discs_.all(), discs_.n_own(), tuning_.threads, discs_.spins()); }
+template <class Law> void OneEngine<Law>::reorder() { discs_.reorder(grid_, tuning_.threads); }
 
 template <class Law> void OneEngine<Law>::settle_now(double least_reach) {
     set_gone_aside();
@@ -115,10 +119,10 @@ template <class Law> void OneEngine<Law>::settle_now(double least_reach) {
     const double touching = reach_of({law_.box_size(), law_.radius() + law_.slack(), static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
     const double reach = std::max(touching, least_reach);
     fetch_halo(micro_, reach);
-    Window now;
-    now.first_micro = micro_;
-    now.part_end = 0;
-    build_grid(now, reach, reach);
+    const Extent seen = discs_.extent_seen({0, law_.box_size(), 0, law_.box_size()}, reach);
+    const std::span<const Disc> all = population().discs;
+    const GridFrame frame = make_sparse_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high, reach, all.size());
+    grid_.build(all, frame, micro_, micro_, 1, tuning_.threads, discs_.periods());
 }
 
 template <class Law> Settled OneEngine<Law>::settled(double reach) {

@@ -31,6 +31,7 @@ StoredState first_state(const Scene& scene, std::vector<InputDisc> inputs) {
         disc.vy = input.vy / k;
         if (!scene.spins.empty()) state.spins.push_back(first_spin(scene, input.id) / k);
     }
+    std::vector<InputDisc>().swap(inputs); // a parameter may live as long as the whole expression that the call is in
     return state;
 }
 

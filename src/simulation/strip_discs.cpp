@@ -64,7 +64,7 @@ void StripDiscs::set_gone_aside() {
             if (!is_gone(discs_[i])) spins_[n_left++] = spins_[i];
         spins_.resize(n_left);
     }
-    std::erase_if(discs_, is_gone);
+    if (std::erase_if(discs_, is_gone) > 0) place_bounds_.forget();
     n_own_ = discs_.size();
     n_total_ = communicator_.sum(std::uint64_t{n_own_});
 }
@@ -80,6 +80,7 @@ void StripDiscs::migrate(double time, double farthest, std::vector<Disc>* compan
             if (!values) continue;
             transfer(exchange_, plan, std::span<const Disc>(*values), arrived);
             remove_leaving(plan, *values);
+            if (values == &discs_) note_removed(plan);
             values->insert(values->end(), arrived.items.begin(), arrived.items.end());
         }
         if (has_spins_) {
@@ -93,10 +94,26 @@ void StripDiscs::migrate(double time, double farthest, std::vector<Disc>* compan
     settled_strips_ = strips_;
 }
 
-TransferPlan StripDiscs::migration_plan(double time, double farthest) const {
+TransferPlan StripDiscs::migration_plan(double time, double farthest) {
     const int rank = communicator_.rank();
-    return periods_.are_any() ? plan_periodic_migration(settled_strips_, strips_, rank, own(), time, farthest, periods_)
-                              : plan_migration(settled_strips_, strips_, rank, own(), time, farthest);
+    if (periods_.are_any()) return plan_periodic_migration(settled_strips_, strips_, rank, own(), time, farthest, periods_);
+    if (place_bounds_.are_known()) place_bounds_.widen(farthest);
+    else place_bounds_.survey(own(), time);
+    const std::vector<PlaceRange> looked_at = place_bounds_.outside(strips_.low(rank), strips_.high(rank), n_own_);
+    return plan_migration(settled_strips_, strips_, rank, own(), looked_at, time, farthest);
+}
+
+/// Gaps have been closed from the end; what comes from elsewhere comes behind.
+void StripDiscs::note_removed(const TransferPlan& plan) {
+    for (const std::vector<LocalIndex>& leaving : plan.leaving) {
+        for (const LocalIndex index : leaving) place_bounds_.replace(index);
+    }
+    place_bounds_.truncate(discs_.size());
+}
+
+void StripDiscs::reorder(CellGrid& grid, int n_threads) {
+    grid.reorder(discs_, n_own_, n_threads, spins_);
+    place_bounds_.forget();
 }
 
 /// The companion of a disc stands for the same image, wherever its own state takes it. Lists discs near the strip's ends by the way.
@@ -160,7 +177,9 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* compan
         other_partners_ = halo_plan_.partners;
         std::erase(other_partners_, communicator_.rank());
     } else {
-        halo_plan_ = plan_halo(strips_, communicator_.rank(), own(), time, reach);
+        const int rank = communicator_.rank();
+        const std::vector<PlaceRange> looked_at = place_bounds_.outside(strips_.low(rank) + reach, strips_.high(rank) - reach, n_own_);
+        halo_plan_ = plan_halo(strips_, rank, own(), looked_at, time, reach);
     }
     Received<Disc> halo;
     halo.offsets = {0};

@@ -82,6 +82,9 @@ public:
     std::span<const Disc> gone() const { return gone_; }
     std::uint64_t n_with_gone() const { return n_with_gone_; } ///< over all ranks
 
+    /// Brings the own discs, and their spins, into the order of the grid's cells; that grid is then of no more use.
+    void reorder(CellGrid& grid, int n_threads);
+
     /// Drops the halo's discs.
     void forget_halo() {
         discs_.resize(n_own_);
@@ -94,7 +97,8 @@ public:
 private:
     void set_home_images(double time, std::vector<Disc>* companion);
     void list_near_ends(double time, double reach);
-    TransferPlan migration_plan(double time, double farthest) const;
+    TransferPlan migration_plan(double time, double farthest);
+    void note_removed(const TransferPlan& plan);
 
     Communicator communicator_;
     double box_size_;
@@ -107,6 +111,7 @@ private:
     std::vector<Disc> gone_;  ///< where they have left
     Strips strips_, settled_strips_; ///< wanted, and those that the discs were last settled in
     NeighbourExchange exchange_;
+    PlaceBounds place_bounds_; ///< of the own discs; not used in a periodic box
     TransferPlan halo_plan_;
     std::vector<LocalIndex> near_ends_; ///< of a periodic box: own discs that may have to be shown to somebody who sees
     double near_reach_ = 0, near_time_ = 0, last_reach_ = 0; ///< so far at that time

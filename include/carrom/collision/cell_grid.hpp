@@ -44,6 +44,9 @@ private:
 GridFrame make_frame(double x_low, double x_high, double y_low, double y_high, double reach, std::size_t n_discs,
                      double cell_width);
 
+/// The same for a look now and then, with no more than half as many cells as discs: less memory, more pairs.
+GridFrame make_sparse_frame(double x_low, double x_high, double y_low, double y_high, double reach, std::size_t n_discs);
+
 /// Free flights in slot order: position in cells from the frame's corner at the window's start, cells per window.
 struct FlightLanes {
     const float* x = nullptr;
@@ -69,6 +72,8 @@ public:
     /// discs are where their images are.
     void build(std::span<const Disc> discs, const GridFrame& frame, double anchor, double time, double duration, int n_threads,
                const Periods& periods = {});
+    /// The same for cells alone, by where discs are at `time`: `lanes()` and what is found by them say nothing.
+    void build_cells(std::span<const Disc> discs, const GridFrame& frame, double time, int n_threads, const Periods& periods = {});
 
     /// Brings the first `n_own` of `discs`, those that the grid was built for, into the order of their slots, in place,
     /// and makes the grid unusable until it is built again. Neighbours in space become neighbours in memory.
@@ -149,27 +154,38 @@ public:
     std::size_t bytes() const;
 
 private:
+    /// A share of the discs, which lie in the cells first .. end, and where the counts of those begin.
+    struct Sorter {
+        std::size_t first_disc = 0, end_disc = 0;
+        std::uint32_t first_cell = 0, end_cell = 0;
+        std::size_t counts = 0;
+    };
+
     /// cell / rows() by a multiplication: exact for 32-bit cells with a 64-bit inverse rounded up.
     std::uint32_t column_of_cell(std::uint32_t cell) const {
         __extension__ using Wide = unsigned __int128;
         return n_rows_inverse_ == 0 ? cell : static_cast<std::uint32_t>((static_cast<Wide>(n_rows_inverse_) * cell) >> 64);
     }
     std::uint32_t rows() const { return static_cast<std::uint32_t>(frame_.n_rows); }
+    void build(std::span<const Disc> discs, double anchor, int n_threads);
     /// `Places` says where discs are: their states, or their images.
     template <class Places> void sort(const Places& places, std::span<const Disc> discs, double anchor, int n_threads);
     template <class Places> std::uint32_t cell_at(const Places& places, const Disc& disc, double time) const;
     template <class Places> void sort_alone(const Places& places, std::span<const Disc> discs, double anchor);
     template <class Places> void sort_together(const Places& places, std::span<const Disc> discs, double anchor, int n_threads);
-    template <class Places> void sort_column(const Places& places, std::span<const Disc> discs, int column);
+    void share_out(std::size_t n_discs, int n_sorters);
+    void make_room_for_counts(std::size_t n_cells);
+    template <class Visit> void for_each_count(std::size_t begin, std::size_t end, const Visit& visit);
     template <class Places> void place(const Places& places, std::uint32_t slot, const Disc& disc);
 
     GridFrame frame_;
     Periods periods_;
     std::uint64_t n_rows_inverse_ = 0; ///< 2^64 / rows, rounded up; 0 for one row
     double time_ = 0, duration_ = 1;
+    bool has_flights_ = false;
     std::vector<std::uint32_t> cell_start_;  ///< by cell, and one more
-    std::vector<std::uint32_t> column_start_; ///< scratch for several threads, as the next
-    std::vector<std::uint32_t> thread_column_start_; ///< by thread and column
+    std::vector<Sorter> sorters_;            ///< scratch for several threads, as the next
+    std::vector<std::uint32_t> counts_;
     std::vector<LocalIndex> order_;          ///< by slot
     std::vector<std::uint32_t> cell_of_, slot_of_; ///< by disc
     std::size_t lane_length_ = 0;            ///< slots and padding for whole vectors

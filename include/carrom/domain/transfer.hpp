@@ -12,6 +12,7 @@
 
 #include "carrom/core/disc.hpp"
 #include "carrom/core/image.hpp"
+#include "carrom/domain/place_bounds.hpp"
 #include "carrom/domain/strips.hpp"
 #include "carrom/parallel/neighbour_exchange.hpp"
 
@@ -24,11 +25,14 @@ struct TransferPlan {
 };
 
 /// Discs whose place at `time` lies in another rank's strip. They were in `old_strips`' own strip at most `farthest` away.
+/// `looked_at`: places of the own discs, ascending, with all that are outside of the strip.
 TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int rank, std::span<const Disc> own,
-                            double time, double farthest);
+                            std::span<const PlaceRange> looked_at, double time, double farthest);
 
 /// Discs that at `time` lie within `reach` of another rank's strip. Empty strips get none.
-TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own, double time, double reach);
+/// `looked_at`: places of the own discs, ascending, with all that are not further than `reach` inside the strip.
+TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own, std::span<const PlaceRange> looked_at, double time,
+                       double reach);
 
 /// The same in a box with periodic sides, for the places of the discs' images; those are the ones in the box. In a halo a disc
 /// goes to its own rank as well, as other images, and may go to a rank several times.
