@@ -31,7 +31,7 @@ public:
     /// than `farthest` since it was last settled. `companion` runs along the own discs, or is null. **Collective.**
     void migrate(double time, double farthest, std::vector<Disc>* companion);
 
-    /// Appends to the own discs those of other ranks within `reach` of the own strip at `time`. **Collective.**
+    /// Appends to the own discs those of other ranks within `reach` of the own strip at `time`, that of the last migration. **Collective.**
     void fetch_halo(double time, double reach, std::vector<Disc>* companion);
 
     /// Sends the new states of the own discs among `changed` to the ranks that have them in their halo, takes over those
