@@ -19,7 +19,7 @@ die() { say "$(basename "$0"): $*"; exit 1; }
 test_packages=(slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge strace python3-venv libsimgrid-dev libbenchmark-dev)
 
 # What job_scripts/sanitize.sh needs.
-sanitizer_packages=(clang-14 libomp-14-dev valgrind)
+sanitizer_packages=(clang-14 libclang-rt-14-dev libomp-14-dev valgrind)
 
 # missing_packages PACKAGE...: those that are not installed
 missing_packages() {
