@@ -45,7 +45,7 @@ OneEngine<Law>::OneEngine(const Scene& scene, StoredState state, const Communica
     set_gone_aside();
     discs_.rebalance(micro_, tuning_.rebalance_above);
     settle_now();
-    reorder(); // discs come in any order
+    discs_.reorder(grid_, tuning_.threads); // discs come in any order
     discs_.forget_images();
     clock_ = {};
 }
@@ -64,12 +64,7 @@ template <class Law> void OneEngine<Law>::advance_towards(std::int64_t last_step
         if (micro_ == sync_every_) sync();
     }
     discs_.forget_images();
-    if (n_micro_done_ != last_micro_step_) return;
-    grid_ = {}; // memory for what follows a run
-    search_ = Search<Law>(law_, tuning_.threads);
-    local_ = LocalResolution(tuning_.threads);
-    live_ = {};
-    verdicts_ = {};
+    if (n_micro_done_ == last_micro_step_) grid_ = {}; // memory for what follows a run
 }
 
 /// Runs one window of at most `n_left` micro-steps: to its end, or to where discs have become too fast for it.
@@ -96,7 +91,7 @@ template <class Law> void OneEngine<Law>::run_window(int n_left) {
 /// Brings every disc to its strip, the halo to every strip and all into cells, for the window that it chooses.
 template <class Law> Window OneEngine<Law>::settle(int n_left) {
     const PhaseClock::Scope scope(clock_, Phase::settle);
-    if (part_ == 0 && n_windows_ % windows_per_reorder == 0 && n_windows_ > 0) reorder();
+    if (part_ == 0 && n_windows_ % windows_per_reorder == 0 && n_windows_ > 0) discs_.reorder(grid_, tuning_.threads);
     if (part_ == 0) set_gone_aside();
     if (part_ == 0) {
         agree_on_speed();
@@ -109,8 +104,6 @@ template <class Law> Window OneEngine<Law>::settle(int n_left) {
     build_grid(window, reach, reach_of(window_needs(), window.duration(), usual_speed_));
     return window;
 }
-
-template <class Law> void OneEngine<Law>::reorder() { discs_.reorder(grid_, tuning_.threads); }
 
 template <class Law> void OneEngine<Law>::settle_now(double least_reach) {
     set_gone_aside();

@@ -53,8 +53,6 @@ private:
     /// Settles discs, halo and grid as they are now, for partners within a diameter or `reach`. No state changes. **Collective.**
     void settle_now(double reach = 0);
     void set_gone_aside();
-    /// Brings the own discs into the order of the present grid's cells, which is then of no more use.
-    void reorder();
     void run_window(int n_left);
     Window settle(int n_left);
     Window choose(int n_left);
