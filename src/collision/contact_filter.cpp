@@ -55,10 +55,10 @@ HWY_INLINE std::uint64_t lanes_that_touch(D d, const FlightLanes& lanes, std::ui
 }
 
 /// Writes (first, second) to `out` behind the first `n_pairs`, which has room, for each slot `second` of `run` in `lanes`
-/// that might touch `flight`; without (first, first) if `first` is one of them. Returns how many pairs there are now.
+/// that might touch `flight`; without (first, first) if `first` may be one of them. Returns how many pairs there are now.
 template <bool is_one_of_them, class D>
 HWY_INLINE std::size_t write_pairs(D d, const Broadcast<D>& flight, std::uint32_t first, const FlightLanes& lanes, SlotRange run,
-                                   SlotPair* out, std::size_t n_pairs) {
+                                   DiscPair* out, std::size_t n_pairs) {
     const auto n_lanes = static_cast<std::uint32_t>(hn::Lanes(d));
     for (std::uint32_t other = run.begin; other < run.end; other += n_lanes) {
         std::uint64_t bits = lanes_that_touch(d, lanes, other, run.end - other, flight);
@@ -111,7 +111,7 @@ HWY_INLINE std::size_t find_near_passes(D d, const FlightLanes& lanes, SlotRange
 
 /// FilterColumn where discs fly much further than they are wide.
 template <class D>
-HWY_INLINE std::size_t filter_long_flights(D d, const CellGrid& grid, int column, float touching_squared, std::vector<SlotPair>& pairs) {
+HWY_INLINE std::size_t filter_long_flights(D d, const CellGrid& grid, int column, float touching_squared, std::vector<DiscPair>& pairs) {
     const FlightLanes lanes = grid.lanes();
     const auto n_lanes = static_cast<std::uint32_t>(hn::Lanes(d));
     const int reach = grid.frame().n_reach, n_rows = grid.frame().n_rows;
@@ -130,7 +130,7 @@ HWY_INLINE std::size_t filter_long_flights(D d, const CellGrid& grid, int column
             const std::size_t n_vectors = (run.end - run.begin + n_lanes - 1) / n_lanes;
             n_near = find_near_passes(d, lanes, cell, run, passing, room(near, n_near, n_in_cell * n_vectors + 1), n_near);
         }
-        SlotPair* out = room(pairs, n_pairs, n_in_cell * n_in_cell + n_near * n_lanes);
+        DiscPair* out = room(pairs, n_pairs, n_in_cell * n_in_cell + n_near * n_lanes);
         for (std::uint32_t slot = cell.begin; slot < cell.end; ++slot) {
             n_pairs = write_pairs<false>(d, Broadcast(d, lanes, slot, touching_squared), slot, lanes, {slot + 1, cell.end}, out, n_pairs);
         }
@@ -143,10 +143,9 @@ HWY_INLINE std::size_t filter_long_flights(D d, const CellGrid& grid, int column
     return n_pairs;
 }
 
-std::size_t FilterColumn(const CellGrid& grid, int column, float touching_squared, std::vector<SlotPair>& pairs) {
-    const hn::ScalableTag<float> d;
-    if (const auto reach = static_cast<float>(grid.frame().n_reach); reach * reach > 64 * touching_squared)
-        return filter_long_flights(d, grid, column, touching_squared, pairs);
+/// FilterColumn where they do not.
+template <class D>
+HWY_INLINE std::size_t filter_short_flights(D d, const CellGrid& grid, int column, float touching_squared, std::vector<DiscPair>& pairs) {
     const FlightLanes lanes = grid.lanes();
     const int reach = grid.frame().n_reach, n_rows = grid.frame().n_rows;
     const int last_column = HWY_MIN(column + reach, grid.frame().n_columns - 1);
@@ -162,7 +161,7 @@ std::size_t FilterColumn(const CellGrid& grid, int column, float touching_square
             run = grid.run(other, row - reach, row + reach);
             n_in_runs += run.end - run.begin;
         }
-        SlotPair* out = room(pairs, n_pairs, (cell.end - cell.begin) * n_in_runs);
+        DiscPair* out = room(pairs, n_pairs, (cell.end - cell.begin) * n_in_runs);
         for (std::uint32_t slot = cell.begin; slot < cell.end; ++slot) {
             const Broadcast flight(d, lanes, slot, touching_squared);
             n_pairs = write_pairs<false>(d, flight, slot, lanes, {slot + 1, own_end}, out, n_pairs);
@@ -170,6 +169,43 @@ std::size_t FilterColumn(const CellGrid& grid, int column, float touching_square
         }
     }
     return n_pairs;
+}
+
+/// write_pairs with the halo's discs of `run`, that are slots there.
+template <class D>
+HWY_INLINE std::size_t write_halo_pairs(D d, const Broadcast<D>& flight, std::uint32_t first, const CellGrid& grid, SlotRange run,
+                                        std::vector<DiscPair>& pairs, std::size_t n_pairs) {
+    DiscPair* out = room(pairs, n_pairs, run.end - run.begin);
+    const std::size_t n_now = write_pairs<false>(d, flight, first, grid.halo_lanes(), run, out, n_pairs);
+    for (std::size_t k = n_pairs; k < n_now; ++k) out[k].second = grid.halo_index(out[k].second);
+    return n_now;
+}
+
+/// The column's own discs with those of the halo.
+template <class D>
+HWY_INLINE std::size_t filter_halo(D d, const CellGrid& grid, int column, float touching_squared, std::vector<DiscPair>& pairs, std::size_t n_pairs) {
+    const FlightLanes lanes = grid.lanes();
+    const int reach = grid.frame().n_reach;
+    const int first_column = HWY_MAX(column - reach, 0), last_column = HWY_MIN(column + reach, grid.frame().n_columns - 1);
+    for (int other = first_column; other <= last_column; ++other) {
+        if (!grid.has_halo_in(other)) continue;
+        for (int row = 0; row < grid.frame().n_rows; ++row) {
+            const SlotRange run = grid.halo_run(other, row - reach, row + reach);
+            if (run.begin == run.end) continue;
+            const SlotRange cell = grid.run(column, row, row);
+            for (std::uint32_t slot = cell.begin; slot < cell.end; ++slot)
+                n_pairs = write_halo_pairs(d, Broadcast(d, lanes, slot, touching_squared), slot, grid, run, pairs, n_pairs);
+        }
+    }
+    return n_pairs;
+}
+
+std::size_t FilterColumn(const CellGrid& grid, int column, float touching_squared, std::vector<DiscPair>& pairs) {
+    const hn::ScalableTag<float> d;
+    const auto reach = static_cast<float>(grid.frame().n_reach);
+    const std::size_t n_pairs = reach * reach > 64 * touching_squared ? filter_long_flights(d, grid, column, touching_squared, pairs)
+                                                                      : filter_short_flights(d, grid, column, touching_squared, pairs);
+    return grid.has_halo() ? filter_halo(d, grid, column, touching_squared, pairs, n_pairs) : n_pairs;
 }
 
 /// A flight between two times, as cells.
@@ -181,39 +217,51 @@ struct Path {
           y_begin(lanes.y[slot] + from * lanes.vy[slot]), y_end(lanes.y[slot] + lanes.vy[slot]) {}
 };
 
-/// Calls visit(run) for the runs of slots within `half_reach` of a path.
-template <class Visit> HWY_INLINE void for_each_run(const CellGrid& grid, const Path& path, float half_reach, const Visit& visit) {
-    const int first_column = grid.clamped_column(HWY_MIN(path.x_begin, path.x_end) - half_reach);
-    const int last_column = grid.clamped_column(HWY_MAX(path.x_begin, path.x_end) + half_reach);
-    const int first_row = grid.clamped_row(HWY_MIN(path.y_begin, path.y_end) - half_reach);
-    const int last_row = grid.clamped_row(HWY_MAX(path.y_begin, path.y_end) + half_reach);
-    for (int column = first_column; column <= last_column; ++column) visit(grid.run(column, first_row, last_row));
+/// The cells within `half_reach` of a path.
+struct CellsAround {
+    int first_column, last_column, first_row, last_row;
+
+    CellsAround(const CellGrid& grid, const Path& path, float half_reach)
+        : first_column(grid.clamped_column(HWY_MIN(path.x_begin, path.x_end) - half_reach)),
+          last_column(grid.clamped_column(HWY_MAX(path.x_begin, path.x_end) + half_reach)),
+          first_row(grid.clamped_row(HWY_MIN(path.y_begin, path.y_end) - half_reach)),
+          last_row(grid.clamped_row(HWY_MAX(path.y_begin, path.y_end) + half_reach)) {}
+};
+
+/// Pairs of a flight, which counts as `first`, with the own discs in `cells`, and with the halo's there if they are wanted.
+template <bool is_one_of_them, class D>
+HWY_INLINE std::size_t filter_cells(D d, const CellGrid& grid, const Broadcast<D>& flight, std::uint32_t first, const CellsAround& cells,
+                                    bool with_halo, std::vector<DiscPair>& pairs, std::size_t n_pairs) {
+    const FlightLanes lanes = grid.lanes();
+    for (int column = cells.first_column; column <= cells.last_column; ++column) {
+        const SlotRange run = grid.run(column, cells.first_row, cells.last_row);
+        n_pairs = write_pairs<is_one_of_them>(d, flight, first, lanes, run, room(pairs, n_pairs, run.end - run.begin), n_pairs);
+    }
+    for (int column = cells.first_column; with_halo && column <= cells.last_column; ++column)
+        n_pairs = write_halo_pairs(d, flight, first, grid, grid.halo_run(column, cells.first_row, cells.last_row), pairs, n_pairs);
+    return n_pairs;
 }
 
 std::size_t FilterAround(const CellGrid& grid, LocalIndex index, float from, float half_reach, float touching_squared,
-                         std::vector<SlotPair>& pairs, std::size_t n_pairs) {
+                         std::vector<DiscPair>& pairs, std::size_t n_pairs) {
     const hn::ScalableTag<float> d;
-    const FlightLanes lanes = grid.lanes();
-    const std::uint32_t slot = grid.slot_of(index);
+    const bool is_own = index < grid.n_own();
+    const FlightLanes lanes = is_own ? grid.lanes() : grid.halo_lanes();
+    const std::uint32_t slot = is_own ? index : grid.halo_slot(index);
     const Broadcast flight(d, lanes, slot, touching_squared);
-    for_each_run(grid, Path(lanes, slot, from), half_reach, [&](const SlotRange run) {
-        n_pairs = write_pairs<true>(d, flight, slot, lanes, run, room(pairs, n_pairs, run.end - run.begin), n_pairs);
-    });
-    return n_pairs;
+    const CellsAround cells(grid, Path(lanes, slot, from), half_reach);
+    return filter_cells<true>(d, grid, flight, index, cells, is_own && grid.has_halo(), pairs, n_pairs);
 }
 
 std::size_t FilterApart(const CellGrid& grid, std::uint32_t k, float half_reach, float touching_squared,
-                        std::vector<SlotPair>& pairs, std::size_t n_pairs) {
+                        std::vector<DiscPair>& pairs, std::size_t n_pairs) {
     const hn::ScalableTag<float> d;
-    const FlightLanes apart = grid.apart_lanes(), lanes = grid.lanes();
-    const Broadcast flight(d, apart, k, touching_squared);
-    for_each_run(grid, Path(apart, k, 0), half_reach, [&](const SlotRange run) {
-        n_pairs = write_pairs<false>(d, flight, k, lanes, run, room(pairs, n_pairs, run.end - run.begin), n_pairs);
-    });
-    return n_pairs;
+    const FlightLanes apart = grid.apart_lanes();
+    const CellsAround cells(grid, Path(apart, k, 0), half_reach);
+    return filter_cells<false>(d, grid, Broadcast(d, apart, k, touching_squared), k, cells, grid.has_halo(), pairs, n_pairs);
 }
 
-std::size_t FilterApartPairs(const CellGrid& grid, std::uint32_t k, float touching_squared, std::vector<SlotPair>& pairs,
+std::size_t FilterApartPairs(const CellGrid& grid, std::uint32_t k, float touching_squared, std::vector<DiscPair>& pairs,
                              std::size_t n_pairs) {
     const hn::ScalableTag<float> d;
     const FlightLanes apart = grid.apart_lanes();
@@ -235,21 +283,21 @@ HWY_EXPORT(FilterApart);
 HWY_EXPORT(FilterApartPairs);
 HWY_EXPORT(FilterTarget);
 
-std::size_t filter_column(const CellGrid& grid, int column, float touching_squared, std::vector<SlotPair>& pairs) {
+std::size_t filter_column(const CellGrid& grid, int column, float touching_squared, std::vector<DiscPair>& pairs) {
     return HWY_DYNAMIC_DISPATCH(FilterColumn)(grid, column, touching_squared, pairs);
 }
 
 std::size_t filter_around(const CellGrid& grid, LocalIndex index, float from, float half_reach, float touching_squared,
-                          std::vector<SlotPair>& pairs, std::size_t n_pairs) {
+                          std::vector<DiscPair>& pairs, std::size_t n_pairs) {
     return HWY_DYNAMIC_DISPATCH(FilterAround)(grid, index, from, half_reach, touching_squared, pairs, n_pairs);
 }
 
 std::size_t filter_apart(const CellGrid& grid, std::uint32_t k, float half_reach, float touching_squared,
-                         std::vector<SlotPair>& pairs, std::size_t n_pairs) {
+                         std::vector<DiscPair>& pairs, std::size_t n_pairs) {
     return HWY_DYNAMIC_DISPATCH(FilterApart)(grid, k, half_reach, touching_squared, pairs, n_pairs);
 }
 
-std::size_t filter_apart_pairs(const CellGrid& grid, std::uint32_t k, float touching_squared, std::vector<SlotPair>& pairs,
+std::size_t filter_apart_pairs(const CellGrid& grid, std::uint32_t k, float touching_squared, std::vector<DiscPair>& pairs,
                                std::size_t n_pairs) {
     return HWY_DYNAMIC_DISPATCH(FilterApartPairs)(grid, k, touching_squared, pairs, n_pairs);
 }

@@ -13,21 +13,22 @@
 
 namespace carrom {
 
-/// Writes to the front of `pairs`, which grows as needed, all pairs (first, second) that might touch: `first` in `column`
-/// and `second` after it in the half stencil, later in its own column or in one to the right. Returns how many.
-std::size_t filter_column(const CellGrid& grid, int column, float touching_squared, std::vector<SlotPair>& pairs);
+/// Writes to the front of `pairs`, which grows as needed, all pairs (first, second) that might touch: `first` an own disc in
+/// `column`; `second` an own one after it in the half stencil, later in its own column or in one to the right, or one of the
+/// halo all around it. Returns how many.
+std::size_t filter_column(const CellGrid& grid, int column, float touching_squared, std::vector<DiscPair>& pairs);
 
-/// Writes to `pairs` behind the first `n_pairs` the disc's slot with each that it might touch between the fraction `from`
-/// of the window and its end, itself excluded; returns how many pairs there are now. Only cells within `half_reach` of that
-/// part of its path are looked at: how far from where two discs touch the other one's cell can be.
+/// Writes to `pairs` behind the first `n_pairs` the disc with each that it might touch between the fraction `from` of the
+/// window and its end, itself and pairs of the halo's discs excluded; returns how many pairs there are now. Only cells within
+/// `half_reach` of that part of its path are looked at: how far from where two discs touch the other one's cell can be.
 std::size_t filter_around(const CellGrid& grid, LocalIndex index, float from, float half_reach, float touching_squared,
-                          std::vector<SlotPair>& pairs, std::size_t n_pairs);
+                          std::vector<DiscPair>& pairs, std::size_t n_pairs);
 
-/// The same for disc k of those that the grid has set apart, for all of the window: `first` is k; `second` is a slot, or
-/// with filter_apart_pairs another place among those set apart, after k.
+/// The same for disc k of those that the grid has set apart, for all of the window; `first` is k. With filter_apart_pairs
+/// `second` is another place among those set apart, after k.
 std::size_t filter_apart(const CellGrid& grid, std::uint32_t k, float half_reach, float touching_squared,
-                         std::vector<SlotPair>& pairs, std::size_t n_pairs);
-std::size_t filter_apart_pairs(const CellGrid& grid, std::uint32_t k, float touching_squared, std::vector<SlotPair>& pairs,
+                         std::vector<DiscPair>& pairs, std::size_t n_pairs);
+std::size_t filter_apart_pairs(const CellGrid& grid, std::uint32_t k, float touching_squared, std::vector<DiscPair>& pairs,
                                std::size_t n_pairs);
 
 /// The instruction set in use, as in "AVX3".

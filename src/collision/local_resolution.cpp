@@ -26,14 +26,9 @@ void write(std::uint32_t& mark, std::uint32_t value) {
 }
 
 /// Puts candidate `number` into `mark` if it comes before the one that is there. Where threads do so at once one of them may be lost.
-template <bool concurrent>
 void offer(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate> live, const TotalOrder& before) {
-    if constexpr (concurrent) {
-        const std::uint32_t seen = read(mark);
-        if (seen == free_disc || before(live[number], live[seen])) write(mark, number);
-    } else if (mark == free_disc || before(live[number], live[mark])) {
-        mark = number;
-    }
+    const std::uint32_t seen = read(mark);
+    if (seen == free_disc || before(live[number], live[seen])) write(mark, number);
 }
 
 /// The same when all have offered, for what was lost then: hardly any.
@@ -55,11 +50,12 @@ void LocalResolution::resolve(const Population& population, std::vector<Candidat
     kept_by_thread_.resize(static_cast<std::size_t>(n_threads_));
     live_by_thread_.resize(static_cast<std::size_t>(n_threads_));
     places_.resize(static_cast<std::size_t>(n_threads_));
+    verdicts.kept.reserve(live.size());
     while (!live.empty()) {
         if (verdicts.n_rounds >= rounds_before_walk) return walk(population, live, verdicts);
         ++verdicts.n_rounds;
         const bool concurrent = n_threads_ > 1 && live.size() > 512;
-        const std::size_t n_kept = concurrent ? round<true>(population, live, verdicts) : round<false>(population, live, verdicts);
+        const std::size_t n_kept = concurrent ? round_together(population, live, verdicts) : round_alone(population, live, verdicts);
         if (n_kept == 0) {
             std::swap(verdicts.undecided, live);
             return;
@@ -67,13 +63,41 @@ void LocalResolution::resolve(const Population& population, std::vector<Candidat
     }
 }
 
-template <bool concurrent>
-std::size_t LocalResolution::round(const Population& population, std::vector<Candidate>& live, Verdicts& verdicts) {
+std::size_t LocalResolution::round_alone(const Population& population, std::vector<Candidate>& live, Verdicts& verdicts) {
+    const TotalOrder before(population.discs);
+    const std::size_t old_kept = verdicts.kept.size();
+    for (std::size_t k = 0; k < live.size(); ++k) {
+        for (const LocalIndex index : {live[k].p, live[k].q})
+            if (index != wall && (first_[index] == free_disc || before(live[k], live[first_[index]]))) first_[index] = static_cast<std::uint32_t>(k);
+    }
+    for (std::size_t k = 0; k < live.size(); ++k) {
+        const Candidate& candidate = live[k];
+        if (first_[candidate.p] != k || (!candidate.is_wall() && first_[candidate.q] != k) || has_halo_disc(candidate, population.n_own)) continue;
+        verdicts.kept.push_back(candidate);
+        first_[candidate.p] = taken_disc;
+        if (!candidate.is_wall()) first_[candidate.q] = taken_disc;
+    }
+    // Every rival of what was kept is struck: the discs' marks are no longer needed.
+    const auto is_struck = [&](const Candidate& candidate) {
+        const bool p_taken = first_[candidate.p] == taken_disc, q_taken = !candidate.is_wall() && first_[candidate.q] == taken_disc;
+        if (!p_taken) first_[candidate.p] = free_disc;
+        if (!candidate.is_wall() && !q_taken) first_[candidate.q] = free_disc;
+        return p_taken || q_taken;
+    };
+    std::erase_if(live, is_struck);
+    for (std::size_t k = old_kept; k < verdicts.kept.size(); ++k) {
+        for (const LocalIndex index : {verdicts.kept[k].p, verdicts.kept[k].q})
+            if (index != wall) first_[index] = free_disc;
+    }
+    return verdicts.kept.size() - old_kept;
+}
+
+std::size_t LocalResolution::round_together(const Population& population, std::vector<Candidate>& live, Verdicts& verdicts) {
     const TotalOrder before(population.discs);
     const std::size_t old_kept = verdicts.kept.size();
     const auto n_live = static_cast<std::int64_t>(live.size());
-    const std::size_t n_lists = concurrent ? kept_by_thread_.size() : 1;
-#pragma omp parallel num_threads(n_threads_) if (concurrent)
+    const std::size_t n_lists = kept_by_thread_.size();
+#pragma omp parallel num_threads(n_threads_)
     {
         std::vector<Candidate>& kept = kept_by_thread_[static_cast<std::size_t>(omp_get_thread_num())];
         std::vector<Candidate>& rest = live_by_thread_[static_cast<std::size_t>(omp_get_thread_num())];
@@ -83,17 +107,16 @@ std::size_t LocalResolution::round(const Population& population, std::vector<Can
         for (std::int64_t k = 0; k < n_live; ++k) {
             const Candidate& candidate = live[static_cast<std::size_t>(k)];
             const auto number = static_cast<std::uint32_t>(k);
-            offer<concurrent>(first_[candidate.p], number, live, before);
-            if (!candidate.is_wall()) offer<concurrent>(first_[candidate.q], number, live, before);
+            offer(first_[candidate.p], number, live, before);
+            if (!candidate.is_wall()) offer(first_[candidate.q], number, live, before);
         }
-        if (concurrent) { // an exchange that compares costs as much as all else that is done for a candidate
+        // An exchange that compares costs as much as all else that is done for a candidate.
 #pragma omp for schedule(static)
-            for (std::int64_t k = 0; k < n_live; ++k) {
-                const Candidate& candidate = live[static_cast<std::size_t>(k)];
-                const auto number = static_cast<std::uint32_t>(k);
-                insist(first_[candidate.p], number, live, before);
-                if (!candidate.is_wall()) insist(first_[candidate.q], number, live, before);
-            }
+        for (std::int64_t k = 0; k < n_live; ++k) {
+            const Candidate& candidate = live[static_cast<std::size_t>(k)];
+            const auto number = static_cast<std::uint32_t>(k);
+            insist(first_[candidate.p], number, live, before);
+            if (!candidate.is_wall()) insist(first_[candidate.q], number, live, before);
         }
 #pragma omp for schedule(static)
         for (std::int64_t k = 0; k < n_live; ++k) {

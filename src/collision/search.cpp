@@ -19,18 +19,16 @@ constexpr std::size_t hits_per_batch = 128;
 /// Pairs judged later whose states are asked for now: they are far apart in memory.
 constexpr std::size_t pairs_ahead = 8;
 
-/// Candidates are most of what a rank keeps beside its discs: lists grow by a quarter, not to twice their size.
-void add(SearchLists& lists, const Window& window, int m, const Candidate& candidate) {
-    std::vector<Candidate>& list = lists.by_micro[static_cast<std::size_t>(m - window.first_micro)];
-    if (list.size() == list.capacity()) list.reserve(list.size() + list.size() / 4 + 64);
-    list.push_back(candidate);
+/// What was predicted for the micro-steps from `from` on.
+void add(SearchLists& lists, const Window& window, int from, int m, const Candidate& candidate) {
+    lists.by_micro[static_cast<std::size_t>(m - window.first_micro)].add(candidate, window.state_after(from - 1));
 }
 
 void prefetch(std::span<const Disc> discs, LocalIndex index) { __builtin_prefetch(&discs[index]); }
 
 /// Calls ask(pair) some time before judge(pair), for the first n pairs.
 template <class Ask, class Judge>
-void for_each_ahead(const std::vector<SlotPair>& pairs, std::size_t n, const Ask& ask, const Judge& judge) {
+void for_each_ahead(const std::vector<DiscPair>& pairs, std::size_t n, const Ask& ask, const Judge& judge) {
     for (std::size_t k = 0; k < std::min(pairs_ahead, n); ++k) ask(pairs[k]);
     for (std::size_t k = 0; k < n; ++k) {
         if (k + pairs_ahead < n) ask(pairs[k + pairs_ahead]);
@@ -39,6 +37,24 @@ void for_each_ahead(const std::vector<SlotPair>& pairs, std::size_t n, const Ask
 }
 
 } // namespace
+
+void MicroStepList::add(const Candidate& candidate, WindowState seen) {
+    if (sections.empty() || sections.back().seen != seen) sections.push_back({seen, candidates.size()});
+    // Candidates are most of what a rank keeps beside its discs: lists grow by a quarter, not to twice their size.
+    if (candidates.size() == candidates.capacity()) candidates.reserve(candidates.size() + candidates.size() / 4 + 64);
+    candidates.push_back(candidate);
+}
+
+void MicroStepList::drop_stale(std::span<const WindowState> states) {
+    std::size_t n_left = 0;
+    for (std::size_t k = 0; k < sections.size(); ++k) {
+        const std::size_t end = k + 1 < sections.size() ? sections[k + 1].begin : candidates.size();
+        for (std::size_t i = sections[k].begin; i < end; ++i)
+            if (is_current(candidates[i], sections[k].seen, states)) candidates[n_left++] = candidates[i];
+    }
+    candidates.resize(n_left);
+    sections.clear();
+}
 
 /// What rejects in single precision: pairs by distance, walls by the position at the window's end, in cells.
 template <class Law> struct Search<Law>::Bounds {
@@ -76,7 +92,7 @@ void Search<Law>::predict_all(const Population& population, const CellGrid& grid
     {
         SearchLists& lists = lists_[static_cast<std::size_t>(omp_get_thread_num())];
         lists.by_micro.resize(static_cast<std::size_t>(window.n_micro));
-        for (std::vector<Candidate>& list : lists.by_micro) list.clear();
+        for (MicroStepList& list : lists.by_micro) list.clear();
         columns.run(omp_get_thread_num(), [&](std::int64_t column) {
             predict_column(population, grid, window, bounds, static_cast<int>(column), lists);
         });
@@ -90,19 +106,17 @@ void Search<Law>::predict_all(const Population& population, const CellGrid& grid
 template <class Law>
 void Search<Law>::predict_column(const Population& population, const CellGrid& grid, const Window& window,
                                  const Bounds& bounds, int column, SearchLists& lists) const {
-    const std::span<const LocalIndex> order = grid.order();
     lists.n_pairs = Law::has_pairs ? filter_column(grid, column, bounds.touching_squared, lists.pairs) : 0;
-    for_each_ahead(lists.pairs, lists.n_pairs, [&](const SlotPair& pair) {
-        prefetch(population.discs, order[pair.first]);
-        prefetch(population.discs, order[pair.second]);
-    }, [&](const SlotPair& pair) {
-        predict_pair(population, window, window.first_micro, {}, order[pair.first], order[pair.second], lists);
+    for_each_ahead(lists.pairs, lists.n_pairs, [&](const DiscPair& pair) {
+        prefetch(population.discs, pair.first);
+        prefetch(population.discs, pair.second);
+    }, [&](const DiscPair& pair) {
+        predict_pair(population, window, window.first_micro, pair.first, pair.second, lists);
     });
-    const SlotRange slots = grid.run(column, 0, grid.frame().n_rows - 1);
-    for (std::uint32_t slot = slots.begin; slot < slots.end; ++slot) {
-        if (bounds.reaches_wall(grid.lanes(), slot) || law_.has_obstacles()) {
-            predict_wall(population, window, window.first_micro, {}, order[slot], lists);
-        }
+    const SlotRange own = grid.run(column, 0, grid.frame().n_rows - 1);
+    for (LocalIndex index = own.begin; index < own.end; ++index) {
+        if (bounds.reaches_wall(grid.lanes(), index) || law_.has_obstacles())
+            predict_wall(population, window, window.first_micro, index, lists);
     }
 }
 
@@ -116,12 +130,12 @@ template <class Law> float Search<Law>::half_reach(const CellGrid& grid, double 
 template <class Law>
 void Search<Law>::predict_apart(const Population& population, const CellGrid& grid, const Window& window, const Bounds& bounds,
                                 double reach, std::uint32_t k, SearchLists& lists) const {
-    const std::span<const LocalIndex> order = grid.order(), apart = grid.apart();
-    const std::size_t n_slots = filter_apart(grid, k, half_reach(grid, reach), bounds.touching_squared, lists.pairs, 0);
-    lists.n_pairs = filter_apart_pairs(grid, k, bounds.touching_squared, lists.pairs, n_slots);
+    const std::span<const LocalIndex> apart = grid.apart();
+    const std::size_t n_others = filter_apart(grid, k, half_reach(grid, reach), bounds.touching_squared, lists.pairs, 0);
+    lists.n_pairs = filter_apart_pairs(grid, k, bounds.touching_squared, lists.pairs, n_others);
     for (std::size_t i = 0; i < lists.n_pairs; ++i) {
         const std::uint32_t other = lists.pairs[i].second;
-        predict_pair(population, window, window.first_micro, {}, apart[k], i < n_slots ? order[other] : apart[other], lists);
+        predict_pair(population, window, window.first_micro, apart[k], i < n_others ? other : apart[other], lists);
     }
 }
 
@@ -130,7 +144,6 @@ void Search<Law>::predict_again(const Population& population, const CellGrid& gr
                                 double reach, std::span<const LocalIndex> hit, std::span<const WindowState> states) {
     const Bounds bounds(law_, grid);
     const auto begin = static_cast<float>((from - window.begin()) / window.duration());
-    const std::span<const LocalIndex> order = grid.order();
     const auto n_batches = static_cast<std::int64_t>((hit.size() + hits_per_batch - 1) / hits_per_batch);
     const WindowState now = window.state_after(from - 1);
     SharedWork batches(equal_shares(n_batches, n_threads_), 1);
@@ -141,37 +154,37 @@ void Search<Law>::predict_again(const Population& population, const CellGrid& gr
             const std::size_t first = static_cast<std::size_t>(k) * hits_per_batch;
             const std::span<const LocalIndex> batch = hit.subspan(first, std::min(hits_per_batch, hit.size() - first));
             look_around(grid, bounds, begin, half_reach(grid, reach), batch, lists);
-            for_each_ahead(lists.pairs, lists.n_pairs, [&](const SlotPair& pair) {
-                prefetch(population.discs, order[pair.second]);
-            }, [&](const SlotPair& pair) {
-                const LocalIndex index = order[pair.first], other = order[pair.second];
+            for_each_ahead(lists.pairs, lists.n_pairs, [&](const DiscPair& pair) {
+                prefetch(population.discs, pair.second);
+            }, [&](const DiscPair& pair) {
                 // A pair of hit discs is predicted once.
-                if (states[other] != now || index < other) predict_pair(population, window, from, states, index, other, lists);
+                if (states[pair.second] != now || pair.first < pair.second)
+                    predict_pair(population, window, from, pair.first, pair.second, lists);
             });
             for (const LocalIndex index : batch) {
-                if (index != wall && (bounds.reaches_wall(grid.lanes(), grid.slot_of(index)) || law_.has_obstacles()))
-                    predict_wall(population, window, from, states, index, lists);
+                if (index < population.n_own && (bounds.reaches_wall(grid.lanes(), index) || law_.has_obstacles()))
+                    predict_wall(population, window, from, index, lists);
             }
         });
     }
 }
 
-/// Fills `lists.pairs` with the slots that the discs of `hit` might touch.
+/// Fills `lists.pairs` with the discs of `hit` and those that they might touch.
 template <class Law>
 void Search<Law>::look_around(const CellGrid& grid, const Bounds& bounds, float from, float half_reach,
                               std::span<const LocalIndex> hit, SearchLists& lists) const {
     lists.n_pairs = 0;
     for (std::size_t k = 0; k < hit.size() && Law::has_pairs; ++k) {
         // What a disc needs is spread over a dozen cache lines: ask for the cells first, then for the flights in them.
-        if (k + 2 * around_ahead < hit.size() && hit[k + 2 * around_ahead] != wall) grid.prefetch_cells(hit[k + 2 * around_ahead]);
-        if (k + around_ahead < hit.size() && hit[k + around_ahead] != wall) grid.prefetch_flights(hit[k + around_ahead]);
+        if (k + 2 * around_ahead < hit.size()) grid.prefetch_cells(hit[k + 2 * around_ahead]);
+        if (k + around_ahead < hit.size()) grid.prefetch_flights(hit[k + around_ahead]);
         if (hit[k] != wall) lists.n_pairs = filter_around(grid, hit[k], from, half_reach, bounds.touching_squared, lists.pairs, lists.n_pairs);
     }
 }
 
 template <class Law>
-void Search<Law>::predict_pair(const Population& population, const Window& window, int from, States states, LocalIndex a,
-                               LocalIndex b, SearchLists& lists) const {
+void Search<Law>::predict_pair(const Population& population, const Window& window, int from, LocalIndex a, LocalIndex b,
+                               SearchLists& lists) const {
     if (a >= population.n_own && b >= population.n_own) return;
     const Disc& first = population.discs[a];
     const Disc& second = population.discs[b];
@@ -183,24 +196,17 @@ void Search<Law>::predict_pair(const Population& population, const Window& windo
     if (!window.holds(t)) return;
     Candidate candidate{t, a, b};
     if (second.id < first.id) std::swap(candidate.p, candidate.q);
-    if (!states.empty()) {
-        candidate.p_state = states[candidate.p];
-        candidate.q_state = states[candidate.q];
-    }
-    add(lists, window, m, candidate);
+    add(lists, window, from, m, candidate);
 }
 
 template <class Law>
-void Search<Law>::predict_wall(const Population& population, const Window& window, int from, States states,
-                               LocalIndex index, SearchLists& lists) const {
+void Search<Law>::predict_wall(const Population& population, const Window& window, int from, LocalIndex index, SearchLists& lists) const {
     if (index >= population.n_own) return;
     const Disc& disc = population.discs[index];
     for (int m = from; m < window.end_micro(); ++m) {
         const double t = law_.wall_time(disc, m);
         if (t == Law::never) continue;
-        if (window.holds(t)) {
-            add(lists, window, m, {t, index, wall, states.empty() ? WindowState{0} : states[index], 0});
-        }
+        if (window.holds(t)) add(lists, window, from, m, {t, index, wall});
         return;
     }
 }
@@ -208,20 +214,27 @@ void Search<Law>::predict_wall(const Population& population, const Window& windo
 template <class Law>
 void Search<Law>::collect(const Window& window, int m, std::span<const WindowState> states, std::vector<Candidate>& live) {
     const auto bucket = static_cast<std::size_t>(m - window.first_micro);
+    if (n_threads_ == 1) {
+        MicroStepList& list = lists_[0].by_micro[bucket];
+        list.drop_stale(states);
+        std::swap(live, list.candidates);
+        list.clear();
+        return;
+    }
     std::vector<std::size_t> ends(static_cast<std::size_t>(n_threads_) + 1, 0);
 #pragma omp parallel num_threads(n_threads_)
     {
         const auto thread = static_cast<std::size_t>(omp_get_thread_num());
-        std::vector<Candidate>& list = lists_[thread].by_micro[bucket];
-        std::erase_if(list, [&](const Candidate& candidate) { return !is_current(candidate, states); });
-        ends[thread + 1] = list.size();
+        MicroStepList& list = lists_[thread].by_micro[bucket];
+        list.drop_stale(states);
+        ends[thread + 1] = list.candidates.size();
 #pragma omp barrier
 #pragma omp single
         {
             for (std::size_t t = 1; t < ends.size(); ++t) ends[t] += ends[t - 1];
             live.resize(ends.back());
         }
-        std::copy(list.begin(), list.end(), live.begin() + static_cast<std::ptrdiff_t>(ends[thread]));
+        std::copy(list.candidates.begin(), list.candidates.end(), live.begin() + static_cast<std::ptrdiff_t>(ends[thread]));
         list.clear();
     }
 }
@@ -229,8 +242,8 @@ void Search<Law>::collect(const Window& window, int m, std::span<const WindowSta
 template <class Law> std::size_t Search<Law>::bytes() const {
     std::size_t total = 0;
     for (const SearchLists& lists : lists_) {
-        for (const std::vector<Candidate>& list : lists.by_micro) total += list.capacity() * sizeof(Candidate);
-        total += lists.pairs.capacity() * sizeof(SlotPair);
+        for (const MicroStepList& list : lists.by_micro) total += list.candidates.capacity() * sizeof(Candidate);
+        total += lists.pairs.capacity() * sizeof(DiscPair);
     }
     return total;
 }

@@ -88,7 +88,7 @@ Inside interior(const Strips& strips, int rank, double reach, const Periods& per
     return {mine.low + reach, mine.high - reach, box.y_low + reach, box.y_high - reach};
 }
 
-TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const Disc> own, std::span<const LocalIndex> looked_at,
+TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const Disc> own, std::span<const PlaceRange> looked_at,
                                 double time, double reach, const Periods& periods) {
     TransferPlan plan;
     const double longest = std::max(periods.x, periods.y);
@@ -101,7 +101,7 @@ TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const 
     std::vector<Slab> slabs;
     for (const int other : plan.partners) slabs.emplace_back(strips, other, periods.x);
     const Inside box = periods.inside();
-    for (const LocalIndex i : looked_at) {
+    const auto look_at = [&](LocalIndex i) {
         const double x = periods.x_of(own[i], time), y = periods.y_of(own[i], time);
         const Image home = image_of(own[i]);
         const Shifts along_y(y, reach, box.y_low, box.y_high, periods.y);
@@ -119,6 +119,9 @@ TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const 
                 }
             }
         }
+    };
+    for (const PlaceRange range : looked_at) {
+        for (std::size_t i = range.begin; i < range.end; ++i) look_at(static_cast<LocalIndex>(i));
     }
     return plan;
 }

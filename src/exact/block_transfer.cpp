@@ -22,13 +22,14 @@ void BlockReplay<Law>::Scratch::gather(const ReplayGround& of_rank, const CellBl
     cell_starts.clear();
     indices.clear();
     for (int column = cells.first_column; column < cells.end_column; ++column) {
-        const SlotRange run = grid.run(column, cells.first_row, cells.end_row - 1);
-        const std::uint32_t shift = static_cast<std::uint32_t>(indices.size()) - run.begin;
-        cell_starts.push_back(run.begin + shift);
+        cell_starts.push_back(static_cast<std::uint32_t>(indices.size()));
+        const bool has_halo = grid.has_halo_in(column);
         for (int row = cells.first_row; row < cells.end_row; ++row) {
-            cell_starts.push_back(grid.run(column, row, row).end + shift);
+            const SlotRange run = grid.run(column, row, row), of_halo = has_halo ? grid.halo_run(column, row, row) : SlotRange{};
+            for (LocalIndex index = run.begin; index < run.end; ++index) indices.push_back(index);
+            for (std::uint32_t slot = of_halo.begin; slot < of_halo.end; ++slot) indices.push_back(grid.halo_index(slot));
+            cell_starts.push_back(static_cast<std::uint32_t>(indices.size()));
         }
-        indices.insert(indices.end(), grid.order().begin() + run.begin, grid.order().begin() + run.end);
     }
     const std::size_t n = indices.size();
     runs.resize(static_cast<std::size_t>(cells.end_column - cells.first_column) + 1);

@@ -70,8 +70,9 @@ template <class Law> void ExactEngine<Law>::compare_histories(std::vector<LocalI
 }
 
 template <class Law> void ExactEngine<Law>::mark_owner(LocalIndex own_index) {
-    const int column = std::clamp(grid_.column_of(own_index), first_own_column_, end_own_column_ - 1) - first_own_column_;
-    const int row = std::clamp(grid_.row_of(own_index), first_own_row_, end_own_row_ - 1) - first_own_row_;
+    const CellGrid::Cell cell = discs_.grid().cell_of(own_index);
+    const int column = std::clamp(cell.column, first_own_column_, end_own_column_ - 1) - first_own_column_;
+    const int row = std::clamp(cell.row, first_own_row_, end_own_row_ - 1) - first_own_row_;
     const int k = column / block_columns_ * n_block_rows_ + row / block_rows_;
     std::atomic_ref(blocks_[static_cast<std::size_t>(k)].is_marked).store(1, std::memory_order_relaxed);
 }
@@ -79,7 +80,7 @@ template <class Law> void ExactEngine<Law>::mark_owner(LocalIndex own_index) {
 /// Doubles the halo of all marked blocks that do not see the whole box yet. True if more halo has to be fetched for that;
 /// all blocks are to be replayed then. **Collective.**
 template <class Law> bool ExactEngine<Law>::widen_marked() {
-    const int n_reach = grid_.frame().n_reach;
+    const int n_reach = discs_.grid().frame().n_reach;
     const Periods& periods = discs_.periods();
     const bool has_left = periods.x != 0 || communicator_.rank() > 0; // else: a wall
     const bool has_right = periods.x != 0 || communicator_.rank() + 1 < communicator_.size();
@@ -114,7 +115,7 @@ template <class Law> bool ExactEngine<Law>::widen_marked() {
 
 template <class Law> bool ExactEngine<Law>::sees_all(const Block& block) const {
     if (Law::is_periodic) return sees_all_images(block);
-    const GridFrame& frame = grid_.frame();
+    const GridFrame& frame = discs_.grid().frame();
     const int halo = block.halo * frame.n_reach;
     const bool has_all_cells = block.cells.first_column <= halo && block.cells.end_column + halo >= frame.n_columns &&
                                block.cells.first_row <= halo && block.cells.end_row + halo >= frame.n_rows;
@@ -126,7 +127,7 @@ template <class Law> bool ExactEngine<Law>::sees_all(const Block& block) const {
 
 /// Along a periodic axis: once around from the block's own cells, and one reach more at both ends.
 template <class Law> bool ExactEngine<Law>::sees_all_images(const Block& block) const {
-    const GridFrame& frame = grid_.frame();
+    const GridFrame& frame = discs_.grid().frame();
     const int halo = block.halo * frame.n_reach;
     const double reach = exact_reach(window_, law_.search_diameter(), law_.box_size());
     const int around = static_cast<int>(std::ceil(law_.box_size() / frame.cell_width)) + 1 + frame.n_reach;

@@ -19,8 +19,6 @@ namespace carrom {
 
 namespace {
 
-/// Windows between two times that states are brought into the order of their cells.
-constexpr std::int64_t windows_per_reorder = 8;
 /// Blocks that each thread has at least, so that none waits for long.
 constexpr double blocks_per_thread = 4;
 /// Up to here one thread does best with a single block and no halo.
@@ -57,8 +55,7 @@ ExactEngine<Law>::ExactEngine(const Scene& scene, StoredState state, const Commu
     discs_.rebalance(time_, tuning_.rebalance_above);
     settle_now();
     if (Law::has_pairs && (Law::parts_overlaps || n_micro_done_ == 0)) // else the run itself may have come to them
-        refuse_overlaps(discs_.population(), grid_, time_, touching_of(law_, discs_.periods()), communicator_, scene.name);
-    discs_.reorder(grid_, tuning_.threads); // discs come in any order
+        refuse_overlaps(discs_.population(), discs_.grid(), time_, touching_of(law_, discs_.periods()), communicator_, scene.name);
     discs_.forget_images();
     clock_ = {};
 }
@@ -80,10 +77,6 @@ template <class Law> void ExactEngine<Law>::advance_towards(std::int64_t last_st
 
 /// One window, to `target` at most.
 template <class Law> void ExactEngine<Law>::run_window(double target) {
-    if (n_windows_ % windows_per_reorder == 0 && n_windows_ > 0) {
-        const PhaseClock::Scope scope(clock_, Phase::settle);
-        discs_.reorder(grid_, tuning_.threads);
-    }
     set_gone_aside();
     migrate();
     window_ = choose(target);
@@ -166,11 +159,6 @@ template <class Law> void ExactEngine<Law>::shorten() {
 template <class Law> void ExactEngine<Law>::settle() {
     const PhaseClock::Scope scope(clock_, Phase::settle);
     const double reach = exact_reach(window_, law_.search_diameter(), law_.box_size());
-    {
-        const PhaseClock::Scope exchange(clock_, Phase::exchange);
-        discs_.forget_halo();
-        discs_.fetch_halo(time_, halo_depth_ * reach, nullptr);
-    }
     const Extent box = extent();
     const double x_from = std::max(box.x_low, discs_.strips().low(communicator_.rank()));
     const double x_to = std::min(box.x_high, discs_.strips().high(communicator_.rank()));
@@ -191,14 +179,18 @@ template <class Law> void ExactEngine<Law>::settle() {
     frame.n_rows = end_own_row_ + first_own_row_;
     frame.x_low = x_from - first_own_column_ * frame.cell_width;
     frame.y_low = box.y_low - first_own_row_ * frame.cell_width;
-    grid_.build_cells(discs_.all(), frame, time_, tuning_.threads, discs_.periods());
+    discs_.sort_cells(frame, time_, tuning_.threads);
+    {
+        const PhaseClock::Scope exchange(clock_, Phase::exchange);
+        discs_.fetch_halo(time_, halo_depth_ * reach, nullptr);
+    }
     histories_.resize(discs_.all().size());
     make_blocks();
 }
 
 /// Cuts the own cells into blocks of about equal size. A block that exists already keeps its halo.
 template <class Law> void ExactEngine<Law>::make_blocks() {
-    const GridFrame& frame = grid_.frame();
+    const GridFrame& frame = discs_.grid().frame();
     const int n_columns = end_own_column_ - first_own_column_, n_rows = end_own_row_ - first_own_row_;
     const double width = n_columns * frame.cell_width, height = n_rows * frame.cell_width;
     double side = exact_.block_side ? *exact_.block_side * frame.cell_width * frame.n_reach : choice_.block_side;
@@ -238,8 +230,8 @@ template <class Law> double ExactEngine<Law>::share_marked() const {
 
 template <class Law> void ExactEngine<Law>::replay() {
     const PhaseClock::Scope scope(clock_, Phase::search);
-    const ReplayGround ground{discs_.all(), discs_.n_own(), &grid_, first_own_column_, end_own_column_, first_own_row_, end_own_row_, window_, is_followed(), discs_.spins()};
-    const int n_reach = grid_.frame().n_reach;
+    const ReplayGround ground{discs_.all(), discs_.n_own(), &discs_.grid(), first_own_column_, end_own_column_, first_own_row_, end_own_row_, window_, is_followed(), discs_.spins()};
+    const int n_reach = discs_.grid().frame().n_reach;
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
     for (Block& block : blocks_) {
         if (block.is_marked == 0) continue;
@@ -353,11 +345,10 @@ template <class Law> void ExactEngine<Law>::settle_now(double least_reach) {
     migrate();
     const double touching = reach_of({law_.box_size(), law_.radius() + law_.slack(), static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
     const double reach = std::max(touching, least_reach);
+    const Extent seen = discs_.extent_seen(extent(), reach);
+    const GridFrame frame = make_sparse_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high, reach, discs_.n_own());
+    discs_.sort_cells(frame, time_, tuning_.threads);
     discs_.fetch_halo(time_, reach, nullptr);
-    const Extent box = extent();
-    const Extent seen = discs_.extent_seen(box, reach);
-    const GridFrame frame = make_sparse_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high, reach, discs_.all().size());
-    grid_.build(discs_.all(), frame, time_, time_, 1, tuning_.threads, discs_.periods());
 }
 
 template <class Law> ReplayCounts ExactEngine<Law>::replay_counts() const {
@@ -369,13 +360,13 @@ template <class Law> ReplayCounts ExactEngine<Law>::replay_counts() const {
 
 template <class Law> Settled ExactEngine<Law>::settled(double reach) {
     settle_now(reach * (1 + 1e-6));
-    return {discs_.population(), &grid_, &discs_.strips(), time_, frame(), discs_.periods()};
+    return {discs_.population(), &discs_.grid(), &discs_.strips(), time_, frame(), discs_.periods()};
 }
 
 template <class Law> void ExactEngine<Law>::add_to(Totals& totals) {
     settle_now();
     if constexpr (Law::has_pairs)
-        measure_overlaps(discs_.population(), grid_, time_, touching_of(law_, discs_.periods()), communicator_, tuning_.threads, totals);
+        measure_overlaps(discs_.population(), discs_.grid(), time_, touching_of(law_, discs_.periods()), communicator_, tuning_.threads, totals);
     discs_.forget_images();
 }
 

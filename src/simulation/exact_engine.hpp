@@ -116,7 +116,6 @@ private:
     ReplayWindow window_;
     bool is_one_block_ = false;   ///< all discs in one block, for lack of threads and ranks
     int halo_depth_ = 0;          ///< reaches that the halo covers
-    CellGrid grid_;
     int first_own_column_ = 0, end_own_column_ = 1;
     int first_own_row_ = 0, end_own_row_ = 1;
     int block_columns_ = 1, block_rows_ = 1; ///< cells to a block

@@ -159,28 +159,19 @@ void measure_overlaps(const Population& population, const CellGrid& grid, double
     const PairsAt pairs(population, time, touching);
     std::uint64_t n_pairs = 0, n_touching = 0;
     double deepest = 0;
-    const std::span<const LocalIndex> order = grid.order();
-    const int n_columns = grid.frame().n_columns, n_reach = grid.frame().n_reach;
+    const int n_columns = grid.frame().n_columns;
 #pragma omp parallel for num_threads(n_threads) schedule(dynamic, 8) reduction(+ : n_pairs, n_touching) reduction(max : deepest)
     for (int column = 0; column < n_columns; ++column) {
-        const SlotRange all = grid.run(column, 0, grid.frame().n_rows - 1);
-        for (std::uint32_t slot = all.begin; slot < all.end; ++slot) {
-            const LocalIndex index = order[slot];
-            const int row = grid.row_of(index);
-            for (int other = column; other <= std::min(column + n_reach, n_columns - 1); ++other) {
-                const SlotRange run = grid.run(other, row - n_reach, row + n_reach);
-                for (std::uint32_t k = other == column ? slot + 1 : run.begin; k < run.end; ++k) {
-                    const double overlap = pairs.overlap(index, order[k]);
-                    if (!(overlap >= -touching.tolerance)) continue;
-                    if (overlap <= touching.tolerance) {
-                        ++n_touching;
-                        continue;
-                    }
-                    n_pairs += pairs.is_mine(index, order[k]);
-                    deepest = std::max(deepest, overlap);
-                }
+        visit_near_pairs_of(grid, column, [&](LocalIndex first, LocalIndex second) {
+            const double overlap = pairs.overlap(first, second);
+            if (!(overlap >= -touching.tolerance)) return;
+            if (overlap <= touching.tolerance) {
+                ++n_touching;
+                return;
             }
-        }
+            n_pairs += pairs.is_mine(first, second);
+            deepest = std::max(deepest, overlap);
+        });
     }
     totals.overlapping_pairs = communicator.sum(n_pairs);
     totals.deepest_overlap = communicator.max(deepest);

@@ -4,27 +4,33 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <span>
 
 #include "carrom/collision/cell_grid.hpp"
 
 namespace carrom {
 
-/// Those of them that one of the columns has: the others' columns are no lower.
+/// Those of them whose first disc is an own one in that column; the second is in no lower one, or in the halo. Pairs in which both
+/// are the halo's are left to its owners.
 template <class Visit> void visit_near_pairs_of(const CellGrid& grid, int column, const Visit& visit) {
     const GridFrame& frame = grid.frame();
-    const std::span<const LocalIndex> order = grid.order();
-    const SlotRange all = grid.run(column, 0, frame.n_rows - 1);
-    for (std::uint32_t slot = all.begin; slot < all.end; ++slot) {
-        const int row = grid.row_of(order[slot]);
-        for (int other = column; other <= std::min(column + frame.n_reach, frame.n_columns - 1); ++other) {
+    const int last_column = std::min(column + frame.n_reach, frame.n_columns - 1);
+    for (int row = 0; row < frame.n_rows; ++row) {
+        const SlotRange cell = grid.run(column, row, row);
+        if (cell.begin == cell.end) continue;
+        for (int other = column; other <= last_column; ++other) {
             const SlotRange run = grid.run(other, row - frame.n_reach, row + frame.n_reach);
-            for (std::uint32_t k = other == column ? slot + 1 : run.begin; k < run.end; ++k) visit(order[slot], order[k]);
+            for (LocalIndex index = cell.begin; index < cell.end; ++index)
+                for (LocalIndex second = other == column ? index + 1 : run.begin; second < run.end; ++second) visit(index, second);
+        }
+        for (int other = std::max(column - frame.n_reach, 0); other <= last_column; ++other) {
+            const SlotRange run = grid.halo_run(other, row - frame.n_reach, row + frame.n_reach);
+            for (LocalIndex index = cell.begin; index < cell.end; ++index)
+                for (std::uint32_t slot = run.begin; slot < run.end; ++slot) visit(index, grid.halo_index(slot));
         }
     }
 }
 
-/// Calls `visit(a, b)` once for each two discs in cells that lie within the grid's reach of each other.
+/// Calls `visit(a, b)` once for each two discs in cells that lie within the grid's reach of each other, an own one among them.
 template <class Visit> void visit_near_pairs(const CellGrid& grid, const Visit& visit) {
     for (int column = 0; column < grid.frame().n_columns; ++column) visit_near_pairs_of(grid, column, visit);
 }

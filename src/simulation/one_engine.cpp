@@ -12,8 +12,6 @@ namespace carrom {
 
 namespace {
 
-/// Windows between two times that states are brought into the order of their cells.
-constexpr std::int64_t windows_per_reorder = 8;
 /// Room for discs that a window's collisions make faster, before it has to be cut short.
 constexpr double speed_allowance = 1.02;
 
@@ -44,8 +42,7 @@ OneEngine<Law>::OneEngine(const Scene& scene, StoredState state, const Communica
     hits_per_micro_step_ = std::min(1.0, 2 * density * law_.diameter() * communicator_.max(largest_speed_)); // a first guess
     set_gone_aside();
     discs_.rebalance(micro_, tuning_.rebalance_above);
-    settle_now();
-    discs_.reorder(grid_, tuning_.threads); // discs come in any order
+    settle_now(); // discs come in any order
     discs_.forget_images();
     clock_ = {};
 }
@@ -64,7 +61,7 @@ template <class Law> void OneEngine<Law>::advance_towards(std::int64_t last_step
         if (micro_ == sync_every_) sync();
     }
     discs_.forget_images();
-    if (n_micro_done_ == last_micro_step_) grid_ = {}; // memory for what follows a run
+    if (n_micro_done_ == last_micro_step_) discs_.drop_grid(); // memory for what follows a run
 }
 
 /// Runs one window of at most `n_left` micro-steps: to its end, or to where discs have become too fast for it.
@@ -72,7 +69,7 @@ template <class Law> void OneEngine<Law>::run_window(int n_left) {
     const Window window = settle(n_left);
     {
         const PhaseClock::Scope scope(clock_, Phase::search);
-        search_.predict_all(population(), grid_, window, reach_of(window_needs(), window.duration(), usual_speed_));
+        search_.predict_all(population(), discs_.grid(), window, reach_of(window_needs(), window.duration(), usual_speed_));
     }
     int m = window.first_micro;
     while (m < window.end_micro() && run_micro_step(window, m)) ++m;
@@ -91,7 +88,6 @@ template <class Law> void OneEngine<Law>::run_window(int n_left) {
 /// Brings every disc to its strip, the halo to every strip and all into cells, for the window that it chooses.
 template <class Law> Window OneEngine<Law>::settle(int n_left) {
     const PhaseClock::Scope scope(clock_, Phase::settle);
-    if (part_ == 0 && n_windows_ % windows_per_reorder == 0 && n_windows_ > 0) discs_.reorder(grid_, tuning_.threads);
     if (part_ == 0) set_gone_aside();
     if (part_ == 0) {
         agree_on_speed();
@@ -99,9 +95,11 @@ template <class Law> Window OneEngine<Law>::settle(int n_left) {
     }
     const Window window = choose(n_left);
     migrate(window.anchor());
-    const double reach = reach_of(window_needs(), window.duration());
+    const double reach = reach_of(window_needs(), window.duration()), usual_reach = reach_of(window_needs(), window.duration(), usual_speed_);
+    sort(window, reach, usual_reach);
     fetch_halo(window.anchor(), reach);
-    build_grid(window, reach, reach_of(window_needs(), window.duration(), usual_speed_));
+    if (usual_reach < reach) discs_.grid().set_apart(usual_speed_ * (1 - 1e-6));
+    states_.assign(discs_.all().size(), 0);
     return window;
 }
 
@@ -111,16 +109,15 @@ template <class Law> void OneEngine<Law>::settle_now(double least_reach) {
     migrate(micro_);
     const double touching = reach_of({law_.box_size(), law_.radius() + law_.slack(), static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
     const double reach = std::max(touching, least_reach);
-    fetch_halo(micro_, reach);
     const Extent seen = discs_.extent_seen({0, law_.box_size(), 0, law_.box_size()}, reach);
-    const std::span<const Disc> all = population().discs;
-    const GridFrame frame = make_sparse_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high, reach, all.size());
-    grid_.build(all, frame, micro_, micro_, 1, tuning_.threads, discs_.periods());
+    const GridFrame frame = make_sparse_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high, reach, discs_.n_own());
+    discs_.sort_cells(frame, micro_, tuning_.threads);
+    fetch_halo(micro_, reach);
 }
 
 template <class Law> Settled OneEngine<Law>::settled(double reach) {
     settle_now(reach * (1 + 1e-6));
-    return {population(), &grid_, &discs_.strips(), static_cast<double>(micro_), frame(), discs_.periods()};
+    return {population(), &discs_.grid(), &discs_.strips(), static_cast<double>(micro_), frame(), discs_.periods()};
 }
 
 /// Under this rule nothing falls: a frame that moves stands for places to be brought into the box.
@@ -137,18 +134,15 @@ template <class Law> void OneEngine<Law>::add_to(Totals& totals) {
     totals.rejected_candidates = communicator_.sum(n_candidates_ - n_kept_);
     settle_now();
     if constexpr (Law::has_pairs)
-        measure_overlaps(population(), grid_, micro_, touching_of(law_, discs_.periods()), communicator_, tuning_.threads, totals);
+        measure_overlaps(population(), discs_.grid(), micro_, touching_of(law_, discs_.periods()), communicator_, tuning_.threads, totals);
     discs_.forget_images();
 }
 
-/// Halo discs come from within `reach`. Cells are made for `usual_reach`; discs that are too fast for it are set apart.
-template <class Law> void OneEngine<Law>::build_grid(const Window& window, double reach, double usual_reach) {
+/// Halo discs will come from within `reach`. Cells are made for `usual_reach`; discs that are too fast for it will be set apart.
+template <class Law> void OneEngine<Law>::sort(const Window& window, double reach, double usual_reach) {
     const Extent seen = discs_.extent_seen({0, law_.box_size(), 0, law_.box_size()}, reach);
-    const std::span<const Disc> all = population().discs;
-    const GridFrame frame = make_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high, usual_reach, all.size(), tuning_.cell_width.value_or(0));
-    grid_.build(all, frame, window.anchor(), window.begin(), std::max(window.duration(), 1e-6), tuning_.threads, discs_.periods());
-    if (usual_reach < reach) grid_.set_apart(usual_speed_ * (1 - 1e-6));
-    states_.assign(all.size(), 0);
+    const GridFrame frame = make_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high, usual_reach, discs_.n_own(), tuning_.cell_width.value_or(0));
+    discs_.sort(frame, window.anchor(), window.begin(), std::max(window.duration(), 1e-6), tuning_.threads, companion());
 }
 
 template <class Law> Window OneEngine<Law>::choose(int n_left) {
@@ -193,14 +187,14 @@ template <class Law> void OneEngine<Law>::migrate(double time) {
     const double flown = (time - from) + std::fabs(settled_time_ - from);
     const double farthest = travel_speed_ * flown * (1 + 1e-6) + 64 * 0x1p-53 * law_.box_size() + law_.slack();
     const PhaseClock::Scope scope(clock_, Phase::exchange);
-    discs_.migrate(time, farthest, in_parts_ ? &outcomes_ : nullptr);
+    discs_.migrate(time, farthest, companion());
     settled_time_ = time;
     if (part_ == 0) unchanged_until_ = micro_;
 }
 
 template <class Law> void OneEngine<Law>::fetch_halo(double time, double reach) {
     const PhaseClock::Scope scope(clock_, Phase::exchange);
-    discs_.fetch_halo(time, reach, in_parts_ ? &outcomes_ : nullptr);
+    discs_.fetch_halo(time, reach, companion());
 }
 
 /// Decides and applies micro-step m. False, with nothing done, if discs have become faster than the window allows for.
@@ -259,17 +253,11 @@ template <class Law> void OneEngine<Law>::apply(const Window& window, int m) {
         for (std::int64_t k = 0; k < n_kept; ++k) {
             if (k + 16 < n_kept) {
                 const Candidate& later = verdicts_.kept[static_cast<std::size_t>(k + 16)];
-                __builtin_prefetch(&results[later.p], 1);
-                if (!is_last) grid_.prefetch_slot(later.p);
-                if (!later.is_wall()) {
-                    __builtin_prefetch(&results[later.q], 1);
-                    if (!is_last) grid_.prefetch_slot(later.q);
+                for (const LocalIndex index : {later.p, later.q}) {
+                    if (index == wall) continue;
+                    __builtin_prefetch(&results[index], 1);
+                    if (!is_last) discs_.grid().prefetch_flight(index);
                 }
-            }
-            if (!is_last && k + 8 < n_kept) {
-                const Candidate& later = verdicts_.kept[static_cast<std::size_t>(k + 8)];
-                grid_.prefetch_flight(later.p);
-                if (!later.is_wall()) grid_.prefetch_flight(later.q);
             }
             const Candidate& c = verdicts_.kept[static_cast<std::size_t>(k)];
             if (c.is_wall()) {
@@ -300,12 +288,12 @@ template <class Law> void OneEngine<Law>::apply(const Window& window, int m) {
     hear_of_hits(window, m);
     const PhaseClock::Scope scope(clock_, Phase::search);
     const double reach = reach_of(window_needs(), window.duration());
-    search_.predict_again(population(), grid_, window, m + 1, reach, hits_, states_);
+    search_.predict_again(population(), discs_.grid(), window, m + 1, reach, hits_, states_);
 }
 
 template <class Law> void OneEngine<Law>::update_flight(LocalIndex index, const Disc& disc) {
-    if constexpr (Law::is_periodic) grid_.update_flight_of_image(index, disc);
-    else grid_.update_flight(index, disc);
+    if constexpr (Law::is_periodic) discs_.grid().update_flight_of_image(index, disc);
+    else discs_.grid().update_flight(index, disc);
 }
 
 template <class Law> void OneEngine<Law>::note_velocities(std::span<const Disc> results) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The rule "one" on ranks and threads: windows of time, each settled, searched, resolved and applied.
 //
-//   settle   own discs to their strips, halo discs from the neighbours, all into cells
+//   settle   own discs to their strips and into the order of their cells, halo discs from the neighbours
 //   search   every contact of the window, from stored states alone
 //   then for each micro-step of the window, in step on all ranks:
 //     resolve  local rounds; what hangs together across strips by a distributed sort
@@ -60,6 +60,7 @@ private:
     void agree_on_speed();
     void migrate(double time);
     void fetch_halo(double time, double reach);
+    std::vector<Disc>* companion() { return in_parts_ ? &outcomes_ : nullptr; }
     bool run_micro_step(const Window& window, int m);
     std::uint64_t count_ours(std::span<const Candidate> candidates) const;
     void strike_taken(std::vector<Candidate>& live) const;
@@ -69,7 +70,7 @@ private:
     void note_velocities(std::span<const Disc> results);
     void log_collisions(std::span<const Disc> results, int m);
     void sync();
-    void build_grid(const Window& window, double reach, double usual_reach);
+    void sort(const Window& window, double reach, double usual_reach);
     void survey_speeds();
 
     Communicator communicator_;
@@ -95,7 +96,6 @@ private:
     double settled_time_ = 0;    ///< whose places the discs were last settled by
     double unchanged_until_ = 0; ///< no state has changed before this time since then
 
-    CellGrid grid_;
     Search<Law> search_;
     LocalResolution local_;
     StripResolution across_strips_;

@@ -17,21 +17,37 @@ namespace carrom {
 
 namespace {
 
-/// Uses the inputs up: they are gone before an engine needs memory.
+/// Lists of no more than this are given back to the system one by one.
+constexpr std::size_t discs_in_part = 1 << 16;
+
+/// The same in many lists. What was one is gone then, though a parameter may live as long as the expression that the call is in.
+std::vector<std::vector<InputDisc>> in_parts(std::vector<InputDisc> discs) {
+    std::vector<std::vector<InputDisc>> parts;
+    parts.reserve(discs.size() / discs_in_part + 1); // below them on the heap
+    for (auto begin = discs.begin(); begin != discs.end(); begin += static_cast<std::ptrdiff_t>(parts.back().size()))
+        parts.emplace_back(begin, begin + std::min<std::ptrdiff_t>(discs_in_part, discs.end() - begin));
+    std::vector<InputDisc>().swap(discs);
+    return parts;
+}
+
+/// Uses the inputs up: they go as states come, for together they would be the most that a run keeps.
 StoredState first_state(const Scene& scene, std::vector<InputDisc> inputs) {
     const auto k = static_cast<double>(scene.micro_steps);
     StoredState state;
-    state.discs.reserve(inputs.size());
-    for (const InputDisc& input : inputs) {
-        Disc& disc = state.discs.emplace_back();
-        disc.id = input.id;
-        disc.x = input.x;
-        disc.y = input.y;
-        disc.vx = input.vx / k;
-        disc.vy = input.vy / k;
-        if (!scene.spins.empty()) state.spins.push_back(first_spin(scene, input.id) / k);
+    const std::size_t n = inputs.size();
+    std::vector<std::vector<InputDisc>> parts = in_parts(std::move(inputs));
+    state.discs.reserve(n);
+    for (; !parts.empty(); parts.pop_back()) { // from the end: there the heap shrinks
+        for (const InputDisc& input : parts.back()) {
+            Disc& disc = state.discs.emplace_back();
+            disc.id = input.id;
+            disc.x = input.x;
+            disc.y = input.y;
+            disc.vx = input.vx / k;
+            disc.vy = input.vy / k;
+            if (!scene.spins.empty()) state.spins.push_back(first_spin(scene, input.id) / k);
+        }
     }
-    std::vector<InputDisc>().swap(inputs); // a parameter may live as long as the whole expression that the call is in
     return state;
 }
 

@@ -174,7 +174,8 @@ StateCheck::Finding StateCheck::first_out_of_place(const Settled& now) const {
         if (outside > allowed) add(Invariant::in_box, disc.id, outside, allowed);
         if (now.strips->owner(x) != communicator_.rank()) add(Invariant::in_strip, disc.id, now.strips->owner(x), 0);
         const auto index = static_cast<LocalIndex>(i);
-        if (!is_filed || now.grid->column_of(index) != frame.column_of(x) || now.grid->row_of(index) != frame.row_of(y))
+        const CellGrid::Cell cell = is_filed ? now.grid->cell_of(index) : CellGrid::Cell{-1, -1};
+        if (cell.column != frame.column_of(x) || cell.row != frame.row_of(y))
             add(Invariant::in_cell, disc.id, 0, 0);
     }
     return first.value_or(Finding{});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 #include "carrom/core/errors.hpp"
 #include "carrom/parallel/exchange.hpp"
@@ -11,14 +12,13 @@ namespace carrom {
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 /// A disc's new state and its place among the discs that went to this neighbour's halo.
 struct News {
     Disc disc;
     std::uint64_t place;
 };
-
-/// Reaches change little from window to window: so much more is looked at beforehand.
-constexpr double longer_reach = 1.1;
 
 Strips equal_strips(double box_size, int n_ranks) {
     std::vector<double> cuts;
@@ -64,7 +64,7 @@ void StripDiscs::set_gone_aside() {
             if (!is_gone(discs_[i])) spins_[n_left++] = spins_[i];
         spins_.resize(n_left);
     }
-    if (std::erase_if(discs_, is_gone) > 0) place_bounds_.forget();
+    if (std::erase_if(discs_, is_gone) > 0) is_sorted_ = false;
     n_own_ = discs_.size();
     n_total_ = communicator_.sum(std::uint64_t{n_own_});
 }
@@ -80,7 +80,6 @@ void StripDiscs::migrate(double time, double farthest, std::vector<Disc>* compan
             if (!values) continue;
             transfer(exchange_, plan, std::span<const Disc>(*values), arrived);
             remove_leaving(plan, *values);
-            if (values == &discs_) note_removed(plan);
             values->insert(values->end(), arrived.items.begin(), arrived.items.end());
         }
         if (has_spins_) {
@@ -91,58 +90,62 @@ void StripDiscs::migrate(double time, double farthest, std::vector<Disc>* compan
         }
         n_own_ = discs_.size();
     }
+    is_sorted_ = false;
     settled_strips_ = strips_;
 }
 
-TransferPlan StripDiscs::migration_plan(double time, double farthest) {
+/// Discs far from both ends of the strip when they were sorted cannot have left it.
+TransferPlan StripDiscs::migration_plan(double time, double farthest) const {
     const int rank = communicator_.rank();
     if (periods_.are_any()) return plan_periodic_migration(settled_strips_, strips_, rank, own(), time, farthest, periods_);
-    if (place_bounds_.are_known()) place_bounds_.widen(farthest);
-    else place_bounds_.survey(own(), time);
-    const std::vector<PlaceRange> looked_at = place_bounds_.outside(strips_.low(rank), strips_.high(rank), n_own_);
+    const std::vector<PlaceRange> looked_at =
+        places_outside({strips_.low(rank) + farthest, strips_.high(rank) - farthest, -infinity, infinity});
     return plan_migration(settled_strips_, strips_, rank, own(), looked_at, time, farthest);
 }
 
-/// Gaps have been closed from the end; what comes from elsewhere comes behind.
-void StripDiscs::note_removed(const TransferPlan& plan) {
-    for (const std::vector<LocalIndex>& leaving : plan.leaving) {
-        for (const LocalIndex index : leaving) place_bounds_.replace(index);
-    }
-    place_bounds_.truncate(discs_.size());
+/// Own discs, ascending, with all that were not within `inner` when they were sorted.
+std::vector<PlaceRange> StripDiscs::places_outside(const Inside& inner) const {
+    if (!is_sorted_) return {{0, n_own_}};
+    std::vector<PlaceRange> places;
+    for (const SlotRange range : grid_.outside(inner)) places.push_back({range.begin, range.end});
+    return places;
 }
 
-void StripDiscs::reorder(CellGrid& grid, int n_threads) {
-    grid.reorder(discs_, n_own_, n_threads, spins_);
-    place_bounds_.forget();
+Companions StripDiscs::companions(std::vector<Disc>* states) {
+    forget_halo();
+    Companions with;
+    if (states) with.states = std::span(*states).first(n_own_);
+    if (has_spins_) with.spins = spins_;
+    return with;
 }
 
-/// The companion of a disc stands for the same image, wherever its own state takes it. Lists discs near the strip's ends by the way.
+void StripDiscs::sort(const GridFrame& frame, double anchor, double time, double duration, int n_threads, std::vector<Disc>* companion) {
+    const Companions with = companions(companion);
+    grid_.sort(own(), frame, anchor, time, duration, n_threads, periods_, with);
+    is_sorted_ = true;
+}
+
+void StripDiscs::sort_cells(const GridFrame& frame, double time, int n_threads) {
+    const Companions with = companions(nullptr);
+    grid_.sort_cells(own(), frame, time, n_threads, periods_, with);
+    is_sorted_ = true;
+}
+
+void StripDiscs::drop_grid() {
+    grid_ = {};
+    is_sorted_ = false;
+}
+
+/// The companion of a disc stands for the same image, wherever its own state takes it.
 void StripDiscs::set_home_images(double time, std::vector<Disc>* companion) {
-    near_reach_ = longer_reach * last_reach_;
-    near_time_ = time;
-    const Inside inside = periods_.inside(), inner = interior(strips_, communicator_.rank(), near_reach_, periods_);
-    near_ends_.clear();
+    const Inside inside = periods_.inside();
     for (std::size_t i = 0; i < n_own_; ++i) {
         Disc& disc = discs_[i];
-        const double x = disc.x_at(time), y = disc.y_at(time);
-        const bool is_inner = is_unshifted(disc) && inner.holds(x, y); // nearly all
-        if (!is_inner) near_ends_.push_back(static_cast<LocalIndex>(i));
-        if (is_inner && !companion) continue;
-        const bool is_at_home = is_unshifted(disc) && inside.holds(x, y);
+        const bool is_at_home = is_unshifted(disc) && inside.holds(disc.x_at(time), disc.y_at(time)); // nearly all
+        if (is_at_home && !companion) continue;
         const Image home = is_at_home ? Image{} : periods_.home(disc, time);
         if (!is_at_home) set_image(disc, home);
         if (companion) set_image((*companion)[i], home);
-    }
-}
-
-void StripDiscs::list_near_ends(double time, double reach) {
-    near_reach_ = reach;
-    near_time_ = time;
-    const Inside inner = interior(strips_, communicator_.rank(), reach, periods_);
-    near_ends_.clear();
-    for (std::size_t i = 0; i < n_own_; ++i) {
-        const Disc& disc = discs_[i];
-        if (!is_unshifted(disc) || !inner.holds(disc.x_at(time), disc.y_at(time))) near_ends_.push_back(static_cast<LocalIndex>(i));
     }
 }
 
@@ -171,14 +174,13 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* compan
         for (const LocalIndex index : shown) is_shown_[index] = 0;
     }
     if (periods_.are_any()) {
-        if (communicator_.size() > 1 || time != near_time_ || reach > near_reach_) list_near_ends(time, reach);
-        last_reach_ = reach;
-        halo_plan_ = plan_periodic_halo(strips_, communicator_.rank(), own(), near_ends_, time, reach, periods_);
+        const std::vector<PlaceRange> looked_at = places_outside(interior(strips_, communicator_.rank(), reach, periods_));
+        halo_plan_ = plan_periodic_halo(strips_, communicator_.rank(), own(), looked_at, time, reach, periods_);
         other_partners_ = halo_plan_.partners;
         std::erase(other_partners_, communicator_.rank());
     } else {
         const int rank = communicator_.rank();
-        const std::vector<PlaceRange> looked_at = place_bounds_.outside(strips_.low(rank) + reach, strips_.high(rank) - reach, n_own_);
+        const std::vector<PlaceRange> looked_at = places_outside({strips_.low(rank) + reach, strips_.high(rank) - reach, -infinity, infinity});
         halo_plan_ = plan_halo(strips_, rank, own(), looked_at, time, reach);
     }
     Received<Disc> halo;
@@ -201,6 +203,7 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* compan
     for (const std::vector<LocalIndex>& shown : halo_plan_.leaving) {
         for (const LocalIndex index : shown) is_shown_[index] = 1;
     }
+    grid_.add_halo(std::span<const Disc>(discs_).subspan(n_own_));
 }
 
 void StripDiscs::tell_neighbours(std::span<const LocalIndex> changed, std::vector<LocalIndex>& news) {

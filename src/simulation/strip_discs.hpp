@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discs of one rank: its own, and behind them the halo that its neighbours have sent. Moves them between ranks.
+// The discs of one rank: its own, in the order of their cells, and behind them the halo that its neighbours have sent. Moves
+// them between ranks: migrate, sort, fetch the halo.
 //
 // Who may send to whom follows from the cuts and from bounds that all ranks share; so `farthest` and `reach` must be the
-// same on all ranks. Price of a settling: a pass over the own discs and one message to each neighbour, twice.
+// same on all ranks. Price of a settling: two passes over the own discs and one message to each neighbour, twice.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +32,14 @@ public:
     /// than `farthest` since it was last settled. `companion` runs along the own discs, or is null. **Collective.**
     void migrate(double time, double farthest, std::vector<Disc>* companion);
 
-    /// Appends to the own discs those of other ranks within `reach` of the own strip at `time`, that of the last migration. **Collective.**
+    /// Brings the own discs, and what runs along them, into the order of their cells at `anchor` (CellGrid::sort), without a halo.
+    /// `companion` as above.
+    void sort(const GridFrame& frame, double anchor, double time, double duration, int n_threads, std::vector<Disc>* companion);
+    /// The same without flights.
+    void sort_cells(const GridFrame& frame, double time, int n_threads);
+
+    /// Appends to the own discs, which have been sorted, those of other ranks within `reach` of the own strip at `time`, that of the
+    /// last migration and of the sorting, and puts them into cells. **Collective.**
     void fetch_halo(double time, double reach, std::vector<Disc>* companion);
 
     /// Sends the new states of the own discs among `changed` to the ranks that have them in their halo, takes over those
@@ -56,6 +64,10 @@ public:
     void rebalance(double time, double above);
 
     Population population() const { return {discs_, n_own_}; }
+    const CellGrid& grid() const { return grid_; }
+    CellGrid& grid() { return grid_; }
+    /// Gives back what the cells take.
+    void drop_grid();
     std::vector<Disc>& all() { return discs_; }
     std::span<const Disc> own() const { return std::span(discs_).first(n_own_); }
     std::span<Disc> own() { return std::span(discs_).first(n_own_); }
@@ -82,9 +94,6 @@ public:
     std::span<const Disc> gone() const { return gone_; }
     std::uint64_t n_with_gone() const { return n_with_gone_; } ///< over all ranks
 
-    /// Brings the own discs, and their spins, into the order of the grid's cells; that grid is then of no more use.
-    void reorder(CellGrid& grid, int n_threads);
-
     /// Drops the halo's discs.
     void forget_halo() {
         discs_.resize(n_own_);
@@ -96,9 +105,9 @@ public:
 
 private:
     void set_home_images(double time, std::vector<Disc>* companion);
-    void list_near_ends(double time, double reach);
-    TransferPlan migration_plan(double time, double farthest);
-    void note_removed(const TransferPlan& plan);
+    TransferPlan migration_plan(double time, double farthest) const;
+    std::vector<PlaceRange> places_outside(const Inside& inner) const;
+    Companions companions(std::vector<Disc>* states);
 
     Communicator communicator_;
     double box_size_;
@@ -111,10 +120,9 @@ private:
     std::vector<Disc> gone_;  ///< where they have left
     Strips strips_, settled_strips_; ///< wanted, and those that the discs were last settled in
     NeighbourExchange exchange_;
-    PlaceBounds place_bounds_; ///< of the own discs; not used in a periodic box
+    CellGrid grid_;
+    bool is_sorted_ = false;  ///< whether the grid has the own discs' places
     TransferPlan halo_plan_;
-    std::vector<LocalIndex> near_ends_; ///< of a periodic box: own discs that may have to be shown to somebody who sees
-    double near_reach_ = 0, near_time_ = 0, last_reach_ = 0; ///< so far at that time
     std::vector<int> other_partners_; ///< of a periodic box, where a rank is its own partner
     std::vector<std::size_t> halo_offsets_; ///< of each partner's discs behind the own ones
     std::vector<std::uint8_t> is_shown_;    ///< by own disc: whether a partner has it in its halo

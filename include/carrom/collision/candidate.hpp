@@ -19,11 +19,10 @@ inline constexpr LocalIndex wall = std::numeric_limits<LocalIndex>::max();
 struct Candidate {
     double time = 0;             ///< in-step time of its micro-step, in [0, 1]
     LocalIndex p = 0, q = wall;  ///< p has the lower id
-    WindowState p_state = 0, q_state = 0; ///< those it was predicted from
 
     bool is_wall() const { return q == wall; }
 };
-static_assert(sizeof(Candidate) == 24);
+static_assert(sizeof(Candidate) == 16);
 
 /// Time, then id of P, then wall before pair, then id of Q: exactly, never with a tolerance.
 class TotalOrder {
@@ -41,9 +40,9 @@ private:
     std::span<const Disc> discs_;
 };
 
-/// Whether both discs still are what the prediction saw; `states` by disc.
-inline bool is_current(const Candidate& candidate, std::span<const WindowState> states) {
-    return states[candidate.p] == candidate.p_state && (candidate.is_wall() || states[candidate.q] == candidate.q_state);
+/// Whether neither disc has been hit since the prediction, before which the last state of any was `seen`; `states` by disc.
+inline bool is_current(const Candidate& candidate, WindowState seen, std::span<const WindowState> states) {
+    return states[candidate.p] <= seen && (candidate.is_wall() || states[candidate.q] <= seen);
 }
 
 } // namespace carrom

@@ -2,8 +2,10 @@
 // Discs sorted into square cells by where they are at a window's anchor, x-major: the cells of a column that lie within
 // reach of a disc are one contiguous run of slots, to be read 16 lanes at a time.
 //
-// Beside the order of slots the grid holds each disc's free flight in single precision, in units of cells and windows,
-// so that nothing can overflow. It serves to reject; the double predicate decides. Price: 28 bytes a disc and 4 a cell.
+// Own discs are brought into that order themselves: their slots are their places, and neighbours in space are neighbours in
+// memory. Discs of the halo stay where messages have put them; they have slots of their own, in the columns where there are any.
+// For each slot the grid holds the disc's free flight in single precision, in units of cells and windows, so that nothing
+// can overflow. It serves to reject; the double predicate decides. Price: 16 bytes a disc and 4 a cell.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +41,7 @@ private:
     }
 };
 
-/// A frame of cells over [x_low, x_high] x [y_low, y_high] for partners within `reach`, about `n_discs` cells at most.
+/// A frame of cells over [x_low, x_high] x [y_low, y_high] for partners within `reach`, not many more than `n_discs` cells.
 /// `cell_width` in units of reach, 0 for a choice by density.
 GridFrame make_frame(double x_low, double x_high, double y_low, double y_high, double reach, std::size_t n_discs,
                      double cell_width);
@@ -59,90 +61,93 @@ struct SlotRange {
     std::uint32_t begin = 0, end = 0;
 };
 
-struct SlotPair {
-    std::uint32_t first = 0, second = 0;
+struct DiscPair {
+    LocalIndex first = 0, second = 0;
 };
 
 /// Slots that must be readable beyond the last one: a vector may look past its run's end.
 inline constexpr std::size_t filter_padding = 64;
 
+/// What runs along the own discs and goes where they go; what is empty does not exist.
+struct Companions {
+    std::span<Disc> states;
+    std::span<double> spins;
+};
+
 class CellGrid {
 public:
-    /// Sorts `discs` by their cells at `anchor`; flights begin at `time` and last for `duration`. Where there are periods
-    /// discs are where their images are.
-    void build(std::span<const Disc> discs, const GridFrame& frame, double anchor, double time, double duration, int n_threads,
-               const Periods& periods = {});
+    /// Brings `own` into the order of their cells at `anchor`; flights begin at `time` and last for `duration`. Where there are
+    /// periods discs are where their images are. There is no halo until one is added.
+    void sort(std::span<Disc> own, const GridFrame& frame, double anchor, double time, double duration, int n_threads,
+              const Periods& periods = {}, const Companions& companions = {});
     /// The same for cells alone, by where discs are at `time`: `lanes()` and what is found by them say nothing.
-    void build_cells(std::span<const Disc> discs, const GridFrame& frame, double time, int n_threads, const Periods& periods = {});
-
-    /// Brings the first `n_own` of `discs`, those that the grid was built for, into the order of their slots, in place,
-    /// and makes the grid unusable until it is built again. Neighbours in space become neighbours in memory.
-    /// `column`, if it is not empty, runs along the discs and goes with them.
-    void reorder(std::span<Disc> discs, std::size_t n_own, int n_threads, std::span<double> column = {});
+    void sort_cells(std::span<Disc> own, const GridFrame& frame, double time, int n_threads, const Periods& periods = {},
+                    const Companions& companions = {});
+    /// Puts discs that lie behind the own ones, in this order, into cells of theirs.
+    void add_halo(std::span<const Disc> halo);
 
     /// Takes the flights of discs that are faster than `speed`, in lengths per unit of time, out of the lanes: no disc that
-    /// looks at their slots will find them there. They are listed in `apart()` until the grid is built again.
+    /// looks at their slots will find them there. They are listed in `apart()` until discs are sorted again.
     void set_apart(double speed);
     std::span<const LocalIndex> apart() const { return apart_; }
-    FlightLanes apart_lanes() const {
-        const float* x = apart_lanes_.data();
-        return {x, x + apart_length_, x + 2 * apart_length_, x + 3 * apart_length_};
-    }
+    FlightLanes apart_lanes() const { return lanes_of(apart_lanes_, apart_.size() + filter_padding); }
 
     /// Takes over a disc's new free flight. Its cell stays what it was.
     void update_flight(LocalIndex index, const Disc& disc);
     void update_flight_of_image(LocalIndex index, const Disc& disc);
 
     const GridFrame& frame() const { return frame_; }
-    FlightLanes lanes() const {
-        const float* x = lanes_.data();
-        return {x, x + lane_length_, x + 2 * lane_length_, x + 3 * lane_length_};
-    }
-    std::span<const LocalIndex> order() const { return order_; }
-    std::uint32_t slot_of(LocalIndex index) const { return slot_of_[index]; }
-    int column_of(LocalIndex index) const { return static_cast<int>(column_of_cell(cell_of_[index])); }
-    int row_of(LocalIndex index) const {
-        return static_cast<int>(cell_of_[index] - column_of_cell(cell_of_[index]) * rows());
-    }
+    std::size_t n_own() const { return n_own_; }
+    bool has_halo() const { return !halo_order_.empty(); }
+
+    /// By own disc, and by slot of the halo.
+    FlightLanes lanes() const { return lanes_of(lanes_, lane_length_); }
+    FlightLanes halo_lanes() const { return lanes_of(halo_lanes_, halo_order_.size() + filter_padding); }
+    LocalIndex halo_index(std::uint32_t slot) const { return static_cast<LocalIndex>(n_own_) + halo_order_[slot]; }
+    std::uint32_t halo_slot(LocalIndex index) const { return halo_slot_[index - n_own_]; }
 
     /// The column or row of a position in cells.
     int clamped_column(float x) const { return x > 0 ? (x < static_cast<float>(frame_.n_columns) ? static_cast<int>(x) : frame_.n_columns - 1) : 0; }
     int clamped_row(float y) const { return y > 0 ? (y < static_cast<float>(frame_.n_rows) ? static_cast<int>(y) : frame_.n_rows - 1) : 0; }
 
-    /// Slots of the cells (column, first_row .. last_row); rows are cut at the frame's ends.
+    /// Own discs of the cells (column, first_row .. last_row); rows are cut at the frame's ends.
     SlotRange run(int column, int first_row, int last_row) const {
-        const int low = first_row < 0 ? 0 : first_row;
-        const int high = last_row >= frame_.n_rows ? frame_.n_rows - 1 : last_row;
-        const std::size_t base = static_cast<std::size_t>(column) * rows();
-        return {cell_start_[base + static_cast<std::size_t>(low)], cell_start_[base + static_cast<std::size_t>(high) + 1]};
+        return run_from(cell_start_, static_cast<std::size_t>(column) * rows(), first_row, last_row);
     }
+    /// Slots of the halo's discs there.
+    SlotRange halo_run(int column, int first_row, int last_row) const {
+        if (!has_halo_in(column)) return {};
+        return run_from(halo_start_, halo_column_[static_cast<std::size_t>(column)], first_row, last_row);
+    }
+    bool has_halo_in(int column) const { return has_halo() && halo_column_[static_cast<std::size_t>(column)] != no_halo; }
 
-    /// First columns of `n_shares` shares with about as many discs each, and the number of columns.
+    /// Where an own disc is filed: a search. In a loop over discs, go over their cells instead.
+    struct Cell {
+        int column = 0, row = 0;
+    };
+    Cell cell_of(LocalIndex own_index) const;
+
+    /// Own discs, ascending, with all that were not within `inner` at the anchor; many others, too.
+    std::vector<SlotRange> outside(const Inside& inner) const;
+
+    /// First columns of `n_shares` shares with about as many own discs each, and the number of columns.
     std::vector<std::int64_t> column_shares(int n_shares) const;
 
-    /// Ask for what a look around a disc will need: first where its cells begin, some time later the flights in them.
+    /// Ask for what a look around an own disc will need: its flight, some time later where the cells around it begin, and then the
+    /// flights in them.
+    void prefetch_flight(LocalIndex index) const {
+        if (index >= n_own_) return;
+        const float* flight = lanes_.data() + index;
+        for (std::size_t lane = 0; lane < 4; ++lane) __builtin_prefetch(flight + lane * lane_length_, 1);
+    }
     void prefetch_cells(LocalIndex index) const {
-        const std::uint32_t cell = cell_of_[index];
-        for (int column = -1; column <= 1; ++column) {
-            const std::size_t place = cell + static_cast<std::size_t>(column) * rows(); // wraps at the left end
-            if (place < cell_start_.size()) __builtin_prefetch(&cell_start_[place]);
-        }
-        __builtin_prefetch(&slot_of_[index]);
+        for_each_place_around(index, [this](std::size_t place) { __builtin_prefetch(&cell_start_[place]); });
     }
     void prefetch_flights(LocalIndex index) const {
-        const std::uint32_t cell = cell_of_[index];
-        for (int column = -1; column <= 1; ++column) {
-            const std::size_t place = cell + static_cast<std::size_t>(column) * rows() - 1;
-            if (place >= cell_start_.size()) continue;
-            const float* flight = lanes_.data() + cell_start_[place];
-            for (int lane = 0; lane < 4; ++lane) __builtin_prefetch(flight + static_cast<std::size_t>(lane) * lane_length_);
-        }
-    }
-
-    void prefetch_slot(LocalIndex index) const { __builtin_prefetch(&slot_of_[index]); }
-    void prefetch_flight(LocalIndex index) const {
-        const float* flight = lanes_.data() + slot_of_[index];
-        for (int lane = 0; lane < 4; ++lane) __builtin_prefetch(flight + static_cast<std::size_t>(lane) * lane_length_, 1);
+        for_each_place_around(index, [this](std::size_t place) {
+            const float* flight = lanes_.data() + cell_start_[place > 0 ? place - 1 : 0];
+            for (std::size_t lane = 0; lane < 4; ++lane) __builtin_prefetch(flight + lane * lane_length_);
+        });
     }
 
     /// Squared distance in cells, with a margin for single precision, beyond which flights cannot touch.
@@ -154,44 +159,82 @@ public:
     std::size_t bytes() const;
 
 private:
+    static constexpr std::uint32_t no_halo = ~std::uint32_t{0};
+
     /// A share of the discs, which lie in the cells first .. end, and where the counts of those begin.
     struct Sorter {
         std::size_t first_disc = 0, end_disc = 0;
         std::uint32_t first_cell = 0, end_cell = 0;
         std::size_t counts = 0;
     };
+    /// What a thread keeps while it brings its share of the places into order.
+    struct Carrier {
+        std::vector<Disc> passed;         ///< discs that were at the places before the present one, in a ring
+        std::vector<Disc> travellers;     ///< discs from so far away that they were set aside beforehand
+        std::vector<LocalIndex> arrivals; ///< their new places, ascending, and one that is none
+        std::vector<LocalIndex> sent;     ///< new places of such discs of this share, in no order
+    };
 
-    /// cell / rows() by a multiplication: exact for 32-bit cells with a 64-bit inverse rounded up.
-    std::uint32_t column_of_cell(std::uint32_t cell) const {
-        __extension__ using Wide = unsigned __int128;
-        return n_rows_inverse_ == 0 ? cell : static_cast<std::uint32_t>((static_cast<Wide>(n_rows_inverse_) * cell) >> 64);
+    static FlightLanes lanes_of(const std::vector<float>& lanes, std::size_t length) {
+        const float* x = lanes.data();
+        return {x, x + length, x + 2 * length, x + 3 * length};
+    }
+    SlotRange run_from(const std::vector<std::uint32_t>& starts, std::size_t base, int first_row, int last_row) const {
+        const int low = first_row < 0 ? 0 : first_row;
+        const int high = last_row >= frame_.n_rows ? frame_.n_rows - 1 : last_row;
+        return {starts[base + static_cast<std::size_t>(low)], starts[base + static_cast<std::size_t>(high) + 1]};
+    }
+    /// Its cell and those to the left and right, where its flight says that it is.
+    template <class Visit> void for_each_place_around(LocalIndex index, const Visit& visit) const {
+        if (index >= n_own_) return;
+        const int column = clamped_column(lanes_[index]);
+        const auto row = static_cast<std::size_t>(clamped_row(lanes_[index + lane_length_]));
+        for (int other = column - 1; other <= column + 1; ++other)
+            if (other >= 0 && other < frame_.n_columns) visit(static_cast<std::size_t>(other) * rows() + row);
     }
     std::uint32_t rows() const { return static_cast<std::uint32_t>(frame_.n_rows); }
-    void build(std::span<const Disc> discs, double anchor, int n_threads);
-    /// `Places` says where discs are: their states, or their images.
-    template <class Places> void sort(const Places& places, std::span<const Disc> discs, double anchor, int n_threads);
-    template <class Places> std::uint32_t cell_at(const Places& places, const Disc& disc, double time) const;
-    template <class Places> void sort_alone(const Places& places, std::span<const Disc> discs, double anchor);
-    template <class Places> void sort_together(const Places& places, std::span<const Disc> discs, double anchor, int n_threads);
+
+    // `Places` says where discs are: their states, or their images.
+    void sort(std::span<Disc> own, int n_threads, const Companions& companions);
+    template <class Places> void sort(const Places& places, std::span<Disc> own, int n_threads, const Companions& companions);
+    template <class Places> std::uint32_t cell_at(const Places& places, const Disc& disc) const;
+    template <class Places> void order_alone(const Places& places, std::span<const Disc> own);
+    template <class Places> void order_together(const Places& places, std::span<const Disc> own, int n_threads);
     void share_out(std::size_t n_discs, int n_sorters);
-    void make_room_for_counts(std::size_t n_cells);
+    bool make_room_for_counts(std::size_t n_cells);
     template <class Visit> void for_each_count(std::size_t begin, std::size_t end, const Visit& visit);
-    template <class Places> void place(const Places& places, std::uint32_t slot, const Disc& disc);
+    void begin_order(int n_threads);
+    void note_traveller(Carrier& carrier, std::uint32_t place);
+    bool share_out_travellers();
+    void set_travellers_aside(std::span<const Disc> discs, int n_threads);
+    template <class Placed> void carry(std::span<Disc> discs, int n_threads, const Placed& placed);
+    template <class Places> void rearrange(const Places& places, std::span<Disc> own, int n_threads, const Companions& companions);
+    template <class Places> void add_halo(const Places& places, std::span<const Disc> halo);
+    template <class Places> void place(const Places& places, float* flight, std::size_t length, const Disc& disc) const;
+    template <class Places> void update(const Places& places, LocalIndex index, const Disc& disc);
 
     GridFrame frame_;
     Periods periods_;
-    std::uint64_t n_rows_inverse_ = 0; ///< 2^64 / rows, rounded up; 0 for one row
-    double time_ = 0, duration_ = 1;
+    double anchor_ = 0, time_ = 0, duration_ = 1;
     bool has_flights_ = false;
+    std::size_t n_own_ = 0;
     std::vector<std::uint32_t> cell_start_;  ///< by cell, and one more
+    std::size_t lane_length_ = 0;            ///< own discs and padding for whole vectors
+    std::vector<float> lanes_;               ///< x, y, vx, vy by own disc, one after the other; before that what sorts discs
     std::vector<Sorter> sorters_;            ///< scratch for several threads, as the next
     std::vector<std::uint32_t> counts_;
-    std::vector<LocalIndex> order_;          ///< by slot
-    std::vector<std::uint32_t> cell_of_, slot_of_; ///< by disc
-    std::size_t lane_length_ = 0;            ///< slots and padding for whole vectors
-    std::vector<float> lanes_;               ///< x, y, vx, vy by slot, one after the other
+    std::vector<Carrier> carriers_;
+    std::size_t n_passed_ = 1;               ///< how many of them are kept, a power of two
+    std::size_t most_travellers_ = 0;        ///< of a share
+    bool are_in_disorder_ = false;           ///< whether too many discs come from afar
+
+    std::vector<std::uint32_t> halo_column_; ///< by column: where its cells begin in the next, or no_halo
+    std::vector<std::uint32_t> halo_start_;  ///< by cell of the columns that have any, and one more
+    std::vector<LocalIndex> halo_order_;     ///< by slot: places in the halo
+    std::vector<std::uint32_t> halo_slot_;   ///< by place in the halo
+    std::vector<float> halo_lanes_;          ///< x, y, vx, vy by slot
+
     std::vector<LocalIndex> apart_;
-    std::size_t apart_length_ = 0;
     std::vector<float> apart_lanes_;         ///< the same by place in `apart_`
     double longest_flight_ = 0;              ///< of those, in cells
 };

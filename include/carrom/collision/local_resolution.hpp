@@ -35,7 +35,9 @@ public:
     int rounds_before_walk = 12; ///< cost only; 0 walks at once
 
 private:
-    template <bool concurrent> std::size_t round(const Population&, std::vector<Candidate>& live, Verdicts&);
+    // A round: keeps what is first for both its discs, strikes its rivals from `live`, and says how many it has kept.
+    std::size_t round_alone(const Population&, std::vector<Candidate>& live, Verdicts&);
+    std::size_t round_together(const Population&, std::vector<Candidate>& live, Verdicts&);
     void walk(const Population&, std::vector<Candidate>& live, Verdicts&);
 
     int n_threads_;

@@ -24,10 +24,29 @@ struct Population {
     std::size_t n_own = 0;
 };
 
+/// Candidates of one micro-step in the order in which they were predicted. When that was says which states they were predicted
+/// from: of the window's states so far none was later.
+struct MicroStepList {
+    struct Section {
+        WindowState seen = 0; ///< the last state that any disc had then
+        std::size_t begin = 0;
+    };
+    std::vector<Candidate> candidates;
+    std::vector<Section> sections;
+
+    void add(const Candidate& candidate, WindowState seen);
+    /// Takes out those of which a disc has been hit since; `states` by disc. What is left is no longer in sections.
+    void drop_stale(std::span<const WindowState> states);
+    void clear() {
+        candidates.clear();
+        sections.clear();
+    }
+};
+
 /// One thread's lists and scratch space; they keep their memory from window to window.
 struct SearchLists {
-    std::vector<std::vector<Candidate>> by_micro; ///< from the window's first micro-step on
-    std::vector<SlotPair> pairs; ///< the first n_pairs
+    std::vector<MicroStepList> by_micro; ///< from the window's first micro-step on
+    std::vector<DiscPair> pairs; ///< the first n_pairs
     std::size_t n_pairs = 0;
 };
 
@@ -50,15 +69,14 @@ public:
 
 private:
     struct Bounds;
-    using States = std::span<const WindowState>; ///< by disc; empty while all discs are as they came
 
     void predict_column(const Population&, const CellGrid&, const Window&, const Bounds&, int column, SearchLists&) const;
     void predict_apart(const Population&, const CellGrid&, const Window&, const Bounds&, double reach, std::uint32_t k, SearchLists&) const;
     void look_around(const CellGrid&, const Bounds&, float from, float half_reach, std::span<const LocalIndex> hit,
                      SearchLists&) const;
     float half_reach(const CellGrid&, double reach) const;
-    void predict_pair(const Population&, const Window&, int from, States, LocalIndex a, LocalIndex b, SearchLists&) const;
-    void predict_wall(const Population&, const Window&, int from, States, LocalIndex index, SearchLists&) const;
+    void predict_pair(const Population&, const Window&, int from, LocalIndex a, LocalIndex b, SearchLists&) const;
+    void predict_wall(const Population&, const Window&, int from, LocalIndex index, SearchLists&) const;
 
     Law law_;
     int n_threads_;

@@ -12,11 +12,15 @@
 
 #include "carrom/core/disc.hpp"
 #include "carrom/core/image.hpp"
-#include "carrom/domain/place_bounds.hpp"
 #include "carrom/domain/strips.hpp"
 #include "carrom/parallel/neighbour_exchange.hpp"
 
 namespace carrom {
+
+/// Places begin .. end - 1 of a list of discs.
+struct PlaceRange {
+    std::size_t begin = 0, end = 0;
+};
 
 struct TransferPlan {
     std::vector<int> partners;                     ///< ranks, each once
@@ -38,8 +42,8 @@ TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own
 /// goes to its own rank as well, as other images, and may go to a rank several times.
 TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& strips, int rank, std::span<const Disc> own,
                                      double time, double farthest, const Periods& periods);
-/// `looked_at`: of the own discs, in order, all that may have to go: those outside of `interior`, or displaced.
-TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const Disc> own, std::span<const LocalIndex> looked_at,
+/// `looked_at`: places of the own discs, ascending, with all that are outside of `interior`.
+TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const Disc> own, std::span<const PlaceRange> looked_at,
                                 double time, double reach, const Periods& periods);
 
 /// Places in the rank's strip that are further than `reach` from its ends, and from the box's where it repeats itself along y.

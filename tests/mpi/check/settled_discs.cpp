@@ -5,7 +5,9 @@ namespace carrom::test {
 
 void SettledDiscs::sort_into_cells(double box_size, double radius) {
     const double reach = 2 * radius * (1 + 1e-6);
-    grid.build(discs, make_frame(0, box_size, 0, box_size, reach, discs.size(), 0), time, time, 1, 1);
+    const std::span<Disc> all(discs);
+    grid.sort(all.first(n_own), make_frame(0, box_size, 0, box_size, reach, discs.size(), 0), time, time, 1, 1);
+    grid.add_halo(all.subspan(n_own));
 }
 
 SettledDiscs copy_of(const Settled& settled) {

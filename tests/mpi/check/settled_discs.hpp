@@ -19,7 +19,7 @@ struct SettledDiscs {
     Frame frame;
 
     Settled view() const { return {{discs, n_own}, &grid, &strips, time, frame}; }
-    /// Puts the discs into the cells they are in now; partners within a diameter are within reach.
+    /// Puts the discs into the cells they are in now, the own ones into their order; partners within a diameter are within reach.
     void sort_into_cells(double box_size, double radius);
 };
 
