@@ -202,7 +202,7 @@ private:
     template <class Places> void order_together(const Places& places, std::span<const Disc> own, int n_threads);
     void share_out(std::size_t n_discs, int n_sorters);
     bool make_room_for_counts(std::size_t n_cells);
-    template <class Visit> void for_each_count(std::size_t begin, std::size_t end, const Visit& visit);
+    template <class Visit> void for_each_count(std::size_t begin, std::size_t end, const Visit& visit) const;
     void begin_order(int n_threads);
     void note_traveller(Carrier& carrier, std::uint32_t place);
     bool share_out_travellers();
@@ -221,9 +221,8 @@ private:
     std::vector<std::uint32_t> cell_start_;  ///< by cell, and one more
     std::size_t lane_length_ = 0;            ///< own discs and padding for whole vectors
     std::vector<float> lanes_;               ///< x, y, vx, vy by own disc, one after the other; before that what sorts discs
-    std::vector<Sorter> sorters_;            ///< scratch for several threads, as the next
-    std::vector<std::uint32_t> counts_;
-    std::vector<Carrier> carriers_;
+    std::vector<Sorter> sorters_;            ///< scratch for several threads
+    std::vector<Carrier> carriers_;          ///< by thread
     std::size_t n_passed_ = 1;               ///< how many of them are kept, a power of two
     std::size_t most_travellers_ = 0;        ///< of a share
     bool are_in_disorder_ = false;           ///< whether too many discs come from afar
