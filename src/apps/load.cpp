@@ -171,7 +171,7 @@ void check_without_scene(const RunOptions& options, const Problems& problems_so_
 
 /// A mistake in the number of discs would end in the middle, without a word of why. **Collective.**
 void check_memory(const Scene& scene, const Communicator& ranks) {
-    constexpr double bytes_per_disc_one = 110, bytes_per_disc_all = 180; // at least (docs/performance.md)
+    constexpr double bytes_per_disc_one = 94, bytes_per_disc_all = 120; // at least (docs/performance.md)
     const double bytes_per_disc = scene.rule == CollisionRule::all ? bytes_per_disc_all : bytes_per_disc_one;
     const double needed = static_cast<double>(scene.n_discs) * bytes_per_disc / ranks.size();
     const auto available = static_cast<double>(ranks.min(memory_per_rank(ranks)));
