@@ -176,12 +176,6 @@ float CellGrid::cells_of(double length) const {
     return static_cast<float>(length / frame_.cell_width * (1 + 0x1p-18) + 0x1p-20 * (std::max(frame_.n_columns, frame_.n_rows) + 8));
 }
 
-std::size_t CellGrid::bytes() const {
-    return sizeof(float) * (lanes_.capacity() + halo_lanes_.capacity()) +
-           sizeof(std::uint32_t) * (cell_start_.capacity() + halo_column_.capacity() + halo_start_.capacity() +
-                                    halo_order_.capacity() + halo_slot_.capacity());
-}
-
 bool CellGrid::is_valid(std::size_t n_discs) const {
     if (cell_start_.back() != n_own_ || n_own_ + halo_order_.size() != n_discs) return false;
     for (std::size_t slot = 0; slot < halo_order_.size(); ++slot)

@@ -83,12 +83,12 @@ void CellGrid::sort(const Places& places, std::span<Disc> own, int n_threads, co
     begin_order(n_threads);
     if (n_threads == 1) order_alone(places, own);
     else order_together(places, own, n_threads);
-    if (!share_out_travellers()) return rearrange(places, own, n_threads, companions);
-    const Lent order(lanes_.data() + lane_length_);
     if (!companions.spins.empty()) {
+        const Lent order(lanes_.data() + lane_length_);
         const std::vector<double> before(companions.spins.begin(), companions.spins.end());
         for (std::size_t i = 0; i < n_own_; ++i) companions.spins[i] = before[order[i]];
     }
+    if (!share_out_travellers()) return rearrange(places, own, n_threads, companions.states);
     const auto place_flight = [&](std::size_t i) {
         if (has_flights_) place(places, lanes_.data() + i, lane_length_, own[i]); // the order up to here has been used
     };
@@ -336,20 +336,16 @@ template <class Placed> void CellGrid::carry(std::span<Disc> discs, int n_thread
 
 /// The same for discs in no order.
 template <class Places>
-void CellGrid::rearrange(const Places& places, std::span<Disc> own, int n_threads, const Companions& companions) {
+void CellGrid::rearrange(const Places& places, std::span<Disc> own, int n_threads, std::span<Disc> companion) {
     std::vector<std::uint32_t> order(n_own_);
     std::memcpy(order.data(), lanes_.data() + lane_length_, n_own_ * sizeof(std::uint32_t));
-    if (!companions.spins.empty()) {
-        const std::vector<double> before(companions.spins.begin(), companions.spins.end());
-        for (std::size_t i = 0; i < n_own_; ++i) companions.spins[i] = before[order[i]];
-    }
     // A quarter of each state at a time goes through the lanes, so that no second array of states is needed.
     constexpr std::size_t quarter = sizeof(Disc) / 4;
     static_assert(quarter == 4 * sizeof(float));
     resize_close(lanes_, 4 * lane_length_);
     auto* lent = reinterpret_cast<std::byte*>(lanes_.data());
     const auto n = static_cast<std::int64_t>(n_own_);
-    for (const std::span<Disc> discs : {own, companions.states}) {
+    for (const std::span<Disc> discs : {own, companion}) {
         if (discs.empty()) continue;
         auto* states = reinterpret_cast<std::byte*>(discs.data());
 #pragma omp parallel num_threads(n_threads)

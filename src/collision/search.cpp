@@ -239,15 +239,6 @@ void Search<Law>::collect(const Window& window, int m, std::span<const WindowSta
     }
 }
 
-template <class Law> std::size_t Search<Law>::bytes() const {
-    std::size_t total = 0;
-    for (const SearchLists& lists : lists_) {
-        for (const MicroStepList& list : lists.by_micro) total += list.candidates.capacity() * sizeof(Candidate);
-        total += lists.pairs.capacity() * sizeof(DiscPair);
-    }
-    return total;
-}
-
 #define CARROM_DEFINE(Law) template class Search<Law>;
 CARROM_FOR_EACH_LAW(CARROM_DEFINE)
 #undef CARROM_DEFINE

@@ -156,7 +156,6 @@ public:
     float cells_of(double length) const;
 
     bool is_valid(std::size_t n_discs) const;
-    std::size_t bytes() const;
 
 private:
     static constexpr std::uint32_t no_halo = ~std::uint32_t{0};
@@ -208,7 +207,7 @@ private:
     bool share_out_travellers();
     void set_travellers_aside(std::span<const Disc> discs, int n_threads);
     template <class Placed> void carry(std::span<Disc> discs, int n_threads, const Placed& placed);
-    template <class Places> void rearrange(const Places& places, std::span<Disc> own, int n_threads, const Companions& companions);
+    template <class Places> void rearrange(const Places& places, std::span<Disc> own, int n_threads, std::span<Disc> companion);
     template <class Places> void add_halo(const Places& places, std::span<const Disc> halo);
     template <class Places> void place(const Places& places, float* flight, std::size_t length, const Disc& disc) const;
     template <class Places> void update(const Places& places, LocalIndex index, const Disc& disc);

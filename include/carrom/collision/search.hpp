@@ -65,8 +65,6 @@ public:
     /// Moves the candidates of micro-step m that are still current into `live`; `states` by disc.
     void collect(const Window& window, int m, std::span<const WindowState> states, std::vector<Candidate>& live);
 
-    std::size_t bytes() const;
-
 private:
     struct Bounds;
 
