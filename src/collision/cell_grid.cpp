@@ -59,8 +59,9 @@ template <class Places> void CellGrid::add_halo(const Places& places, std::span<
     if (halo.empty()) return;
     halo_column_.assign(static_cast<std::size_t>(frame_.n_columns), no_halo);
     for (std::size_t i = 0; i < halo.size(); ++i) {
-        halo_slot_[i] = cell_at(places, halo[i]); // for now
-        halo_column_[halo_slot_[i] / rows()] = 0;
+        halo_order_[i] = column_at(places, halo[i]); // for now, both
+        halo_slot_[i] = row_at(places, halo[i]);
+        halo_column_[halo_order_[i]] = 0;
     }
     std::uint32_t n_cells = 0;
     for (std::uint32_t& column : halo_column_) {
@@ -68,9 +69,9 @@ template <class Places> void CellGrid::add_halo(const Places& places, std::span<
     }
     halo_start_.assign(std::size_t{n_cells} + 1, 0);
     std::uint32_t* next = halo_start_.data() + 1;
-    for (std::uint32_t& cell : halo_slot_) {
-        cell = halo_column_[cell / rows()] + cell % rows();
-        ++next[cell];
+    for (std::size_t i = 0; i < halo.size(); ++i) {
+        halo_slot_[i] += halo_column_[halo_order_[i]];
+        ++next[halo_slot_[i]];
     }
     std::uint32_t start = 0;
     for (std::size_t cell = 0; cell < n_cells; ++cell) start += std::exchange(next[cell], start);

@@ -17,10 +17,16 @@ struct StoredPlaces {
     static double y_of(const Disc& disc, double time) { return disc.y_at(time); }
 };
 
+template <class Places> std::uint32_t CellGrid::column_at(const Places& places, const Disc& disc) const {
+    return static_cast<std::uint32_t>(frame_.column_of(places.x_of(disc, anchor_)));
+}
+
+template <class Places> std::uint32_t CellGrid::row_at(const Places& places, const Disc& disc) const {
+    return static_cast<std::uint32_t>(frame_.row_of(places.y_of(disc, anchor_)));
+}
+
 template <class Places> std::uint32_t CellGrid::cell_at(const Places& places, const Disc& disc) const {
-    const auto column = static_cast<std::uint32_t>(frame_.column_of(places.x_of(disc, anchor_)));
-    const auto row = static_cast<std::uint32_t>(frame_.row_of(places.y_of(disc, anchor_)));
-    return column * rows() + row;
+    return column_at(places, disc) * rows() + row_at(places, disc);
 }
 
 template <class Places> void CellGrid::place(const Places& places, float* flight, std::size_t length, const Disc& disc) const {

@@ -237,8 +237,10 @@ HWY_INLINE std::size_t filter_cells(D d, const CellGrid& grid, const Broadcast<D
         const SlotRange run = grid.run(column, cells.first_row, cells.last_row);
         n_pairs = write_pairs<is_one_of_them>(d, flight, first, lanes, run, room(pairs, n_pairs, run.end - run.begin), n_pairs);
     }
-    for (int column = cells.first_column; with_halo && column <= cells.last_column; ++column)
+    for (int column = cells.first_column; with_halo && column <= cells.last_column; ++column) {
+        if (!grid.has_halo_in(column)) continue; // as nearly all
         n_pairs = write_halo_pairs(d, flight, first, grid, grid.halo_run(column, cells.first_row, cells.last_row), pairs, n_pairs);
+    }
     return n_pairs;
 }
 

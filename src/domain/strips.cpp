@@ -37,8 +37,6 @@ int Strips::owner(double x) const {
     return static_cast<int>(std::upper_bound(cuts_.begin(), cuts_.end(), x) - cuts_.begin());
 }
 
-RankRange Strips::ranks_touching(double low, double high) const { return {owner(low), owner(high)}; }
-
 bool Strips::are_within(int lower, int upper, double reach) const {
     // Rounding is monotone: x < high(lower) has x + reach, rounded, at most this sum; and where x - reach of a sender
     // above, rounded, is less than high(lower), the sum is at least x. A difference of the two edges might miss both.

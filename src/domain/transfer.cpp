@@ -56,17 +56,12 @@ TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own
     TransferPlan plan;
     plan.partners = strips.neighbours_within(rank, reach);
     plan.leaving.resize(plan.partners.size());
-    if (plan.partners.empty()) return plan;
-    const PartnerPlaces places(plan.partners);
-    const double low = strips.low(rank), high = strips.high(rank);
-    for (const PlaceRange range : looked_at) {
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-            const double x = own[i].x_at(time);
-            if (x - reach >= low && x + reach < high) continue;
-            const auto [first, last] = strips.ranks_touching(x - reach, x + reach);
-            for (int other = first; other <= last; ++other) {
-                if (other == rank || strips.is_empty(other)) continue;
-                plan.leaving[places[other]].push_back(static_cast<LocalIndex>(i));
+    for (std::size_t k = 0; k < plan.partners.size(); ++k) {
+        const Strip theirs = strips.of(plan.partners[k]);
+        for (const PlaceRange range : looked_at) {
+            for (std::size_t i = range.begin; i < range.end; ++i) {
+                const double x = own[i].x_at(time);
+                if (theirs.meets(x - reach, x + reach)) plan.leaving[k].push_back(static_cast<LocalIndex>(i));
             }
         }
     }

@@ -196,6 +196,8 @@ private:
     // `Places` says where discs are: their states, or their images.
     void sort(std::span<Disc> own, int n_threads, const Companions& companions);
     template <class Places> void sort(const Places& places, std::span<Disc> own, int n_threads, const Companions& companions);
+    template <class Places> std::uint32_t column_at(const Places& places, const Disc& disc) const;
+    template <class Places> std::uint32_t row_at(const Places& places, const Disc& disc) const;
     template <class Places> std::uint32_t cell_at(const Places& places, const Disc& disc) const;
     template <class Places> void order_alone(const Places& places, std::span<const Disc> own);
     template <class Places> void order_together(const Places& places, std::span<const Disc> own, int n_threads);

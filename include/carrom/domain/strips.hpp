@@ -3,7 +3,7 @@
 //
 // All lists follow from numbers that every rank knows, so both sides of an exchange know of it without a message, and
 // they are symmetric: a lists b if and only if b lists a. They are complete to the last bit for senders that
-// pick receivers with `ranks_touching(x - reach, x + reach)` or `owner(x)`: the comparisons round the same way.
+// pick receivers with `meets(x - reach, x + reach)` or `owner(x)`: the comparisons round the same way.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,13 @@
 
 namespace carrom {
 
-/// The ranks first, ..., last, both included.
-struct RankRange {
-    int first = 0;
-    int last = 0;
+/// [low, high)
+struct Strip {
+    double low = 0, high = 0;
 
-    friend bool operator==(const RankRange&, const RankRange&) = default;
+    bool is_empty() const { return !(low < high); }
+    /// Whether it meets [from, to], if it is not empty.
+    bool meets(double from, double to) const { return from < high && to >= low; }
 };
 
 /// Half-open strips [low(k), high(k)) that cover all x; the first begins at -infinity, the last ends at +infinity.
@@ -34,13 +35,11 @@ public:
     std::span<const double> cuts() const { return cuts_; }
     double low(int rank) const;
     double high(int rank) const;
-    bool is_empty(int rank) const { return !(low(rank) < high(rank)); }
+    Strip of(int rank) const { return {low(rank), high(rank)}; }
+    bool is_empty(int rank) const { return of(rank).is_empty(); }
 
     /// The rank whose strip holds `x`.
     int owner(double x) const;
-
-    /// The ranks whose strips meet [low, high], low <= high. Empty strips may lie between the ends, never at them.
-    RankRange ranks_touching(double low, double high) const;
 
     /// The other ranks r, ascending, such that a disc in one of the strips r and `rank` can lie within `reach` >= 0 of
     /// the other. Cost: the number of strips within reach.

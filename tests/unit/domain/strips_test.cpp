@@ -76,8 +76,10 @@ TEST_CASE("a position on a cut belongs to the strip above, past empty strips") {
     CHECK(strips.is_empty(2));
     CHECK(strips.is_empty(3));
     CHECK_FALSE(strips.is_empty(4));
-    CHECK(strips.ranks_touching(4, 6) == carrom::RankRange{1, 4});
-    CHECK(strips.ranks_touching(8, 8) == carrom::RankRange{5, 5});
+    CHECK(strips.of(1).meets(4, 6));
+    CHECK(strips.of(4).meets(5, 5));
+    CHECK_FALSE(strips.of(1).meets(5, 5));
+    CHECK_FALSE(strips.of(4).meets(8, 8));
     CHECK(strips.neighbours_within(1, 0) == std::vector<int>{0, 4});
     CHECK(strips.neighbours_within(1, 2.9) == std::vector<int>{0, 4});
     CHECK(strips.neighbours_within(1, 3) == std::vector<int>{0, 4, 5});
@@ -95,21 +97,17 @@ TEST_CASE("every position has one owner, found by search") {
     }
 }
 
-TEST_CASE("ranks touching an interval are those whose strips meet it") {
+TEST_CASE("an interval meets the strips between the owners of its ends") {
     std::mt19937 random(2);
     for (int trial = 0; trial < 100; ++trial) {
         const Strips strips = random_strips(random, 1 + trial % 9);
         const std::vector<double> xs = probes(random, strips);
         for (std::size_t k = 0; k + 1 < xs.size(); ++k) {
             const auto [low, high] = std::minmax(xs[k], xs[k + 1]);
-            const carrom::RankRange range = strips.ranks_touching(low, high);
             for (int rank = 0; rank < strips.size(); ++rank) {
                 if (strips.is_empty(rank)) continue;
-                const bool meets = strips.low(rank) <= high && low < strips.high(rank);
-                REQUIRE(meets == (range.first <= rank && rank <= range.last));
+                REQUIRE(strips.of(rank).meets(low, high) == (owner_by_search(strips, low) <= rank && rank <= owner_by_search(strips, high)));
             }
-            REQUIRE_FALSE(strips.is_empty(range.first));
-            REQUIRE_FALSE(strips.is_empty(range.last));
         }
     }
 }
@@ -124,9 +122,10 @@ TEST_CASE("neighbours are symmetric, complete for every sender, and no more than
         check_lists(lists);
         for (const double x : probes(random, strips)) {
             const int own = strips.owner(x);
-            const carrom::RankRange range = strips.ranks_touching(x - reach, x + reach);
-            for (int rank = range.first; rank <= range.last; ++rank)
-                if (rank != own && !strips.is_empty(rank)) REQUIRE(contains(lists[static_cast<std::size_t>(own)], rank));
+            for (int rank = 0; rank < strips.size(); ++rank) {
+                if (rank == own || strips.is_empty(rank) || !strips.of(rank).meets(x - reach, x + reach)) continue;
+                REQUIRE(contains(lists[static_cast<std::size_t>(own)], rank));
+            }
         }
         for (int a = 0; a < strips.size(); ++a)
             for (const int b : lists[static_cast<std::size_t>(a)]) {
@@ -142,7 +141,7 @@ TEST_CASE("neighbours are complete where x + reach rounds onto a cut") {
     REQUIRE(upper - lower > reach);
     const Strips strips({lower, upper});
     const double x = std::nextafter(lower, 0.0);
-    CHECK(strips.ranks_touching(x - reach, x + reach).last == 2);
+    CHECK(strips.of(2).meets(x - reach, x + reach));
     CHECK(strips.neighbours_within(0, reach) == std::vector<int>{1, 2});
     CHECK(strips.neighbours_within(2, reach) == std::vector<int>{0, 1});
 }
