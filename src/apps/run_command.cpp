@@ -128,9 +128,9 @@ void check_every_step(Simulation& simulation, const Scene& scene) {
 ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, const Communicator& ranks) {
     Stopwatch watch;
     std::optional<StopSignals> signals;
-    if (options.input != "-") signals.emplace(); // else not while standard input may keep us waiting
+    if (options.input != "-") signals.emplace(ranks.is_root()); // else not while standard input may keep us waiting
     Loaded loaded = load(options, problems, ranks);
-    if (!signals) signals.emplace();
+    if (!signals) signals.emplace(ranks.is_root());
     Tuning tuning = options.tuning;
     tuning.threads = options.threads.value_or(default_threads(ranks));
     if (const std::string warning = thread_warning(); !warning.empty() && !options.threads && ranks.is_root())

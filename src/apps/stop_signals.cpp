@@ -1,15 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stop_signals.hpp"
 
+#include <cerrno>
 #include <csignal>
+#include <string_view>
+
+#include <unistd.h>
 
 namespace carrom {
 
 namespace {
 
-volatile std::sig_atomic_t signal_that_has_come = 0;
+volatile std::sig_atomic_t signal_that_has_come = 0, is_answer_due = 0;
 
-void note_signal(int number) { signal_that_has_come = number; }
+/// Calls only what a handler may call.
+void note_signal(int number) {
+    signal_that_has_come = number;
+    if (is_answer_due == 0) return;
+    is_answer_due = 0;
+    constexpr std::string_view answer = "\ntold to stop: the steps under way are finished first, two seconds' worth of them or one\n";
+    const int number_of_error = errno;
+    [[maybe_unused]] const ssize_t n_written = write(STDERR_FILENO, answer.data(), answer.size()); // nobody to tell if it fails
+    errno = number_of_error;
+}
 
 void handle(void (*handler)(int)) {
     struct sigaction action {};
@@ -22,7 +35,10 @@ void handle(void (*handler)(int)) {
 
 } // namespace
 
-StopSignals::StopSignals() { handle(note_signal); }
+StopSignals::StopSignals(bool are_told) {
+    is_answer_due = are_told ? 1 : 0;
+    handle(note_signal);
+}
 
 StopSignals::~StopSignals() { handle(SIG_DFL); }
 

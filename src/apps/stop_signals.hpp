@@ -7,7 +7,8 @@ namespace carrom {
 /// From its making on these signals no longer end the process; one per program.
 class StopSignals {
 public:
-    StopSignals();
+    /// Where `are_told` the first one is answered on standard error at once, for the end of a step may be far away.
+    explicit StopSignals(bool are_told);
     ~StopSignals();
     StopSignals(const StopSignals&) = delete;
     StopSignals& operator=(const StopSignals&) = delete;

@@ -18,6 +18,7 @@ stopped() {
     wait "$program"
     code=$?
     expect_code 75 "$2 on $1 ranks"
+    expect_told 'told to stop: the steps under way' "$2 on $1 ranks"
     expect_told 'stopped on request at step' "$2 on $1 ranks"
     [ "$(ls kept | wc -l)" -eq 1 ] || complain "$2 on $1 ranks did not leave one checkpoint: $(ls kept)"
 }
