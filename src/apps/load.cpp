@@ -197,11 +197,20 @@ Loaded load(const RunOptions& options, const Problems& problems, const Communica
     Loaded loaded;
     if (options.restart.empty() || !options.input.empty()) loaded.scene = load_scene(options, problems, ranks, stream);
     else check_without_scene(options, problems, ranks);
-    if (!options.restart.empty()) load_restart(options, loaded, ranks);
+    std::vector<std::string> found;
+    if (!options.restart.empty()) {
+        found = restart_candidates(options, loaded.scene, ranks);
+        load_restart(options, loaded, ranks);
+    }
     const Scene& scene = loaded.scene;
     try {
         if (!loaded.stored) check_memory(scene, ranks);
         loaded.locks = claim_outputs(scene, read_for(options, scene), named_by(options), ranks);
+        // The last ranks of a run that was killed may have stored more before they ended.
+        if (!options.restart.empty() && restart_candidates(options, scene, ranks) != found) {
+            if (ranks.is_root() && !options.quiet) tell("another checkpoint has come meanwhile\n");
+            load_restart(options, loaded, ranks);
+        }
         check_older_checkpoints(scene, loaded.stored ? loaded.stored->micro_steps_done / scene.micro_steps : -1, ranks);
     } catch (const InputError& error) { // on every rank
         Problems all;

@@ -138,6 +138,10 @@ void check_older_checkpoints(const Scene& scene, std::int64_t first_step, const 
         for (const auto& [path, difference] : older.of_others)
             problems.push_back({place, 0, fmt::format("{} is another run's ({}) and would be written over; name another folder, or move it away",
                                                       path, difference)});
+        if (!older.later_others.empty()) {
+            const auto& [path, difference] = older.later_others.front();
+            tell("warning: {}: {} is another run's ({}), and --restart with this folder and no scene would take it\n", place, path, difference);
+        }
         if (older.last_own >= 0 && first_step < 0)
             tell("{} has checkpoints of this very run up to step {}; they are written anew (--restart latest goes on from there)\n",
             place, older.last_own);

@@ -8,8 +8,11 @@
 #include <utility>
 
 #include "carrom/parallel/sample_sort.hpp"
+#include "carrom/scene/compare.hpp"
 #include "machine.hpp"
 #include "measured_files.hpp"
+#include "restart.hpp"
+#include "standard_streams.hpp"
 
 namespace carrom {
 
@@ -17,10 +20,27 @@ namespace {
 
 constexpr double seconds_between_commits = 5;
 
+CheckpointHeader run_of(const Scene& scene) {
+    CheckpointHeader run = header_of(scene);
+    run.n_discs = scene.n_discs;
+    return run;
+}
+
+/// Of a recorded run from that of the scene.
+std::string first_difference(const CheckpointHeader& there, const Scene& scene) {
+    try {
+        const std::vector<std::string> differences = physical_differences(scene_of(there, {}), scene);
+        return differences.empty() ? "" : differences.front();
+    } catch (const InputError&) {
+        return "its scene cannot be read here";
+    }
+}
+
 TrajectoryLayout layout_of(const Scene& scene) {
     const TrajectoryOutput& wanted = *scene.trajectory;
     TrajectoryLayout layout;
     layout.program_version = version();
+    layout.run = run_of(scene);
     layout.n_discs = scene.n_discs;
     const Extent end = extent_at(scene.effects, scene.box_size, static_cast<double>(scene.steps));
     layout.box_size = std::max({scene.box_size, end.x_high, end.y_high}); // walls may move
@@ -65,15 +85,17 @@ LoggedCollision logged(const Collision& collision, std::int64_t micro_steps) {
 Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_restart, StoredSamples samples, const Communicator& ranks)
     : scene_(scene), ranks_(ranks) {
     const std::int64_t step = simulation.step();
+    const auto difference_from = [this](const CheckpointHeader& there) { return first_difference(there, scene_); };
     if (scene_.trajectory) {
         trajectory_.emplace(scene_.trajectory->file, layout_of(scene_), ranks_);
-        if (is_restart) trajectory_->go_on(step);
+        if (is_restart) tell_of_missing_frames(trajectory_->go_on(step, difference_from), step);
         else trajectory_->begin();
     }
     if (scene_.collisions) {
-        log_.emplace(scene_.collisions->file, version(), ranks_);
-        if (is_restart) log_->go_on(step);
-        else log_->begin();
+        log_.emplace(scene_.collisions->file, version(), ranks_, run_of(scene_));
+        if (!is_restart) log_->begin();
+        else if (!log_->go_on(step, difference_from) && ranks_.is_root() && step > 0)
+            tell("{}: begins with step {}; of the steps before there is no log\n", scene_.collisions->file, step + 1);
         simulation.log_to(&collisions_);
     }
     if (scene_.measurements) {
@@ -82,6 +104,14 @@ Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_resta
         sampler_->look();
     }
     if (!is_restart) record(simulation);
+}
+
+/// What the restart of a run finds of its trajectory: a frame for each time that one was due, or not.
+void Recordings::tell_of_missing_frames(std::int64_t last, std::int64_t step) const {
+    const std::int64_t every = scene_.trajectory->every_steps, last_due = step / every * every;
+    if (!ranks_.is_root() || last >= last_due) return;
+    const std::int64_t first_missing = last < 0 ? 0 : (last / every + 1) * every;
+    tell("{}: has no frames of steps {} to {}, and goes on with step {}\n", scene_.trajectory->file, first_missing, last_due, last_due + every);
 }
 
 std::int64_t Recordings::next_due(std::int64_t step) const {

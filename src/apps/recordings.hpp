@@ -45,6 +45,7 @@ public:
     std::vector<MeasuredTable> tables() const { return sampler_ ? sampler_->tables() : std::vector<MeasuredTable>{}; }
 
 private:
+    void tell_of_missing_frames(std::int64_t last, std::int64_t step) const;
     void record_collisions();
     void commit_now_and_then();
 

@@ -123,13 +123,14 @@ OlderCheckpoints older_checkpoints(const Scene& scene, std::int64_t first, std::
     for (const std::string& path : candidates_in(scene.checkpoint->folder, ranks)) {
         try {
             const CheckpointHeader header = read_checkpoint_header(path, ranks);
-            if (header.step < first || header.step > last) continue;
+            if (header.step < first) continue;
+            const bool is_later = header.step > last;
             const Scene there = scene_of(header, {});
             Scene here = scene;
             if (here.accuracy) settle_on(here, {there.rule, there.micro_steps});
             const std::vector<std::string> differences = physical_differences(there, here);
-            if (differences.empty()) older.last_own = std::max(older.last_own, header.step);
-            else older.of_others.emplace_back(path, differences.front());
+            if (!differences.empty()) (is_later ? older.later_others : older.of_others).emplace_back(path, differences.front());
+            else if (!is_later) older.last_own = std::max(older.last_own, header.step);
         } catch (const CollectiveError&) { // damaged: nobody's loss
         } catch (const InputError&) {
             older.of_others.emplace_back(path, "its scene cannot be read here");
@@ -168,6 +169,11 @@ Scene scene_of(const CheckpointHeader& header, const std::vector<std::string>& m
     return scene;
 }
 
+std::vector<std::string> restart_candidates(const RunOptions& options, const Scene& scene, const Communicator& ranks) {
+    const std::string folder = folder_to_search(options, scene, ranks);
+    return folder.empty() ? std::vector<std::string>{} : candidates_in(folder, ranks);
+}
+
 void load_restart(const RunOptions& options, Loaded& loaded, const Communicator& ranks) {
     const std::string folder = folder_to_search(options, loaded.scene, ranks);
     std::optional<Checkpoint> checkpoint;
@@ -175,7 +181,7 @@ void load_restart(const RunOptions& options, Loaded& loaded, const Communicator&
         checkpoint = read_matching(options.restart, options, loaded.scene, ranks);
     } else {
         if (ranks.is_root()) tell_of_unfinished(folder);
-        const std::vector<std::string> paths = candidates_in(folder, ranks);
+        const std::vector<std::string> paths = restart_candidates(options, loaded.scene, ranks);
         checkpoint = read_newest(paths, options, loaded.scene, ranks);
         if (!checkpoint && !paths.empty()) refuse(folder, "no checkpoint there can be gone on from");
         if (!checkpoint && options.input.empty()) refuse(folder, "there is no checkpoint, and no scene to begin with");

@@ -18,13 +18,18 @@ namespace carrom {
 /// damaged, if no checkpoint of a folder is whole, or if the scene would be another run. **Collective.**
 void load_restart(const RunOptions& options, Loaded& loaded, const Communicator& ranks);
 
+/// What it chooses from, newest first; nothing where the options name a file. **Collective.**
+std::vector<std::string> restart_candidates(const RunOptions& options, const Scene& scene, const Communicator& ranks);
+
 /// Whole checkpoints of the scene's run in its folder that are of earlier steps than `step`, oldest first. **Collective.**
 std::vector<std::string> earlier_checkpoints(const Scene& scene, std::int64_t step, const Communicator& ranks);
 
-/// Whole checkpoints in the scene's folder, of steps from `first` to `last`.
+/// Whole checkpoints in the scene's folder, of steps from `first` on.
 struct OlderCheckpoints {
-    std::vector<std::pair<std::string, std::string>> of_others; ///< path, and what differs from the scene
-    std::int64_t last_own = -1;                                 ///< the latest step of the scene's own run
+    using Other = std::pair<std::string, std::string>; ///< path, and what differs from the scene
+    std::vector<Other> of_others;     ///< up to `last`
+    std::vector<Other> later_others;  ///< beyond
+    std::int64_t last_own = -1;       ///< the latest step, up to `last`, of the scene's own run
 };
 /// **Collective.**
 OlderCheckpoints older_checkpoints(const Scene& scene, std::int64_t first, std::int64_t last, const Communicator& ranks);

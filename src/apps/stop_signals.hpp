@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// USR1 and TERM, as batch systems send them before they end a job: noted, to be acted upon at the end of a step.
+// USR1 and TERM, as batch systems send them before they end a job, and Ctrl-C's INT: noted, to be acted upon at the end of a
+// step. A second INT ends the process.
 #pragma once
 
 namespace carrom {

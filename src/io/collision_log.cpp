@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "crash_guard.hpp"
 #include "files.hpp"
 #include "h5md.hpp"
+#include "recorded_run.hpp"
 
 namespace carrom {
 
@@ -64,8 +66,8 @@ struct CollisionLog::State {
     hsize_t n_rows = 0;
 };
 
-CollisionLog::CollisionLog(const std::string& path, const std::string& program_version, const Communicator& communicator)
-    : path_(path), program_version_(program_version), communicator_(communicator) {
+CollisionLog::CollisionLog(const std::string& path, const std::string& program_version, const Communicator& communicator, CheckpointHeader run)
+    : path_(path), program_version_(program_version), run_(std::move(run)), communicator_(communicator) {
     if (communicator_.is_root()) state_ = std::make_unique<State>(path);
 }
 
@@ -74,24 +76,37 @@ CollisionLog::~CollisionLog() = default;
 void CollisionLog::begin() {
     on_root(communicator_, path_, ExitCode::output_failure, [&] {
         check_room(folder_of(path_), 1 << 20);
-        state_->file.create([&](hid_t file) { create_structure(file, program_version_); });
+        state_->file.create([&](hid_t file) {
+            create_structure(file, program_version_);
+            write_recorded_run(file, run_);
+        });
         state_->n_rows = 0;
     });
 }
 
-void CollisionLog::go_on(std::int64_t step) {
+bool CollisionLog::go_on(std::int64_t step, const DifferenceFrom& difference_from) {
     std::uint64_t is_there = 0;
     on_root(communicator_, path_, ExitCode::output_failure, [&] { is_there = state_->file.reopen() ? 1 : 0; });
     communicator_.broadcast(is_there);
-    if (is_there == 0) return begin();
+    if (is_there == 0) {
+        begin();
+        return false;
+    }
     on_root(communicator_, path_, ExitCode::bad_input, [&] {
         const CrashGuard guard(path_);
-        check_columns(h5::open_file(path_, h5::Access::read).id());
+        {
+            const h5::File file = h5::open_file(path_, h5::Access::read);
+            if (H5Lexists(file.id(), "/carrom", H5P_DEFAULT) <= 0 || H5Lexists(file.id(), "/carrom/collisions", H5P_DEFAULT) <= 0)
+                throw FileError("is no log of collisions");
+            check_recorded_run(file.id(), difference_from);
+            check_columns(file.id());
+        }
         state_->file.change([&](hid_t file) {
             state_->n_rows = count_up_to(file, columns.front().path, step);
             for (const Column& column : columns) set_length(file, column.path, state_->n_rows);
         });
     });
+    return true;
 }
 
 void CollisionLog::commit() {

@@ -13,6 +13,7 @@
 #include "crash_guard.hpp"
 #include "files.hpp"
 #include "h5md.hpp"
+#include "recorded_run.hpp"
 #include "xdmf.hpp"
 
 namespace carrom {
@@ -98,6 +99,7 @@ void create_structure(hid_t file, const TrajectoryLayout& layout) {
     h5md::write_metadata(file, layout.program_version);
     h5::write_scalar(h5::create_group(file, "parameters").id(), "radius", layout.radius);
     write_open_sides(file, layout);
+    write_recorded_run(file, layout.run);
     const h5::Group particles = h5::create_group(file, "particles");
     const h5::Group discs = h5::create_group(particles.id(), "discs");
     write_fixed(discs.id(), "radius", layout.radii);
@@ -241,14 +243,22 @@ void Trajectory::begin() {
     });
 }
 
-void Trajectory::go_on(std::int64_t step) {
+std::int64_t Trajectory::go_on(std::int64_t step, const DifferenceFrom& difference_from) {
     std::uint64_t is_there = 0;
     on_root(communicator_, path_, ExitCode::output_failure, [&] { is_there = state_->file.reopen() ? 1 : 0; });
     communicator_.broadcast(is_there);
-    if (is_there == 0) return begin();
+    if (is_there == 0) {
+        begin();
+        return -1;
+    }
     on_root(communicator_, path_, ExitCode::bad_input, [&] {
         const CrashGuard guard(path_);
-        check_layout(h5::open_file(path_, h5::Access::read).id(), layout_);
+        {
+            const h5::File file = h5::open_file(path_, h5::Access::read);
+            if (H5Lexists(file.id(), "/particles", H5P_DEFAULT) <= 0) throw FileError("is no trajectory");
+            check_recorded_run(file.id(), difference_from);
+            check_layout(file.id(), layout_);
+        }
         state_->file.change([&](hid_t file) {
             const hsize_t n = count_up_to(file, step_path, step);
             set_frames(file, layout_, n);
@@ -257,6 +267,7 @@ void Trajectory::go_on(std::int64_t step) {
             state_->steps = read_numbers(file, step_path);
         });
     });
+    return communicator_.is_root() && !state_->steps.empty() ? state_->steps.back() : -1;
 }
 
 void Trajectory::append(std::int64_t step, std::span<const Disc> discs, double clock, std::span<const double> spins) {

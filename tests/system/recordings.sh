@@ -64,6 +64,33 @@ expect_code 0 'after a kill'
 same parts 'killed and gone on with'
 [ ! -e parts/t.h5.undo ] || complain 'an undo journal is left'
 
+# Another run's recordings are not gone on with, nor are files of the other kind; what is missing is told.
+mkdir others
+mapfile -t record < <(recordings others)
+run 1 run "$input" "${small[@]}" "${record[@]}" --steps 40 --set time.sync_every=7
+expect_code 0 'another run'
+cp others/*.h5 .
+for ranks in 1 3; do
+    run "$ranks" run "$input" "${small[@]}" "${record[@]}" "${store[@]}" --restart kept/checkpoint-000000000025.h5
+    expect_code 2 "a restart onto another run's trajectory on $ranks ranks"
+    expect_told "others/t.h5: is another run's ('time.sync_every' is 7 there and" "a restart onto another run's trajectory"
+done
+cmp t.h5 others/t.h5 || complain "another run's trajectory was touched"
+cp whole/t.h5 others/
+run 1 run "$input" "${small[@]}" "${record[@]}" "${store[@]}" --restart kept/checkpoint-000000000025.h5
+expect_code 2 "a restart onto another run's log"
+expect_told "others/c.h5: is another run's" "a restart onto another run's log"
+cmp c.h5 others/c.h5 || complain "another run's log was touched"
+cp whole/t.h5 others/c.h5
+run 1 run "$input" "${small[@]}" "${record[@]}" "${store[@]}" --restart kept/checkpoint-000000000025.h5
+expect_code 2 'a trajectory in the place of a log'
+expect_told 'others/c.h5: is no log of collisions' 'a trajectory in the place of a log'
+rm others/*
+run 2 run "$input" "${small[@]}" "${record[@]}" "${store[@]}" --restart kept/checkpoint-000000000025.h5
+expect_code 0 'a restart without the recordings of before'
+expect_told 'others/t.h5: has no frames of steps 0 to 24, and goes on with step 28' 'a restart without its trajectory'
+expect_told 'others/c.h5: begins with step 26' 'a restart without its log'
+
 run 3 run "$input" "${small[@]}" "${record[@]}" --steps 1 --set output.trajectory.file=no/such/folder.h5
 expect_code 2 'a trajectory in no folder'
 expect_told 'output.trajectory.file no/such/folder.h5: cannot be written: No such file or directory' 'a trajectory in no folder'

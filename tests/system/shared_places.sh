@@ -69,4 +69,5 @@ expect_code 2 'going on into the folder of another run'
 [ "$(md5sum kept/*)" = "$before" ] || complain 'checkpoints of a run were touched by another'
 run 1 run --restart other --quiet --steps 4 --set output.checkpoint.folder=kept
 expect_code 0 'going on beside checkpoints that are not reached'
+expect_told "checkpoint-000000000005.h5 is another run's ('discs.seed' is 3210 there and 7 here), and --restart with this folder" 'going on beside them'
 finish

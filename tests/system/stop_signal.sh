@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# USR1 and TERM: every rank stops at the same step, a checkpoint is there, the exit code is 75, and going on gives the
+# USR1, TERM and INT: every rank stops at the same step, a checkpoint is there, the exit code is 75, and going on gives the
 # bits of the uninterrupted run.
 source "$(dirname "$0")/common.sh"
 scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=2000 --set discs.speed=2 --quiet)
@@ -9,7 +9,7 @@ store=(--set output.checkpoint.folder=kept)
 # stopped RANKS SIGNAL: begins an endless run and sends the signal, to mpiexec where there are several ranks.
 stopped() {
     local launch=("$CARROM_MPIEXEC" -n "$1") program
-    [ "$1" -gt 1 ] || launch=()
+    [ "$1" -gt 1 ] || launch=(env --default-signal=INT) # the shell has what runs in the background ignore it
     rm -rf kept
     "${launch[@]}" "$CARROM_PROGRAM" run "${scene[@]}" "${store[@]}" --steps 100000000 >"$test_folder/out" 2>"$test_folder/err" &
     program=$!
@@ -36,6 +36,8 @@ goes_on() {
 
 stopped 1 USR1
 stopped 1 TERM
+stopped 1 INT
+expect_told 'once more ends the run at once' 'INT'
 stopped 3 USR1
 goes_on
 

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,6 +47,9 @@ struct CheckpointHeader {
     /// Micro-steps since the last sync, or what the frame's clock makes of them: the time that the discs' own times belong to.
     double clock() const { return frame.is_moving ? frame.clock : static_cast<double>(micro_steps_done % sync_every); }
 };
+
+/// Says in words how the run `there` differs from the present one; nothing where it does not. Called on rank 0.
+using DifferenceFrom = std::function<std::string(const CheckpointHeader& there)>;
 
 /// Writes `discs`, spread over the ranks in any way, as a whole file or not at all: beside its place first, brought to
 /// disk, then renamed; with `n_threads` threads a rank, and one that writes. `spins`, per micro-step, run along the discs where the header has some. The header's

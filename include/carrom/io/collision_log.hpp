@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 
+#include "carrom/io/checkpoint.hpp"
 #include "carrom/parallel/communicator.hpp"
 
 namespace carrom {
@@ -23,13 +24,13 @@ struct LoggedCollision {
 
 class CollisionLog {
 public:
-    /// `communicator` must outlive this.
-    CollisionLog(const std::string& path, const std::string& program_version, const Communicator& communicator);
+    /// `communicator` must outlive this. `run`: of which run it is, scene and classes. No text: the file will not say.
+    CollisionLog(const std::string& path, const std::string& program_version, const Communicator& communicator, CheckpointHeader run = {});
     ~CollisionLog();
 
-    /// As for Trajectory. **Collective.**
+    /// As for Trajectory. `go_on` returns, on every rank, whether there was a file. **Collective.**
     void begin();
-    void go_on(std::int64_t step);
+    bool go_on(std::int64_t step, const DifferenceFrom& difference_from = {});
     void commit();
 
     /// Adds the collisions of all ranks, those of rank 0 first. Later than all before. **Collective.**
@@ -39,6 +40,7 @@ private:
     struct State;
     std::unique_ptr<State> state_; ///< rank 0's
     std::string path_, program_version_;
+    CheckpointHeader run_;
     const Communicator& communicator_;
 };
 

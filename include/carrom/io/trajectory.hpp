@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "carrom/core/disc.hpp"
+#include "carrom/io/checkpoint.hpp"
 #include "carrom/parallel/communicator.hpp"
 
 namespace carrom {
@@ -30,6 +31,7 @@ struct TrajectoryLayout {
     bool has_angular_velocity = false; ///< of discs that turn, per step, counterclockwise
     bool is_single = true;    ///< float32, else float64
     int compression = 0;      ///< deflate level; 0 for none
+    CheckpointHeader run;     ///< of which run it is: scene and classes. No text: the file will not say
 };
 
 class Trajectory {
@@ -43,8 +45,9 @@ public:
     void begin();
 
     /// Goes on with the file, cut back to frames up to `step`, which get this layout's box. Begins a new one where there is
-    /// none. Throws code 2 where the file has another layout. **Collective.**
-    void go_on(std::int64_t step);
+    /// none. Throws code 2 where the file has another layout or is another run's. Returns, on rank 0, the step of the last frame
+    /// that is left, or -1. **Collective.**
+    std::int64_t go_on(std::int64_t step, const DifferenceFrom& difference_from = {});
 
     /// Adds a frame: the discs, spread over the ranks in any way, at `clock`; their spins along them, where the layout has
     /// angular velocities. **Collective.**
