@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "command_line.hpp"
 
+#include <string>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -34,6 +36,7 @@ Exit codes:
   2   the command line or an input is wrong; nothing was computed or written
   3   an operation of all ranks failed, on at least one of them
   4   output could not be written
+  70  a check of --check failed, or the program itself is wrong
   75  stopped on request before the end; run again to go on)";
 
 Action printed(std::string text) {
@@ -62,7 +65,10 @@ Action parse_command_line(int argc, char** argv) {
     } catch (const CLI::CallForVersion&) {
         return printed("carrom " + version());
     } catch (const CLI::ParseError& error) {
-        throw InputError({{"command line", 0, fmt::format("{} (see carrom --help)", error.what())}});
+        std::string reason = error.what();
+        if (argc < 2) reason = "say what to do, as in carrom run SCENE.toml";
+        else if (app.get_subcommands().empty()) reason = fmt::format("'{}' is no subcommand", argv[1]);
+        throw InputError({{"command line", 0, reason + " (see carrom --help)"}});
     }
     return action;
 }

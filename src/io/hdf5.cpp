@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <string_view>
 
 #include "carrom/io/start_io.hpp"
 #include "carrom/parallel/native.hpp"
@@ -101,7 +102,13 @@ File create_file(const std::string& path, std::uint64_t user_block) {
 
 File open_file(const std::string& path, Access access) {
     be_quiet();
-    return File(checked(H5Fopen(path.c_str(), access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR, H5P_DEFAULT), "cannot be opened"));
+    if (H5Fis_hdf5(path.c_str()) == 0) throw FileError("is no HDF5 file, so none that carrom has written");
+    try {
+        return File(checked(H5Fopen(path.c_str(), access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR, H5P_DEFAULT), "cannot be opened"));
+    } catch (const FileError& error) {
+        if (std::string_view(error.what()).find("truncated file") == std::string_view::npos) throw;
+        throw FileError("is cut short: it was not copied whole, or a run was killed while it wrote, which a restart mends");
+    }
 }
 
 File open_file(const std::string& path, const Properties& access) {

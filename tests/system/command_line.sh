@@ -11,10 +11,17 @@ for ranks in 1 3; do
     run "$ranks" --help
     expect_code 0 '--help'
     [ "$(grep -c '^Usage:' "$test_folder/out")" -eq 1 ] || complain "the help is not told once on $ranks ranks"
-    for exit_code in 0 1 2 3 4 75; do
+    for exit_code in 0 1 2 3 4 70 75; do
         grep -qE "^ +$exit_code " "$test_folder/out" || complain "the help does not explain exit code $exit_code"
     done
 done
+
+run 2 rnu tiny.in
+expect_code 2 'a subcommand that is none'
+expect_told "'rnu' is no subcommand (see carrom --help)" 'a subcommand that is none'
+run 1
+expect_code 2 'no words'
+expect_told 'say what to do, as in carrom run SCENE.toml' 'no words'
 
 run 1 run --help
 expect_code 0 'run --help'

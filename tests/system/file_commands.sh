@@ -100,6 +100,7 @@ echo text >text
 for command in verify info; do
     run 3 "$command" text
     expect_code 2 "$command of some text"
+    expect_told 'text: is no HDF5 file, so none that carrom has written' "$command of some text"
     run 3 "$command" none.h5
     expect_code 2 "$command of nothing"
     expect_told 'No such file' "$command of nothing"
