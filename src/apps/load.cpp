@@ -209,6 +209,7 @@ Loaded load(const RunOptions& options, const Problems& problems, const Communica
         // The last ranks of a run that was killed may have stored more before they ended.
         if (!options.restart.empty() && restart_candidates(options, scene, ranks) != found) {
             if (ranks.is_root() && !options.quiet) tell("another checkpoint has come meanwhile\n");
+            loaded.stored.reset(); // its memory is needed
             load_restart(options, loaded, ranks);
         }
         check_older_checkpoints(scene, loaded.stored ? loaded.stored->micro_steps_done / scene.micro_steps : -1, ranks);
