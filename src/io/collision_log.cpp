@@ -96,8 +96,7 @@ bool CollisionLog::go_on(std::int64_t step, const DifferenceFrom& difference_fro
         const CrashGuard guard(path_);
         {
             const h5::File file = h5::open_file(path_, h5::Access::read);
-            if (H5Lexists(file.id(), "/carrom", H5P_DEFAULT) <= 0 || H5Lexists(file.id(), "/carrom/collisions", H5P_DEFAULT) <= 0)
-                throw FileError("is no log of collisions");
+            if (!h5::has(file.id(), "/carrom/collisions")) throw FileError("is no log of collisions");
             check_recorded_run(file.id(), difference_from);
             check_columns(file.id());
         }

@@ -17,14 +17,6 @@ namespace {
 
 constexpr std::size_t longest_word = 1000;
 
-/// HDF5 wants every group on the way to be asked for.
-bool has(hid_t file, const std::string& path) {
-    for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
-        if (H5Lexists(file, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
-        if (end == std::string::npos) return true;
-    }
-}
-
 /// Rows [begin, end) of a column, or, of `width` numbers each, of frame `frame` of a dataset with several axes.
 void read_block(hid_t file, const std::string& path, std::size_t frame, std::uint64_t begin, std::uint64_t end, hsize_t width, hid_t type,
                 void* values) {
@@ -85,25 +77,25 @@ FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_un
         h5::File opened = h5::open_file(path_, h5::Access::read); // closed in here if anything is thrown: closing may crash too
         const hid_t file = opened.id();
         const std::string discs = discs_path;
-        if (has(file, "/carrom/run")) {
+        if (h5::has(file, "/carrom/run")) {
             const h5::Group run(h5::checked(H5Gopen2(file, "/carrom/run", H5P_DEFAULT), "has no /carrom/run"));
             state_->header = read_header(run.id());
             state_->header.has_spins = has_spins(file);
             const CheckpointHeader& header = state_->header;
             summary_ = {FileKind::checkpoint, header.program_version, header.n_discs, header.box_size, header.radius, 8, true, true, true, header.has_spins, {header.step}, 0,
                         header.state_hash};
-        } else if (has(file, "/carrom/collisions")) {
+        } else if (h5::has(file, "/carrom/collisions")) {
             summary_.kind = FileKind::collisions;
             summary_.n_logged = length_of(file, "/carrom/collisions/step");
-        } else if (has(file, "/particles/discs")) {
+        } else if (h5::has(file, "/particles/discs")) {
             summary_.kind = FileKind::trajectory;
-            summary_.has_position = has(file, "/particles/discs/position");
-            summary_.has_velocity = has(file, "/particles/discs/velocity");
-            summary_.has_collisions = has(file, "/particles/discs/collisions");
-            summary_.has_angular_velocity = has(file, "/particles/discs/angular_velocity");
+            summary_.has_position = h5::has(file, "/particles/discs/position");
+            summary_.has_velocity = h5::has(file, "/particles/discs/velocity");
+            summary_.has_collisions = h5::has(file, "/particles/discs/collisions");
+            summary_.has_angular_velocity = h5::has(file, "/particles/discs/angular_velocity");
             summary_.steps = read_numbers(file, "/particles/discs/box/edges/step");
             for (const Element& element : elements) {
-                if (!has(file, discs + element.name)) continue;
+                if (!h5::has(file, discs + element.name)) continue;
                 h5::Shape shape = {std::nullopt, std::nullopt};
                 if (element.width > 1) shape.push_back(element.width);
                 const h5::Dataset values = h5::open_checked(file, discs + element.name + "/value", shape);
@@ -116,7 +108,7 @@ FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_un
             summary_.is_periodic_x = boundary.compare(0, periodic.size(), periodic) == 0;
             summary_.is_periodic_y = boundary.compare(boundary.size() / 3, periodic.size(), periodic) == 0;
             std::array<std::int32_t, 4> open_sides{};
-            if (has(file, "/parameters/open_sides")) read_block(file, "/parameters/open_sides", 0, 0, 4, 1, H5T_NATIVE_INT32, open_sides.data());
+            if (h5::has(file, "/parameters/open_sides")) read_block(file, "/parameters/open_sides", 0, 0, 4, 1, H5T_NATIVE_INT32, open_sides.data());
             for (std::size_t side = 0; side < open_sides.size(); ++side) summary_.open_sides[side] = open_sides[side] != 0;
             std::array<double, 3> edges = {};
             if (!summary_.steps.empty()) read_block(file, discs + "box/edges/value", 0, 0, 3, 1, H5T_NATIVE_DOUBLE, edges.data());

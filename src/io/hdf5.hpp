@@ -74,6 +74,8 @@ File open_file(const std::string& path, const Properties& access);
 /// The same for all ranks together. **Collective.**
 File open_file(const std::string& path, Access access, const Communicator& communicator);
 
+/// Whether there is something at an absolute path. HDF5 wants every group on the way to be asked for.
+bool has(hid_t file, const std::string& path);
 Group create_group(hid_t parent, const char* name);
 /// To be written to; what is to be read may be damaged: see checked_dataset.hpp.
 Dataset open_dataset(hid_t parent, const char* name);

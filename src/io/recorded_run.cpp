@@ -19,8 +19,7 @@ bool is_recorded(const HeaderField& entry) { return std::string_view(entry.name)
 
 void write_recorded_run(hid_t file, const CheckpointHeader& run) {
     if (run.scene_text.empty()) return;
-    const bool is_there = H5Lexists(file, carrom_path, H5P_DEFAULT) > 0;
-    const h5::Group carrom = is_there ? h5::Group(h5::checked(H5Gopen2(file, carrom_path, H5P_DEFAULT), carrom_path)) : h5::create_group(file, carrom_path);
+    const h5::Group carrom = h5::has(file, carrom_path) ? h5::Group(h5::checked(H5Gopen2(file, carrom_path, H5P_DEFAULT), carrom_path)) : h5::create_group(file, carrom_path);
     const h5::Group scene = h5::create_group(file, scene_path);
     for (const HeaderField& entry : checkpoint_header)
         if (is_recorded(entry)) std::visit([&](auto field) { h5::write_scalar(scene.id(), entry.name, run.*field); }, entry.field);
@@ -28,7 +27,7 @@ void write_recorded_run(hid_t file, const CheckpointHeader& run) {
 }
 
 void check_recorded_run(hid_t file, const DifferenceFrom& difference_from) {
-    if (!difference_from || H5Lexists(file, carrom_path, H5P_DEFAULT) <= 0 || H5Lexists(file, scene_path, H5P_DEFAULT) <= 0) return;
+    if (!difference_from || !h5::has(file, scene_path)) return;
     const h5::Group scene(h5::checked(H5Gopen2(file, scene_path, H5P_DEFAULT), scene_path));
     CheckpointHeader there;
     for (const HeaderField& entry : checkpoint_header)

@@ -255,7 +255,7 @@ std::int64_t Trajectory::go_on(std::int64_t step, const DifferenceFrom& differen
         const CrashGuard guard(path_);
         {
             const h5::File file = h5::open_file(path_, h5::Access::read);
-            if (H5Lexists(file.id(), "/particles", H5P_DEFAULT) <= 0) throw FileError("is no trajectory");
+            if (!h5::has(file.id(), "/particles/discs")) throw FileError("is no trajectory");
             check_recorded_run(file.id(), difference_from);
             check_layout(file.id(), layout_);
         }
