@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 #include <fmt/format.h>
 
 #include "gas_runs.hpp"

@@ -5,7 +5,7 @@
 // same contact again, or none when the pair is pushed together, loses or repeats collisions. Source: Bannerman, Strobl,
 // Formella, Poeschel, Comput. Part. Mech. 1, 191 (2014): touching or overlapping and approaching collide now, separating
 // never. Bounds: exactly one collision for those that approach, none for the others; no contact lost between two steps.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 // and an overlap once made is fed back ten thousand times. Sources: Lubachevsky, Stillinger, J. Stat. Phys. 60, 561
 // (1990); Donev, Torquato, Stillinger, J. Comput. Phys. 202, 737 (2005); Bannerman et al. 2014. Bounds: no overlap
 // deeper than 64 ulp(L) at any look, energy to 1e-12, no disc outside by more than 4 ulp(L), and an end.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <algorithm>
 #include <cmath>

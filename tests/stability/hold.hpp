@@ -2,7 +2,7 @@
 // Worst values against their bounds. The command tests/stability/table.sh makes docs/stability.md of them.
 #pragma once
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <cstdio>
 #include <cstdlib>

@@ -5,7 +5,7 @@
 // tenfold, until t + dt == t and time stands still; energies creep. Sources: the trackers' threads on long runs
 // (counters, negative times after a restart); Bannerman et al. 2014. Bounds: energy to 1e-12 after 1e9 collisions, the
 // same bits after a restart and wherever the count of steps starts.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 // Haines, Guenther, Akenine-Moeller, Ray Tracing Gems, chapter 7 (2019). Bounds (docs/method.md): error of the time
 // 16 u (|d| + sigma sqrt(A sigma^2/disc)) / |w|; relative error of the discriminant 10 u (1 + A sigma^2/disc); no hit
 // missed whose disc > 16 u A sigma^2. The table shows errors as shares of these bounds.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <cmath>
 #include <limits>

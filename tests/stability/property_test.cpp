@@ -8,7 +8,7 @@
 //
 // A scene that fails is made small and printed; kept in tests/stability/regressions it is tried for ever after.
 // $CARROM_TEST_SCENES sets how many scenes are drawn, $CARROM_TEST_SEED where they begin.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 #include <omp.h>
 
 #include <algorithm>

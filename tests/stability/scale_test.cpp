@@ -6,7 +6,7 @@
 // (its bounds on overflow), Bannerman et al. 2014. Bounds: a scene times 2^k has bitwise scaled results or is refused
 // with a reason; a cluster at (L, L) has the times of the one at the origin to 4 ulp where its places are exact, and to
 // 16 ulp(L)/|w| per collision after that.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 // any order in which x comes first; hard discs multiply an error e-fold every few tenths of a mean free time. Sources:
 // the bit-exact fma hunts quoted in the project's notes on contraction; Dellago, Posch, Hoover, PRE 53, 1485 (1996) for
 // the exponents, here measured ones: lambda = 1.447 (packing 0.1) and 2.870 (0.3) for sigma = kT = m = 1.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 // Sources: the DynamO and SMASH trackers (coincident particles loop for ever); Rapier's and Unity's notes on sorting.
 // Bounds: the bits of the plain references for every storage order, window and machine shape; momentum handed on exactly
 // where the numbers are exact; no end only where there is none, and then said so.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <algorithm>
 #include <cmath>

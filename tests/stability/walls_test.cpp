@@ -5,7 +5,7 @@
 // collisions at one time; a disc that fills its box has collisions without end. Source: the tracker threads on lost
 // particles at walls, DynamO's two-wall events. Bounds: a corner shot comes back exactly reversed; nothing is farther
 // outside than 4 ulp(L) plus the way a disc goes in the rounding of a time, |v| ulp(64).
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Collisions without end under precisions and formulas that do not always tell when discs move.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <string>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `time.accuracy` delivers what it is asked for, on scenes that it was not tuned on.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <algorithm>
 #include <cmath>

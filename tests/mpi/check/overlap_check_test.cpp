@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "settled_discs.hpp"
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "carrom/simulation/check_failure.hpp"
 #include "one_engine.hpp"

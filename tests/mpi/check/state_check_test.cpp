@@ -9,7 +9,7 @@
 #include <limits>
 #include <optional>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "exact_engine.hpp"
 #include "one_engine.hpp"

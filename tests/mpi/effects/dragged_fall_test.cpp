@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "carrom/parallel/exchange.hpp"
 #include "effect_runs.hpp"

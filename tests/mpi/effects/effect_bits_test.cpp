@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "carrom/effects/falling_contact.hpp"
 #include "reference_bits.hpp"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "carrom/simulation/effect_costs.hpp"
 #include "effect_runs.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "carrom/effects/obstacles.hpp"
 #include "carrom/parallel/exchange.hpp"

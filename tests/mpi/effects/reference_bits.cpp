@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "event_driven.hpp"
 #include "one_rule.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 #include <omp.h>
 
 #include "exact_runs.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 #include <omp.h>
 
 #include "carrom/core/errors.hpp"

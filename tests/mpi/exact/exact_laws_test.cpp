@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 #include <omp.h>
 
 #include "carrom/core/errors.hpp"

@@ -9,7 +9,7 @@
 
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "carrom/core/errors.hpp"
 #include "carrom/io/collision_log.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "carrom/core/errors.hpp"
 #include "carrom/parallel/exchange.hpp"

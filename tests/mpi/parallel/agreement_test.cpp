@@ -2,7 +2,7 @@
 // After an agreement all ranks throw the same, or none does. How a run ends is tested with failing_program.
 #include "carrom/parallel/agreement.hpp"
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 using carrom::Communicator;
 using carrom::ExitCode;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "carrom/core/exact_sum.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "carrom/parallel/slabs.hpp"
 

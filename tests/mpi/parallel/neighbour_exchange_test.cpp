@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 using carrom::Communicator;
 using carrom::NeighbourExchange;

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 using carrom::Communicator;
 using carrom::Pieces;

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "effect_runs.hpp"
 

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "carrom/collision/local_resolution.hpp"
 

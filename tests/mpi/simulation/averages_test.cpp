@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 #include <omp.h>
 
 #include "block_averages.hpp"

@@ -9,7 +9,7 @@
 
 #include <omp.h>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "one_rule.hpp"
 #include "scenes.hpp"

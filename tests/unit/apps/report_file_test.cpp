@@ -4,7 +4,7 @@
 #include <iterator>
 #include <string>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 #include <unistd.h>
 
 #include "data_output.hpp"

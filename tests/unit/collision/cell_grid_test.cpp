@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 using carrom::CellGrid;
 using carrom::Disc;

@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 using carrom::Strips;
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "carrom/effects/drag.hpp"
 #include "carrom/effects/fall.hpp"

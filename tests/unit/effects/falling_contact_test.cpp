@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "../geometry/quad.hpp"
 #include "carrom/effects/falling_contact.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "carrom/effects/obstacles.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the predicate must not see: the names of the axes, the order of the pair, the unit of length; and, bit for bit,
 // the same predicate written a second time.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <bit>
 #include <cmath>

@@ -6,7 +6,7 @@
 // A discriminant that rounds to 0 counts as a hit, in the formula as in the shares: the school formula has a root there, a double
 // one. Were it a miss ("strict"), as it is for the stable formula, whose 0 is a graze, the shares would be two to three
 // times as large: B^2 and 4 A C agree in all their digits for that many more hits.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <cmath>
 

@@ -6,7 +6,7 @@
 // exact and their sum is twice either: (3 + 2) x 2. Random cases come to 8.9.
 #pragma once
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

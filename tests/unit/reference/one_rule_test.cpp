@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The reference itself against small scenes worked out by hand, in numbers that are exact in binary.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "one_rule.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The ancestor's text: its header, what follows it, and each way to be wrong.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <sstream>
 #include <string>

@@ -2,7 +2,7 @@
 // A restart may change how long a run goes on and what it writes, and nothing that has a say in the bits.
 #include "carrom/scene/compare.hpp"
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "carrom/scene/read_scene.hpp"
 

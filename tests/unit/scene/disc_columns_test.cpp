@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Radii, masses and spins of each disc: from the file of discs, from rows of the list, from classes.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <optional>
 #include <sstream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Effects in a scene: what is read, and what is refused for which reason.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <cmath>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Thousands of damaged inputs: each gives a scene or an InputError, never anything else.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <random>
 #include <sstream>

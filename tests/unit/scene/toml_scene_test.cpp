@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // TOML scenes: what a good one says, and each way to be wrong with the number and the lines of its problems.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <algorithm>
 #include <cmath>

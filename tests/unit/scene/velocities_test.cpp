@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Velocities of generated discs against the distributions they are said to have.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <cmath>
 #include <vector>

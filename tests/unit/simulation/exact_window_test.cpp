@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 using namespace carrom;
 
