@@ -50,7 +50,7 @@ study arithmetic 1024 0.7 10.31 --starts 4 --collisions 50 --repetitions 2
 for n in 256 1024 4096 16384 65536; do
     study size "$n" 0.3 2.063 --micro-steps 1 --starts 4 --collisions 20 --approach 10
 done
-# Few small discs and long flights, as in the ancestor's own scenes: here formulas lose collisions.
+# Few small discs and long flights, as in the course program's own scenes: here formulas lose collisions.
 study thin 1024 0.0000785 1.000157 --micro-steps 16 --starts 5 --collisions 15 --approach 10 --repetitions 2
 # Distances to the exact run along time.
 study distances 256 0.1 1.236 --distances --arithmetic stable --starts 4 --collisions 25

@@ -29,7 +29,7 @@ endmacro()
 
 # What every test executable shares. Tests may include their module's private headers and those of tests/support.
 function(carrom_test_executable target module)
-  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support ${PROJECT_SOURCE_DIR}/src/${module})
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
   if(TARGET carrom::${module})
     target_link_libraries(${target} PRIVATE carrom::${module})
   endif()

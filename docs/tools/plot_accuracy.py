@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws the tables of `carrom accuracy`: error against cost, error against nu dt, cost against N, and what formulas lose.
 
-Errors are taken start by start, against the exact rule (double, stable, K = 1) from the same start; bars are one standard
+Errors are taken start by start, against the event-driven method (double, stable, K = 1) from the same start; bars are one standard
 error over starts. Costs are medians over starts and repetitions, with bars from quartile to quartile, in core-microseconds
-per disc and mean free time (that of the exact rule), which is physical time; ratios of costs are taken within a start and
+per disc and mean free time (that of the event-driven method), which is physical time; ratios of costs are taken within a start and
 repetition. A figure is drawn where the tables have what it needs. tables.md gets the numbers.
 """
 import argparse
@@ -68,7 +68,7 @@ class Point:
                      for a, b in everything}
         self.costs = np.percentile(list(self.runs.values()), [25, 50, 75]) if self.runs else np.full(3, np.nan)
         self.cost = self.costs[1]
-        # What is no trajectory of hard discs any more: it stopped, or the rule "all" has let discs into each other.
+        # What is no trajectory of hard discs any more: it stopped, or the event-driven method has let discs into each other.
         self.failures = sum(1 for row in rows if row["failure"] or (row["rule"] == "all" and float(row["overlapping_pairs_per_disc"]) > 0))
 
     def cost_ratios(self, other):
@@ -104,7 +104,7 @@ def points_by_gas(rows):
 
 
 def default_curve(points):
-    """Points of the rule "one" as runs use it, by K."""
+    """Points of the time-stepped method as runs use it, by K."""
     return sorted((s[1], p) for s, p in points.items() if s[0] == "one" and s[2:] == ("double", "stable", "off"))
 
 
@@ -149,7 +149,7 @@ def slope_one(axes, x, y, factor, rising):
 
 
 def crossover(points):
-    """The error and K at which the rule "one" costs as much as the exact rule; None where no K or every K is dearer."""
+    """The error and K at which the time-stepped method costs as much as the event-driven method; None where no K or every K is dearer."""
     curve, exact = default_curve(points), exact_point(points)
     if exact is None or not curve or curve[0][1].cost >= exact.cost:
         return None
@@ -177,7 +177,7 @@ def figure_error_against_cost(gases, path):
         middle = curve[len(curve) // 2][1]
         slope_one(axes, middle.cost / 2, 9 * abs(middle.rate[0]), 16, rising=False)
         axes.axvspan(exact.costs[0], exact.costs[2], color="0.75", zorder=-1)
-        axes.axvline(exact.cost, color="black", linewidth=1.6, linestyle=(0, (6, 2)), label="cost of the exact rule")
+        axes.axvline(exact.cost, color="black", linewidth=1.6, linestyle=(0, (6, 2)), label="cost of the event-driven method")
         for k, p in curve:
             if k in (1, 4, 16, 64, 256):
                 axes.annotate(f"K={k}", (p.cost, abs(p.rate[0])), xytext=(-5, 4) if k == 1 else (5, 5), textcoords="offset points",
@@ -207,7 +207,7 @@ def figure_error_against_nu_dt(gases, path):
                            linestyle=STYLES[index][1], color=GREYS[index], label=f"packing {packing:.3g}", capsize=2, linewidth=1.2, markersize=5)
     slope_one(panels[0], 1e-3, 1.3e-3, 200, rising=True)
     slope_one(panels[1], 1e-3, 2e-4, 200, rising=True)
-    panels[0].set(ylabel="collisions lost, of those of the exact rule", ylim=(1e-4, 1.2))
+    panels[0].set(ylabel="collisions lost, of those of the event-driven method", ylim=(1e-4, 1.2))
     panels[1].set(ylabel="overlapping pairs that a disc is in")
     for axes in panels:
         axes.set(xscale="log", yscale="log", xlabel=r"$\nu\,dt$: collisions per disc and micro-step (exact rule)")
@@ -220,7 +220,7 @@ def figure_error_against_nu_dt(gases, path):
 def figure_cost_against_size(gases, path):
     figure, panels = plt.subplots(2, 2, figsize=(11, 8.4), layout="constrained", sharex=True)
     sizes = np.array([n for _, n in gases])
-    for column, (rule, title) in enumerate((("one", 'rule "one", K = 1'), ("all", 'rule "all"'))):
+    for column, (rule, title) in enumerate((("one", 'time-stepped method, K = 1'), ("all", 'event-driven method'))):
         usual = [points[rule, 1, *LAWS[0]] for points in gases.values()]
         for index, law in enumerate(LAWS):
             points = [gas[rule, 1, *law] for gas in gases.values()]
@@ -273,13 +273,13 @@ def percent(mean):
 
 
 def table_of_errors(errors):
-    lines = ["| packing | the exact rule costs (µs per disc and mean free time) | \"one\" at K = 1 | \"one\" costs as much at | and is wrong there by |", "|---|---|---|---|---|"]
+    lines = ["| packing | the event-driven method costs (µs per disc and mean free time) | \"one\" at K = 1 | \"one\" costs as much at | and is wrong there by |", "|---|---|---|---|---|"]
     for (packing, _), points in errors.items():
         crossing, first, exact = crossover(points), default_curve(points)[0][1], exact_point(points)
         lines.append(f"| {packing:.3g} | {exact.cost:.3f} ({exact.costs[0]:.3f} to {exact.costs[2]:.3f}) | {first.cost:.3f}, wrong by {100 * abs(first.rate[0]):.0f} % | " +
                      (f"K = {crossing[1]} to {crossing[2]} | {100 * crossing[0]:.2g} % |" if crossing else
                       "no K: always dearer | |" if first.cost >= exact.cost else "no K of these: always cheaper | |"))
-    lines += ["", "The exact rule's two pressures, which must agree: " + "; ".join(
+    lines += ["", "The event-driven method's two pressures, which must agree: " + "; ".join(
         f"packing {packing:.3g}: {percent(exact_point(points).identity)} %" for (packing, _), points in errors.items()) + "."]
     spreads = [p.spread() for points in errors.values() for p in points.values() if len(p.runs) > p.n_starts]
     if spreads:

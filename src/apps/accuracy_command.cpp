@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "accuracy_command.hpp"
+#include "apps/accuracy_command.hpp"
 
 #include <charconv>
 #include <memory>
@@ -7,14 +7,14 @@
 
 #include <fmt/format.h>
 
-#include "accuracy_study.hpp"
-#include "load.hpp"
+#include "apps/accuracy_study.hpp"
+#include "apps/load.hpp"
 
 namespace carrom {
 
 namespace {
 
-constexpr const char* teaching = R"(Every setting is run from the same starts: discs that the exact rule has brought to
+constexpr const char* teaching = R"(Every setting is run from the same starts: discs that the event-driven method has brought to
 equilibrium. Starts are made from different seeds; discs that are listed are run on for longer and longer.
 FILE gets a line for each trial as soon as it is done, and a study that was stopped goes on with the
 same command. To share it out (a Slurm array): --share 1/8 ... --share 8/8, each with a FILE of its own.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "accuracy_study.hpp"
+#include "apps/accuracy_study.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,27 +10,27 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "accuracy_table.hpp"
-#include "carrom/core/errors.hpp"
-#include "carrom/simulation/initial_state.hpp"
-#include "standard_streams.hpp"
-#include "stopwatch.hpp"
+#include "apps/accuracy_table.hpp"
+#include "core/errors.hpp"
+#include "initial_state/initial_state.hpp"
+#include "apps/standard_streams.hpp"
+#include "apps/stopwatch.hpp"
 
 namespace carrom {
 
 namespace {
 
-/// Both rules with K = 1, `factor`, factor^2, ...; the first one is the reference: the exact rule as runs use it.
+/// Both rules with K = 1, `factor`, factor^2, ...; the first one is the reference: the event-driven method as runs use it.
 std::vector<RunSetting> settings_of(const StudyOptions& options, std::int64_t factor) {
     std::vector<RunSetting> settings;
     for (std::int64_t k = 1; k <= options.most_micro_steps; k *= factor) {
-        for (const CollisionRule rule : {CollisionRule::all, CollisionRule::one}) {
+        for (const Method method : {Method::event_driven, Method::time_stepped}) {
             for (const Precision precision : {Precision::double_, Precision::single}) {
-                settings.push_back({rule, k, precision});
+                settings.push_back({method, k, precision});
                 if (options.formulas == Formulas::usual) break;
                 if (options.formulas == Formulas::stable) continue;
-                settings.push_back({rule, k, precision, Arithmetic::naive, false});
-                settings.push_back({rule, k, precision, Arithmetic::naive, true});
+                settings.push_back({method, k, precision, Arithmetic::naive, false});
+                settings.push_back({method, k, precision, Arithmetic::naive, true});
             }
         }
     }
@@ -64,7 +64,7 @@ class StudyProgress {
 public:
     StudyProgress(double all, bool wanted) : all_(all), wanted_(wanted), on_terminal_(isatty(STDERR_FILENO) == 1) {}
     ~StudyProgress() {
-        if (wanted_ && on_terminal_) tell("\n");
+        if (wanted_ && on_terminal_) print_message("\n");
     }
     StudyProgress(const StudyProgress&) = delete;
     StudyProgress& operator=(const StudyProgress&) = delete;
@@ -76,7 +76,7 @@ public:
         if (!wanted_ || !measured || since_shown_ < (on_terminal_ ? 0.2 : 20)) return;
         since_shown_ = 0;
         const auto left = static_cast<std::int64_t>(seconds_ * (all_ - found_ - done_) / done_ + 0.5);
-        tell("{}accuracy: {:.1f} % done, {}:{:02}:{:02} left{}", on_terminal_ ? "\r" : "", 100 * (found_ + done_) / all_,
+        print_message("{}accuracy: {:.1f} % done, {}:{:02}:{:02} left{}", on_terminal_ ? "\r" : "", 100 * (found_ + done_) / all_,
         left / 3600, left / 60 % 60, left % 60, on_terminal_ ? "\x1b[K" : "\n");
         std::fflush(stderr);
     }
@@ -94,7 +94,7 @@ private:
 };
 
 double cost_of(const RunSetting& setting) {
-    return setting.rule == CollisionRule::all ? 5 : static_cast<double>(setting.micro_steps) + 4;
+    return setting.method == Method::event_driven ? 5 : static_cast<double>(setting.micro_steps) + 4;
 }
 
 /// One trial of a study: a start, a repetition, a setting.
@@ -155,16 +155,16 @@ void study_costs(const Scene& scene, const std::vector<InputDisc>& discs, const 
     const std::vector<RunSetting> settings = settings_of(options, 2);
     const Tuning tuning = tuning_of(options);
     std::vector<InputDisc> exact; // at the early step
-    int exact_start = -1;
+    int reference_start = -1;
     run_all(scene, discs, options, items_of(options, settings, options.n_repetitions), ranks, tuning, [&](const Item& item, const TrialStart& start) {
         TrialLength length;
         length.steps = std::max<std::int64_t>(1, std::llround(options.collisions / start.frequency));
         length.early_step = std::clamp<std::int64_t>(std::llround(1 / start.frequency), 1, length.steps);
         const TrialKey key{item.start, item.setting, length, item.repetition};
         if (table.has(scene, start, key)) return false;
-        if (exact_start != item.start) {
+        if (reference_start != item.start) {
             exact = run_trial(scene, settings[0], start, {length.early_step, length.early_step, 1}, ranks, tuning).early;
-            exact_start = item.start;
+            reference_start = item.start;
         }
         std::string failure;
         Trial trial;
@@ -186,7 +186,7 @@ void study_distances(const Scene& scene, const std::vector<InputDisc>& discs, co
     const std::vector<RunSetting> settings = settings_of(options, 16);
     const Tuning tuning = tuning_of(options);
     std::vector<std::vector<InputDisc>> exact;
-    int exact_start = -1;
+    int reference_start = -1;
     std::vector<Item> items = items_of(options, settings, 1);
     std::erase_if(items, [&](const Item& item) { return item.setting == settings[0]; }); // no distance from itself
     run_all(scene, discs, options, items, ranks, tuning, [&](const Item& item, const TrialStart& start) {
@@ -194,8 +194,8 @@ void study_distances(const Scene& scene, const std::vector<InputDisc>& discs, co
         const auto every = std::max<std::int64_t>(1, std::llround(1 / start.frequency));
         const std::int64_t n_looks = std::max<std::int64_t>(1, std::llround(options.collisions / (start.frequency * static_cast<double>(every))));
         if (table.has(scene, start, key, n_looks * every)) return false;
-        if (exact_start != item.start) exact = trace(scene, settings[0], start, every, n_looks * every, ranks, tuning);
-        exact_start = item.start;
+        if (reference_start != item.start) exact = trace(scene, settings[0], start, every, n_looks * every, ranks, tuning);
+        reference_start = item.start;
         const auto looks = trace(scene, item.setting, start, every, n_looks * every, ranks, tuning);
         for (std::size_t k = 0; k < looks.size(); ++k) {
             const auto step = static_cast<std::int64_t>(k + 1) * every;

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "carrom/parallel/communicator.hpp"
-#include "carrom/scene/scene.hpp"
+#include "parallel/communicator.hpp"
+#include "scene/scene.hpp"
 
 namespace carrom {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "accuracy_table.hpp"
+#include "apps/accuracy_table.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "machine.hpp"
-#include "standard_streams.hpp"
+#include "apps/machine.hpp"
+#include "apps/standard_streams.hpp"
 
 namespace carrom {
 
@@ -33,7 +33,7 @@ std::string setting_fields(const Scene& scene, const TrialStart& start, const Tr
     const RunSetting& s = key.setting;
     return fmt::format("{},{},{},{},{:.6g},{},{},{},{},{},{},{},{}", plain_field(std::filesystem::path(scene.name).filename().string()),
                        scene.box_size, scene.radius, scene.n_discs, scene.packing(), scene.sync_every, key.start, to_string(start.hash),
-                       s.rule == CollisionRule::one ? "one" : "all", s.micro_steps,
+                       s.method == Method::time_stepped ? "time-stepped" : "event-driven", s.micro_steps,
                        s.precision == Precision::single ? "single" : "double", s.arithmetic == Arithmetic::naive ? "naive" : "stable",
                        s.contraction ? "on" : "off");
 }
@@ -57,7 +57,7 @@ AccuracyTable::AccuracyTable(const std::string& path)
     : table_(path, {fmt::format("{},{},threads,failure,{}", trial_columns(), number_columns, build_columns), n_columns(trial_columns()),
                     n_columns(build_columns), build_fields()}) {
     if (table_.n_foreign() > 0)
-        tell("{}: warning: {} of its lines are of another version, compiler or machine: costs of one setting and another are then not "
+        print_message("{}: warning: {} of its lines are of another version, compiler or machine: costs of one setting and another are then not "
                 "comparable\n", path, table_.n_foreign());
 }
 

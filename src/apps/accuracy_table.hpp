@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "csv_table.hpp"
-#include "trial.hpp"
+#include "apps/csv_table.hpp"
+#include "apps/trial.hpp"
 
 namespace carrom {
 

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "carrom/parallel/communicator.hpp"
-#include "carrom/scene/scene.hpp"
-#include "carrom/simulation/simulation.hpp"
-#include "recordings.hpp"
-#include "stop_signals.hpp"
-#include "stopwatch.hpp"
+#include "parallel/communicator.hpp"
+#include "scene/scene.hpp"
+#include "simulation/simulation.hpp"
+#include "apps/recordings.hpp"
+#include "apps/stop_signals.hpp"
+#include "apps/stopwatch.hpp"
 
 namespace carrom {
 
@@ -42,7 +42,7 @@ private:
     struct News {
         bool must_stop = false, is_time = false;
     };
-    News news(std::int64_t step);
+    News updates(std::int64_t step);
     void write(const Simulation& simulation, Recordings& recordings);
     void remove_oldest();
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "command_line.hpp"
+#include "apps/command_line.hpp"
 
 #include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "accuracy_command.hpp"
-#include "file_commands.hpp"
-#include "machine.hpp"
-#include "run_command.hpp"
+#include "apps/accuracy_command.hpp"
+#include "apps/file_commands.hpp"
+#include "apps/machine.hpp"
+#include "apps/run_command.hpp"
 
 namespace carrom {
 

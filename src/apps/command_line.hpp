@@ -6,8 +6,8 @@
 
 #include <functional>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/parallel/communicator.hpp"
+#include "core/errors.hpp"
+#include "parallel/communicator.hpp"
 
 namespace carrom {
 

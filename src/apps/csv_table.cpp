@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "csv_table.hpp"
+#include "apps/csv_table.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -12,8 +12,8 @@
 
 #include <fmt/format.h>
 
-#include "carrom/core/errors.hpp"
-#include "data_output.hpp"
+#include "core/errors.hpp"
+#include "apps/data_output.hpp"
 
 namespace carrom {
 

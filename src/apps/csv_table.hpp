@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-#include "carrom/io/write_lock.hpp"
+#include "io/write_lock.hpp"
 
 namespace carrom {
 

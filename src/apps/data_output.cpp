@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "data_output.hpp"
+#include "apps/data_output.hpp"
 
 #include <cerrno>
 #include <csignal>

@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "carrom/core/obstacle.hpp"
+#include "core/write_problem.hpp"
 
 namespace carrom {
 

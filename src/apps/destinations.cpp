@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "destinations.hpp"
+#include "apps/destinations.hpp"
 
 #include <filesystem>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "disc_lines.hpp"
+#include "apps/disc_lines.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,10 +7,10 @@
 #include <numeric>
 #include <span>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/parallel/agreement.hpp"
-#include "carrom/parallel/exchange.hpp"
-#include "run_options.hpp"
+#include "core/errors.hpp"
+#include "parallel/agreement.hpp"
+#include "parallel/exchange.hpp"
+#include "apps/run_options.hpp"
 
 namespace carrom {
 

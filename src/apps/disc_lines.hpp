@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "carrom/parallel/communicator.hpp"
-#include "carrom/scene/scene.hpp"
-#include "carrom/simulation/simulation.hpp"
-#include "data_output.hpp"
+#include "parallel/communicator.hpp"
+#include "scene/scene.hpp"
+#include "simulation/simulation.hpp"
+#include "apps/data_output.hpp"
 
 namespace carrom {
 

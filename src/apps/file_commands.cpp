@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "file_commands.hpp"
+#include "apps/file_commands.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,14 +10,14 @@
 
 #include <fmt/format.h>
 
-#include "carrom/io/checkpoint.hpp"
-#include "carrom/io/frame_file.hpp"
-#include "carrom/parallel/agreement.hpp"
-#include "data_output.hpp"
-#include "destinations.hpp"
-#include "disc_lines.hpp"
-#include "restart.hpp"
-#include "run_options.hpp"
+#include "io/checkpoint.hpp"
+#include "io/frame_file.hpp"
+#include "parallel/agreement.hpp"
+#include "apps/data_output.hpp"
+#include "apps/destinations.hpp"
+#include "apps/disc_lines.hpp"
+#include "apps/restart.hpp"
+#include "apps/run_options.hpp"
 
 namespace carrom {
 
@@ -125,7 +125,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// What no state of a run can be; empty if all is well.
 std::string flaw_of(const Disc& disc, double spin, double radius, const CheckpointHeader& header, const Extent& box) {
     const double clock = header.clock();
-    if (disc.is_gone()) return disc.tau == Disc::gone && disc.vx == 0 && disc.vy == 0 ? "" : fmt::format("disc {} has left the box, yet moves", disc.id);
+    if (disc.has_departed()) return disc.tau == Disc::departed && disc.vx == 0 && disc.vy == 0 ? "" : fmt::format("disc {} has left the box, yet moves", disc.id);
     const Disc shown = header.frame.in_box(disc, clock);
     const double x = shown.x, y = shown.y;
     // A disc may stand a little beyond its wall for the rest of a micro-step, or by the rounding of L - r.
@@ -144,10 +144,10 @@ void verify_checkpoint(const std::string& path, const Communicator& ranks) {
     const Checkpoint checkpoint = read_checkpoint(path, ranks);
     const Effects effects = scene_of(checkpoint.header, {}).effects; // a scene that cannot be read is no use either
     Extent box = extent_at(effects, checkpoint.header.box_size, static_cast<double>(checkpoint.header.step));
-    const DiscBodies bodies(effects.classes, checkpoint.header.radius);
+    const SpeciesTable species_table(effects.species, checkpoint.header.radius);
     const auto make_room = [&](std::size_t side, double& line, double outwards) {
-        if (effects.sides[side].kind == SideKind::open) line = outwards * infinity; // discs may be on their way out
-        if (effects.sides[side].kind == SideKind::periodic) line += outwards * checkpoint.header.radius; // centres are anywhere in the box
+        if (effects.boundaries[side].kind == BoundaryKind::open) line = outwards * infinity; // discs may be on their way out
+        if (effects.boundaries[side].kind == BoundaryKind::periodic) line += outwards * checkpoint.header.radius; // centres are anywhere in the box
     };
     make_room(0, box.x_low, -1);
     make_room(1, box.x_high, 1);
@@ -158,7 +158,7 @@ void verify_checkpoint(const std::string& path, const Communicator& ranks) {
     for (std::size_t i = 0; i < checkpoint.discs.size(); ++i) {
         const Disc& disc = checkpoint.discs[i];
         const double spin = checkpoint.spins.empty() ? 0 : checkpoint.spins[i];
-        if (flaw.empty()) flaw = flaw_of(disc, spin, bodies.of(disc.id).radius, checkpoint.header, box);
+        if (flaw.empty()) flaw = flaw_of(disc, spin, species_table.of(disc.id).radius, checkpoint.header, box);
         sums[0] += disc.wall_collisions;
         sums[1] += disc.pair_collisions;
     }
@@ -171,7 +171,7 @@ void verify_checkpoint(const std::string& path, const Communicator& ranks) {
 void refuse(const std::string& path, const std::string& text) { throw InputError({{path, 0, text}}); }
 
 /// Whether a run could show a disc there. Discs leave an open side as their centre is a radius beyond it, and lie there at
-/// rest; under the rule "one" a disc that another one has pushed out may fly to the end of its micro-step before.
+/// rest; in the time-stepped method a disc that another one has pushed out may fly to the end of its micro-step before.
 bool is_possible(const FrameRow& row, const FileSummary& summary) {
     if (!std::isfinite(row.vx) || !std::isfinite(row.vy) || !std::isfinite(row.angular_velocity)) return false;
     if (!summary.has_position) return true;
@@ -182,10 +182,10 @@ bool is_possible(const FrameRow& row, const FileSummary& summary) {
     const bool is_at_rest = summary.has_velocity && row.vx == 0 && row.vy == 0;
     bool has_left = false;
     for (std::size_t side = 0; side < beyond.size(); ++side)
-        has_left |= summary.open_sides[side] && is_at_rest && beyond[side] > 0 && beyond[side] <= reach; // smaller discs than the largest leave before
+        has_left |= summary.open_boundaries[side] && is_at_rest && beyond[side] > 0 && beyond[side] <= reach; // smaller discs than the largest leave before
     for (std::size_t side = 0; side < beyond.size(); ++side) {
         if (beyond[side] <= 0) continue;
-        if (!summary.open_sides[side]) return false;
+        if (!summary.open_boundaries[side]) return false;
         // Without velocities nobody knows how far it flies; pushed out over a corner it leaves by one side and keeps its place along it.
         const bool is_bounded = summary.has_velocity && !has_left;
         if (is_bounded && beyond[side] > reach + std::max(0.0, rate[side])) return false;

@@ -2,9 +2,9 @@
 // Warnings for scenes that are legal but lose digits, and the end of those that would lose discs (docs/stability.md).
 #pragma once
 
-#include "carrom/parallel/communicator.hpp"
-#include "carrom/scene/scene.hpp"
-#include "carrom/simulation/simulation.hpp"
+#include "parallel/communicator.hpp"
+#include "scene/scene.hpp"
+#include "simulation/simulation.hpp"
 
 namespace carrom {
 
@@ -12,7 +12,7 @@ namespace carrom {
 /// with periodic sides more often than can be counted. **Collective.**
 void look_for_hard_cases(const Scene& scene, const Simulation& simulation, const Communicator& ranks);
 
-/// The same for what rounding or the order of ids decides as the scene starts: discs that overlap (under the rule "one"), that
+/// The same for what rounding or the order of ids decides as the scene starts: discs that overlap (in the time-stepped method), that
 /// touch several others, that slide along each other. One rank calls this.
 void warn_of_close_pairs(const Scene& scene, const Totals& start);
 

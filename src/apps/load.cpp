@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "load.hpp"
+#include "apps/load.hpp"
 
 #include <fstream>
 #include <iostream>
@@ -7,17 +7,17 @@
 
 #include <fmt/format.h>
 
-#include "carrom/parallel/agreement.hpp"
-#include "carrom/scene/disc_reader.hpp"
-#include "carrom/scene/read_scene.hpp"
-#include "carrom/simulation/initial_state.hpp"
-#include "data_output.hpp"
-#include "destinations.hpp"
-#include "machine.hpp"
-#include "outputs.hpp"
-#include "report_file.hpp"
-#include "restart.hpp"
-#include "standard_streams.hpp"
+#include "parallel/agreement.hpp"
+#include "scene/disc_reader.hpp"
+#include "scene/read_scene.hpp"
+#include "initial_state/initial_state.hpp"
+#include "apps/data_output.hpp"
+#include "apps/destinations.hpp"
+#include "apps/machine.hpp"
+#include "apps/outputs.hpp"
+#include "apps/report_file.hpp"
+#include "apps/restart.hpp"
+#include "apps/standard_streams.hpp"
 
 namespace carrom {
 
@@ -56,7 +56,7 @@ void broadcast(SceneText& text, const Communicator& ranks) {
 
 /// The same for the columns of the file of discs. **Collective.**
 void broadcast(DiscColumns& columns, const Communicator& ranks) {
-    ranks.broadcast(columns.classes);
+    ranks.broadcast(columns.species);
     ranks.broadcast(columns.spins);
     int is_whole = columns.is_whole ? 1 : 0;
     ranks.broadcast(is_whole);
@@ -171,8 +171,8 @@ void check_without_scene(const RunOptions& options, const Problems& problems_so_
 
 /// A mistake in the number of discs would end in the middle, without a word of why. **Collective.**
 void check_memory(const Scene& scene, const Communicator& ranks) {
-    constexpr double bytes_per_disc_one = 94, bytes_per_disc_all = 120; // at least (docs/performance.md)
-    const double bytes_per_disc = scene.rule == CollisionRule::all ? bytes_per_disc_all : bytes_per_disc_one;
+    constexpr double bytes_per_disc_time_stepped = 94, bytes_per_disc_event_driven = 120; // at least (docs/performance.md)
+    const double bytes_per_disc = scene.method == Method::event_driven ? bytes_per_disc_event_driven : bytes_per_disc_time_stepped;
     const double needed = static_cast<double>(scene.n_discs) * bytes_per_disc / ranks.size();
     const auto available = static_cast<double>(ranks.min(memory_per_rank(ranks)));
     if (needed <= available) return;
@@ -208,7 +208,7 @@ Loaded load(const RunOptions& options, const Problems& problems, const Communica
         loaded.locks = claim_outputs(scene, read_for(options, scene), named_by(options), ranks);
         // The last ranks of a run that was killed may have stored more before they ended.
         if (!options.restart.empty() && restart_candidates(options, scene, ranks) != found) {
-            if (ranks.is_root() && !options.quiet) tell("another checkpoint has come meanwhile\n");
+            if (ranks.is_root() && !options.quiet) print_message("another checkpoint has come meanwhile\n");
             loaded.stored.reset(); // its memory is needed
             load_restart(options, loaded, ranks);
         }
@@ -221,7 +221,7 @@ Loaded load(const RunOptions& options, const Problems& problems, const Communica
     }
     if (!loaded.stored) loaded.discs = load_discs(scene, stream, ranks);
     if (ranks.is_root())
-        for (const std::string& warning : scene.warnings) tell("{}: warning: {}\n", scene.name, warning);
+        for (const std::string& warning : scene.warnings) print_message("{}: warning: {}\n", scene.name, warning);
     return loaded;
 }
 

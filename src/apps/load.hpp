@@ -8,13 +8,13 @@
 #include <optional>
 #include <vector>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/core/stored_samples.hpp"
-#include "carrom/io/write_lock.hpp"
-#include "carrom/parallel/communicator.hpp"
-#include "carrom/scene/scene.hpp"
-#include "carrom/simulation/simulation.hpp"
-#include "run_options.hpp"
+#include "core/errors.hpp"
+#include "core/stored_samples.hpp"
+#include "io/write_lock.hpp"
+#include "parallel/communicator.hpp"
+#include "scene/scene.hpp"
+#include "simulation/simulation.hpp"
+#include "apps/run_options.hpp"
 
 namespace carrom {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "carrom/parallel/communicator.hpp"
+#include "parallel/communicator.hpp"
 
 namespace carrom {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "measured_files.hpp"
+#include "apps/measured_files.hpp"
 
 #include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
 
-#include "carrom/parallel/agreement.hpp"
-#include "csv_table.hpp"
-#include "report_file.hpp"
+#include "parallel/agreement.hpp"
+#include "apps/csv_table.hpp"
+#include "apps/report_file.hpp"
 
 namespace carrom {
 

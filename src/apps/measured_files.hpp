@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "carrom/parallel/communicator.hpp"
-#include "carrom/scene/scene.hpp"
-#include "carrom/simulation/sampler.hpp"
+#include "parallel/communicator.hpp"
+#include "scene/scene.hpp"
+#include "measure/sampler.hpp"
 
 namespace carrom {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "outputs.hpp"
+#include "apps/outputs.hpp"
 
 #include <cerrno>
 #include <filesystem>
@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
-#include "carrom/io/checkpoint_folder.hpp"
-#include "carrom/parallel/agreement.hpp"
-#include "data_output.hpp"
-#include "restart.hpp"
-#include "standard_streams.hpp"
+#include "io/checkpoint_folder.hpp"
+#include "parallel/agreement.hpp"
+#include "apps/data_output.hpp"
+#include "apps/restart.hpp"
+#include "apps/standard_streams.hpp"
 
 namespace carrom {
 
@@ -140,10 +140,10 @@ void check_older_checkpoints(const Scene& scene, std::int64_t first_step, const 
                                                       path, difference)});
         if (!older.later_others.empty()) {
             const auto& [path, difference] = older.later_others.front();
-            tell("warning: {}: {} is another run's ({}), and --restart with this folder and no scene would take it\n", place, path, difference);
+            print_message("warning: {}: {} is another run's ({}), and --restart with this folder and no scene would take it\n", place, path, difference);
         }
         if (older.last_own >= 0 && first_step < 0)
-            tell("{} has checkpoints of this very run up to step {}; they are written anew (--restart latest goes on from there)\n",
+            print_message("{} has checkpoints of this very run up to step {}; they are written anew (--restart latest goes on from there)\n",
             place, older.last_own);
     }
     agree_on_problems(ranks, problems);

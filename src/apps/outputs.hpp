@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "carrom/io/write_lock.hpp"
-#include "carrom/parallel/communicator.hpp"
-#include "carrom/scene/scene.hpp"
-#include "destinations.hpp"
+#include "io/write_lock.hpp"
+#include "parallel/communicator.hpp"
+#include "scene/scene.hpp"
+#include "apps/destinations.hpp"
 
 namespace carrom {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "progress.hpp"
+#include "apps/progress.hpp"
 
 #include <algorithm>
 #include <cstdio>
 
 #include <fmt/format.h>
 #include <unistd.h>
-#include "standard_streams.hpp"
+#include "apps/standard_streams.hpp"
 
 namespace carrom {
 
@@ -45,10 +45,10 @@ void Progress::show(std::int64_t step) {
     const double seconds = std::chrono::duration<double>(now - start_).count();
     const std::string text = progress_text(step, first_step_, last_step_, seconds);
     if (on_terminal_) {
-        tell("\r{}\x1b[K", text); // erases what a longer line before has left
+        print_message("\r{}\x1b[K", text); // erases what a longer line before has left
         line_is_open_ = true;
     } else {
-        tell("{}\n", text);
+        print_message("{}\n", text);
         interval_ = std::min(interval_ * log_growth, std::chrono::duration<double>(longest_log_interval));
     }
     std::fflush(stderr);
@@ -56,7 +56,7 @@ void Progress::show(std::int64_t step) {
 }
 
 void Progress::finish() {
-    if (line_is_open_) tell("\n");
+    if (line_is_open_) print_message("\n");
     line_is_open_ = false;
 }
 

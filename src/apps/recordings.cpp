@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "recordings.hpp"
+#include "apps/recordings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,12 @@
 #include <tuple>
 #include <utility>
 
-#include "carrom/parallel/sample_sort.hpp"
-#include "carrom/scene/compare.hpp"
-#include "machine.hpp"
-#include "measured_files.hpp"
-#include "restart.hpp"
-#include "standard_streams.hpp"
+#include "parallel/sample_sort.hpp"
+#include "scene/compare.hpp"
+#include "apps/machine.hpp"
+#include "apps/measured_files.hpp"
+#include "apps/restart.hpp"
+#include "apps/standard_streams.hpp"
 
 namespace carrom {
 
@@ -45,13 +45,13 @@ TrajectoryLayout layout_of(const Scene& scene) {
     const Extent end = extent_at(scene.effects, scene.box_size, static_cast<double>(scene.steps));
     layout.box_size = std::max({scene.box_size, end.x_high, end.y_high}); // walls may move
     layout.radius = scene.radius;
-    for (const DiscClass& one : scene.effects.classes) {
+    for (const Species& one : scene.effects.species) {
         layout.radii.insert(layout.radii.end(), one.count, one.radius);
         layout.masses.insert(layout.masses.end(), one.count, one.mass);
     }
     layout.is_periodic_x = scene.effects.is_periodic_x();
     layout.is_periodic_y = scene.effects.is_periodic_y();
-    for (std::size_t side = 0; side < layout.open_sides.size(); ++side) layout.open_sides[side] = scene.effects.sides[side].kind == SideKind::open;
+    for (std::size_t side = 0; side < layout.open_boundaries.size(); ++side) layout.open_boundaries[side] = scene.effects.boundaries[side].kind == BoundaryKind::open;
     layout.velocity_unit = static_cast<double>(scene.micro_steps);
     layout.has_position = wanted.has_position;
     layout.has_velocity = wanted.has_velocity;
@@ -88,14 +88,14 @@ Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_resta
     const auto difference_from = [this](const CheckpointHeader& there) { return first_difference(there, scene_); };
     if (scene_.trajectory) {
         trajectory_.emplace(scene_.trajectory->file, layout_of(scene_), ranks_);
-        if (is_restart) tell_of_missing_frames(trajectory_->go_on(step, difference_from), step);
+        if (is_restart) report_missing_frames(trajectory_->go_on(step, difference_from), step);
         else trajectory_->begin();
     }
     if (scene_.collisions) {
         log_.emplace(scene_.collisions->file, version(), ranks_, run_of(scene_));
         if (!is_restart) log_->begin();
         else if (!log_->go_on(step, difference_from) && ranks_.is_root() && step > 0)
-            tell("{}: begins with step {}; of the steps before there is no log\n", scene_.collisions->file, step + 1);
+            print_message("{}: begins with step {}; of the steps before there is no log\n", scene_.collisions->file, step + 1);
         simulation.log_to(&collisions_);
     }
     if (scene_.measurements) {
@@ -107,11 +107,11 @@ Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_resta
 }
 
 /// What the restart of a run finds of its trajectory: a frame for each time that one was due, or not.
-void Recordings::tell_of_missing_frames(std::int64_t last, std::int64_t step) const {
+void Recordings::report_missing_frames(std::int64_t last, std::int64_t step) const {
     const std::int64_t every = scene_.trajectory->every_steps, last_due = step / every * every;
     if (!ranks_.is_root() || last >= last_due) return;
     const std::int64_t first_missing = last < 0 ? 0 : (last / every + 1) * every;
-    tell("{}: has no frames of steps {} to {}, and goes on with step {}\n", scene_.trajectory->file, first_missing, last_due, last_due + every);
+    print_message("{}: has no frames of steps {} to {}, and goes on with step {}\n", scene_.trajectory->file, first_missing, last_due, last_due + every);
 }
 
 std::int64_t Recordings::next_due(std::int64_t step) const {

@@ -9,13 +9,13 @@
 #include <optional>
 #include <vector>
 
-#include "carrom/io/collision_log.hpp"
-#include "carrom/io/trajectory.hpp"
-#include "carrom/parallel/communicator.hpp"
-#include "carrom/scene/scene.hpp"
-#include "carrom/simulation/sampler.hpp"
-#include "carrom/simulation/simulation.hpp"
-#include "stopwatch.hpp"
+#include "io/collision_log.hpp"
+#include "io/trajectory.hpp"
+#include "parallel/communicator.hpp"
+#include "scene/scene.hpp"
+#include "measure/sampler.hpp"
+#include "simulation/simulation.hpp"
+#include "apps/stopwatch.hpp"
 
 namespace carrom {
 
@@ -45,7 +45,7 @@ public:
     std::vector<MeasuredTable> tables() const { return sampler_ ? sampler_->tables() : std::vector<MeasuredTable>{}; }
 
 private:
-    void tell_of_missing_frames(std::int64_t last, std::int64_t step) const;
+    void report_missing_frames(std::int64_t last, std::int64_t step) const;
     void record_collisions();
     void commit_now_and_then();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "report_file.hpp"
+#include "apps/report_file.hpp"
 
 #include <cerrno>
 #include <cstdio>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "restart.hpp"
+#include "apps/restart.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "carrom/io/checkpoint_folder.hpp"
-#include "carrom/scene/compare.hpp"
-#include "carrom/scene/read_scene.hpp"
-#include "machine.hpp"
-#include "setting_choice.hpp"
-#include "standard_streams.hpp"
+#include "io/checkpoint_folder.hpp"
+#include "scene/compare.hpp"
+#include "scene/read_scene.hpp"
+#include "apps/machine.hpp"
+#include "apps/setting_choice.hpp"
+#include "apps/standard_streams.hpp"
 
 namespace carrom {
 
@@ -49,9 +49,9 @@ std::vector<std::string> candidates_in(const std::string& folder, const Communic
     return paths;
 }
 
-void tell_of_unfinished(const std::string& folder) {
+void report_unfinished(const std::string& folder) {
     for (const FoundFile& found : find_checkpoints(folder))
-        if (!found.is_finished) tell("passing over {}: it was never finished\n", found.path);
+        if (!found.is_finished) print_message("passing over {}: it was never finished\n", found.path);
 }
 
 /// Reads the checkpoint and fills in the scene if there is none yet; throws where it is not of that scene's run.
@@ -62,8 +62,8 @@ Checkpoint read_matching(const std::string& path, const RunOptions& options, Sce
     const bool asks_again = std::erase_if(overrides, [](const std::string& text) { return text.starts_with("time.accuracy="); }) > 0;
     Scene here = options.input.empty() ? scene_of(checkpoint.header, overrides) : scene;
     if (here.accuracy || asks_again) {
-        if (here.accuracy) settle_on(here, {there.rule, there.micro_steps});
-        if (ranks.is_root() && !options.quiet) tell("time.accuracy chooses at a run's start: going on with the checkpoint's setting\n");
+        if (here.accuracy) decide_on(here, {there.method, there.micro_steps});
+        if (ranks.is_root() && !options.quiet) print_message("time.accuracy chooses at a run's start: going on with the checkpoint's setting\n");
     }
     std::vector<Problem> problems;
     for (const std::string& difference : physical_differences(there, here))
@@ -87,7 +87,7 @@ std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths, con
                                       const Communicator& ranks) {
     const auto pass_over = [&ranks](const std::string& path, const std::string& reason) {
         const std::size_t named = reason.starts_with(path + ": ") ? path.size() + 2 : 0;
-        if (ranks.is_root()) tell("passing over {}: {}\n", path, reason.substr(named));
+        if (ranks.is_root()) print_message("passing over {}: {}\n", path, reason.substr(named));
     };
     for (const std::string& path : paths) {
         try {
@@ -127,7 +127,7 @@ OlderCheckpoints older_checkpoints(const Scene& scene, std::int64_t first, std::
             const bool is_later = header.step > last;
             const Scene there = scene_of(header, {});
             Scene here = scene;
-            if (here.accuracy) settle_on(here, {there.rule, there.micro_steps});
+            if (here.accuracy) decide_on(here, {there.method, there.micro_steps});
             const std::vector<std::string> differences = physical_differences(there, here);
             if (!differences.empty()) (is_later ? older.later_others : older.of_others).emplace_back(path, differences.front());
             else if (!is_later) older.last_own = std::max(older.last_own, header.step);
@@ -149,10 +149,10 @@ CheckpointHeader header_of(const Scene& scene) {
     header.scene_discs_follow = scene.discs_follow ? 1 : 0;
     header.box_size = scene.box_size;
     header.radius = scene.radius;
-    header.collisions = scene.rule == CollisionRule::one ? "one" : "all";
+    header.collisions = scene.method == Method::time_stepped ? "time-stepped" : "event-driven";
     header.micro_steps = scene.micro_steps;
     header.sync_every = scene.sync_every;
-    if (has_column(scene, DiscColumn::radius)) header.classes = scene.effects.classes;
+    if (has_column(scene, DiscColumn::radius)) header.species = scene.effects.species;
     return header;
 }
 
@@ -162,7 +162,7 @@ Scene scene_of(const CheckpointHeader& header, const std::vector<std::string>& m
     for (std::string line; std::getline(lines, line);) overrides.push_back(line);
     overrides.insert(overrides.end(), more_overrides.begin(), more_overrides.end());
     SceneText text{header.scene_name, header.scene_text, header.scene_lines_before_discs, header.scene_discs_follow != 0, {}};
-    if (!header.classes.empty()) text.columns = DiscColumns{header.classes, {}, true};
+    if (!header.species.empty()) text.columns = DiscColumns{header.species, {}, true};
     Scene scene = read_scene(text, overrides);
     if (has_column(scene, DiscColumn::radius) && !text.columns)
         throw InputError({{header.scene_name, 0, "'discs.columns' names radii, and the checkpoint has none of them"}});
@@ -180,18 +180,18 @@ void load_restart(const RunOptions& options, Loaded& loaded, const Communicator&
     if (folder.empty()) {
         checkpoint = read_matching(options.restart, options, loaded.scene, ranks);
     } else {
-        if (ranks.is_root()) tell_of_unfinished(folder);
+        if (ranks.is_root()) report_unfinished(folder);
         const std::vector<std::string> paths = restart_candidates(options, loaded.scene, ranks);
         checkpoint = read_newest(paths, options, loaded.scene, ranks);
         if (!checkpoint && !paths.empty()) refuse(folder, "no checkpoint there can be gone on from");
         if (!checkpoint && options.input.empty()) refuse(folder, "there is no checkpoint, and no scene to begin with");
-        if (!checkpoint && ranks.is_root()) tell("no checkpoint in {}: beginning at step 0\n", folder);
+        if (!checkpoint && ranks.is_root()) print_message("no checkpoint in {}: beginning at step 0\n", folder);
     }
     if (!checkpoint) return;
     const CheckpointHeader& header = checkpoint->header;
     if (loaded.scene.steps < header.step)
         refuse(options.restart, fmt::format("the checkpoint is of step {}, and the run is to end at step {}", header.step, loaded.scene.steps));
-    if (ranks.is_root() && !options.quiet) tell("going on from step {}\n", header.step);
+    if (ranks.is_root() && !options.quiet) print_message("going on from step {}\n", header.step);
     loaded.samples = std::move(checkpoint->samples);
     loaded.stored = StoredState{std::move(checkpoint->discs), header.micro_steps_done, std::move(checkpoint->spins)};
 }

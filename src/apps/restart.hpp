@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "carrom/io/checkpoint.hpp"
-#include "carrom/parallel/communicator.hpp"
-#include "load.hpp"
-#include "run_options.hpp"
+#include "io/checkpoint.hpp"
+#include "parallel/communicator.hpp"
+#include "apps/load.hpp"
+#include "apps/run_options.hpp"
 
 namespace carrom {
 

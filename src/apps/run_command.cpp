@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "run_command.hpp"
+#include "apps/run_command.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -9,23 +9,23 @@
 
 #include <fmt/format.h>
 
-#include "carrom/parallel/agreement.hpp"
-#include "carrom/simulation/simulation.hpp"
-#include "checkpoints.hpp"
-#include "disc_lines.hpp"
-#include "hard_cases.hpp"
-#include "load.hpp"
-#include "machine.hpp"
-#include "neighbourhood.hpp"
-#include "progress.hpp"
-#include "recordings.hpp"
-#include "report_file.hpp"
-#include "run_options.hpp"
-#include "setting_choice.hpp"
-#include "standard_streams.hpp"
-#include "stop_signals.hpp"
-#include "stopwatch.hpp"
-#include "summary.hpp"
+#include "parallel/agreement.hpp"
+#include "simulation/simulation.hpp"
+#include "apps/checkpoints.hpp"
+#include "apps/disc_lines.hpp"
+#include "apps/hard_cases.hpp"
+#include "apps/load.hpp"
+#include "apps/machine.hpp"
+#include "apps/failure_scene.hpp"
+#include "apps/progress.hpp"
+#include "apps/recordings.hpp"
+#include "apps/report_file.hpp"
+#include "apps/run_options.hpp"
+#include "apps/setting_choice.hpp"
+#include "apps/standard_streams.hpp"
+#include "apps/stop_signals.hpp"
+#include "apps/stopwatch.hpp"
+#include "apps/summary.hpp"
 
 namespace carrom {
 
@@ -60,7 +60,7 @@ void fill_machine(RunResult& result, const Communicator& ranks) {
 /// For what is measured of effects: a fiftieth of the run's time, and some moments of a short run.
 CostsOfRun costs_of(const RunResult& result) {
     constexpr double least_budget = 0.05, largest_budget = 0.5; // seconds
-    const std::uint64_t n_discs = result.end.n_discs - std::accumulate(result.end.gone.begin(), result.end.gone.end(), std::uint64_t{0});
+    const std::uint64_t n_discs = result.end.n_discs - std::accumulate(result.end.departed.begin(), result.end.departed.end(), std::uint64_t{0});
     const double n_disc_steps = static_cast<double>(n_discs) * static_cast<double>(result.last_step - result.first_step);
     const double processor_seconds = result.wall_seconds * result.ranks * result.threads;
     CostsOfRun costs;
@@ -72,10 +72,10 @@ CostsOfRun costs_of(const RunResult& result) {
 }
 
 /// Summary and report, by rank 0. If the report cannot be written every rank throws. **Collective.**
-void tell_result(const RunOptions& options, const Scene& scene, const RunResult& result, const Communicator& ranks) {
+void print_result(const RunOptions& options, const Scene& scene, const RunResult& result, const Communicator& ranks) {
     std::string failure;
     if (ranks.is_root()) {
-        if (!options.quiet) tell("{}", summary_text(scene, result));
+        if (!options.quiet) print_message("{}", summary_text(scene, result));
         if (!options.report.empty()) failure = write_whole_file(options.report, report_text(scene, result));
     }
     agree(ranks, failure.empty(), failure, ExitCode::output_failure);
@@ -101,7 +101,7 @@ bool step_to_end(Simulation& simulation, RunResult& result, double& output_secon
     while (simulation.step() < scene.steps && !must_stop) {
         const std::int64_t step = simulation.step();
         const std::int64_t next = std::min({lines.next_due(step), checkpoints.next_look(step), recordings.next_due(step)});
-        advance_or_tell(simulation, next, scene, ranks);
+        advance_or_report(simulation, next, scene, ranks);
         result.wall_seconds += watch.lap();
         write_if_due();
         recordings.record(simulation);
@@ -119,7 +119,7 @@ bool step_to_end(Simulation& simulation, RunResult& result, double& output_secon
 void check_every_step(Simulation& simulation, const Scene& scene) {
     if (scene.precision != Precision::double_ || scene.arithmetic != Arithmetic::stable)
         throw InputError({{"--check", 0, "its bounds are those of time.precision = \"double\" and time.arithmetic = \"stable\"; leave one out"}});
-    if (scene.effects.have_open_sides())
+    if (scene.effects.have_open_boundaries())
         throw InputError({{"--check", 0, "it knows closed boxes only; leave sides of kind = \"open\" or --check out"}});
     simulation.check_every_step(scene);
 }
@@ -134,7 +134,7 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     Tuning tuning = options.tuning;
     tuning.threads = options.threads.value_or(default_threads(ranks));
     if (const std::string warning = thread_warning(); !warning.empty() && !options.threads && ranks.is_root())
-        tell("warning: {}: running with {} threads a rank\n", warning, tuning.threads);
+        print_message("warning: {}: running with {} threads a rank\n", warning, tuning.threads);
     if (loaded.scene.accuracy) choose_setting(loaded.scene, loaded.discs, options.quiet, ranks, tuning);
     const Scene& scene = loaded.scene;
     const bool is_restart = loaded.stored.has_value();
@@ -154,18 +154,18 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems, co
     result.last_step = simulation.step();
     result.end = simulation.totals();
     result.averages = simulation.averages();
-    result.replays = simulation.replay_counts();
+    result.runs = simulation.rollback_counts();
 
     PhaseSeconds phases = simulation.phase_seconds();
     phases.emplace_back("set-up", setup_seconds);
     phases.emplace_back("output", output_seconds);
     fill_times(result, phases, ranks);
     fill_machine(result, ranks);
-    const bool is_told = !options.quiet || !options.report.empty();
-    if (scene.effects.are_any() && ranks.is_root() && is_told && is_done) result.effect_costs = effect_costs(scene, costs_of(result));
-    tell_result(options, scene, result, ranks);
+    const bool is_reported = !options.quiet || !options.report.empty();
+    if (scene.effects.are_any() && ranks.is_root() && is_reported && is_done) result.effect_costs = effect_costs(scene, costs_of(result));
+    print_result(options, scene, result, ranks);
     if (!is_done && ranks.is_root())
-        tell("stopped on request at step {} of {}; {}\n", result.last_step, scene.steps,
+        print_message("stopped on request at step {} of {}; {}\n", result.last_step, scene.steps,
         scene.checkpoint ? fmt::format("run again with --restart {} to go on", scene.checkpoint->folder)
                          : "nothing is kept to go on from: the scene has no output.checkpoint.folder");
     return is_done ? ExitCode::success : ExitCode::stopped;

@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "command_line.hpp"
+#include "apps/command_line.hpp"
 
 namespace carrom {
 

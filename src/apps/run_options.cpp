@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "run_options.hpp"
+#include "apps/run_options.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -14,9 +14,9 @@ namespace {
 
 constexpr const char* teaching = R"(Input:
   SCENE.toml   a scene; inputs/ has some, docs/user.md lists the keys
-  FILE.in      ancestor text: N, L, r, S, print|perf, one per line, then nothing
+  FILE.in      legacy text: N, L, r, S, print|perf, one per line, then nothing
                or N lines `id x y vx vy`
-  -            ancestor text on standard input (mpirun hands it to rank 0)
+  -            legacy text on standard input (mpirun hands it to rank 0)
 
 Standard output gets the lines `step id x y vx vy`, ids ascending, and nothing
 else: steps 0 and S for `perf`, every step for `print`, what output.text says for
@@ -104,7 +104,7 @@ void declare_run_options(CLI::App& command, RunWords& words) {
         ->type_name("KEY=VALUE")->allow_extra_args(false);
     command.add_option("--digits", words.digits,
                        "17 (the default): 17 significant digits, which read back as the same bits; "
-                       "1 to 16: that many decimals (8 gives the ancestor's look)")->type_name("D");
+                       "1 to 16: that many decimals (8 gives the course program's look)")->type_name("D");
     command.add_option("--output", words.output,
                        "Write the lines to FILE, not to standard output (under mpirun only so a full disk is noticed)")
         ->type_name("FILE");

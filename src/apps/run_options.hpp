@@ -8,8 +8,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/simulation/simulation.hpp"
+#include "core/errors.hpp"
+#include "simulation/simulation.hpp"
 
 namespace carrom {
 

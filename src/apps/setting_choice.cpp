@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "setting_choice.hpp"
+#include "apps/setting_choice.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "carrom/core/errors.hpp"
-#include "standard_streams.hpp"
+#include "core/errors.hpp"
+#include "apps/standard_streams.hpp"
 
 namespace carrom {
 
@@ -68,17 +68,17 @@ Trial run_stretch(const Pilot& pilot, const RunSetting& setting, std::size_t str
     return trial;
 }
 
-std::vector<Trial> run_exact(const Pilot& pilot) {
+std::vector<Trial> run_event_driven(const Pilot& pilot) {
     TrialStart at = pilot.start;
     std::vector<Trial> trials;
-    for (std::size_t k = 0; k < stretches.size(); ++k) trials.push_back(run_stretch(pilot, {CollisionRule::all}, k, at));
+    for (std::size_t k = 0; k < stretches.size(); ++k) trials.push_back(run_stretch(pilot, {Method::event_driven}, k, at));
     return trials;
 }
 
 /// What is known of a setting.
 struct Experience {
     TrialError error;                      ///< in its last stretch
-    double seconds = 0, exact_seconds = 0; ///< until then, and those of the exact rule
+    double seconds = 0, reference_seconds = 0; ///< until then, and those of the event-driven method
     bool is_whole = false;                 ///< else the error was too large before the end
     bool grows = false;                    ///< overlaps become more and more, and errors with them
 };
@@ -96,7 +96,7 @@ Experience try_setting(const Pilot& pilot, const RunSetting& setting, const std:
     for (std::size_t k = 0; k < stretches.size(); ++k) {
         const Trial trial = run_stretch(pilot, setting, k, at);
         found.seconds += trial.wall_seconds; // all ranks know the same
-        found.exact_seconds += exact[k].wall_seconds;
+        found.reference_seconds += exact[k].wall_seconds;
         found.error = error_of(trial, exact[k]);
         found.grows = k > 0 && are_growing(before, trial);
         found.is_whole = k + 1 == stretches.size();
@@ -108,24 +108,24 @@ Experience try_setting(const Pilot& pilot, const RunSetting& setting, const std:
 }
 
 Choice choose(const Pilot& pilot, double accuracy) {
-    const RunSetting all{CollisionRule::all};
-    const std::vector<Trial> exact = run_exact(pilot);
+    const RunSetting all{Method::event_driven};
+    const std::vector<Trial> exact = run_event_driven(pilot);
     double steps = 0;
     for (const Trial& trial : exact) steps += static_cast<double>(trial.steps);
     bool was_dearer = false; // a number of micro-steps may be dearer than twice as many are
     for (std::int64_t k = 1; k <= most_micro_steps; k *= 2) {
-        const RunSetting setting{CollisionRule::one, k};
+        const RunSetting setting{Method::time_stepped, k};
         const Experience found = try_setting(pilot, setting, exact, accuracy);
-        const bool is_dearer = found.seconds >= found.exact_seconds && (found.is_whole || found.seconds > timed_enough);
+        const bool is_dearer = found.seconds >= found.reference_seconds && (found.is_whole || found.seconds > timed_enough);
         if (is_dearer && was_dearer)
-            return {all, fmt::format("collisions = \"all\": exact, and no dearer than \"one\" with micro_steps = {} ({:.2g} times its cost), which would make "
-                                     "errors of {}{}", k, found.seconds / found.exact_seconds, shares_text(found.error), found.grows ? " and growing" : "")};
+            return {all, fmt::format("method = \"event-driven\": exact, and no dearer than \"one\" with micro_steps = {} ({:.2g} times its cost), which would make "
+                                     "errors of {}{}", k, found.seconds / found.reference_seconds, shares_text(found.error), found.grows ? " and growing" : "")};
         was_dearer = is_dearer;
         if (!is_dearer && found.is_whole && !found.grows && found.error.largest() + certainty * found.error.error <= accuracy)
-            return {setting, fmt::format("collisions = \"one\", micro_steps = {}: expect {}; {:.3g} s per step, the exact rule {:.3g}", k,
-                                         shares_text(found.error), found.seconds / steps, found.exact_seconds / steps)};
+            return {setting, fmt::format("method = \"time-stepped\", micro_steps = {}: expect {}; {:.3g} s per step, the event-driven method {:.3g}", k,
+                                         shares_text(found.error), found.seconds / steps, found.reference_seconds / steps)};
     }
-    return {all, "collisions = \"all\": no number of micro-steps is good enough"};
+    return {all, "method = \"event-driven\": no number of micro-steps is good enough"};
 }
 
 /// Throws InputError, with a way out.
@@ -134,7 +134,7 @@ TrialStart start_of_pilot(const Scene& scene, const std::vector<InputDisc>& disc
         return bring_to_equilibrium(scene, discs, approach, communicator, tuning);
     } catch (const InputError& error) {
         std::vector<Problem> problems = error.problems();
-        problems.push_back({scene.name, 0, "so no pilot can measure what 'time.accuracy' is to choose by: give time.collisions and time.micro_steps in its place"});
+        problems.push_back({scene.name, 0, "so no pilot can measure what 'time.accuracy' is to choose by: give time.method and time.micro_steps in its place"});
         throw InputError(std::move(problems));
     }
 }
@@ -152,10 +152,10 @@ TrialError error_of(const Trial& trial, const Trial& exact) {
             std::sqrt(1 / pairs(trial) + 1 / pairs(exact))};
 }
 
-void settle_on(Scene& scene, const RunSetting& setting) {
+void decide_on(Scene& scene, const RunSetting& setting) {
     scene = with_setting(std::move(scene), setting);
     std::erase_if(scene.overrides, [](const std::string& text) { return text.starts_with("time.accuracy"); });
-    scene.overrides.push_back(setting.rule == CollisionRule::all ? "time.collisions=all" : "time.collisions=one");
+    scene.overrides.push_back(setting.method == Method::event_driven ? "time.method=event-driven" : "time.method=time-stepped");
     scene.overrides.push_back(fmt::format("time.micro_steps={}", setting.micro_steps));
 }
 
@@ -163,18 +163,18 @@ void choose_setting(Scene& scene, const std::vector<InputDisc>& discs, bool quie
                     const Tuning& tuning) {
     Choice choice;
     if (*scene.accuracy < least_accuracy) {
-        choice = {{CollisionRule::all}, "collisions = \"all\": so small an error is less than a pilot can see, and this rule makes none"};
+        choice = {{Method::event_driven}, "method = \"event-driven\": so small an error is less than a pilot can see, and this rule makes none"};
     } else {
         const TrialStart start = start_of_pilot(scene, discs, communicator, tuning);
         const auto n_discs = static_cast<double>(scene.n_discs);
         const Pilot pilot{scene, start, sixteenth_of_trial(n_discs, start.frequency * n_discs / 2, *scene.accuracy), communicator, tuning};
         if (communicator.is_root() && !quiet)
-            tell("accuracy {:g}: a pilot tries settings, each for up to {} steps\n", *scene.accuracy, 16 * pilot.sixteenth);
+            print_message("accuracy {:g}: a pilot tries settings, each for up to {} steps\n", *scene.accuracy, 16 * pilot.sixteenth);
         choice = choose(pilot, *scene.accuracy);
     }
     if (communicator.is_root() && !quiet)
-        tell("accuracy {:g}: {}\n", *scene.accuracy, choice.reason);
-    settle_on(scene, choice.setting);
+        print_message("accuracy {:g}: {}\n", *scene.accuracy, choice.reason);
+    decide_on(scene, choice.setting);
 }
 
 } // namespace carrom

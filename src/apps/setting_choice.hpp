@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `time.accuracy = x`: the cheapest setting whose collision rate and pressure are within a share x of the truth.
 //
-// A pilot brings the scene's discs to equilibrium, runs them under the exact rule, and then under the rule "one" with
-// K = 1, 2, 4, ... micro-steps, until one is good enough or two in succession are as dear as the exact rule. Cost grows with
+// A pilot brings the scene's discs to equilibrium, runs them under the event-driven method, and then in the time-stepped method with
+// K = 1, 2, 4, ... micro-steps, until one is good enough or two in succession are as dear as the event-driven method. Cost grows with
 // K but for small ups and downs, so the first good one is the cheapest. Good enough is what is so after 100 collisions of a
 // disc, and does not become worse: in dense gases discs that overlap stay together, and errors grow for as long as a run
 // goes on. Single precision and the naive formula are not tried: they save next to no time (docs/accuracy.md).
@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "trial.hpp"
+#include "apps/trial.hpp"
 
 namespace carrom {
 
@@ -21,7 +21,7 @@ void choose_setting(Scene& scene, const std::vector<InputDisc>& discs, bool quie
                     const Tuning& tuning);
 
 /// Gives the scene that setting in the place of `time.accuracy`.
-void settle_on(Scene& scene, const RunSetting& setting);
+void decide_on(Scene& scene, const RunSetting& setting);
 
 /// How far a trial is from the exact one.
 struct TrialError {

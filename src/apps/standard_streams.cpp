@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "standard_streams.hpp"
+#include "apps/standard_streams.hpp"
 
 #include <csignal>
 

@@ -15,7 +15,7 @@ namespace carrom {
 void keep_standard_streams();
 
 /// Prints to standard error. What cannot be written there is dropped: there is nobody left to tell.
-template <class... Values> void tell(fmt::format_string<Values...> format, Values&&... values) {
+template <class... Values> void print_message(fmt::format_string<Values...> format, Values&&... values) {
     fmt::memory_buffer text;
     fmt::format_to(fmt::appender(text), format, std::forward<Values>(values)...);
     std::fwrite(text.data(), 1, text.size(), stderr);

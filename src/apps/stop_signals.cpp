@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "stop_signals.hpp"
+#include "apps/stop_signals.hpp"
 
 #include <cerrno>
 #include <csignal>
@@ -42,8 +42,8 @@ void handle(void (*handler)(int)) {
 
 } // namespace
 
-StopSignals::StopSignals(bool are_told) {
-    is_answer_due = are_told ? 1 : 0;
+StopSignals::StopSignals(bool are_reported) {
+    is_answer_due = are_reported ? 1 : 0;
     handle(note_signal);
 }
 

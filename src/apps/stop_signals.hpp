@@ -9,7 +9,7 @@ namespace carrom {
 class StopSignals {
 public:
     /// Where `are_told` the first one is answered on standard error at once, for the end of a step may be far away.
-    explicit StopSignals(bool are_told);
+    explicit StopSignals(bool are_reported);
     ~StopSignals();
     StopSignals(const StopSignals&) = delete;
     StopSignals& operator=(const StopSignals&) = delete;

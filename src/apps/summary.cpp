@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "summary.hpp"
+#include "apps/summary.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,13 +9,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "machine.hpp"
+#include "apps/machine.hpp"
 
 namespace carrom {
 
 namespace {
 
-const char* name_of(CollisionRule rule) { return rule == CollisionRule::one ? "one" : "all"; }
+const char* name_of(Method method) { return method == Method::time_stepped ? "time-stepped" : "event-driven"; }
 
 double disc_steps(const RunResult& result) {
     return static_cast<double>(result.end.n_discs) * static_cast<double>(result.last_step - result.first_step);
@@ -38,7 +38,7 @@ double overlapping_pairs_per_disc(const RunResult& result) {
 
 std::string radii_text(const Scene& scene) {
     double least = scene.radius;
-    for (const DiscClass& one : scene.effects.classes) least = std::min(least, one.radius);
+    for (const Species& one : scene.effects.species) least = std::min(least, one.radius);
     return least < scene.radius ? fmt::format("radii {:g} to {:g}", least, scene.radius) : fmt::format("radius {:g}", scene.radius);
 }
 
@@ -74,10 +74,10 @@ std::string imbalance_text(const RunResult& result) {
     return uneven.empty() ? text : text + fmt::format("; {} is least even, {:.3f}", uneven, most);
 }
 
-std::string windows_text(const ReplayCounts& replays) {
-    return fmt::format("{}, {:.3g} % of them redone in part; {} replays of blocks, {:.3g} % repeated", replays.windows,
-                       100 * ratio(static_cast<double>(replays.windows_redone), static_cast<double>(replays.windows)),
-                       replays.blocks, 100 * ratio(static_cast<double>(replays.blocks_redone), static_cast<double>(replays.blocks)));
+std::string windows_text(const RollbackCounts& runs) {
+    return fmt::format("{}, {:.3g} % of them redone in part; {} replays of blocks, {:.3g} % repeated", runs.windows,
+                       100 * ratio(static_cast<double>(runs.windows_redone), static_cast<double>(runs.windows)),
+                       runs.blocks, 100 * ratio(static_cast<double>(runs.blocks_redone), static_cast<double>(runs.blocks)));
 }
 
 std::string estimate_text(const Estimate& estimate) {
@@ -169,15 +169,15 @@ std::string measured_text(const Scene& scene, const std::vector<MeasuredTable>& 
 }
 
 /// "120 of 400 discs: left 70, top 50" where a side is open.
-std::string gone_text(const Scene& scene, const Totals& totals) {
+std::string departed_text(const Scene& scene, const Totals& totals) {
     std::uint64_t all = 0;
-    std::string sides;
-    for (std::size_t side = 0; side < side_names.size(); ++side) {
-        if (scene.effects.sides[side].kind != SideKind::open) continue;
-        all += totals.gone[side];
-        sides += fmt::format("{}{} {}", sides.empty() ? "" : ", ", side_names[side], totals.gone[side]);
+    std::string boundaries;
+    for (std::size_t side = 0; side < boundary_names.size(); ++side) {
+        if (scene.effects.boundaries[side].kind != BoundaryKind::open) continue;
+        all += totals.departed[side];
+        boundaries += fmt::format("{}{} {}", boundaries.empty() ? "" : ", ", boundary_names[side], totals.departed[side]);
     }
-    return sides.empty() ? sides : fmt::format("{} of {} discs: {}", all, totals.n_discs, sides);
+    return boundaries.empty() ? boundaries : fmt::format("{} of {} discs: {}", all, totals.n_discs, boundaries);
 }
 
 std::string plural(int count, const char* what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); }
@@ -216,7 +216,7 @@ std::string summary_text(const Scene& scene, const RunResult& result) {
     std::string text;
     text += line("scene", fmt::format("{}: {} discs of {} in a box of {:g}, packing {:.4g}", scene.name, scene.n_discs, radii_text(scene),
                                       scene.box_size, scene.packing()));
-    text += line("rule", fmt::format("collisions = \"{}\", micro_steps = {}, sync_every = {}{}", name_of(scene.rule),
+    text += line("rule", fmt::format("collisions = \"{}\", micro_steps = {}, sync_every = {}{}", name_of(scene.method),
                                      scene.micro_steps, scene.sync_every, arithmetic_text(scene)));
     if (scene.effects.are_any()) text += line("effects", result.effect_costs.empty() ? description(scene.effects) : effects_text(result));
     text += line("steps", fmt::format("{} in {:.4g} s: {:.4g} steps/s, {:.4g} ns per disc-step", n_steps,
@@ -234,13 +234,13 @@ std::string summary_text(const Scene& scene, const RunResult& result) {
         if (!scene.effects.are_any()) text += line("pressure", pressure_text(result.averages));
         text += line("speeds", speeds_text(scene, result.averages));
     }
-    if (scene.rule == CollisionRule::all) text += line("windows", windows_text(result.replays));
+    if (scene.method == Method::event_driven) text += line("windows", windows_text(result.runs));
     else text += line("rejected", fmt::format("{} candidates lost a disc to an earlier collision, {:.3g} % of all",
                                               result.end.rejected_candidates, 100 * rejected_share(result)));
     text += line("overlapping", fmt::format("{} pairs at the end, {:.3g} per disc, by up to {:.2g} diameters; {} at the start",
                                             result.end.overlapping_pairs, overlapping_pairs_per_disc(result),
                                             deepest_overlap(scene, result), result.start.overlapping_pairs));
-    if (const std::string gone = gone_text(scene, result.end); !gone.empty()) text += line("gone", gone);
+    if (const std::string departed = departed_text(scene, result.end); !departed.empty()) text += line("gone", departed);
     std::string others;
     if (scene.effects.contact.kind == ContactKind::rough) others += fmt::format(", {:.17g} of spin", result.end.rotational_energy);
     if (scene.effects.gravity.is_any()) others += fmt::format(", {:.17g} of height", result.end.potential_energy);
@@ -262,9 +262,9 @@ std::string report_text(const Scene& scene, const RunResult& result) {
         {"scene", scene.name},
         {"state_hash", to_string(result.end.hash)},
         {"n_discs", result.end.n_discs},
-        {"gone", result.end.gone},
+        {"gone", result.end.departed},
         {"packing", scene.packing()},
-        {"rule", name_of(scene.rule)},
+        {"rule", name_of(scene.method)},
         {"micro_steps", scene.micro_steps},
         {"precision", scene.precision == Precision::single ? "single" : "double"},
         {"arithmetic", scene.arithmetic == Arithmetic::naive ? "naive" : "stable"},
@@ -288,10 +288,10 @@ std::string report_text(const Scene& scene, const RunResult& result) {
         {"ns_per_disc_step", ns_per_disc_step(result)},
         {"ranks", result.ranks},
         {"threads", result.threads},
-        {"windows", result.replays.windows},
-        {"windows_redone", result.replays.windows_redone},
-        {"block_replays", result.replays.blocks},
-        {"block_replays_redone", result.replays.blocks_redone},
+        {"windows", result.runs.windows},
+        {"windows_redone", result.runs.windows_redone},
+        {"block_replays", result.runs.blocks},
+        {"block_replays_redone", result.runs.blocks_redone},
         {"phase_seconds", phases},
         {"phase_imbalance", phase_imbalance},
         {"imbalance", result.imbalance},

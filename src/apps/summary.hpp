@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "carrom/scene/scene.hpp"
-#include "carrom/simulation/effect_costs.hpp"
-#include "carrom/simulation/sampler.hpp"
-#include "carrom/simulation/simulation.hpp"
+#include "scene/scene.hpp"
+#include "simulation/effect_costs.hpp"
+#include "measure/sampler.hpp"
+#include "simulation/simulation.hpp"
 
 namespace carrom {
 
@@ -23,7 +23,7 @@ struct RunResult {
     Averages averages;                 ///< since this process began
     std::vector<MeasuredTable> tables; ///< of what the scene asks to be measured
     std::vector<EffectCost> effect_costs; ///< as rank 0 has timed them
-    ReplayCounts replays;              ///< under the rule "all"
+    RollbackCounts runs;              ///< in the event-driven method
     PhaseSeconds phase_seconds;        ///< each on the rank where it took longest
     PhaseSeconds phase_imbalance;      ///< that over the mean of all ranks
     double imbalance = 1;              ///< the same of `busy_seconds`
@@ -39,7 +39,7 @@ double busy_seconds(const PhaseSeconds& phases);
 /// Change of the kinetic energy over the run, relative to its start.
 double energy_drift(const RunResult& result);
 
-/// Collisions that a disc takes part in per micro-step, on average: what the error of the rule "one" grows with.
+/// Collisions that a disc takes part in per micro-step, on average: what the error of the time-stepped method grows with.
 double collisions_per_disc(const Scene& scene, const RunResult& result);
 
 /// Candidates that were not carried out, of all candidates since this process began.

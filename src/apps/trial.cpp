@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trial.hpp"
+#include "apps/trial.hpp"
 
 #include <algorithm>
 #include <set>
 
 #include <time.h>
 
-#include "carrom/core/errors.hpp"
-#include "stopwatch.hpp"
+#include "core/errors.hpp"
+#include "apps/stopwatch.hpp"
 
 namespace carrom {
 
@@ -43,7 +43,7 @@ std::vector<InputDisc> discs_now(const Simulation& simulation) {
 }
 
 Scene with_setting(Scene scene, const RunSetting& setting) {
-    scene.rule = setting.rule;
+    scene.method = setting.method;
     scene.micro_steps = setting.micro_steps;
     scene.precision = setting.precision;
     scene.arithmetic = setting.arithmetic;
@@ -54,7 +54,7 @@ Scene with_setting(Scene scene, const RunSetting& setting) {
 
 TrialStart bring_to_equilibrium(const Scene& scene, std::vector<InputDisc> discs, double wanted, const Communicator& communicator,
                                 const Tuning& tuning) {
-    Scene exact = with_setting(scene, {CollisionRule::all});
+    Scene exact = with_setting(scene, {Method::event_driven});
     exact.steps = unlimited_steps;
     Simulation simulation(exact, std::move(discs), communicator, tuning);
     double done = 0, before = 0;

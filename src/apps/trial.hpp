@@ -7,15 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "carrom/parallel/communicator.hpp"
-#include "carrom/scene/scene.hpp"
-#include "carrom/simulation/simulation.hpp"
+#include "parallel/communicator.hpp"
+#include "scene/scene.hpp"
+#include "simulation/simulation.hpp"
 
 namespace carrom {
 
 /// One way to run a scene.
 struct RunSetting {
-    CollisionRule rule = CollisionRule::one;
+    Method method = Method::time_stepped;
     std::int64_t micro_steps = 1;
     Precision precision = Precision::double_;
     Arithmetic arithmetic = Arithmetic::stable;
@@ -27,14 +27,14 @@ struct RunSetting {
 /// The scene with that setting.
 Scene with_setting(Scene scene, const RunSetting& setting);
 
-/// Discs that have been brought to equilibrium by the exact rule, where a trial starts.
+/// Discs that have been brought to equilibrium by the event-driven method, where a trial starts.
 struct TrialStart {
     std::vector<InputDisc> discs; ///< this rank's
     StateHash hash;
     double frequency = 0;         ///< collisions with other discs per disc and step
 };
 
-/// Runs `discs` under the exact rule until a disc has had `collisions_per_disc` with others, on average. Throws InputError
+/// Runs `discs` under the event-driven method until a disc has had `collisions_per_disc` with others, on average. Throws InputError
 /// where discs overlap, or where they hardly meet. **Collective.**
 TrialStart bring_to_equilibrium(const Scene& scene, std::vector<InputDisc> discs, double collisions_per_disc,
                                 const Communicator& communicator, const Tuning& tuning);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/core/errors.hpp"
+#include "core/errors.hpp"
 
 #include <cstdio>
 #include <cstdlib>

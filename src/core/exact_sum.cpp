@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/core/exact_sum.hpp"
+#include "core/exact_sum.hpp"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/core/random_numbers.hpp"
+#include "core/random_numbers.hpp"
 
 #include <cmath>
 

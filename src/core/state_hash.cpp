@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/core/state_hash.hpp"
+#include "core/state_hash.hpp"
 
 #include <array>
 #include <bit>

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/domain/transfer.hpp"
+#include "core/errors.hpp"
+#include "domain/transfer.hpp"
 
 namespace carrom {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/domain/strips.hpp"
+#include "domain/strips.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "carrom/core/errors.hpp"
+#include "core/errors.hpp"
 
 namespace carrom {
 

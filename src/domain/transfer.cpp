@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/domain/transfer.hpp"
+#include "domain/transfer.hpp"
 
 #include <algorithm>
 
-#include "carrom/core/errors.hpp"
+#include "core/errors.hpp"
 
 namespace carrom {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "appended_file.hpp"
+#include "io/appended_file.hpp"
 
 #include <algorithm>
 
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "checked_dataset.hpp"
-#include "files.hpp"
-#include "journal_driver.hpp"
+#include "io/checked_dataset.hpp"
+#include "io/files.hpp"
+#include "io/journal_driver.hpp"
 
 namespace carrom {
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "hdf5.hpp"
-#include "undo_journal.hpp"
+#include "io/hdf5.hpp"
+#include "io/undo_journal.hpp"
 
 namespace carrom {
 

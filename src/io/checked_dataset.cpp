@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "checked_dataset.hpp"
+#include "io/checked_dataset.hpp"
 
 #include <algorithm>
 #include <array>
 #include <initializer_list>
 
-#include "files.hpp"
+#include "io/files.hpp"
 
 namespace carrom::h5 {
 
@@ -43,10 +43,10 @@ hsize_t check_layout(hid_t creation, std::size_t n_axes, const std::string& name
     }
     if (!is_ours) throw FileError(name + " is stored in another way than this program does");
     if (layout == H5D_CONTIGUOUS) return 0;
-    std::array<hsize_t, most_axes> sides{};
-    if (H5Pget_chunk(creation, most_axes, sides.data()) != static_cast<int>(n_axes)) throw FileError(name + " has chunks of another shape");
+    std::array<hsize_t, most_axes> boundaries{};
+    if (H5Pget_chunk(creation, most_axes, boundaries.data()) != static_cast<int>(n_axes)) throw FileError(name + " has chunks of another shape");
     hsize_t bytes = 8;
-    for (std::size_t k = 0; k < n_axes; ++k) bytes = std::min(sides[k], largest_chunk + 1) * std::min(bytes, largest_chunk + 1);
+    for (std::size_t k = 0; k < n_axes; ++k) bytes = std::min(boundaries[k], largest_chunk + 1) * std::min(bytes, largest_chunk + 1);
     return bytes;
 }
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "hdf5.hpp"
+#include "io/hdf5.hpp"
 
 namespace carrom::h5 {
 

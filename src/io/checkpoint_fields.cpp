@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "checkpoint_fields.hpp"
+#include "io/checkpoint_fields.hpp"
 
 #include <array>
 #include <bit>
@@ -7,8 +7,8 @@
 #include <optional>
 #include <type_traits>
 
-#include "checked_dataset.hpp"
-#include "files.hpp"
+#include "io/checked_dataset.hpp"
+#include "io/files.hpp"
 
 namespace carrom {
 
@@ -43,42 +43,42 @@ CheckpointHeader read_header(hid_t group) {
 
 bool has_spins(hid_t file) { return H5Lexists(file, "/carrom/discs", H5P_DEFAULT) > 0 && H5Lexists(file, spin_column, H5P_DEFAULT) > 0; }
 
-void write_classes(hid_t carrom, const std::vector<DiscClass>& classes) {
-    if (classes.empty()) return;
+void write_species(hid_t carrom, const std::vector<Species>& species) {
+    if (species.empty()) return;
     const h5::Group group = h5::create_group(carrom, "classes");
     const auto write = [&](const char* name, hid_t type, auto field) {
-        std::vector<std::remove_cvref_t<decltype(classes[0].*field)>> numbers;
-        for (const DiscClass& one : classes) numbers.push_back(one.*field);
+        std::vector<std::remove_cvref_t<decltype(species[0].*field)>> numbers;
+        for (const Species& one : species) numbers.push_back(one.*field);
         h5::write_whole(group.id(), name, std::array<hsize_t, 1>{numbers.size()}, type, numbers.data());
     };
-    write("count", H5T_NATIVE_UINT64, &DiscClass::count);
-    write("radius", H5T_NATIVE_DOUBLE, &DiscClass::radius);
-    write("mass", H5T_NATIVE_DOUBLE, &DiscClass::mass);
+    write("count", H5T_NATIVE_UINT64, &Species::count);
+    write("radius", H5T_NATIVE_DOUBLE, &Species::radius);
+    write("mass", H5T_NATIVE_DOUBLE, &Species::mass);
 }
 
-std::vector<DiscClass> read_classes(hid_t file, std::uint64_t n_discs) {
-    if (H5Lexists(file, "/carrom/classes", H5P_DEFAULT) <= 0) return {};
-    std::vector<DiscClass> classes;
+std::vector<Species> read_species(hid_t file, std::uint64_t n_discs) {
+    if (H5Lexists(file, "/carrom/species", H5P_DEFAULT) <= 0) return {};
+    std::vector<Species> species;
     const auto read = [&](const std::string& name, hid_t type, auto field) {
-        const h5::Dataset column = h5::open_checked(file, "/carrom/classes/" + name, {std::nullopt});
-        std::vector<std::remove_cvref_t<decltype(classes[0].*field)>> numbers(h5::dimensions_of(column.id()).front());
-        if (numbers.empty() || numbers.size() > n_discs || (!classes.empty() && classes.size() != numbers.size()))
+        const h5::Dataset column = h5::open_checked(file, "/carrom/species/" + name, {std::nullopt});
+        std::vector<std::remove_cvref_t<decltype(species[0].*field)>> numbers(h5::dimensions_of(column.id()).front());
+        if (numbers.empty() || numbers.size() > n_discs || (!species.empty() && species.size() != numbers.size()))
             throw FileError("its classes of discs are no such list");
         h5::read_rows(column.id(), {0, numbers.size()}, type, numbers.data());
-        classes.resize(numbers.size());
-        for (std::size_t k = 0; k < numbers.size(); ++k) classes[k].*field = numbers[k];
+        species.resize(numbers.size());
+        for (std::size_t k = 0; k < numbers.size(); ++k) species[k].*field = numbers[k];
     };
-    read("count", H5T_NATIVE_UINT64, &DiscClass::count);
-    read("radius", H5T_NATIVE_DOUBLE, &DiscClass::radius);
-    read("mass", H5T_NATIVE_DOUBLE, &DiscClass::mass);
+    read("count", H5T_NATIVE_UINT64, &Species::count);
+    read("radius", H5T_NATIVE_DOUBLE, &Species::radius);
+    read("mass", H5T_NATIVE_DOUBLE, &Species::mass);
     std::uint64_t n = 0;
-    for (const DiscClass& one : classes) {
+    for (const Species& one : species) {
         const bool is_body = one.radius > 0 && one.mass > 0 && std::isfinite(one.radius) && std::isfinite(one.mass);
         if (one.count == 0 || one.count > n_discs - n || !is_body) throw FileError("its classes of discs cannot be those of its discs");
         n += one.count;
     }
     if (n != n_discs) throw FileError("its classes of discs cannot be those of its discs");
-    return classes;
+    return species;
 }
 
 void broadcast(CheckpointHeader& header, const Communicator& communicator) {
@@ -88,7 +88,7 @@ void broadcast(CheckpointHeader& header, const Communicator& communicator) {
     std::uint64_t has_spins = header.has_spins ? 1 : 0;
     communicator.broadcast(has_spins);
     header.has_spins = has_spins == 1;
-    communicator.broadcast(header.classes);
+    communicator.broadcast(header.species);
 }
 
 } // namespace carrom

@@ -7,9 +7,9 @@
 #include <string>
 #include <variant>
 
-#include "carrom/core/disc.hpp"
-#include "carrom/io/checkpoint.hpp"
-#include "hdf5.hpp"
+#include "core/disc.hpp"
+#include "io/checkpoint.hpp"
+#include "io/hdf5.hpp"
 
 namespace carrom {
 
@@ -93,9 +93,9 @@ void write_header(hid_t group, const CheckpointHeader& header);
 /// Throws FileError where something is missing or of another kind. Whether there are spins is for `has_spins` to say.
 CheckpointHeader read_header(hid_t group);
 bool has_spins(hid_t file);
-/// The classes of /carrom/classes, a column each for counts, radii and masses; nothing where there are none. Throw FileError.
-void write_classes(hid_t carrom, const std::vector<DiscClass>& classes);
-std::vector<DiscClass> read_classes(hid_t file, std::uint64_t n_discs);
+/// The classes of /carrom/species, a column each for counts, radii and masses; nothing where there are none. Throw FileError.
+void write_species(hid_t carrom, const std::vector<Species>& species);
+std::vector<Species> read_species(hid_t file, std::uint64_t n_discs);
 /// Replaces the header on every rank by that of rank 0. **Collective.**
 void broadcast(CheckpointHeader& header, const Communicator& communicator);
 

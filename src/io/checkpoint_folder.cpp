@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/io/checkpoint_folder.hpp"
+#include "io/checkpoint_folder.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -4,14 +4,14 @@
 
 #include <fcntl.h>
 
-#include "carrom/core/state_hash.hpp"
-#include "carrom/io/checkpoint.hpp"
-#include "carrom/parallel/slabs.hpp"
-#include "checkpoint_fields.hpp"
-#include "checked_dataset.hpp"
-#include "crash_guard.hpp"
-#include "files.hpp"
-#include "seal.hpp"
+#include "core/state_hash.hpp"
+#include "io/checkpoint.hpp"
+#include "parallel/slabs.hpp"
+#include "io/checkpoint_fields.hpp"
+#include "io/checked_dataset.hpp"
+#include "io/crash_guard.hpp"
+#include "io/files.hpp"
+#include "io/seal.hpp"
 
 namespace carrom {
 
@@ -36,7 +36,7 @@ CheckpointHeader header_of(const std::string& path, const Communicator& communic
         // A file that claims more discs than it has room for must not cost their memory.
         if (header.n_discs > Descriptor(path, O_RDONLY).size() / (8 * checkpoint_columns.size()))
             throw FileError("has not got as many discs as it says");
-        header.classes = read_classes(file.id(), header.n_discs);
+        header.species = read_species(file.id(), header.n_discs);
     });
     broadcast(header, communicator);
     return header;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "checkpoint_structure.hpp"
+#include "io/checkpoint_structure.hpp"
 
 #include <cstring>
 
 #include <fcntl.h>
 
-#include "checkpoint_fields.hpp"
-#include "files.hpp"
-#include "h5md.hpp"
+#include "io/checkpoint_fields.hpp"
+#include "io/files.hpp"
+#include "io/h5md.hpp"
 
 namespace carrom {
 
@@ -53,7 +53,7 @@ void create_groups(hid_t file, const CheckpointHeader& header, const StoredSampl
 
     const h5::Group carrom = h5::create_group(file, "carrom");
     write_header(h5::create_group(carrom.id(), "run").id(), header);
-    write_classes(carrom.id(), header.classes);
+    write_species(carrom.id(), header.species);
     const h5::Group columns = h5::create_group(carrom.id(), "discs");
     for (const Column& column : checkpoint_columns)
         create_column(columns.id(), column.name, std::array<hsize_t, 1>{header.n_discs}, type_of(column));

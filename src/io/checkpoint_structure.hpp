@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "carrom/core/disc.hpp"
-#include "carrom/core/state_hash.hpp"
-#include "carrom/io/checkpoint.hpp"
-#include "seal.hpp"
+#include "core/disc.hpp"
+#include "core/state_hash.hpp"
+#include "io/checkpoint.hpp"
+#include "io/seal.hpp"
 
 namespace carrom {
 

@@ -13,11 +13,11 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "carrom/io/checkpoint.hpp"
-#include "carrom/parallel/pieces.hpp"
-#include "checkpoint_structure.hpp"
-#include "files.hpp"
-#include "seal.hpp"
+#include "io/checkpoint.hpp"
+#include "parallel/pieces.hpp"
+#include "io/checkpoint_structure.hpp"
+#include "io/files.hpp"
+#include "io/seal.hpp"
 
 namespace carrom {
 
@@ -194,7 +194,7 @@ void write_checkpoint(const std::string& path, CheckpointHeader header, std::spa
     const PartialFile partial(path + ".partial", communicator);
     HeaderPlaces places;
     on_root(communicator, path, ExitCode::output_failure, [&] {
-        std::uint64_t bytes = bytes_of_structure + samples.sums.size() * sizeof(std::int64_t) + header.classes.size() * sizeof(DiscClass);
+        std::uint64_t bytes = bytes_of_structure + samples.sums.size() * sizeof(std::int64_t) + header.species.size() * sizeof(Species);
         for (const DiscTarget& target : targets) bytes += target.part.rows * target.part.bytes_per_row;
         check_room(folder_of(path), bytes);
         places = create_structure(partial.path(), header, samples, targets);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/io/collision_log.hpp"
+#include "io/collision_log.hpp"
 
 #include <array>
 #include <bit>
@@ -7,13 +7,13 @@
 #include <variant>
 #include <vector>
 
-#include "appended_file.hpp"
-#include "carrom/parallel/exchange.hpp"
-#include "checked_dataset.hpp"
-#include "crash_guard.hpp"
-#include "files.hpp"
-#include "h5md.hpp"
-#include "recorded_run.hpp"
+#include "io/appended_file.hpp"
+#include "parallel/exchange.hpp"
+#include "io/checked_dataset.hpp"
+#include "io/crash_guard.hpp"
+#include "io/files.hpp"
+#include "io/h5md.hpp"
+#include "io/recorded_run.hpp"
 
 namespace carrom {
 

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/io/frame_file.hpp"
+#include "core/errors.hpp"
+#include "io/frame_file.hpp"
 
 namespace carrom {
 

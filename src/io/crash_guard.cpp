@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "crash_guard.hpp"
+#include "io/crash_guard.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <string_view>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/parallel/mpi.hpp"
+#include "core/errors.hpp"
+#include "parallel/mpi.hpp"
 
 namespace carrom {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "files.hpp"
+#include "io/files.hpp"
 
 #include <cerrno>
 #include <cstdio>

@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/parallel/agreement.hpp"
-#include "carrom/parallel/communicator.hpp"
+#include "core/errors.hpp"
+#include "parallel/agreement.hpp"
+#include "parallel/communicator.hpp"
 
 namespace carrom {
 

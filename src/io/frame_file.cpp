@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/io/frame_file.hpp"
+#include "io/frame_file.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 
-#include "appended_file.hpp"
-#include "checked_dataset.hpp"
-#include "checkpoint_fields.hpp"
-#include "crash_guard.hpp"
-#include "files.hpp"
+#include "io/appended_file.hpp"
+#include "io/checked_dataset.hpp"
+#include "io/checkpoint_fields.hpp"
+#include "io/crash_guard.hpp"
+#include "io/files.hpp"
 
 namespace carrom {
 
@@ -107,9 +107,9 @@ FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_un
             const std::string boundary = letters_of(file, "/particles/discs/box", "boundary", 3), periodic = "periodic";
             summary_.is_periodic_x = boundary.compare(0, periodic.size(), periodic) == 0;
             summary_.is_periodic_y = boundary.compare(boundary.size() / 3, periodic.size(), periodic) == 0;
-            std::array<std::int32_t, 4> open_sides{};
-            if (h5::has(file, "/parameters/open_sides")) read_block(file, "/parameters/open_sides", 0, 0, 4, 1, H5T_NATIVE_INT32, open_sides.data());
-            for (std::size_t side = 0; side < open_sides.size(); ++side) summary_.open_sides[side] = open_sides[side] != 0;
+            std::array<std::int32_t, 4> open_boundaries{};
+            if (h5::has(file, "/parameters/open_sides")) read_block(file, "/parameters/open_sides", 0, 0, 4, 1, H5T_NATIVE_INT32, open_boundaries.data());
+            for (std::size_t side = 0; side < open_boundaries.size(); ++side) summary_.open_boundaries[side] = open_boundaries[side] != 0;
             std::array<double, 3> edges = {};
             if (!summary_.steps.empty()) read_block(file, discs + "box/edges/value", 0, 0, 3, 1, H5T_NATIVE_DOUBLE, edges.data());
             summary_.box_size = edges[0];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "h5md.hpp"
+#include "io/h5md.hpp"
 
 #include <array>
 

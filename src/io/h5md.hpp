@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "hdf5.hpp"
+#include "io/hdf5.hpp"
 
 namespace carrom::h5md {
 

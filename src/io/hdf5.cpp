@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "hdf5.hpp"
+#include "io/hdf5.hpp"
 
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <string_view>
 
-#include "carrom/io/start_io.hpp"
-#include "carrom/parallel/native.hpp"
-#include "checked_dataset.hpp"
-#include "files.hpp"
+#include "io/start_io.hpp"
+#include "parallel/native.hpp"
+#include "io/checked_dataset.hpp"
+#include "io/files.hpp"
 
 namespace carrom {
 

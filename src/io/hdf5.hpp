@@ -13,7 +13,7 @@
 
 #include <hdf5.h>
 
-#include "carrom/parallel/communicator.hpp"
+#include "parallel/communicator.hpp"
 
 namespace carrom::h5 {
 

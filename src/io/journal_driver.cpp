@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "journal_driver.hpp"
+#include "io/journal_driver.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "files.hpp"
+#include "io/files.hpp"
 
 namespace carrom {
 
@@ -56,7 +56,7 @@ herr_t close_driver(H5FD_t* file) {
 
 int compare(const H5FD_t* a, const H5FD_t* b) { return a == b ? 0 : a < b ? -1 : 1; }
 
-herr_t tell_features(const H5FD_t*, unsigned long* flags) {
+herr_t print_features(const H5FD_t*, unsigned long* flags) {
     if (flags != nullptr)
         *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA |
                  H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
@@ -108,7 +108,7 @@ H5FD_class_t driver_class() {
     driver.open = open_driver;
     driver.close = close_driver;
     driver.cmp = compare;
-    driver.query = tell_features;
+    driver.query = print_features;
     driver.get_eoa = allocated_end;
     driver.set_eoa = set_allocated_end;
     driver.get_eof = end_of_file;

@@ -2,8 +2,8 @@
 // HDF5's way to the disk (a virtual file driver) for files under an UndoJournal: plain reads and writes of one process.
 #pragma once
 
-#include "hdf5.hpp"
-#include "undo_journal.hpp"
+#include "io/hdf5.hpp"
+#include "io/undo_journal.hpp"
 
 namespace carrom {
 

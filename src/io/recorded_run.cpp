@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "recorded_run.hpp"
+#include "io/recorded_run.hpp"
 
 #include <string_view>
 
-#include "checkpoint_fields.hpp"
-#include "files.hpp"
+#include "io/checkpoint_fields.hpp"
+#include "io/files.hpp"
 
 namespace carrom {
 
@@ -23,7 +23,7 @@ void write_recorded_run(hid_t file, const CheckpointHeader& run) {
     const h5::Group scene = h5::create_group(file, scene_path);
     for (const HeaderField& entry : checkpoint_header)
         if (is_recorded(entry)) std::visit([&](auto field) { h5::write_scalar(scene.id(), entry.name, run.*field); }, entry.field);
-    write_classes(carrom.id(), run.classes);
+    write_species(carrom.id(), run.species);
 }
 
 void check_recorded_run(hid_t file, const DifferenceFrom& difference_from) {
@@ -32,7 +32,7 @@ void check_recorded_run(hid_t file, const DifferenceFrom& difference_from) {
     CheckpointHeader there;
     for (const HeaderField& entry : checkpoint_header)
         if (is_recorded(entry)) std::visit([&](auto field) { h5::read_scalar(scene.id(), entry.name, there.*field); }, entry.field);
-    there.classes = read_classes(file, there.n_discs);
+    there.species = read_species(file, there.n_discs);
     if (const std::string difference = difference_from(there); !difference.empty())
         throw FileError("is another run's (" + difference + "); name another file, or move it away");
 }

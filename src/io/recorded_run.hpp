@@ -2,8 +2,8 @@
 // Which run a recording is of, so that no other one goes on with it: its scene's text, as checkpoints have it.
 #pragma once
 
-#include "carrom/io/checkpoint.hpp"
-#include "hdf5.hpp"
+#include "io/checkpoint.hpp"
+#include "io/hdf5.hpp"
 
 namespace carrom {
 

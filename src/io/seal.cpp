@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "seal.hpp"
+#include "io/seal.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,9 +12,9 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include "carrom/parallel/slabs.hpp"
-#include "files.hpp"
-#include "seal_text.hpp"
+#include "parallel/slabs.hpp"
+#include "io/files.hpp"
+#include "io/seal_text.hpp"
 
 namespace carrom {
 

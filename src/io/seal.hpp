@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "carrom/core/state_hash.hpp"
-#include "carrom/parallel/communicator.hpp"
+#include "core/state_hash.hpp"
+#include "parallel/communicator.hpp"
 
 namespace carrom {
 

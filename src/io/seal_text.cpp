@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "seal_text.hpp"
+#include "io/seal_text.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include "carrom/core/errors.hpp"
-#include "files.hpp"
+#include "core/errors.hpp"
+#include "io/files.hpp"
 
 namespace carrom {
 

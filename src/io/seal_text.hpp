@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "seal.hpp"
+#include "io/seal.hpp"
 
 namespace carrom {
 

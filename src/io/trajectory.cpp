@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/io/trajectory.hpp"
+#include "io/trajectory.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,14 +7,14 @@
 #include <numeric>
 #include <vector>
 
-#include "appended_file.hpp"
-#include "carrom/parallel/exchange.hpp"
-#include "checked_dataset.hpp"
-#include "crash_guard.hpp"
-#include "files.hpp"
-#include "h5md.hpp"
-#include "recorded_run.hpp"
-#include "xdmf.hpp"
+#include "io/appended_file.hpp"
+#include "parallel/exchange.hpp"
+#include "io/checked_dataset.hpp"
+#include "io/crash_guard.hpp"
+#include "io/files.hpp"
+#include "io/h5md.hpp"
+#include "io/recorded_run.hpp"
+#include "io/xdmf.hpp"
 
 namespace carrom {
 
@@ -83,14 +83,14 @@ void write_fixed(hid_t discs, const char* name, const std::vector<double>& value
     h5::write_whole(discs, name, std::array<hsize_t, 1>{values.size()}, H5T_IEEE_F64LE, values.data());
 }
 
-constexpr const char* open_sides_path = "/parameters/open_sides";
+constexpr const char* open_boundaries_path = "/parameters/open_sides";
 
 /// Only where there are any: other files need no such entry.
-void write_open_sides(hid_t file, const TrajectoryLayout& layout) {
+void write_open_boundaries(hid_t file, const TrajectoryLayout& layout) {
     std::array<std::int32_t, 4> flags{};
-    std::copy(layout.open_sides.begin(), layout.open_sides.end(), flags.begin());
+    std::copy(layout.open_boundaries.begin(), layout.open_boundaries.end(), flags.begin());
     if (flags == std::array<std::int32_t, 4>{}) return;
-    h5::write_whole(file, open_sides_path, std::array<hsize_t, 1>{flags.size()}, H5T_NATIVE_INT32, flags.data());
+    h5::write_whole(file, open_boundaries_path, std::array<hsize_t, 1>{flags.size()}, H5T_NATIVE_INT32, flags.data());
 }
 
 /// Steps and times stand once; every element links to them, as H5MD allows.
@@ -98,7 +98,7 @@ void create_structure(hid_t file, const TrajectoryLayout& layout) {
     const std::vector<Field> fields = fields_of(layout);
     h5md::write_metadata(file, layout.program_version);
     h5::write_scalar(h5::create_group(file, "parameters").id(), "radius", layout.radius);
-    write_open_sides(file, layout);
+    write_open_boundaries(file, layout);
     write_recorded_run(file, layout.run);
     const h5::Group particles = h5::create_group(file, "particles");
     const h5::Group discs = h5::create_group(particles.id(), "discs");
@@ -263,7 +263,7 @@ std::int64_t Trajectory::go_on(std::int64_t step, const DifferenceFrom& differen
             const hsize_t n = count_up_to(file, step_path, step);
             set_frames(file, layout_, n);
             renew_box(file, layout_, n);
-            if (H5Lexists(file, open_sides_path, H5P_DEFAULT) == 0) write_open_sides(file, layout_); // an older version's
+            if (H5Lexists(file, open_boundaries_path, H5P_DEFAULT) == 0) write_open_boundaries(file, layout_); // an older version's
             state_->steps = read_numbers(file, step_path);
         });
     });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "undo_journal.hpp"
+#include "io/undo_journal.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 
 #include <xxhash.h>
 
-#include "files.hpp"
+#include "io/files.hpp"
 
 namespace carrom {
 

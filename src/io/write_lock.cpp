@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/io/write_lock.hpp"
+#include "io/write_lock.hpp"
 
 #include <array>
 #include <cerrno>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "xdmf.hpp"
+#include "io/xdmf.hpp"
 
 #include <filesystem>
 #include <iterator>
@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "files.hpp"
+#include "io/files.hpp"
 
 namespace carrom {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "carrom/io/trajectory.hpp"
+#include "io/trajectory.hpp"
 
 namespace carrom {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/parallel/agreement.hpp"
+#include "parallel/agreement.hpp"
 
 #include <algorithm>
 #include <cstdint>
 
-#include "carrom/parallel/exchange.hpp"
-#include "handle.hpp"
+#include "parallel/exchange.hpp"
+#include "parallel/handle.hpp"
 
 namespace carrom {
 

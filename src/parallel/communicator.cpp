@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/parallel/communicator.hpp"
+#include "parallel/communicator.hpp"
 
 #include <array>
 #include <utility>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/core/exact_sum.hpp"
-#include "carrom/parallel/native.hpp"
-#include "handle.hpp"
+#include "core/errors.hpp"
+#include "core/exact_sum.hpp"
+#include "parallel/native.hpp"
+#include "parallel/handle.hpp"
 
 namespace carrom {
 

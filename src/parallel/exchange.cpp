@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/parallel/exchange.hpp"
+#include "parallel/exchange.hpp"
 
 #include <cstring>
 
-#include "handle.hpp"
+#include "parallel/handle.hpp"
 
 namespace carrom::detail {
 

@@ -12,7 +12,7 @@
 
 #include <mpi.h>
 
-#include "carrom/parallel/communicator.hpp"
+#include "parallel/communicator.hpp"
 
 namespace carrom {
 

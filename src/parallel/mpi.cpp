@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/parallel/mpi.hpp"
+#include "parallel/mpi.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,8 +15,8 @@
 #include <mpi.h>
 #include <unistd.h>
 
-#include "carrom/core/errors.hpp"
-#include "handle.hpp"
+#include "core/errors.hpp"
+#include "parallel/handle.hpp"
 
 namespace carrom {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/parallel/neighbour_exchange.hpp"
+#include "parallel/neighbour_exchange.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
 
-#include "handle.hpp"
+#include "parallel/handle.hpp"
 
 namespace carrom {
 

@@ -12,11 +12,11 @@
 
 #include <fmt/format.h>
 
-#include "carrom/scene/disc_columns.hpp"
-#include "carrom/scene/scene.hpp"
-#include "keys.hpp"
-#include "number.hpp"
-#include "settings.hpp"
+#include "scene/disc_columns.hpp"
+#include "scene/scene.hpp"
+#include "scene/keys.hpp"
+#include "scene/number.hpp"
+#include "scene/settings.hpp"
 
 namespace carrom {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "checked_effects.hpp"
+#include "scene/checked_effects.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <tuple>
 
-#include "carrom/effects/drag.hpp"
-#include "carrom/effects/fall.hpp"
-#include "limits.hpp"
+#include "dynamics/drag.hpp"
+#include "dynamics/fall.hpp"
+#include "scene/limits.hpp"
 
 namespace carrom {
 
@@ -75,15 +75,15 @@ void fill_contact(const Check& check) {
 }
 
 void fill_side(const Check& check, std::size_t number) {
-    static constexpr Choices<SideKind, 5> kinds = {
-        {{"wall", SideKind::fixed}, {"thermal", SideKind::thermal}, {"moving", SideKind::moving}, {"open", SideKind::open}, {"periodic", SideKind::periodic}}};
-    Side& side = check.scene.effects.sides[number];
-    const std::string table = std::string("box.") + side_names[number];
+    static constexpr Choices<BoundaryKind, 5> kinds = {
+        {{"wall", BoundaryKind::fixed}, {"thermal", BoundaryKind::thermal}, {"moving", BoundaryKind::moving}, {"open", BoundaryKind::open}, {"periodic", BoundaryKind::periodic}}};
+    Boundary& side = check.scene.effects.boundaries[number];
+    const std::string table = std::string("box.") + boundary_names[number];
     if (const auto kind = choice(check, table + ".kind", kinds)) side.kind = *kind;
-    const bool is_thermal = side.kind == SideKind::thermal, is_moving = side.kind == SideKind::moving;
+    const bool is_thermal = side.kind == BoundaryKind::thermal, is_moving = side.kind == BoundaryKind::moving;
     if (is_thermal) refuse_without(check, table + ".restitution", table + ".kind = \"wall\" or \"moving\": what leaves a thermal wall has forgotten how it came");
-    else if (side.kind == SideKind::open) refuse_without(check, table + ".restitution", table + ".kind = \"wall\" or \"moving\": nothing comes back from an open side");
-    else if (side.kind == SideKind::periodic) refuse_without(check, table + ".restitution", "a wall: discs that leave by a periodic side come in by the opposite one, as they were");
+    else if (side.kind == BoundaryKind::open) refuse_without(check, table + ".restitution", table + ".kind = \"wall\" or \"moving\": nothing comes back from an open side");
+    else if (side.kind == BoundaryKind::periodic) refuse_without(check, table + ".restitution", "a wall: discs that leave by a periodic side come in by the opposite one, as they were");
     else if (const auto restitution = number_within(check, table + ".restitution", 0, 1)) side.restitution = *restitution;
 
     if (!is_thermal) refuse_without(check, table + ".temperature", table + ".kind = \"thermal\"");
@@ -96,28 +96,28 @@ void fill_side(const Check& check, std::size_t number) {
     if (!is_moving) refuse_without(check, table + ".speed", table + ".kind = \"moving\"");
     else check.refuse_missing(table + ".speed", "of the wall along +x or +y, per step");
     if (const auto speed = finite_number(check, table + ".speed"); speed && is_moving) side.speed = *speed;
-    if (is_moving && check.scene.rule == CollisionRule::one)
-        check.refuse(*check.settings.find(table + ".kind"), "a moving wall needs time.collisions = \"all\": the rule \"one\" has walls at rest");
+    if (is_moving && check.scene.method == Method::time_stepped)
+        check.refuse(*check.settings.find(table + ".kind"), "a moving wall needs time.method = \"all\": the time-stepped method has walls at rest");
 }
 
 /// What boxes with periodic sides go without.
-void check_beside_periodic_sides(const Check& check) {
+void check_beside_periodic_boundaries(const Check& check) {
     const Effects& effects = check.scene.effects;
     if (!effects.are_periodic()) return;
-    const Setting& kind = *check.settings.find(std::string("box.") + side_names[effects.is_periodic_x() ? 0 : 2] + ".kind");
+    const Setting& kind = *check.settings.find(std::string("box.") + boundary_names[effects.is_periodic_x() ? 0 : 2] + ".kind");
     const auto refuse = [&](std::string_view other) { check.refuse(kind, fmt::format("this version has no periodic sides together with {}", other)); };
-    if (effects.have_open_sides()) refuse("open sides");
+    if (effects.have_open_boundaries()) refuse("open sides");
 }
 
 /// Sides are periodic in pairs.
-void check_periodic_sides(const Check& check) {
-    const auto& sides = check.scene.effects.sides;
+void check_periodic_boundaries(const Check& check) {
+    const auto& boundaries = check.scene.effects.boundaries;
     for (const std::size_t low : {0u, 2u}) {
-        const bool is_low = sides[low].kind == SideKind::periodic, is_high = sides[low + 1].kind == SideKind::periodic;
+        const bool is_low = boundaries[low].kind == BoundaryKind::periodic, is_high = boundaries[low + 1].kind == BoundaryKind::periodic;
         if (is_low == is_high) continue;
         const std::size_t periodic = is_low ? low : low + 1, other = is_low ? low + 1 : low;
-        check.refuse(*check.settings.find(std::string("box.") + side_names[periodic] + ".kind"),
-                     fmt::format("what leaves by a periodic side comes in by the opposite one: box.{}.kind must be \"periodic\" too, or neither", side_names[other]));
+        check.refuse(*check.settings.find(std::string("box.") + boundary_names[periodic] + ".kind"),
+                     fmt::format("what leaves by a periodic side comes in by the opposite one: box.{}.kind must be \"periodic\" too, or neither", boundary_names[other]));
     }
 }
 
@@ -129,9 +129,9 @@ void fill_gravity(const Check& check) {
                                               {"effects.gravity.y", gravity.y, check.scene.effects.is_periodic_y()}}) {
         if (g != 0 && is_periodic) check.refuse(*check.settings.find(key), "gravity along an axis with periodic sides: discs would fall for ever, faster and faster");
     }
-    if (!gravity.is_any() || check.scene.rule == CollisionRule::all) return;
+    if (!gravity.is_any() || check.scene.method == Method::event_driven) return;
     const Setting* setting = check.settings.find(gravity.y != 0 ? "effects.gravity.y" : "effects.gravity.x");
-    check.refuse(*setting, "gravity needs time.collisions = \"all\": under the rule \"one\" discs fly straight");
+    check.refuse(*setting, "gravity needs time.method = \"all\": in the time-stepped method discs fly straight");
 }
 
 void fill_drag(const Check& check) {
@@ -144,7 +144,7 @@ void fill_drag(const Check& check) {
     if (*rate < 0) check.refuse(setting, fmt::format("'{}' must not be negative", key));
     else effects.drag = *rate;
     if (effects.drag == 0) return;
-    if (check.scene.rule == CollisionRule::one) check.refuse(setting, "drag needs time.collisions = \"all\": under the rule \"one\" discs keep their speed");
+    if (check.scene.method == Method::time_stepped) check.refuse(setting, "drag needs time.method = \"all\": in the time-stepped method discs keep their speed");
     if (effects.drag * interval > longest_drag)
         check.refuse(setting, fmt::format("'{}' = {} leaves less than a fiftieth of a velocity from sync to sync: {:g} at most, or a smaller time.sync_every", key, *rate, longest_drag / interval));
     if (effects.contact.kind == ContactKind::rough) check.refuse(setting, "this version has no drag together with rough discs");
@@ -152,7 +152,7 @@ void fill_drag(const Check& check) {
 
 void fill_thermal(const Check& check) {
     Effects& effects = check.scene.effects;
-    const bool is_any = std::any_of(effects.sides.begin(), effects.sides.end(), [](const Side& side) { return side.kind == SideKind::thermal; });
+    const bool is_any = std::any_of(effects.boundaries.begin(), effects.boundaries.end(), [](const Boundary& side) { return side.kind == BoundaryKind::thermal; });
     if (!is_any) refuse_without(check, "effects.thermal.seed", "a side of kind = \"thermal\"");
     if (const auto seed = whole_number(check, "effects.thermal.seed", 0, INT64_MAX)) effects.thermal_seed = static_cast<std::uint64_t>(*seed);
 }
@@ -176,24 +176,24 @@ void fill_obstacles(const Check& check) {
     if (check.scene.effects.gravity.is_any() && check.scene.effects.drag > 0)
         check.refuse(*check.settings.find("effects.drag.rate"), "this version has no obstacles together with both drag and gravity: it finds contacts with bodies on straight lines and parabolas");
     for (std::size_t side = 0; side < 4; ++side)
-        if (check.scene.effects.sides[side].kind == SideKind::moving)
-            check.refuse(*check.settings.find(std::string("box.") + side_names[side] + ".kind"), "this version has no moving walls together with obstacles");
+        if (check.scene.effects.boundaries[side].kind == BoundaryKind::moving)
+            check.refuse(*check.settings.find(std::string("box.") + boundary_names[side] + ".kind"), "this version has no moving walls together with obstacles");
 }
 
 bool lose_energy_or_fall(const Effects& effects) {
-    const bool is_lossy = std::any_of(effects.sides.begin(), effects.sides.end(), [&effects](const Side& side) {
+    const bool is_lossy = std::any_of(effects.boundaries.begin(), effects.boundaries.end(), [&effects](const Boundary& side) {
         return side.restitution < 1 || (effects.drag > 0 && side.speed != 0); // drag presses discs against a wall that pushes them
     });
     return is_lossy || effects.contact.kind == ContactKind::restitution || effects.contact.kind == ContactKind::rough ||
            effects.gravity.is_any() || effects.obstacles.restitution < 1;
 }
 
-void check_open_sides(const Check& check) {
-    const auto& sides = check.scene.effects.sides;
-    const auto has = [&sides](SideKind kind) { return std::any_of(sides.begin(), sides.end(), [kind](const Side& side) { return side.kind == kind; }); };
-    for (std::size_t side = 0; side < sides.size() && has(SideKind::moving); ++side)
-        if (sides[side].kind == SideKind::open)
-            check.refuse(*check.settings.find(std::string("box.") + side_names[side] + ".kind"), "this version has no open sides together with moving walls");
+void check_open_boundaries(const Check& check) {
+    const auto& boundaries = check.scene.effects.boundaries;
+    const auto has = [&boundaries](BoundaryKind kind) { return std::any_of(boundaries.begin(), boundaries.end(), [kind](const Boundary& side) { return side.kind == kind; }); };
+    for (std::size_t side = 0; side < boundaries.size() && has(BoundaryKind::moving); ++side)
+        if (boundaries[side].kind == BoundaryKind::open)
+            check.refuse(*check.settings.find(std::string("box.") + boundary_names[side] + ".kind"), "this version has no open sides together with moving walls");
 }
 
 /// The falling frame must not leave the box far behind: its coordinates would be coarser than the box's.
@@ -225,11 +225,11 @@ void check_obstacles(const Check& check) {
     const double size = check.scene.box_size, radius = check.scene.radius;
     const bool is_periodic = check.scene.effects.are_periodic();
     const Generator generator = check.scene.generator;
-    if (check.scene.effects.obstacles.are_any() && (generator == Generator::lattice || generator == Generator::ancestor)) {
+    if (check.scene.effects.obstacles.are_any() && (generator == Generator::lattice || generator == Generator::legacy)) {
         const Setting* setting = check.settings.find("discs.generator");
         for (const std::string_view key : {"discs.packing", "discs.radius"})
             if (!setting) setting = check.settings.find(key);
-        check.refuse(*setting, "a lattice and the ancestor's generator know nothing of obstacles; insert discs at random (at a packing that allows it), or list them");
+        check.refuse(*setting, "a lattice and the legacy generator know nothing of obstacles; insert discs at random (at a packing that allows it), or list them");
     }
     const auto is_inside = [size](double x, double y) { return x >= 0 && x <= size && y >= 0 && y <= size; };
     refuse_rows(check, "effects.obstacles.discs", [&](const std::vector<double>& n) -> std::string {
@@ -249,15 +249,15 @@ void check_obstacles(const Check& check) {
 
 void check_moving_walls(const Check& check) {
     const Scene& scene = check.scene;
-    const auto& sides = scene.effects.sides;
+    const auto& boundaries = scene.effects.boundaries;
     const auto refuse = [&check](std::size_t side, const std::string& text) {
-        check.refuse(*check.settings.find(std::string("box.") + side_names[side] + ".speed"), text);
+        check.refuse(*check.settings.find(std::string("box.") + boundary_names[side] + ".speed"), text);
     };
     for (const std::size_t low : {0u, 2u})
-        if (sides[low].speed < 0) refuse(low, fmt::format("the {} wall would leave the box; let the {} one move out", side_names[low], side_names[low + 1]));
+        if (boundaries[low].speed < 0) refuse(low, fmt::format("the {} wall would leave the box; let the {} one move out", boundary_names[low], boundary_names[low + 1]));
     if (scene.effects.are_periodic() && scene.box_size < 4 * scene.radius * (1 + 1e-6)) {
         const std::size_t side = scene.effects.is_periodic_x() ? 0 : 2;
-        check.refuse(*check.settings.find(std::string("box.") + side_names[side] + ".kind"),
+        check.refuse(*check.settings.find(std::string("box.") + boundary_names[side] + ".kind"),
                      fmt::format("a box of side {} is too small to be periodic: up to two diameters ({}) a disc could touch another one on both sides at once",
                                  scene.box_size, 4 * scene.radius));
     }
@@ -265,8 +265,8 @@ void check_moving_walls(const Check& check) {
     const double width = end.x_high - end.x_low, height = end.y_high - end.y_low;
     const double largest = std::max(end.x_high, end.y_high), covered = scene.packing() * scene.box_size * scene.box_size;
     const bool is_full = scene.effects.contact.kind != ContactKind::none && covered > largest_packing * width * height;
-    for (std::size_t side = 0; side < sides.size(); ++side) {
-        if (sides[side].speed == 0) continue;
+    for (std::size_t side = 0; side < boundaries.size(); ++side) {
+        if (boundaries[side].speed == 0) continue;
         if (std::min(width, height) < 2 * scene.radius * (1 + 1e-6) || is_full)
             refuse(side, fmt::format("after {} steps the box would be {} by {}: too small for its discs", scene.steps, width, height));
         else if (largest > 2 * scene.box_size) refuse(side, fmt::format("after {} steps the box would be more than twice as long as at the start", scene.steps));
@@ -279,17 +279,17 @@ void check_moving_walls(const Check& check) {
 void fill_effects(const Check& check) {
     fill_contact(check);
     for (std::size_t side = 0; side < 4; ++side) fill_side(check, side);
-    check_periodic_sides(check);
+    check_periodic_boundaries(check);
     fill_gravity(check);
     fill_drag(check);
     fill_thermal(check);
     fill_obstacles(check);
-    check_beside_periodic_sides(check);
+    check_beside_periodic_boundaries(check);
     const Effects& effects = check.scene.effects;
     if (lose_energy_or_fall(effects)) fill_contact_time(check);
     else refuse_without(check, "effects.contact.contact_time", "discs, walls or obstacles of restitution, or gravity");
     if (!effects.are_any()) return;
-    const bool are_mixed = !effects.classes.empty();
+    const bool are_mixed = !effects.species.empty();
     if (are_mixed && effects.contact.kind == ContactKind::none)
         check.refuse(*check.settings.find("effects.contact.kind"), "this version has no discs of several classes that pass through each other");
     for (const std::string_view key : {"time.precision", "time.arithmetic", "time.accuracy"}) {
@@ -302,7 +302,7 @@ void fill_effects(const Check& check) {
 
 void check_room_for_effects(const Check& check) {
     check_fall(check);
-    check_open_sides(check);
+    check_open_boundaries(check);
     check_moving_walls(check);
     check_obstacles(check);
 }

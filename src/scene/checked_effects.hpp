@@ -2,7 +2,7 @@
 // The effects that a scene names, checked: a parameter of an effect that is not there is a problem, which names the effect.
 #pragma once
 
-#include "check.hpp"
+#include "scene/check.hpp"
 
 namespace carrom {
 

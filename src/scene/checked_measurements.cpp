@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "checked_measurements.hpp"
+#include "scene/checked_measurements.hpp"
 
 #include <algorithm>
 #include <array>
 #include <vector>
 
-#include "limits.hpp"
+#include "scene/limits.hpp"
 
 namespace carrom {
 
@@ -85,7 +85,7 @@ void check_measured_box(const Check& check) {
     if (const Setting* setting = check.settings.find("output.measurements.quantities"); setting && scene.measurements && scene.measurements->wall_pressure && goes_round_x && goes_round_y)
         check.refuse(*setting, "there is no \"wall_pressure\" in a box without walls: all of its sides are periodic");
     const bool is_about_all = scene.measurements && (scene.measurements->wall_pressure || scene.measurements->radial_distribution || scene.measurements->displacement);
-    if (const Setting* setting = check.settings.find("output.measurements.quantities"); setting && scene.effects.have_open_sides() && is_about_all)
+    if (const Setting* setting = check.settings.find("output.measurements.quantities"); setting && scene.effects.have_open_boundaries() && is_about_all)
         check.refuse(*setting, "in boxes with open sides this version measures \"velocities\" and \"density\" alone");
     if (!scene.measurements || !scene.measurements->radial_distribution) return;
     // Walls may come in; the box is the smallest at its start or at its end.
@@ -96,7 +96,7 @@ void check_measured_box(const Check& check) {
     const Setting* setting = check.settings.find(distance_key);
     scene.measurements->is_distance_default = !setting;
     if (!setting) distance = std::min(10 * scene.radius, largest);
-    if (const Setting* quantities = check.settings.find("output.measurements.quantities"); quantities && !scene.effects.classes.empty() && !(goes_round_x && goes_round_y))
+    if (const Setting* quantities = check.settings.find("output.measurements.quantities"); quantities && !scene.effects.species.empty() && !(goes_round_x && goes_round_y))
         check.refuse(*quantities, "between walls centres of large discs have less room than those of small ones: the radial distribution of discs of several classes "
                                   "needs a box that is periodic all round");
     if (distance <= largest && distance > 0) return;

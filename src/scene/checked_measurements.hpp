@@ -2,7 +2,7 @@
 // The part of a scene's check that looks at `[output.measurements]`.
 #pragma once
 
-#include "check.hpp"
+#include "scene/check.hpp"
 
 namespace carrom {
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "checked_scene.hpp"
+#include "scene/checked_scene.hpp"
 
 #include <bit>
 #include <cmath>
 #include <numbers>
 
-#include "carrom/scene/lattice.hpp"
-#include "check.hpp"
-#include "checked_classes.hpp"
-#include "checked_effects.hpp"
-#include "checked_measurements.hpp"
-#include "limits.hpp"
+#include "scene/lattice.hpp"
+#include "scene/check.hpp"
+#include "scene/checked_species.hpp"
+#include "scene/checked_effects.hpp"
+#include "scene/checked_measurements.hpp"
+#include "scene/limits.hpp"
 
 namespace carrom {
 
@@ -43,10 +43,10 @@ void check_listed_discs(const Check& check) {
     const Setting* list = check.settings.find("discs.list");
     if (!list) return;
     const auto& rows = std::get<std::vector<Row>>(list->value);
-    const DiscBodies bodies(check.scene.effects.classes, check.scene.radius);
+    const SpeciesTable species_table(check.scene.effects.species, check.scene.radius);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (rows[i].numbers.empty()) continue;
-        if (const std::string text = disc_problem(check.scene.listed_discs[i], check.scene, bodies.of(i).radius); !text.empty())
+        if (const std::string text = disc_problem(check.scene.listed_discs[i], check.scene, species_table.of(i).radius); !text.empty())
             add_problem(check.problems, rows[i].place, fmt::format("row {} of 'discs.list': {}", i + 1, text));
     }
 }
@@ -54,7 +54,7 @@ void check_listed_discs(const Check& check) {
 void fill_generator(const Check& check) {
     static constexpr Choices<Generator, 4> generators = {{{"random", Generator::random},
                                                           {"lattice", Generator::lattice},
-                                                          {"ancestor", Generator::ancestor},
+                                                          {"legacy", Generator::legacy},
                                                           {"file", Generator::file}}};
     const Setting* file = check.settings.find("discs.file");
     const Setting* list = check.settings.find("discs.list");
@@ -75,8 +75,8 @@ void fill_generator(const Check& check) {
             check.refuse(setting, fmt::format("'{}' has no meaning where {}", setting.key,
                                               name == "file" ? "discs are listed"
                                                              : fmt::format("discs.generator is \"{}\"", name)));
-    const bool is_ancestor_text = check.scene.lines_before_discs > 0;
-    if (name == "file" && !is_ancestor_text && !check.settings.is_mentioned("discs.file") &&
+    const bool is_legacy_text = check.scene.lines_before_discs > 0;
+    if (name == "file" && !is_legacy_text && !check.settings.is_mentioned("discs.file") &&
         !check.settings.is_mentioned("discs.list"))
         check.refuse(*generator, "discs.generator is \"file\", but there is no 'discs.file' and no 'discs.list'");
     if (file && check.scene.discs_file.empty()) check.refuse(*file, "'discs.file' is empty");
@@ -88,13 +88,13 @@ void fill_count(const Check& check) {
     const Setting* list = check.settings.find("discs.list");
     const std::size_t n_listed = list ? std::get<std::vector<Row>>(list->value).size() : 0;
     if (count) check.scene.n_discs = static_cast<std::uint64_t>(*count);
-    if (const Setting* classes = check.settings.find("discs.classes")) {
+    if (const Setting* species = check.settings.find("discs.species")) {
         std::uint64_t n = 0;
-        for (const DiscClass& one : check.scene.effects.classes) n += one.count;
+        for (const Species& one : check.scene.effects.species) n += one.count;
         if (!check.settings.is_mentioned("discs.count")) check.scene.n_discs = n;
-        if (n > largest_count) check.refuse(*classes, fmt::format("'discs.classes' have {} discs; at most {} are possible", n, largest_count));
-        else if (n > 0 && count && n != check.scene.n_discs) check.refuse(*classes, fmt::format("'discs.classes' have {} discs, but 'discs.count' is {}", n, *count));
-        else if (n > 0 && list && n != n_listed) check.refuse(*list, fmt::format("'discs.list' has {} discs, but 'discs.classes' have {}", n_listed, n));
+        if (n > largest_count) check.refuse(*species, fmt::format("'discs.species' have {} discs; at most {} are possible", n, largest_count));
+        else if (n > 0 && count && n != check.scene.n_discs) check.refuse(*species, fmt::format("'discs.species' have {} discs, but 'discs.count' is {}", n, *count));
+        else if (n > 0 && list && n != n_listed) check.refuse(*list, fmt::format("'discs.list' has {} discs, but 'discs.species' have {}", n_listed, n));
         if (!list) return;
     }
     if (!list) {
@@ -112,9 +112,9 @@ void fill_count(const Check& check) {
 /// Whether the discs can fit at all. `radius_setting` gave the radius, or the packing it was taken from.
 bool check_sizes(const Check& check, const Setting& radius_setting) {
     Scene& scene = check.scene;
-    const auto& classes = scene.effects.classes;
+    const auto& species = scene.effects.species;
     double r = scene.radius;
-    const double l = scene.box_size, densest = classes.empty() ? largest_packing : 1;
+    const double l = scene.box_size, densest = species.empty() ? largest_packing : 1;
     const std::size_t n_problems = check.problems.size();
     if (l < 2 * r) {
         check.refuse(radius_setting, fmt::format("a disc of radius {} does not fit into a box of side {}: L < 2 r", r, l));
@@ -124,12 +124,12 @@ bool check_sizes(const Check& check, const Setting& radius_setting) {
                                  "and no packing covers more than {}",
                                  scene.n_discs, r, l, scene.packing(), densest));
     }
-    for (const DiscClass& one : classes) r = std::min(r, one.radius);
+    for (const Species& one : species) r = std::min(r, one.radius);
     if (l / r > largest_box_in_radii) {
         const std::string text = fmt::format("discs of radius {} in a box of side {}: it is {:.4g} radii wide, and above {:.0e} positions "
                                              "are too coarse for contacts with walls", r, l, l / r, largest_box_in_radii);
-        if (scene.rule == CollisionRule::all) scene.warnings.push_back(text);
-        else check.refuse(radius_setting, text + "; take larger discs or a smaller box (collisions = \"all\" only warns)");
+        if (scene.method == Method::event_driven) scene.warnings.push_back(text);
+        else check.refuse(radius_setting, text + "; take larger discs or a smaller box (method = \"event-driven\" only warns)");
     }
     if (scene.precision == Precision::single && (r < smallest_single_size || l > largest_single_size))
         check.refuse(radius_setting, "precision = \"single\" takes lengths from 2^-40 to 2^40 only");
@@ -141,8 +141,8 @@ bool fill_sizes(const Check& check) {
     Scene& scene = check.scene;
     const Setting* radius = check.settings.find("discs.radius");
     const Setting* packing = check.settings.find("discs.packing");
-    const Setting* classes = classes_setting(check);
-    if (!check.settings.is_mentioned("discs.packing") && !classes)
+    const Setting* species = species_setting(check);
+    if (!check.settings.is_mentioned("discs.packing") && !species)
         check.refuse_missing("discs.radius", "give a radius, or 'discs.packing' for the share of the box the discs cover");
     if (radius && packing) check.refuse(*packing, "'discs.radius' and 'discs.packing' exclude each other");
     check.refuse_missing("box.size", "the side of the box");
@@ -154,12 +154,12 @@ bool fill_sizes(const Check& check) {
                                           largest_packing, *share));
         share.reset();
     }
-    if (classes) {
+    if (species) {
         if (!box || scene.n_discs == 0 || radius || packing) return false;
         scene.box_size = *box;
-        if (are_classes_unknown(check)) return false;
-        for (const DiscClass& one : scene.effects.classes) scene.radius = std::max(scene.radius, one.radius);
-        return scene.radius > 0 && check_sizes(check, *classes);
+        if (are_species_unknown(check)) return false;
+        for (const Species& one : scene.effects.species) scene.radius = std::max(scene.radius, one.radius);
+        return scene.radius > 0 && check_sizes(check, *species);
     }
     if (!box || scene.n_discs == 0 || (radius && packing) || (!given_radius && !share)) return false;
     scene.box_size = *box;
@@ -180,9 +180,9 @@ void check_generator(const Check& check) {
     if (scene.generator == Generator::lattice && !widest_lattice(scene.n_discs, scene.box_size, scene.radius)) {
         const Setting* setting = check.settings.find("discs.radius");
         if (!setting) setting = check.settings.find("discs.packing");
-        if (!setting) setting = classes_setting(check);
+        if (!setting) setting = species_setting(check);
         check.refuse(*setting, fmt::format("no lattice of {} discs of radius {} fits into a box of side {}{}", scene.n_discs, scene.radius,
-                                           scene.box_size, scene.effects.classes.empty() ? "" : " (a lattice has room for the largest disc everywhere); list them"));
+                                           scene.box_size, scene.effects.species.empty() ? "" : " (a lattice has room for the largest disc everywhere); list them"));
     }
 }
 
@@ -196,7 +196,7 @@ void fill_velocities(const Check& check) {
                          fmt::format("'discs.speed' must be 0, or from 2^-250 to 2^242, not {}", *speed));
         check.scene.speed = *speed;
     }
-    const std::int64_t largest_seed = check.scene.generator == Generator::ancestor ? 0xFFFFFFFFll : INT64_MAX;
+    const std::int64_t largest_seed = check.scene.generator == Generator::legacy ? 0xFFFFFFFFll : INT64_MAX;
     if (const auto seed = whole_number(check, "discs.seed", 0, largest_seed)) check.scene.seed = static_cast<std::uint64_t>(*seed);
 }
 
@@ -234,9 +234,9 @@ void fill_arithmetic(const Check& check) {
 }
 
 void fill_time(const Check& check) {
-    static constexpr Choices<CollisionRule, 2> rules = {{{"one", CollisionRule::one}, {"all", CollisionRule::all}}};
+    static constexpr Choices<Method, 2> methods = {{{"time-stepped", Method::time_stepped}, {"event-driven", Method::event_driven}}};
     Scene& scene = check.scene;
-    if (const auto rule = choice(check, "time.collisions", rules)) scene.rule = *rule;
+    if (const auto method = choice(check, "time.method", methods)) scene.method = *method;
     check.refuse_missing("time.steps", "how many steps to run");
     if (const auto steps = whole_number(check, "time.steps", 0, largest_steps)) scene.steps = *steps;
     if (const auto micro = whole_number(check, "time.micro_steps", 1, largest_steps)) scene.micro_steps = *micro;
@@ -252,7 +252,7 @@ void fill_time(const Check& check) {
         if (!(*accuracy > 0))
             check.refuse(*check.settings.find("time.accuracy"), fmt::format("'time.accuracy' must be greater than 0, not {}", *accuracy));
         scene.accuracy = *accuracy;
-        for (const std::string_view key : {"time.collisions", "time.micro_steps", "time.precision", "time.arithmetic", "time.contraction"})
+        for (const std::string_view key : {"time.method", "time.micro_steps", "time.precision", "time.arithmetic", "time.contraction"})
             if (const Setting* setting = check.settings.find(key))
                 check.refuse(*setting, fmt::format("'{}' is what 'time.accuracy' chooses: give one of them", key));
     }
@@ -314,7 +314,7 @@ void fill_output(const Check& check) {
 void fill_scene(Scene& scene, const Settings& settings, Problems& problems, const DiscColumns* columns) {
     const Check check{scene, settings, problems, columns};
     fill_time(check);
-    fill_classes(check);
+    fill_species(check);
     fill_effects(check);
     fill_first_spins(check);
     fill_output(check);
@@ -330,7 +330,7 @@ void fill_scene(Scene& scene, const Settings& settings, Problems& problems, cons
         check_measured_box(check);
     } else {
         scene.radius = 0;
-        if (!are_classes_unknown(check)) scene.box_size = 0; // unknown
+        if (!are_species_unknown(check)) scene.box_size = 0; // unknown
     }
 }
 

@@ -3,8 +3,8 @@
 // is worth something only if there are none.
 #pragma once
 
-#include "carrom/scene/disc_columns.hpp"
-#include "settings.hpp"
+#include "scene/disc_columns.hpp"
+#include "scene/settings.hpp"
 
 namespace carrom {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/scene/compare.hpp"
+#include "scene/compare.hpp"
 
 #include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include "carrom/scene/disc_columns.hpp"
+#include "scene/disc_columns.hpp"
 
 namespace carrom {
 
@@ -23,7 +23,7 @@ bool same_streams(const std::vector<Stream>& a, const std::vector<Stream>& b) {
     return true;
 }
 
-std::string_view name_of(CollisionRule rule) { return rule == CollisionRule::one ? "\"one\"" : "\"all\""; }
+std::string_view name_of(Method method) { return method == Method::time_stepped ? "\"one\"" : "\"all\""; }
 
 std::string_view name_of(Precision precision) { return precision == Precision::single ? "\"single\"" : "\"double\""; }
 
@@ -33,7 +33,7 @@ std::string_view name_of(Generator generator) {
     switch (generator) {
     case Generator::random: return "\"random\"";
     case Generator::lattice: return "\"lattice\"";
-    case Generator::ancestor: return "\"ancestor\"";
+    case Generator::legacy: return "\"legacy\"";
     case Generator::file: return "\"file\"";
     }
     return "";
@@ -65,13 +65,13 @@ std::string_view name_of(ContactKind kind) {
     return "";
 }
 
-std::string_view name_of(SideKind kind) {
+std::string_view name_of(BoundaryKind kind) {
     switch (kind) {
-    case SideKind::fixed: return "\"wall\"";
-    case SideKind::thermal: return "\"thermal\"";
-    case SideKind::moving: return "\"moving\"";
-    case SideKind::open: return "\"open\"";
-    case SideKind::periodic: return "\"periodic\"";
+    case BoundaryKind::fixed: return "\"wall\"";
+    case BoundaryKind::thermal: return "\"thermal\"";
+    case BoundaryKind::moving: return "\"moving\"";
+    case BoundaryKind::open: return "\"open\"";
+    case BoundaryKind::periodic: return "\"periodic\"";
     }
     return "";
 }
@@ -83,9 +83,9 @@ void compare_effects(Comparison& c, const Effects& there, const Effects& here) {
     c.compare("effects.contact.friction", there.contact.friction, here.contact.friction);
     c.compare("effects.contact.moment_of_inertia", there.contact.inertia, here.contact.inertia);
     c.compare("effects.contact.contact_time", there.contact.contact_time, here.contact.contact_time);
-    for (std::size_t k = 0; k < side_names.size(); ++k) {
-        const Side &a = there.sides[k], &b = here.sides[k];
-        const std::string table = std::string("box.") + side_names[k];
+    for (std::size_t k = 0; k < boundary_names.size(); ++k) {
+        const Boundary &a = there.boundaries[k], &b = here.boundaries[k];
+        const std::string table = std::string("box.") + boundary_names[k];
         c.compare(table + ".kind", name_of(a.kind), name_of(b.kind));
         c.compare(table + ".restitution", a.restitution, b.restitution);
         c.compare(table + ".temperature", a.temperature, b.temperature);
@@ -107,7 +107,7 @@ std::vector<std::string> physical_differences(const Scene& there, const Scene& h
     c.compare("box.size", there.box_size, here.box_size);
     c.compare("discs.count", there.n_discs, here.n_discs);
     c.compare("discs.radius", there.radius, here.radius);
-    c.compare_list("discs.classes", there.effects.classes == here.effects.classes);
+    c.compare_list("discs.species", there.effects.species == here.effects.species);
     c.compare("discs.generator", name_of(there.generator), name_of(here.generator));
     c.compare("discs.file", there.discs_file, here.discs_file);
     c.compare_list("discs.list", there.listed_discs == here.listed_discs);
@@ -123,7 +123,7 @@ std::vector<std::string> physical_differences(const Scene& there, const Scene& h
         c.compare("discs.seed", there.seed, here.seed);
         c.compare_list("discs.streams", same_streams(there.streams, here.streams));
     }
-    c.compare("time.collisions", name_of(there.rule), name_of(here.rule));
+    c.compare("time.method", name_of(there.method), name_of(here.method));
     c.compare("time.micro_steps", there.micro_steps, here.micro_steps);
     c.compare("time.sync_every", there.sync_every, here.sync_every);
     c.compare("time.precision", name_of(there.precision), name_of(here.precision));

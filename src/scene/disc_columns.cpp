@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/scene/disc_columns.hpp"
+#include "scene/disc_columns.hpp"
 
 #include <algorithm>
 #include <optional>
 
-#include "limits.hpp"
-#include "line_reader.hpp"
-#include "number.hpp"
+#include "scene/limits.hpp"
+#include "scene/line_reader.hpp"
+#include "scene/number.hpp"
 
 namespace carrom {
 
@@ -35,9 +35,9 @@ std::optional<Row> row_of(const std::vector<std::string_view>& words, const std:
 
 } // namespace
 
-void add_class(std::vector<DiscClass>& classes, const DiscClass& next) {
-    if (!classes.empty() && classes.back().radius == next.radius && classes.back().mass == next.mass) classes.back().count += next.count;
-    else classes.push_back(next);
+void add_species(std::vector<Species>& species, const Species& next) {
+    if (!species.empty() && species.back().radius == next.radius && species.back().mass == next.mass) species.back().count += next.count;
+    else species.push_back(next);
 }
 
 void add_spins(std::vector<SpinRun>& spins, std::uint64_t count, double spin) {
@@ -75,7 +75,7 @@ DiscColumns read_disc_columns(std::istream& stream, const Scene& scene) {
         if (rows[i].id != i) return found;
     found.is_whole = true;
     for (const Row& row : rows) {
-        if (has_column(scene, DiscColumn::radius)) add_class(found.classes, {1, row.body.radius, row.body.mass});
+        if (has_column(scene, DiscColumn::radius)) add_species(found.species, {1, row.body.radius, row.body.mass});
         if (has_column(scene, DiscColumn::spin)) add_spins(found.spins, 1, row.spin);
     }
     return found;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/scene/disc_reader.hpp"
+#include "scene/disc_reader.hpp"
 
 #include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
 
-#include "carrom/scene/disc_columns.hpp"
-#include "limits.hpp"
-#include "line_reader.hpp"
-#include "number.hpp"
+#include "scene/disc_columns.hpp"
+#include "scene/limits.hpp"
+#include "scene/line_reader.hpp"
+#include "scene/number.hpp"
 
 namespace carrom {
 
@@ -30,7 +30,7 @@ public:
 };
 
 DiscReader::DiscReader(std::istream& stream, const Scene& scene)
-    : scene_(scene), bodies_(scene.effects.classes, scene.radius), place_(scene.discs_file.empty() ? scene.name : discs_path(scene)),
+    : scene_(scene), species_(scene.effects.species, scene.radius), place_(scene.discs_file.empty() ? scene.name : discs_path(scene)),
       lines_(std::make_unique<Lines>(stream, scene.discs_file.empty() ? scene.lines_before_discs : 0)) {}
 
 DiscReader::~DiscReader() = default;
@@ -74,7 +74,7 @@ bool DiscReader::parse(std::string_view line, InputDisc& disc) {
     }
     std::string text;
     const auto add = [&text](const std::string& fault) { text += (text.empty() ? "" : "; ") + fault; };
-    Body body = bodies_.of(disc.id);
+    Body body = species_.of(disc.id);
     double spin = 0;
     std::array<double*, 7> numbers = {&disc.x, &disc.y, &disc.vx, &disc.vy};
     for (std::size_t k = 0; k < columns.size(); ++k) numbers[4 + k] = &number_of(columns[k], body, spin);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "keys.hpp"
+#include "scene/keys.hpp"
 
 #include <algorithm>
 #include <array>
 #include <numeric>
 #include <vector>
 
-#include "number.hpp"
+#include "scene/number.hpp"
 
 namespace carrom {
 
@@ -23,10 +23,10 @@ constexpr std::array keys = {
     Key{"discs.generator", ValueKind::text},     Key{"discs.file", ValueKind::text},
     Key{"discs.list", ValueKind::rows},          Key{"discs.speed", ValueKind::number},
     Key{"discs.velocities", ValueKind::text},    Key{"discs.seed", ValueKind::integer},
-    Key{"discs.streams", ValueKind::streams},    Key{"discs.classes", ValueKind::classes},
+    Key{"discs.streams", ValueKind::streams},    Key{"discs.species", ValueKind::species},
     Key{"discs.columns", ValueKind::words},
     Key{"time.steps", ValueKind::integer},
-    Key{"time.collisions", ValueKind::text},     Key{"time.micro_steps", ValueKind::integer},
+    Key{"time.method", ValueKind::text},     Key{"time.micro_steps", ValueKind::integer},
     Key{"time.sync_every", ValueKind::integer},  Key{"time.accuracy", ValueKind::number},
     Key{"time.precision", ValueKind::text},      Key{"time.arithmetic", ValueKind::text},
     Key{"time.contraction", ValueKind::flag},
@@ -134,7 +134,7 @@ bool has_meaning_for(std::string_view generator, std::string_view key) {
     const bool speeds = key == "discs.speed" || key == "discs.velocities";
     const bool random = key == "discs.seed" || key == "discs.streams";
     if (generator == "file") return !speeds && !random;
-    if (generator == "ancestor") return !lists && !speeds && key != "discs.classes";
+    if (generator == "legacy") return !lists && !speeds && key != "discs.species";
     return !lists;
 }
 

@@ -9,7 +9,7 @@
 
 namespace carrom {
 
-enum class ValueKind { number, integer, text, words, flag, rows, fixed_discs, segments, streams, classes };
+enum class ValueKind { number, integer, text, words, flag, rows, fixed_discs, segments, streams, species };
 
 /// What the key "table.name" holds, or nothing where there is no such key.
 std::optional<ValueKind> kind_of_key(std::string_view key);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/scene/lattice.hpp"
+#include "scene/lattice.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "carrom/core/random_numbers.hpp"
+#include "core/random_numbers.hpp"
 
 namespace carrom {
 

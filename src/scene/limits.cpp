@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "limits.hpp"
+#include "scene/limits.hpp"
 
 #include <cmath>
 #include <utility>

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "carrom/scene/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace carrom {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "line_reader.hpp"
+#include "scene/line_reader.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "number.hpp"
+#include "scene/number.hpp"
 
 #include <charconv>
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "overrides.hpp"
+#include "scene/overrides.hpp"
 
 #include <array>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "keys.hpp"
-#include "number.hpp"
-#include "toml_settings.hpp"
+#include "scene/keys.hpp"
+#include "scene/number.hpp"
+#include "scene/toml_settings.hpp"
 
 namespace carrom {
 
@@ -19,7 +19,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 3> rivals = 
     {{"discs.radius", "discs.packing"}, {"discs.file", "discs.list"}, {"discs.columns", "discs.list"}}};
 
 /// An accuracy asks for these to be chosen.
-constexpr std::array<std::string_view, 5> chosen_by_accuracy = {"time.collisions", "time.micro_steps", "time.precision",
+constexpr std::array<std::string_view, 5> chosen_by_accuracy = {"time.method", "time.micro_steps", "time.precision",
                                                                 "time.arithmetic", "time.contraction"};
 
 void remove_rivals_of_accuracy(Settings& settings, const Settings& given) {

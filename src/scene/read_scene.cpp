@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/scene/read_scene.hpp"
+#include "scene/read_scene.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -10,13 +10,13 @@
 
 #include <fmt/format.h>
 
-#include "ancestor_header.hpp"
-#include "checked_scene.hpp"
-#include "line_reader.hpp"
-#include "number.hpp"
-#include "overrides.hpp"
-#include "settings.hpp"
-#include "toml_settings.hpp"
+#include "scene/legacy_header.hpp"
+#include "scene/checked_scene.hpp"
+#include "scene/line_reader.hpp"
+#include "scene/number.hpp"
+#include "scene/overrides.hpp"
+#include "scene/settings.hpp"
+#include "scene/toml_settings.hpp"
 
 namespace carrom {
 
@@ -73,7 +73,7 @@ std::ifstream open_input(const std::string& path) {
     const auto status = std::filesystem::status(path, ignored);
     if (std::filesystem::is_directory(status)) refuse(path, 0, "is a directory, not a file");
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-        refuse(path, 0, "is not a plain file; the ancestor's text from a pipe or a device is read from standard input, as in `carrom run -`");
+        refuse(path, 0, "is not a plain file; the legacy text format from a pipe or a device is read from standard input, as in `carrom run -`");
     errno = 0;
     std::ifstream stream(path, std::ios::binary);
     if (!stream) refuse(path, 0, "cannot be opened: " + std::generic_category().message(errno));
@@ -87,7 +87,7 @@ SceneText read_scene_text(std::istream& stream, const std::string& name) {
         return input;
     }
     std::string line;
-    for (int found = 0; found < ancestor_header_lines && take_line(stream, line);) {
+    for (int found = 0; found < legacy_header_lines && take_line(stream, line);) {
         input.lines_before_discs += 1;
         if (line.size() > LineReader::longest_line) refuse(name, input.lines_before_discs, "a line of more than 4096 characters");
         if (input.lines_before_discs == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
@@ -114,7 +114,7 @@ Scene read_scene(const SceneText& input, const std::vector<std::string>& overrid
     Problems problems;
     bool is_parsed = true;
     if (is_toml(input.name)) is_parsed = add_toml(settings, problems, input.text, input.name);
-    else add_ancestor_header(settings, problems, input.text, input.name, input.discs_follow);
+    else add_legacy_header(settings, problems, input.text, input.name, input.discs_follow);
     add_overrides(settings, problems, overrides);
     Scene scene;
     scene.name = input.name;

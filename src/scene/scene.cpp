@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/scene/scene.hpp"
+#include "scene/scene.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -8,9 +8,9 @@
 namespace carrom {
 
 double Scene::packing() const {
-    if (!effects.classes.empty()) {
+    if (!effects.species.empty()) {
         double sum = 0;
-        for (const DiscClass& one : effects.classes) sum += static_cast<double>(one.count) * std::numbers::pi * (one.radius / box_size) * (one.radius / box_size);
+        for (const Species& one : effects.species) sum += static_cast<double>(one.count) * std::numbers::pi * (one.radius / box_size) * (one.radius / box_size);
         return sum;
     }
     const double share = radius / box_size;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "settings.hpp"
+#include "scene/settings.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an input asks for, key by key, before anything is checked: the common form of TOML scenes, ancestor text and
+// What an input asks for, key by key, before anything is checked: the common form of TOML scenes, legacy text and
 // `--set key=value`. Each setting remembers where it stands, so that every problem can name its line.
 #pragma once
 
@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "carrom/core/errors.hpp"
+#include "core/errors.hpp"
 
 namespace carrom {
 
@@ -35,8 +35,8 @@ struct StreamRows {
     std::vector<double> region, velocity;
 };
 
-/// One of `discs.classes` as written.
-struct ClassRow {
+/// One of `discs.species` as written.
+struct SpeciesRow {
     Place place;
     std::size_t number = 0; ///< among the classes, from 1
     double count = 0, radius = 0, mass = 1, spin = 0;
@@ -45,7 +45,7 @@ struct ClassRow {
 struct Setting {
     std::string key;
     Place place;
-    std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, std::vector<Row>, std::vector<StreamRows>, std::vector<ClassRow>> value;
+    std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, std::vector<Row>, std::vector<StreamRows>, std::vector<SpeciesRow>> value;
 };
 
 class Settings {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "toml_settings.hpp"
+#include "scene/toml_settings.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include "keys.hpp"
-#include "number.hpp"
+#include "scene/keys.hpp"
+#include "scene/number.hpp"
 
 namespace carrom {
 
@@ -51,7 +51,7 @@ std::string kind_name(ValueKind kind) {
     case ValueKind::fixed_discs: return "an array of [x, y, radius]";
     case ValueKind::segments: return "an array of [x0, y0, x1, y1]";
     case ValueKind::streams: return "an array of tables, [[discs.streams]]";
-    case ValueKind::classes: return "an array of tables, [[discs.classes]]";
+    case ValueKind::species: return "an array of tables, [[discs.species]]";
     }
     return {};
 }
@@ -122,9 +122,9 @@ std::optional<std::vector<StreamRows>> streams_of(Walk& walk, const toml::array&
 }
 
 /// The `number`-th class, from 1; nothing after a problem.
-std::optional<ClassRow> class_of(Walk& walk, const toml::table& table, std::size_t number) {
+std::optional<SpeciesRow> species_of(Walk& walk, const toml::table& table, std::size_t number) {
     static constexpr std::array<std::string_view, 4> names = {"count", "radius", "mass", "spin"};
-    ClassRow row{walk.place_of(table.source()), number, 0, 0, 1, 0};
+    SpeciesRow row{walk.place_of(table.source()), number, 0, 0, 1, 0};
     const std::array<double*, 4> numbers = {&row.count, &row.radius, &row.mass, &row.spin};
     const std::size_t n_problems = walk.problems.size();
     const auto refuse = [&](const Place& place, const std::string& text) { add_problem(walk.problems, place, fmt::format("class {}: {}", number, text)); };
@@ -142,14 +142,14 @@ std::optional<ClassRow> class_of(Walk& walk, const toml::table& table, std::size
     return row;
 }
 
-std::optional<std::vector<ClassRow>> classes_of(Walk& walk, const toml::array& array) {
-    std::vector<ClassRow> classes;
+std::optional<std::vector<SpeciesRow>> species_list_of(Walk& walk, const toml::array& array) {
+    std::vector<SpeciesRow> species;
     std::size_t number = 0;
     for (const toml::node& node : array) {
         if (!node.is_table()) return std::nullopt;
-        if (auto one = class_of(walk, *node.as_table(), ++number)) classes.push_back(std::move(*one));
+        if (auto one = species_of(walk, *node.as_table(), ++number)) species.push_back(std::move(*one));
     }
-    return classes;
+    return species;
 }
 
 /// Whether `node` is of the kind and now stands in the settings.
@@ -183,10 +183,10 @@ bool add_value(Walk& walk, const std::string& key, ValueKind kind, const toml::n
         auto streams = streams_of(walk, *node.as_array());
         if (!streams) return false;
         setting.value = std::move(*streams);
-    } else if (kind == ValueKind::classes && node.is_array()) {
-        auto classes = classes_of(walk, *node.as_array());
-        if (!classes) return false;
-        setting.value = std::move(*classes);
+    } else if (kind == ValueKind::species && node.is_array()) {
+        auto species = species_list_of(walk, *node.as_array());
+        if (!species) return false;
+        setting.value = std::move(*species);
     } else {
         return false;
     }

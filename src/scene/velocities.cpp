@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/scene/velocities.hpp"
+#include "scene/velocities.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "carrom/core/random_numbers.hpp"
+#include "core/random_numbers.hpp"
 
 namespace carrom {
 

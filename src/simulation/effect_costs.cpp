@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/simulation/effect_costs.hpp"
+#include "simulation/effect_costs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 
 #include <time.h>
 
-#include "carrom/effects/obstacles.hpp"
-#include "carrom/scene/lattice.hpp"
-#include "carrom/simulation/initial_state.hpp"
-#include "carrom/simulation/simulation.hpp"
+#include "dynamics/obstacles.hpp"
+#include "scene/lattice.hpp"
+#include "initial_state/initial_state.hpp"
+#include "simulation/simulation.hpp"
 
 namespace carrom {
 
@@ -30,20 +30,20 @@ std::vector<Effects> single_effects(const Effects& all) {
         set(one);
     };
     if (all.contact.kind != ContactKind::elastic) add([&](Effects& one) { one.contact = all.contact; });
-    for (std::size_t k = 0; k < all.sides.size(); ++k)
-        if (!all.sides[k].is_plain() && all.sides[k].kind != SideKind::periodic)
+    for (std::size_t k = 0; k < all.boundaries.size(); ++k)
+        if (!all.boundaries[k].is_plain() && all.boundaries[k].kind != BoundaryKind::periodic)
             add([&](Effects& one) {
-                one.sides[k] = all.sides[k];
+                one.boundaries[k] = all.boundaries[k];
                 one.thermal_seed = all.thermal_seed;
             });
     for (const std::size_t low : {0u, 2u}) // one side alone is not periodic
-        if (all.sides[low].kind == SideKind::periodic)
+        if (all.boundaries[low].kind == BoundaryKind::periodic)
             add([&](Effects& one) {
-                one.sides[low] = all.sides[low];
-                one.sides[low + 1] = all.sides[low + 1];
+                one.boundaries[low] = all.boundaries[low];
+                one.boundaries[low + 1] = all.boundaries[low + 1];
             });
     if (all.gravity.is_any()) add([&](Effects& one) { one.gravity = all.gravity; });
-    if (!all.classes.empty()) add([&](Effects& one) { one.classes = all.classes; });
+    if (!all.species.empty()) add([&](Effects& one) { one.species = all.species; });
     if (all.obstacles.are_any()) add([&](Effects& one) { one.obstacles = all.obstacles; });
     if (all.drag != 0) add([&](Effects& one) { one.drag = all.drag; });
     return singles;
@@ -59,17 +59,17 @@ struct Sample {
 
 double extra_bytes(const Effects& one) {
     if (one.contact.kind == ContactKind::rough) return sizeof(double); // the spin
-    return one.classes.size() > 8 ? 16 : 0;                            // what the law keeps of each disc (disc_classes.hpp), on each rank
+    return one.species.size() > 8 ? 16 : 0;                            // what the law keeps of each disc (disc_classes.hpp), on each rank
 }
 
 /// Whether there are single sides and nothing else.
-bool is_at_sides(const Effects& one) { return !one.have_plain_sides() && !one.are_periodic(); }
+bool is_at_sides(const Effects& one) { return !one.have_plain_boundaries() && !one.are_periodic(); }
 
 /// As many of each class as there are among `n` discs of `n_all`, ids in the same order.
-std::vector<DiscClass> thinned(const std::vector<DiscClass>& classes, std::uint64_t n, std::uint64_t n_all) {
-    std::vector<DiscClass> fewer;
+std::vector<Species> thinned(const std::vector<Species>& species, std::uint64_t n, std::uint64_t n_all) {
+    std::vector<Species> fewer;
     std::uint64_t n_seen = 0, n_taken = 0;
-    for (const DiscClass& one : classes) {
+    for (const Species& one : species) {
         n_seen += one.count;
         const auto n_due = static_cast<std::uint64_t>(static_cast<double>(n) * (static_cast<double>(n_seen) / static_cast<double>(n_all)) + 0.5);
         if (n_due > n_taken) fewer.push_back({n_due - n_taken, one.radius, one.mass});
@@ -124,8 +124,8 @@ void keep_clear(const Scene& scene, std::vector<InputDisc>& discs) {
 
 /// Root mean square of velocities per step, of discs in the box.
 double speed_of(const Scene& scene, const CostsOfRun& run) {
-    double mass = scene.effects.classes.empty() ? static_cast<double>(scene.n_discs) : 0;
-    for (const DiscClass& one : scene.effects.classes) mass += static_cast<double>(one.count) * one.mass;
+    double mass = scene.effects.species.empty() ? static_cast<double>(scene.n_discs) : 0;
+    for (const Species& one : scene.effects.species) mass += static_cast<double>(one.count) * one.mass;
     return std::sqrt(2 * run.kinetic_energy / (mass * (static_cast<double>(run.n_discs) / static_cast<double>(scene.n_discs))));
 }
 
@@ -139,10 +139,10 @@ double meetings_per_step(const Scene& scene, const CostsOfRun& run, double speed
     return 1.25 * speed * width;
 }
 
-/// A sample's steps are micro-steps, under the rule "all" so short that discs seldom meet anything in one.
+/// A sample's steps are micro-steps, in the event-driven method so short that discs seldom meet anything in one.
 double steps_in_one(const Scene& scene, const CostsOfRun& run) {
     const auto k = static_cast<double>(scene.micro_steps);
-    if (scene.rule == CollisionRule::one) return k;
+    if (scene.method == Method::time_stepped) return k;
     const double too_often = meetings_per_step(scene, run, speed_of(scene, run)) / k / (meetings_in_sample / (4 * (n_rounds + 1)));
     return too_often > 1 ? k * std::exp2(std::ceil(std::log2(too_often))) : k;
 }
@@ -176,13 +176,13 @@ Scene part_of(const Scene& scene, const Effects& one, const CostsOfRun& run, std
     part.n_discs = n_discs;
     part.box_size = scene.box_size * scale;
     part.radius = scene.radius;
-    part.generator = one.classes.empty() ? Generator::lattice : Generator::random;
+    part.generator = one.species.empty() ? Generator::lattice : Generator::random;
     part.speed = speed_of(scene, run) / n_steps;
-    part.rule = scene.rule;
+    part.method = scene.method;
     part.sync_every = static_cast<std::int64_t>(std::min(static_cast<double>(scene.sync_every) * (n_steps / static_cast<double>(scene.micro_steps)), 0x1p30));
     part.steps = no_last_step;
     part.effects = per_micro_step(one, n_steps);
-    if (!one.classes.empty()) part.effects.classes = thinned(one.classes, n_discs, scene.n_discs);
+    if (!one.species.empty()) part.effects.species = thinned(one.species, n_discs, scene.n_discs);
     if (one.obstacles.are_any()) part.effects.obstacles = part_of(one.obstacles, scene.box_size, part.box_size);
     return part;
 }
@@ -198,7 +198,7 @@ std::int64_t longest_round(const Scene& part, double meetings) {
 Scene without_effects(const Scene& part) {
     Scene plain = part;
     plain.effects = {};
-    if (part.effects.classes.empty()) return plain;
+    if (part.effects.species.empty()) return plain;
     plain.generator = Generator::lattice;
     plain.radius = part.box_size * std::sqrt(part.packing() / (std::numbers::pi * static_cast<double>(part.n_discs)));
     return plain;
@@ -215,7 +215,7 @@ std::optional<Sample> sample_of(const Scene& scene, const Effects& one, const Co
     if (is_at_sides(one)) sample.share = scale;
     if (one.obstacles.are_any()) sample.share = count(one.obstacles) * scale * scale / count(part.effects.obstacles);
     while (!has_places(part)) part.box_size *= 1.02;
-    for (Side& side : part.effects.sides) { // a wall does not get far in so few steps
+    for (Boundary& side : part.effects.boundaries) { // a wall does not get far in so few steps
         const double farthest = 0.05 * part.box_size / static_cast<double>((n_rounds + 1) * sample.longest_round);
         side.speed = std::clamp(side.speed, -farthest, farthest);
     }
@@ -224,7 +224,7 @@ std::optional<Sample> sample_of(const Scene& scene, const Effects& one, const Co
     if (sample.discs.empty()) return {};
     part.n_discs = sample.discs.size();
     sample.without = without_effects(part);
-    sample.discs_without = one.classes.empty() ? sample.discs : initial_state(sample.without, nullptr, alone);
+    sample.discs_without = one.species.empty() ? sample.discs : initial_state(sample.without, nullptr, alone);
     return sample;
 }
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carrom/simulation/simulation.hpp"
+#include "simulation/simulation.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "block_averages.hpp"
-#include "engine.hpp"
-#include "exact_engine.hpp"
-#include "measurements.hpp"
-#include "one_engine.hpp"
-#include "pair_distances.hpp"
-#include "state_check.hpp"
+#include "statistics/block_averages.hpp"
+#include "engine/engine.hpp"
+#include "event_driven/event_driven_engine.hpp"
+#include "engine/state_sums.hpp"
+#include "time_stepped/time_stepped_engine.hpp"
+#include "statistics/pair_distances.hpp"
+#include "check/state_check.hpp"
 
 namespace carrom {
 
@@ -53,8 +53,8 @@ StoredState first_state(const Scene& scene, std::vector<InputDisc> inputs) {
 
 std::unique_ptr<Engine> engine_for(const Scene& scene, StoredState state, const Communicator& communicator,
                                    const Tuning& tuning) {
-    if (scene.rule == CollisionRule::all) return make_exact_engine(scene, std::move(state), communicator, tuning);
-    return make_one_engine(scene, std::move(state), communicator, tuning);
+    if (scene.method == Method::event_driven) return make_event_driven_engine(scene, std::move(state), communicator, tuning);
+    return make_time_stepped_engine(scene, std::move(state), communicator, tuning);
 }
 
 } // namespace
@@ -67,7 +67,7 @@ Simulation::Simulation(const Scene& scene, StoredState state, const Communicator
     : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)), effects_(scene.effects), box_size_(scene.box_size),
       n_threads_(tuning.threads), engine_(engine_for(scene, std::move(state), communicator, tuning)),
       averages_(std::make_unique<BlockAverages>(AveragedSystem{static_cast<double>(engine_->n_discs()), scene.box_size, scene.radius,
-                                                               velocity_unit_, scene.micro_steps, scene.sync_every, !scene.effects.are_any(), !scene.effects.have_open_sides()})) {}
+                                                               velocity_unit_, scene.micro_steps, scene.sync_every, !scene.effects.are_any(), !scene.effects.have_open_boundaries()})) {}
 
 Simulation::~Simulation() = default;
 
@@ -87,7 +87,7 @@ void Simulation::advance_checked() {
     engine_->log_to(&collisions);
     engine_->advance_towards(step() + 1);
     engine_->log_to(log_);
-    const Settled now = engine_->settled();
+    const LocalView now = engine_->local_view();
     check_->look(now, micro_steps_done(), collisions, engine_->spins());
     engine_->forget_images();
     if (log_) log_->insert(log_->end(), collisions.begin(), collisions.end());
@@ -105,16 +105,16 @@ std::int64_t Simulation::step() const { return micro_steps_done() / static_cast<
 std::int64_t Simulation::micro_steps_done() const { return engine_->micro_steps_done(); }
 
 std::span<const Disc> Simulation::discs() const {
-    if (engine_->gone().empty()) return engine_->own();
+    if (engine_->departed().empty()) return engine_->own();
     stored_.assign(engine_->own().begin(), engine_->own().end());
-    stored_.insert(stored_.end(), engine_->gone().begin(), engine_->gone().end());
+    stored_.insert(stored_.end(), engine_->departed().begin(), engine_->departed().end());
     return stored_;
 }
 
 std::span<const double> Simulation::spins() const {
-    if (engine_->gone().empty() || effects_.contact.kind != ContactKind::rough) return engine_->spins();
+    if (engine_->departed().empty() || effects_.contact.kind != ContactKind::rough) return engine_->spins();
     stored_spins_.assign(engine_->spins().begin(), engine_->spins().end());
-    stored_spins_.resize(engine_->spins().size() + engine_->gone().size(), 0);
+    stored_spins_.resize(engine_->spins().size() + engine_->departed().size(), 0);
     return stored_spins_;
 }
 
@@ -147,9 +147,9 @@ void Engine::note_crossing(const Disc& disc, double x, double y, const Periods& 
 
 void Simulation::note_crossings_in(std::vector<Crossing>* crossings) { engine_->note_crossings_in(crossings); }
 
-void Simulation::count_pair_distances(double bin_width, std::span<const DiscId> class_ends, std::span<std::uint64_t> counts) const {
-    const Settled now = engine_->settled(bin_width * static_cast<double>(counts.size() / n_pair_kinds(class_ends.size())));
-    carrom::count_pair_distances(now, bin_width, class_ends, n_threads_, counts);
+void Simulation::count_pair_distances(double bin_width, std::span<const DiscId> species_ends, std::span<std::uint64_t> counts) const {
+    const LocalView now = engine_->local_view(bin_width * static_cast<double>(counts.size() / n_pair_kinds(species_ends.size())));
+    carrom::count_pair_distances(now, bin_width, species_ends, n_threads_, counts);
     engine_->forget_images();
 }
 
@@ -158,16 +158,16 @@ Totals Simulation::totals() const {
     totals.n_discs = engine_->n_discs();
     measure_collisions(discs(), spins(), communicator_, totals);
     measure_departures(discs(), box_size_, communicator_, totals);
-    const DiscBodies* const bodies = effects_.classes.empty() ? nullptr : engine_->bodies();
-    measure_motion(in_motion(), bodies, velocity_unit_, communicator_, totals);
+    const SpeciesTable* const species_table = effects_.species.empty() ? nullptr : engine_->species_table();
+    measure_motion(in_motion(), species_table, velocity_unit_, communicator_, totals);
     if (effects_.contact.kind == ContactKind::rough)
-        measure_rotation(discs(), spins(), *engine_->bodies(), effects_.contact.inertia, velocity_unit_, communicator_, totals);
-    if (effects_.gravity.is_any()) measure_height(shown(), bodies, effects_.gravity, box_size_, communicator_, totals);
+        measure_rotation(discs(), spins(), *engine_->species_table(), effects_.contact.inertia, velocity_unit_, communicator_, totals);
+    if (effects_.gravity.is_any()) measure_height(shown(), species_table, effects_.gravity, box_size_, communicator_, totals);
     engine_->add_to(totals);
     return totals;
 }
 
-ReplayCounts Simulation::replay_counts() const { return engine_->replay_counts(); }
+RollbackCounts Simulation::rollback_counts() const { return engine_->rollback_counts(); }
 
 PhaseSeconds Simulation::phase_seconds() const { return engine_->phase_seconds(); }
 

@@ -18,13 +18,13 @@
 
 #include <unistd.h>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/core/state_hash.hpp"
-#include "carrom/io/checkpoint.hpp"
-#include "carrom/io/start_io.hpp"
-#include "carrom/parallel/mpi.hpp"
-#include "checkpoint_fields.hpp"
-#include "hdf5.hpp"
+#include "core/errors.hpp"
+#include "core/state_hash.hpp"
+#include "io/checkpoint.hpp"
+#include "io/start_io.hpp"
+#include "parallel/mpi.hpp"
+#include "io/checkpoint_fields.hpp"
+#include "io/hdf5.hpp"
 #include "sample_files.hpp"
 
 using namespace carrom;

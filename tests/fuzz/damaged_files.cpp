@@ -22,16 +22,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/io/checkpoint.hpp"
-#include "carrom/io/collision_log.hpp"
-#include "carrom/io/frame_file.hpp"
-#include "carrom/io/start_io.hpp"
-#include "carrom/io/trajectory.hpp"
-#include "carrom/parallel/mpi.hpp"
+#include "core/errors.hpp"
+#include "io/checkpoint.hpp"
+#include "io/collision_log.hpp"
+#include "io/frame_file.hpp"
+#include "io/start_io.hpp"
+#include "io/trajectory.hpp"
+#include "parallel/mpi.hpp"
 #include "sample_files.hpp"
 #include "scene_tools.hpp"
-#include "seal.hpp"
+#include "io/seal.hpp"
 
 using namespace carrom;
 using namespace carrom::test;

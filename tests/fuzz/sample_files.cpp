@@ -5,10 +5,10 @@
 #include <iterator>
 #include <span>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/io/checkpoint.hpp"
-#include "carrom/io/collision_log.hpp"
-#include "seal.hpp"
+#include "core/errors.hpp"
+#include "io/checkpoint.hpp"
+#include "io/collision_log.hpp"
+#include "io/seal.hpp"
 
 namespace carrom::test {
 
@@ -53,10 +53,10 @@ void write_sample_checkpoint(const std::string& path, const Communicator& world)
                         "[effects.contact]\nkind = \"rough\"\nrestitution = 0.9\ntangential_restitution = 0.5\n";
     header.box_size = 10;
     header.radius = 0.5;
-    header.collisions = "one";
+    header.collisions = "time-stepped";
     header.sync_every = 64;
     header.step = header.micro_steps_done = 70;
-    header.classes = {{5, 0.5, 1}, {7, 0.25, 2}};
+    header.species = {{5, 0.5, 1}, {7, 0.25, 2}};
     header.has_spins = true;
     write_checkpoint(path, header, some_discs(), world, 1, {}, some_spins());
 }

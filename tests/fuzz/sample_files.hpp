@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "carrom/io/trajectory.hpp"
-#include "carrom/parallel/communicator.hpp"
+#include "io/trajectory.hpp"
+#include "parallel/communicator.hpp"
 
 namespace carrom::test {
 
@@ -16,7 +16,7 @@ std::vector<char> bytes_of(const std::string& path);
 /// Replaces the file.
 void write_bytes(const std::string& path, const std::vector<char>& bytes);
 
-/// Twelve rough discs at step 70 of a scene of the rule "one". **Collective.**
+/// Twelve rough discs at step 70 of a scene of the time-stepped method. **Collective.**
 void write_sample_checkpoint(const std::string& path, const Communicator& world);
 
 /// Three frames of twelve discs with their counters; compressed, and with angular velocities, or not. **Collective.**

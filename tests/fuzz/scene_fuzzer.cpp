@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// libFuzzer on both readers of scenes. The first byte chooses: TOML, or the ancestor's text.
+// libFuzzer on both readers of scenes. The first byte chooses: TOML, or the legacy text format.
 //
 // Every text must end in a scene that keeps its promises or in an InputError that names a problem; a crash, a hang, any
 // other exception and whatever the sanitizers find is a bug. How to run it is told in docs/stability.md.
@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/scene/read_scene.hpp"
+#include "core/errors.hpp"
+#include "scene/read_scene.hpp"
 
 namespace {
 

@@ -25,7 +25,7 @@ def classes(kinds):
     def lines(packing):
         spread = [0.8 + 0.4 * k / (kinds - 1) for k in range(kinds)]
         mean = SIZE * math.sqrt(packing / (math.pi * COUNT * sum(s * s for s in spread) / kinds))
-        return "".join(f"[[discs.classes]]\ncount = {COUNT // kinds}\nradius = {s * mean}\nmass = {s * s}\n" for s in spread)
+        return "".join(f"[[discs.species]]\ncount = {COUNT // kinds}\nradius = {s * mean}\nmass = {s * s}\n" for s in spread)
 
     return lines
 

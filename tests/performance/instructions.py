@@ -27,7 +27,7 @@ GAS = "[box]\nsize = 250.66\n[discs]\ncount = 4000\nradius = 1\nspeed = 0.3\n[ti
 SCENES = {
     "gas, one": (GAS + "steps = 128\n", "toml", 128),
     "generated, one": ("2000\n20000\n1\n10\nperf\n", "in", 10),
-    "gas, all": (GAS + "steps = 64\ncollisions = \"all\"\n", "toml", 64),
+    "gas, all": (GAS + "steps = 64\nmethod = \"event-driven\"\n", "toml", 64),
 }
 
 

@@ -14,17 +14,17 @@
 
 #include <benchmark/benchmark.h>
 
-#include "carrom/collision/cell_grid.hpp"
-#include "carrom/collision/local_resolution.hpp"
-#include "carrom/collision/search.hpp"
-#include "carrom/core/state_hash.hpp"
-#include "carrom/effects/plain_law.hpp"
-#include "carrom/exact/block_replay.hpp"
-#include "carrom/geometry/pair_contact.hpp"
-#include "carrom/parallel/received.hpp"
-#include "carrom/parallel/sample_sort.hpp"
-#include "contact_filter.hpp"
-#include "exact_window.hpp"
+#include "cell_list/cell_grid.hpp"
+#include "time_stepped/local_resolution.hpp"
+#include "time_stepped/search.hpp"
+#include "core/state_hash.hpp"
+#include "dynamics/plain_dynamics.hpp"
+#include "event_driven/block_run.hpp"
+#include "geometry/pair_contact.hpp"
+#include "parallel/received.hpp"
+#include "parallel/sample_sort.hpp"
+#include "time_stepped/contact_filter.hpp"
+#include "event_driven/block_window.hpp"
 
 using namespace carrom;
 
@@ -63,7 +63,7 @@ constexpr int window_steps = 3;
 double reach_of_window() { return 2 + 2 * largest_speed * window_steps; }
 
 /// Rates from items of one iteration, and what the source says an item takes.
-void tell(benchmark::State& state, double items, double flops, double bytes) {
+void print_message(benchmark::State& state, double items, double flops, double bytes) {
     state.SetItemsProcessed(static_cast<std::int64_t>(items * static_cast<double>(state.iterations())));
     state.counters["flops"] = flops;
     state.counters["bytes"] = bytes;
@@ -86,7 +86,7 @@ void contact_predicate(benchmark::State& state) {
         for (std::size_t k = 0; k < discs.size(); k += 2) sum += pair_contact(discs[k], discs[k + 1], 2.0, 1e-12).delay;
         benchmark::DoNotOptimize(sum);
     }
-    tell(state, static_cast<double>(discs.size() / 2), 50, 2 * sizeof(Disc));
+    print_message(state, static_cast<double>(discs.size() / 2), 50, 2 * sizeof(Disc));
 }
 BENCHMARK(contact_predicate);
 
@@ -120,7 +120,7 @@ void vector_filter(benchmark::State& state) {
         for (int column = 0; column < grid.frame().n_columns; ++column) n += filter_column(grid, column, touching, pairs);
         benchmark::DoNotOptimize(n);
     }
-    tell(state, tested_pairs(grid), 27, 16);
+    print_message(state, tested_pairs(grid), 27, 16);
     state.SetLabel(filter_target());
 }
 BENCHMARK(vector_filter)->Arg(10'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
@@ -138,7 +138,7 @@ void cell_grid_sort(benchmark::State& state) {
         grid.sort(gas.discs, frame, anchor, anchor, window_steps, 1);
         benchmark::ClobberMemory();
     }
-    tell(state, static_cast<double>(gas.discs.size()), 14, 3 * sizeof(Disc) + 24 + 16);
+    print_message(state, static_cast<double>(gas.discs.size()), 14, 3 * sizeof(Disc) + 24 + 16);
 }
 BENCHMARK(cell_grid_sort)->Arg(10'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
 
@@ -147,7 +147,7 @@ void local_resolution(benchmark::State& state) {
     Gas gas(state.range(0));
     CellGrid grid;
     gas.sort_into(grid, reach_of_window(), window_steps);
-    Search<PlainLaw> search(PlainLaw(gas.size, 1), 1);
+    Search<PlainDynamics> search(PlainDynamics(gas.size, 1), 1);
     Window window;
     window.n_micro = window_steps;
     search.predict_all(gas.population(), grid, window, reach_of_window());
@@ -161,7 +161,7 @@ void local_resolution(benchmark::State& state) {
         resolution.resolve(gas.population(), live, verdicts);
         benchmark::DoNotOptimize(verdicts.kept.data());
     }
-    tell(state, static_cast<double>(all.size()), 0, 3 * sizeof(Candidate) + 3 * 8);
+    print_message(state, static_cast<double>(all.size()), 0, 3 * sizeof(Candidate) + 3 * 8);
 }
 BENCHMARK(local_resolution)->Arg(10'000)->Arg(1'000'000)->Unit(benchmark::kMicrosecond);
 
@@ -190,39 +190,39 @@ void sort_records(benchmark::State& state) {
         benchmark::DoNotOptimize(sorted.data());
     }
     const double passes = std::log2(static_cast<double>(all.size()));
-    tell(state, static_cast<double>(all.size()), 0, 2 * sizeof(Record) * passes);
+    print_message(state, static_cast<double>(all.size()), 0, 2 * sizeof(Record) * passes);
 }
 BENCHMARK(sort_records)->Arg(8'000)->Arg(800'000)->Unit(benchmark::kMillisecond);
 
-/// Item: a collision of the rule "all", in one block without a halo, of as many discs as a block has with its halo.
-void exact_block_replay(benchmark::State& state) {
+/// Item: a collision of the event-driven method, in one block without a halo, of as many discs as a block has with its halo.
+void block_run(benchmark::State& state) {
     Gas gas(state.range(0));
-    const PlainLaw law(gas.size, 1);
-    ExactNeeds needs{gas.size, 1, static_cast<double>(gas.discs.size()), 1.08 * largest_speed, 0, 0, 3, true};
+    const PlainDynamics dynamics(gas.size, 1);
+    BlockNeeds needs{gas.size, 1, static_cast<double>(gas.discs.size()), 1.08 * largest_speed, 0, 0, 3, true};
     needs.collision_rate = guessed_collision_rate(needs);
-    const ExactChoice choice = choose_exact_window(needs, 64, {});
-    const ReplayWindow window{0, choice.duration, true, needs.speed_bound};
+    const BlockChoice choice = choose_block_window(needs, 64, {});
+    const BlockWindow window{0, choice.duration, true, needs.speed_bound};
     CellGrid grid;
-    gas.sort_into(grid, exact_reach(window, 2, gas.size), choice.duration);
+    gas.sort_into(grid, block_reach(window, 2, gas.size), choice.duration);
     const GridFrame& frame = grid.frame();
     std::vector<std::uint64_t> histories(gas.discs.size());
-    BlockReplay<PlainLaw> replay(law);
+    BlockRun<PlainDynamics> run_blocks(dynamics);
     BlockOutcome outcome;
-    const ReplayGround ground{gas.discs, gas.discs.size(), &grid, 0, frame.n_columns, 0, frame.n_rows, window, false};
+    const BlockGround ground{gas.discs, gas.discs.size(), &grid, 0, frame.n_columns, 0, frame.n_rows, window, false};
     for (auto _ : state) {
-        replay.run(ground, {0, frame.n_columns, 0, frame.n_rows}, 0, false, histories, outcome);
+        run_blocks.run(ground, {0, frame.n_columns, 0, frame.n_rows}, 0, false, histories, outcome);
         benchmark::DoNotOptimize(outcome.n_events);
     }
-    tell(state, static_cast<double>(outcome.n_events), 0, 0);
+    print_message(state, static_cast<double>(outcome.n_events), 0, 0);
     state.counters["discs_per_event"] = static_cast<double>(gas.discs.size()) / static_cast<double>(std::max<std::uint64_t>(1, outcome.n_events));
 }
-BENCHMARK(exact_block_replay)->Arg(3'000)->Arg(10'000)->Unit(benchmark::kMillisecond);
+BENCHMARK(block_run)->Arg(3'000)->Arg(10'000)->Unit(benchmark::kMillisecond);
 
 /// Item: a disc: read once, 48 bytes of its state hashed to 128 bits and added. No floating point.
 void state_hash(benchmark::State& state) {
     const Gas gas(state.range(0));
     for (auto _ : state) benchmark::DoNotOptimize(hash_of(gas.discs));
-    tell(state, static_cast<double>(gas.discs.size()), 0, sizeof(Disc));
+    print_message(state, static_cast<double>(gas.discs.size()), 0, sizeof(Disc));
 }
 BENCHMARK(state_hash)->Arg(10'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
 
@@ -246,7 +246,7 @@ void pack_columns(benchmark::State& state) {
         }
         benchmark::ClobberMemory();
     }
-    tell(state, static_cast<double>(gas.discs.size()), 0, sizeof(Disc) + 4 + 40);
+    print_message(state, static_cast<double>(gas.discs.size()), 0, sizeof(Disc) + 4 + 40);
 }
 BENCHMARK(pack_columns)->Arg(10'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
 

@@ -29,18 +29,18 @@ def gas(n_discs, steps, packing=0.2, largest_speed=0.5, rule="one"):
 
 
 def fast(n_discs, steps):
-    """The ancestor's generated scene: L = 20000, r = 1, speeds L/8 to L/4 per step."""
+    """The course program's generated scene: L = 20000, r = 1, speeds L/8 to L/4 per step."""
     return f"{n_discs}\n20000\n1\n{steps}\nperf\n", "in"
 
 
 def exact(n_discs, packing, n_collisions):
-    """A gas under the rule "all", run for about so many collisions of pairs (Enskog's rate)."""
+    """A gas in the event-driven method, run for about so many collisions of pairs (Enskog's rate)."""
     size = math.sqrt(n_discs * math.pi / packing)
     contact = (1 - 7 * packing / 16) / (1 - packing) ** 2
     per_step = n_discs * math.sqrt(2 / math.pi) * packing * contact
     steps = max(1, round(n_collisions / per_step))
     return (f"[box]\nsize = {size!r}\n[discs]\ncount = {n_discs}\nradius = 1.0\nspeed = 1.0\n"
-            f"[time]\nsteps = {steps}\ncollisions = \"all\"\n", "toml")
+            f"[time]\nsteps = {steps}\nmethod = \"event-driven\"\n", "toml")
 
 
 EXACT_SIZES = {"1e4": (10_000, 4e6), "1e5": (100_000, 4e6), "1e6": (1_000_000, 1.2e7)}

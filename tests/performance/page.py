@@ -104,7 +104,7 @@ def draw_sizes(rows, folder):
         return
     streams = sorted((int(r["n_discs"]), 1e9 / float(r["stream_rate"])) for r in rows if re.fullmatch(r"gas, 1e\d", r["case"]) and r["stream_rate"])
     figure, axes = new_axes("number of discs N", "nanoseconds per disc and step")
-    draw_series(axes, {"gas of packing 0.2, rule \"one\", one core": points, "a plain stream of 64 bytes a disc": streams})
+    draw_series(axes, {"gas of packing 0.2, time-stepped method, one core": points, "a plain stream of 64 bytes a disc": streams})
     axes.set(xscale="log", yscale="log")
     figure.savefig(folder / "cost_against_size.png")
     plt.close(figure)

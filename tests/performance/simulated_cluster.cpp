@@ -23,12 +23,12 @@
 #include <simgrid/s4u.hpp>
 #include <smpi/smpi.h>
 
-#include "carrom/core/disc.hpp"
-#include "carrom/core/errors.hpp"
-#include "carrom/parallel/communicator.hpp"
-#include "carrom/scene/read_scene.hpp"
-#include "carrom/simulation/initial_state.hpp"
-#include "carrom/simulation/simulation.hpp"
+#include "core/disc.hpp"
+#include "core/errors.hpp"
+#include "parallel/communicator.hpp"
+#include "scene/read_scene.hpp"
+#include "initial_state/initial_state.hpp"
+#include "simulation/simulation.hpp"
 
 using namespace carrom;
 

@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <fstream>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/parallel/communicator.hpp"
-#include "carrom/parallel/mpi.hpp"
-#include "carrom/scene/read_scene.hpp"
-#include "carrom/simulation/initial_state.hpp"
-#include "carrom/simulation/simulation.hpp"
+#include "core/errors.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/mpi.hpp"
+#include "scene/read_scene.hpp"
+#include "initial_state/initial_state.hpp"
+#include "simulation/simulation.hpp"
 
 using namespace carrom;
 

@@ -19,7 +19,7 @@ import tempfile
 from instructions import SCENES, SETTINGS, counted
 
 TOLERANCE = 0.001
-PLAIN_LAWS = {"PlainLaw", "NaiveLaw", "ContractedLaw", "SingleLaw", "SingleNaiveLaw", "SingleContractedLaw"}
+PLAIN_LAWS = {"PlainDynamics", "NaiveLaw", "ContractedLaw", "SingleLaw", "SingleNaiveLaw", "SingleContractedLaw"}
 LISTED = re.compile(r" ?make\((\w+)\)")
 CHOICE = re.compile(r"^    if \(scene\.effects\..*?(?=^    const auto with )", re.MULTILINE | re.DOTALL)
 

@@ -21,9 +21,9 @@ TestScene crystal(std::size_t n, double packing, std::uint64_t seed) {
     return scene;
 }
 
-Simulation exact_simulation(const TestScene& scene, const Communicator& world) {
+Simulation event_driven_simulation(const TestScene& scene, const Communicator& world) {
     Scene all = scene_of(scene);
-    all.rule = CollisionRule::all;
+    all.method = Method::event_driven;
     Tuning tuning;
     tuning.threads = omp_get_max_threads();
     return {all, world.is_root() ? scene.discs : std::vector<InputDisc>{}, world, tuning};
@@ -43,7 +43,7 @@ void run_until(Simulation& simulation, double n_collisions) {
 
 GasProperties measure_gas(std::size_t n, double packing, double n_early, double n_collisions, const Communicator& world) {
     const TestScene scene = crystal(n, packing, 1000 * n + static_cast<std::uint64_t>(100 * packing));
-    Simulation simulation = exact_simulation(scene, world);
+    Simulation simulation = event_driven_simulation(scene, world);
     run_until(simulation, n_early);
     simulation.average_anew();
     run_until(simulation, n_early + n_collisions);

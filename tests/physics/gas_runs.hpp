@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gases in a walled box under the rule "all", brought to equilibrium, and what is measured of them.
+// Gases in a walled box in the event-driven method, brought to equilibrium, and what is measured of them.
 #pragma once
 
 #include <cstdint>
 
-#include "carrom/simulation/simulation.hpp"
+#include "simulation/simulation.hpp"
 #include "scene_tools.hpp"
 
 namespace carrom::test {
@@ -12,8 +12,8 @@ namespace carrom::test {
 /// n discs of radius 1 on the first places of a square lattice, with speeds of one diameter per step, on rank 0.
 TestScene crystal(std::size_t n, double packing, std::uint64_t seed);
 
-/// Ready to run under the rule "all".
-Simulation exact_simulation(const TestScene& scene, const Communicator& world);
+/// Ready to run in the event-driven method.
+Simulation event_driven_simulation(const TestScene& scene, const Communicator& world);
 
 /// Steps until so many collisions, of pairs and with walls, have happened in all since the start. **Collective.**
 void run_until(Simulation& simulation, double n_collisions);

@@ -79,7 +79,7 @@ void check_two_discs(double n_collisions) {
     fmt::print("| eta | R_disc | measured | R_wall | measured |\n|---|---|---|---|---|\n");
     for (const double eta : {0.1, 0.2, 0.3}) {
         const TestScene scene = crystal(2, eta, 7);
-        Simulation simulation = exact_simulation(scene, world);
+        Simulation simulation = event_driven_simulation(scene, world);
         run_until(simulation, 1000);
         const Totals before = simulation.totals();
         simulation.average_anew();

@@ -39,7 +39,7 @@ double kolmogorov_distance(std::vector<double> values, double n) {
 /// One disc of each of `n_looks` states, five collisions a disc apart: v^2 over the sum of all.
 void check_distribution(std::size_t n, double n_looks) {
     const Communicator world = Communicator::world();
-    Simulation simulation = exact_simulation(crystal(n, 0.3, 11), world);
+    Simulation simulation = event_driven_simulation(crystal(n, 0.3, 11), world);
     const double apart = 5 * static_cast<double>(n);
     double n_collisions = 20 * apart;
     run_until(simulation, n_collisions);
@@ -69,8 +69,8 @@ void check_kurtosis(std::size_t n, double n_collisions) {
     CHECK(gas.kurtosis.error < 0.1);
 }
 
-/// Velocities with speeds spread evenly between 1 and 2, as the ancestor's generator has them but for a factor.
-std::vector<std::pair<double, double>> ancestor_velocities(std::size_t n, Random& random) {
+/// Velocities with speeds spread evenly between 1 and 2, as the legacy generator has them but for a factor.
+std::vector<std::pair<double, double>> legacy_velocities(std::size_t n, Random& random) {
     std::vector<std::pair<double, double>> velocities;
     for (std::size_t i = 0; i < n; ++i) {
         const auto [ex, ey] = random.direction();
@@ -86,7 +86,7 @@ std::vector<double> kurtosis_without_correlations(std::size_t n, const std::vect
     Random random(14);
     std::vector<Disc> discs(n);
     std::size_t i = 0;
-    for (const auto& [vx, vy] : ancestor_velocities(n, random)) {
+    for (const auto& [vx, vy] : legacy_velocities(n, random)) {
         discs[i].vx = vx;
         discs[i++].vy = vy;
     }
@@ -112,16 +112,16 @@ std::vector<double> kurtosis_without_correlations(std::size_t n, const std::vect
     return kurtoses;
 }
 
-/// From the ancestor's speeds, of kurtosis 1.1388, to equilibrium as Boltzmann's equation says.
+/// From the course program's speeds, of kurtosis 1.1388, to equilibrium as Boltzmann's equation says.
 void check_relaxation(std::size_t n, double packing) {
     TestScene scene = crystal(n, packing, 12);
     Random random(13);
     std::size_t i = 0;
-    for (const auto& [vx, vy] : ancestor_velocities(n, random)) {
+    for (const auto& [vx, vy] : legacy_velocities(n, random)) {
         scene.discs[i].vx = 0.1 * vx;
         scene.discs[i++].vy = 0.1 * vy;
     }
-    Simulation simulation = exact_simulation(scene, Communicator::world());
+    Simulation simulation = event_driven_simulation(scene, Communicator::world());
     const double discs = static_cast<double>(n), final = 2 * discs / (discs + 1), noise = 2 / std::sqrt(discs);
     const double start = kurtosis_of(simulation.discs());
     CHECK(std::fabs(start - 31.0 / 5 / (49.0 / 9)) < 4 / std::sqrt(discs));
@@ -145,7 +145,7 @@ TEST_CASE("physics: speeds have the microcanonical distribution") { check_distri
 TEST_CASE("physics: the kurtosis of speeds is that of finitely many discs") {
     for (const std::size_t n : {4u, 64u}) check_kurtosis(n, 100000);
 }
-TEST_CASE("physics: the ancestor's speeds relax to Maxwell's") { check_relaxation(10000, 0.1); }
+TEST_CASE("physics: the course program's speeds relax to Maxwell's") { check_relaxation(10000, 0.1); }
 
 TEST_CASE("physics: speeds have the microcanonical distribution, long", "[.long]") {
     for (const std::size_t n : {4u, 64u}) check_distribution(n, 20000);
@@ -153,4 +153,4 @@ TEST_CASE("physics: speeds have the microcanonical distribution, long", "[.long]
 TEST_CASE("physics: the kurtosis of speeds is that of finitely many discs, long", "[.long]") {
     for (const std::size_t n : {4u, 16u, 64u, 1000u}) check_kurtosis(n, 5e6);
 }
-TEST_CASE("physics: the ancestor's speeds relax to Maxwell's, long", "[.long]") { check_relaxation(100000, 0.02); }
+TEST_CASE("physics: the course program's speeds relax to Maxwell's, long", "[.long]") { check_relaxation(100000, 0.02); }

@@ -11,8 +11,8 @@
 namespace carrom::reference {
 
 EventDrivenReference::EventDrivenReference(const Setting& setting, std::span<const InputDisc> discs, std::size_t most_events)
-    : setting_(setting), bodies_(std::make_shared<FixedBodies>(setting)), discs_(stored_states(setting, discs)),
-      spins_(stored_spins(setting, discs.size())), past_(discs.size()), most_events_(most_events) {
+    : setting_(setting), species_(std::make_shared<FixedBodies>(setting)), discs_(stored_states(setting, discs)),
+      spins_(stored_spins(setting, discs.size())), history_of_(discs.size()), most_events_(most_events) {
     predict_all();
 }
 
@@ -55,10 +55,10 @@ void EventDrivenReference::run_until(double time) {
 
 void EventDrivenReference::predict_all() {
     heap_.clear();
-    for (Past& past : past_) {
-        past.time = -1;
-        past.partner = Past::no_partner;
-        past.body = FixedBodies::none;
+    for (EventHistory& past_events : history_of_) {
+        past_events.time = -1;
+        past_events.partner = EventHistory::no_partner;
+        past_events.body = FixedBodies::none;
     }
     for (DiscId p = 0; p < discs_.size(); ++p) {
         predict_walls(p);
@@ -74,11 +74,11 @@ void EventDrivenReference::predict_walls(DiscId p) {
 }
 
 void EventDrivenReference::predict_obstacle(DiscId p) {
-    if (bodies_->are_none()) return;
-    const Past& past = past_[p];
-    const bool has_just_left = past.time == discs_[p].tau;
-    const BodyMeeting first = bodies_->first_meeting(discs_[p], discs_[p].tau, setting_.clock_at(setting_.sync_every),
-                                                      {0, has_just_left ? past.body : FixedBodies::none, past.copy});
+    if (species_->are_none()) return;
+    const EventHistory& past_events = history_of_[p];
+    const bool has_just_left = past_events.time == discs_[p].tau;
+    const BodyMeeting first = species_->first_meeting(discs_[p], discs_[p].tau, setting_.clock_at(setting_.sync_every),
+                                                      {0, has_just_left ? past_events.body : FixedBodies::none, past_events.copy});
     if (first.body == FixedBodies::none) return;
     Event event{first.time, 0, p, false, first.body, 0};
     event.is_obstacle = true;
@@ -89,8 +89,8 @@ void EventDrivenReference::predict_obstacle(DiscId p) {
 /// Where the low or the high wall of an axis is for a disc's centre, and how fast, in the frame that falls since the sync.
 EventDrivenReference::Wall EventDrivenReference::wall_at(DiscId disc, DiscId axis, bool is_high, double time) const {
     const double k = static_cast<double>(setting_.micro_steps), g = gravity(axis);
-    const double speed = setting_.effects.sides[2 * axis + (is_high ? 1 : 0)].speed / k;
-    const bool is_open = setting_.effects.sides[2 * axis + (is_high ? 1 : 0)].kind == SideKind::open;
+    const double speed = setting_.effects.boundaries[2 * axis + (is_high ? 1 : 0)].speed / k;
+    const bool is_open = setting_.effects.boundaries[2 * axis + (is_high ? 1 : 0)].kind == BoundaryKind::open;
     const double from_line = is_open ? -setting_.radius_of(disc) : setting_.radius_of(disc);
     const double start = is_high ? setting_.box_size - from_line : from_line;
     const double at_sync = start + speed * static_cast<double>(micro_step_ / setting_.sync_every * setting_.sync_every);
@@ -118,7 +118,7 @@ EventDrivenReference::Meeting EventDrivenReference::meeting(const Disc& disc, Di
         const double x = axis == Event::wall_x ? disc.x : disc.y, v = axis == Event::wall_x ? disc.vx : disc.vy;
         const double gap = is_high ? wall.place - x : x - wall.place;
         const double rate = is_high ? wall.speed - v : v - wall.speed;
-        const double moving = setting_.effects.sides[2 * axis + (is_high ? 1 : 0)].speed / static_cast<double>(setting_.micro_steps);
+        const double moving = setting_.effects.boundaries[2 * axis + (is_high ? 1 : 0)].speed / static_cast<double>(setting_.micro_steps);
         const double at_wall = gravity(axis) - setting_.effects.drag / static_cast<double>(setting_.micro_steps) * moving;
         const double pull = is_high ? -at_wall : at_wall;
         double delay = never;
@@ -145,16 +145,16 @@ EventDrivenReference::Meeting EventDrivenReference::meeting(const Disc& disc, Di
 void EventDrivenReference::rebound(Disc& disc, DiscId axis, bool is_high, double time, bool is_touched) const {
     double& v = axis == Event::wall_x ? disc.vx : disc.vy;
     const Wall wall = wall_at(disc.id, axis, is_high, time);
-    const double restitution = is_touched ? 1 : setting_.effects.sides[2 * axis + (is_high ? 1 : 0)].restitution;
+    const double restitution = is_touched ? 1 : setting_.effects.boundaries[2 * axis + (is_high ? 1 : 0)].restitution;
     double away = restitution * std::fabs(v - wall.speed);
     const std::size_t number = 2 * axis + (is_high ? 1 : 0);
-    if (setting_.effects.sides[number].kind == SideKind::thermal) {
+    if (setting_.effects.boundaries[number].kind == BoundaryKind::thermal) {
         const auto [fast, sideways] = setting_.leaving(disc, number);
         const double left = setting_.slowing_at(time);
         away = fast / left;
         (axis == Event::wall_x ? disc.vy : disc.vx) = sideways / left - gravity(1 - axis) * (setting_.drag_clock ? time / left : time);
     }
-    const double moving = setting_.effects.sides[number].speed / static_cast<double>(setting_.micro_steps);
+    const double moving = setting_.effects.boundaries[number].speed / static_cast<double>(setting_.micro_steps);
     const double at_wall = gravity(axis) - setting_.effects.drag / static_cast<double>(setting_.micro_steps) * moving;
     const double pull_back = is_high ? at_wall : -at_wall;
     if (pull_back > 0) away = std::max(away, 0.5 * pull_back * setting_.contact_time() / setting_.slowing_at(time));
@@ -178,7 +178,7 @@ void EventDrivenReference::predict_pair(DiscId p, DiscId q) {
         const Contact found = contact(discs_[p], discs_[q], setting_.radius_of(p) + setting_.radius_of(q), std::numeric_limits<double>::infinity(), copy, setting_.box_size);
         if (found.delay < 0) return;
         const double time = found.base + found.delay;
-        if (past_[p].partner == q && past_[q].partner == p && time == past_[p].time) return;
+        if (history_of_[p].partner == q && history_of_[q].partner == p && time == history_of_[p].time) return;
         push({time, 0, p, true, q, 0, false, copy});
     };
     if (!setting_.effects.are_periodic()) return look({});
@@ -190,11 +190,11 @@ void EventDrivenReference::predict_pair(DiscId p, DiscId q) {
 void EventDrivenReference::push(Event event) {
     if (!(event.time <= static_cast<double>(setting_.sync_every))) return;
     const auto raise = [&event, this](DiscId id) {
-        if (past_[id].time == event.time) event.generation = std::max(event.generation, past_[id].generation + 1);
+        if (history_of_[id].time == event.time) event.generation = std::max(event.generation, history_of_[id].generation + 1);
     };
     raise(event.p);
     if (event.is_pair) raise(event.q);
-    heap_.push_back({event, past_[event.p].version, event.is_pair ? past_[event.q].version : 0});
+    heap_.push_back({event, history_of_[event.p].version, event.is_pair ? history_of_[event.q].version : 0});
     std::push_heap(heap_.begin(), heap_.end(), comes_later);
     if (heap_.size() > most_predictions_) forget_invalid();
 }
@@ -208,8 +208,8 @@ void EventDrivenReference::forget_invalid() {
 
 bool EventDrivenReference::is_valid(const Prediction& prediction) const {
     const Event& event = prediction.event;
-    return past_[event.p].version == prediction.p_version &&
-           (!event.is_pair || past_[event.q].version == prediction.q_version);
+    return history_of_[event.p].version == prediction.p_version &&
+           (!event.is_pair || history_of_[event.q].version == prediction.q_version);
 }
 
 void EventDrivenReference::happen(const Event& event) {
@@ -249,8 +249,8 @@ void EventDrivenReference::carry_out(const Event& event) {
         note(event.q, event.p, event);
     } else {
         if (event.is_obstacle) {
-            bodies_->reflect(p, {event.time, event.q, event.copy}, event.time, is_touched);
-        } else if (setting_.effects.sides[2 * event.q + (is_high ? 1 : 0)].kind == SideKind::open) {
+            species_->reflect(p, {event.time, event.q, event.copy}, event.time, is_touched);
+        } else if (setting_.effects.boundaries[2 * event.q + (is_high ? 1 : 0)].kind == BoundaryKind::open) {
             restart_frame(p, event.time);
             set_left(setting_, p, 2 * event.q + (is_high ? 1 : 0));
             if (setting_.are_rough()) spins_[event.p] = 0;
@@ -258,21 +258,21 @@ void EventDrivenReference::carry_out(const Event& event) {
         p.wall_collisions += 1;
         wall_collisions_ += 1;
     }
-    note(event.p, event.is_pair ? event.q : Past::no_partner, event);
+    note(event.p, event.is_pair ? event.q : EventHistory::no_partner, event);
     if (event.is_obstacle) {
-        past_[event.p].body = event.q;
-        past_[event.p].copy = event.copy;
+        history_of_[event.p].body = event.q;
+        history_of_[event.p].copy = event.copy;
     }
     log_.push_back(event);
     log_.back().sync = micro_step_ / setting_.sync_every;
 }
 
 void EventDrivenReference::note(DiscId id, DiscId partner, const Event& event) {
-    past_[id].partner = partner;
-    past_[id].body = FixedBodies::none;
-    past_[id].time = event.time;
-    past_[id].generation = event.generation;
-    past_[id].version += 1;
+    history_of_[id].partner = partner;
+    history_of_[id].body = FixedBodies::none;
+    history_of_[id].time = event.time;
+    history_of_[id].generation = event.generation;
+    history_of_[id].version += 1;
 }
 
 } // namespace carrom::reference

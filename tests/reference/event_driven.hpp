@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rule "all" said plainly (docs/method.md, section 3, second half): every collision at its time, one after another.
+// The event-driven method said plainly (docs/method.md, section 3, second half): every collision at its time, one after another.
 //
 // One heap, brute-force prediction: after each collision its discs are predicted anew against all others. The order is
 // time, generation, id of P, wall before pair, id of Q, x before y. Price: N predicates per collision and N^2/2 a sync.
@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "fixed_bodies.hpp"
-#include "one_rule.hpp"
+#include "time_stepped.hpp"
 
 namespace carrom::reference {
 
@@ -59,7 +59,7 @@ private:
         std::uint64_t p_version = 0, q_version = 0;
     };
     /// What a disc's last collision since the sync was; version counts all its collisions.
-    struct Past {
+    struct EventHistory {
         static constexpr DiscId no_partner = ~DiscId{0};
         double time = -1;
         DiscId partner = no_partner;
@@ -97,10 +97,10 @@ private:
     void note(DiscId id, DiscId partner, const Event& event);
 
     Setting setting_;
-    std::shared_ptr<const FixedBodies> bodies_;
+    std::shared_ptr<const FixedBodies> species_;
     std::vector<Disc> discs_;
     std::vector<double> spins_;
-    std::vector<Past> past_;
+    std::vector<EventHistory> history_of_;
     std::vector<Prediction> heap_;
     std::size_t most_predictions_ = 1000000; ///< in the heap, before it is gone through
     std::int64_t micro_step_ = 0;

@@ -18,12 +18,12 @@ FixedBodies::FixedBodies(const Setting& setting) : setting_(setting) {
     const double k = static_cast<double>(setting.micro_steps);
     gx_ = setting.effects.gravity.x / (k * k);
     gy_ = setting.effects.gravity.y / (k * k);
-    for (const FixedDisc& disc : setting.effects.obstacles.discs) bodies_.push_back({disc.x, disc.y, disc.radius});
+    for (const FixedDisc& disc : setting.effects.obstacles.discs) species_.push_back({disc.x, disc.y, disc.radius});
     for (const Segment& s : setting.effects.obstacles.segments) {
         const double x = s.x1 - s.x0, y = s.y1 - s.y0, length = std::sqrt(x * x + y * y);
-        bodies_.push_back({s.x0, s.y0, 0, x / length, y / length, length});
-        bodies_.push_back({s.x0, s.y0, 0});
-        bodies_.push_back({s.x1, s.y1, 0});
+        species_.push_back({s.x0, s.y0, 0, x / length, y / length, length});
+        species_.push_back({s.x0, s.y0, 0});
+        species_.push_back({s.x1, s.y1, 0});
     }
 }
 
@@ -86,9 +86,9 @@ double FixedBodies::meeting_time(const Disc& disc, const Body& body, Copy copy) 
 
 BodyMeeting FixedBodies::first_meeting(const Disc& disc, double from, double until, const BodyMeeting& left) const {
     BodyMeeting first{never, none};
-    for (std::size_t k = 0; k < bodies_.size(); ++k) {
-        for (const Copy copy : copies(disc, bodies_[k], until)) {
-            const double time = meeting_time(disc, bodies_[k], copy);
+    for (std::size_t k = 0; k < species_.size(); ++k) {
+        for (const Copy copy : copies(disc, species_[k], until)) {
+            const double time = meeting_time(disc, species_[k], copy);
             if (time < from || (k == left.body && copy == left.copy && time == disc.tau)) continue;
             if (time < first.time) first = {time, k, copy};
         }
@@ -97,7 +97,7 @@ BodyMeeting FixedBodies::first_meeting(const Disc& disc, double from, double unt
 }
 
 void FixedBodies::reflect(Disc& disc, const BodyMeeting& at, double time, bool is_touched) const {
-    const Body& body = bodies_[at.body];
+    const Body& body = species_[at.body];
     const double length = setting_.box_size;
     const double x = ((disc.x + (0.5 * gx_ * time) * time) - body.x) - at.copy.x * length;
     const double y = ((disc.y + (0.5 * gy_ * time) * time) - body.y) - at.copy.y * length;

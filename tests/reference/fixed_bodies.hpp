@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "one_rule.hpp"
+#include "time_stepped.hpp"
 
 namespace carrom::reference {
 
@@ -25,7 +25,7 @@ class FixedBodies {
 public:
     explicit FixedBodies(const Setting& setting);
 
-    bool are_none() const { return bodies_.empty(); }
+    bool are_none() const { return species_.empty(); }
     /// The first meeting from `from` on, that with `left` at the disc's own time left out. Infinite if there is none. Images of bodies are
     /// looked at as far as the disc gets until `until`.
     BodyMeeting first_meeting(const Disc& disc, double from, double until, const BodyMeeting& left) const;
@@ -42,7 +42,7 @@ private:
 
     Setting setting_;
     double gx_, gy_;
-    std::vector<Body> bodies_;
+    std::vector<Body> species_;
 };
 
 } // namespace carrom::reference

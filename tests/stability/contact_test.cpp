@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "approach.hpp"
-#include "carrom/effects/plain_law.hpp"
+#include "dynamics/plain_dynamics.hpp"
 #include "hold.hpp"
 #include "runs.hpp"
 #include "scene_tools.hpp"
@@ -20,7 +20,7 @@ using namespace carrom::test;
 
 namespace {
 
-constexpr CollisionRule both[] = {CollisionRule::one, CollisionRule::all};
+constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 constexpr int most_ulps = 64;
 
 /// Every ulp on one rank; on several, which take their time to start and talk, every eighth.
@@ -50,7 +50,7 @@ TestScene pair_at_contact(int ulps, int direction, bool is_near, double closing,
 } // namespace
 
 TEST_CASE("contact: pairs within 64 ulp of contact collide once if they approach and never if they separate", "[contact]") {
-    for (const CollisionRule rule : both) {
+    for (const Method method : both) {
         double most = 0, fewest = 1, receding = 0;
         for (int ulps = -most_ulps; ulps <= most_ulps; ulps += ulp_step()) {
             for (int direction = 0; direction < 4; ++direction) {
@@ -60,7 +60,7 @@ TEST_CASE("contact: pairs within 64 ulp of contact collide once if they approach
                         // the computed distance may be wrong by an ulp of sigma, and places near the origin are that fine.
                         const bool must_meet = speed > 1e-6 || ulps <= (direction < 2 || !is_near ? 0 : -3);
                         const auto collisions = [&](double closing) {
-                            return static_cast<double>(run(pair_at_contact(ulps, direction, is_near, closing, 0.1), rule).totals.pair_collisions);
+                            return static_cast<double>(run(pair_at_contact(ulps, direction, is_near, closing, 0.1), method).totals.pair_collisions);
                         };
                         const double approaching = collisions(speed);
                         most = std::max(most, approaching);
@@ -70,32 +70,32 @@ TEST_CASE("contact: pairs within 64 ulp of contact collide once if they approach
                 }
             }
         }
-        hold("contact", "sigma (1 +- 64 ulp), approaching: most collisions of a pair", name_of(rule), most, 1);
-        hold("contact", "sigma (1 +- 64 ulp), approaching: pairs that did not collide", name_of(rule), 1 - fewest, 0);
-        hold("contact", "sigma (1 +- 64 ulp), receding: collisions", name_of(rule), receding, 0);
+        hold("contact", "sigma (1 +- 64 ulp), approaching: most collisions of a pair", name_of(method), most, 1);
+        hold("contact", "sigma (1 +- 64 ulp), approaching: pairs that did not collide", name_of(method), 1 - fewest, 0);
+        hold("contact", "sigma (1 +- 64 ulp), receding: collisions", name_of(method), receding, 0);
     }
 }
 
 // Along the tangent not even the sign of b is known; a collision then is harmless if it gives next to no impulse.
 TEST_CASE("contact: pairs that slide along each other get no impulse to speak of", "[contact]") {
-    for (const CollisionRule rule : both) {
+    for (const Method method : both) {
         double largest = 0;
         for (int ulps = -most_ulps; ulps <= most_ulps; ulps += ulp_step()) {
             for (int direction = 0; direction < 4; ++direction) {
                 for (const bool is_near : {false, true}) {
                     const TestScene scene = pair_at_contact(ulps, direction, is_near, 0, 0.25);
-                    for (const Collision& collision : collisions_of(scene, rule)) largest = std::max(largest, collision.impulse);
+                    for (const Collision& collision : collisions_of(scene, method)) largest = std::max(largest, collision.impulse);
                 }
             }
         }
-        hold("contact", "sigma (1 +- 64 ulp), sliding: largest impulse over relative speed", name_of(rule), largest / 0.25, 1e-7);
+        hold("contact", "sigma (1 +- 64 ulp), sliding: largest impulse over relative speed", name_of(method), largest / 0.25, 1e-7);
     }
 }
 
 // The impulse is taken from the stored places, so that afterwards b > 0.
 TEST_CASE("contact: a million random collisions leave no pair that approaches", "[contact]") {
     Approaches some(201);
-    const PlainLaw law(64, 0.5);
+    const PlainDynamics dynamics(64, 0.5);
     double n_again = 0;
     for (int i = 0; i < 1000000; ++i) {
         const double distance = some.log_uniform(1, 30), margin = some.log_uniform(1e-10, 1), speed = some.log_uniform(1e-3, 10);
@@ -110,10 +110,10 @@ TEST_CASE("contact: a million random collisions leave no pair that approaches", 
         p.vy = some.uniform(-1, 1);
         q.vx = p.vx + c.wx;
         q.vy = p.vy + c.wy;
-        const PairContact<double> contact = law.exact_contact(p, q);
+        const PairContact<double> contact = dynamics.event_contact(p, q);
         if (!contact.exists()) continue;
-        PlainLaw::collide_at(p, q, contact.base + contact.delay);
-        const PairContact<double> next = law.exact_contact(p, q);
+        PlainDynamics::collide_at(p, q, contact.base + contact.delay);
+        const PairContact<double> next = dynamics.event_contact(p, q);
         n_again += next.exists() && next.delay < 1e-12;
     }
     hold("contact", "1e6 random collisions: pairs due to collide again at once", "both", n_again, 0);
@@ -121,7 +121,7 @@ TEST_CASE("contact: a million random collisions leave no pair that approaches", 
 
 // Grazing pairs and all: in a run, each pair meets once.
 TEST_CASE("contact: lone pairs collide once in a run", "[contact]") {
-    for (const CollisionRule rule : both) {
+    for (const Method method : both) {
         double most = 0, total = 0;
         Approaches some(202);
         for (int i = 0; i < 40; ++i) {
@@ -133,28 +133,28 @@ TEST_CASE("contact: lone pairs collide once in a run", "[contact]") {
                 add_disc(scene, x - c.dx / 2, y - c.dy / 2, -c.wx / 2, -c.wy / 2);
                 add_disc(scene, x + c.dx / 2, y + c.dy / 2, c.wx / 2, c.wy / 2);
             }
-            const Outcome outcome = run(scene, rule);
+            const Outcome outcome = run(scene, method);
             for (const Disc& disc : outcome.discs) most = std::max(most, static_cast<double>(disc.pair_collisions));
             total += static_cast<double>(outcome.totals.pair_collisions);
         }
         CHECK(total > 40 * 64 * 0.9);
-        hold("contact", "2560 lone pairs, grazing to 1e-8: most collisions of a pair", name_of(rule), most, 1);
+        hold("contact", "2560 lone pairs, grazing to 1e-8: most collisions of a pair", name_of(method), most, 1);
     }
 }
 
 // The two roundings of a time, seen from either side of a boundary, must leave no crack to slip through.
 TEST_CASE("contact: none is lost on a step, sync or window boundary", "[contact]") {
-    for (const CollisionRule rule : both) {
+    for (const Method method : both) {
         double lost = 0, n_contacts = 0;
         for (const TestScene& scene : boundary_contacts()) {
             for (const double window : {0.5, 1.0, 64.0}) {
                 Tuning tuning;
                 tuning.window = window;
                 const auto expected = static_cast<double>(*scene.expected_pair_collisions);
-                lost += std::fabs(expected - static_cast<double>(run(scene, rule, tuning).totals.pair_collisions));
+                lost += std::fabs(expected - static_cast<double>(run(scene, method, tuning).totals.pair_collisions));
                 n_contacts += expected;
             }
         }
-        hold("contact", number(n_contacts) + " contacts on boundaries, L/r to 1e6: lost or repeated", name_of(rule), lost, 0);
+        hold("contact", number(n_contacts) + " contacts on boundaries, L/r to 1e6: lost or repeated", name_of(method), lost, 0);
     }
 }

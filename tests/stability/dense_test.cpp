@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Family 7, dense: gaps that are a few hundred ulp, ten thousand collisions a disc, under the rule "all".
+// Family 7, dense: gaps that are a few hundred ulp, ten thousand collisions a disc, in the event-driven method.
 //
 // Why hard: the time between collisions is the time for 1e-12 diameters, every contact is decided by its last digits,
 // and an overlap once made is fed back ten thousand times. Sources: Lubachevsky, Stillinger, J. Stat. Phys. 60, 561
@@ -54,11 +54,11 @@ TestScene open_cluster(std::size_t k, double gap) {
 }
 
 /// Runs until every disc has had `collisions` on average and holds what must hold at every look.
-void crowd(TestScene scene, const std::string& what, double gap, double collisions) {
+void cascade(TestScene scene, const std::string& what, double gap, double collisions) {
     Random random(701);
     set_speeds(scene, 32 * gap, random);
     scene.steps = 1 << 30;
-    Simulation simulation = start(scene, CollisionRule::all);
+    Simulation simulation = start(scene, Method::event_driven);
     const Outcome before = outcome_of(simulation);
     const double n = static_cast<double>(scene.discs.size()), ulp = ulp_of(scene.setting.box_size / 2);
     double overlap = 0, outside = 0, energy = 0, done = 0;
@@ -80,30 +80,30 @@ void crowd(TestScene scene, const std::string& what, double gap, double collisio
 } // namespace
 
 TEST_CASE("dense: jammed rows, gap 1e-12, 1e4 collisions a disc", "[dense]") {
-    crowd(jammed_rows(6, 4, 1e-12), "24 discs in jammed rows, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
+    cascade(jammed_rows(6, 4, 1e-12), "24 discs in jammed rows, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
 }
 
 TEST_CASE("dense: a jammed square lattice, gap 1e-12, 1e4 collisions a disc", "[dense]") {
-    crowd(jammed_square(8, 1e-12), "64 discs in a jammed square lattice, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
+    cascade(jammed_square(8, 1e-12), "64 discs in a jammed square lattice, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
 }
 
 TEST_CASE("dense: gaps of an ulp or two of the box", "[dense]") {
-    crowd(jammed_square(6, 0x1p-50), "36 discs in a jammed square lattice, gap 1 ulp(L), 1e3 collisions a disc", 0x1p-50, 1000);
+    cascade(jammed_square(6, 0x1p-50), "36 discs in a jammed square lattice, gap 1 ulp(L), 1e3 collisions a disc", 0x1p-50, 1000);
 }
 
 TEST_CASE("dense: an open hexagonal cluster with gap 1e-12 flies apart", "[dense]") {
-    crowd(open_cluster(16, 1e-12), "open hexagonal cluster of 256, gap 1e-12 sigma", 1e-12, 10);
+    cascade(open_cluster(16, 1e-12), "open hexagonal cluster of 256, gap 1e-12 sigma", 1e-12, 10);
 }
 
 TEST_CASE("dense: 120 discs, 1e4 collisions a disc", "[dense][.hours]") {
-    crowd(jammed_rows(12, 10, 1e-12), "120 discs in jammed rows, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
+    cascade(jammed_rows(12, 10, 1e-12), "120 discs in jammed rows, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
 }
 
 TEST_CASE("dense: 1512 discs at packing 0.89, 1e4 collisions a disc", "[dense][.hours]") {
-    crowd(jammed_rows(42, 36, 1e-12), "1512 discs at packing 0.89, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
+    cascade(jammed_rows(42, 36, 1e-12), "1512 discs at packing 0.89, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
 }
 
 // Walls cost packing: in a box it takes this many discs to come to 0.9.
 TEST_CASE("dense: 10246 discs at packing 0.9, 1e4 collisions a disc", "[dense][.hours]") {
-    crowd(jammed_rows(109, 94, 1e-12), "10246 discs at packing 0.9, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
+    cascade(jammed_rows(109, 94, 1e-12), "10246 discs at packing 0.9, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
 }

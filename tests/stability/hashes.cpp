@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <exception>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/parallel/communicator.hpp"
-#include "carrom/parallel/mpi.hpp"
+#include "core/errors.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/mpi.hpp"
 #include "event_driven.hpp"
 #include "runs.hpp"
 #include "scene_tools.hpp"
@@ -19,9 +19,9 @@ using namespace carrom::test;
 
 namespace {
 
-std::string text_of(const TestScene& scene, CollisionRule rule) {
+std::string text_of(const TestScene& scene, Method method) {
     try {
-        return to_string(run(scene, rule).totals.hash);
+        return to_string(run(scene, method).totals.hash);
     } catch (const InputError&) {
         return "refused";
     }
@@ -30,16 +30,16 @@ std::string text_of(const TestScene& scene, CollisionRule rule) {
 /// Hundreds of discs on one line, hundreds of diameters a step: millions of collisions that show nothing new.
 bool is_long_under_all(const TestScene& scene) {
     const bool is_line = scene.name.rfind("chain", 0) == 0 || scene.name.rfind("cradle", 0) == 0;
-    return scene.is_endless_under_all || (is_line && scene.discs.size() >= 400);
+    return scene.cascades_when_event_driven || (is_line && scene.discs.size() >= 400);
 }
 
 /// A gas, a crowd and a triangle that is hit, with effects drawn at random.
-TestScene scene_with_effects(std::uint64_t seed, CollisionRule rule) {
+TestScene scene_with_effects(std::uint64_t seed, Method method) {
     TestScene scene = seed % 3 == 0 ? gas(60, 0.3, 0.5, 900 + seed) : seed % 3 == 1 ? gas(64, 0.6, 0.1, 900 + seed) : break_shot(5, 0.5, 3, 0.1);
     scene.steps = 10;
     scene.setting.sync_every = seed % 2 == 0 ? 3 : 64;
     scene.setting.micro_steps = seed % 4 == 0 ? 2 : 1;
-    return with_effects(scene, rule, seed);
+    return with_effects(scene, method, seed);
 }
 
 /// FNV-1a over the lines.
@@ -59,8 +59,8 @@ int main(int argc, char** argv) {
             scene.steps = 2;
             scenes.push_back(scene);
         }
-        const auto add_run = [&](const TestScene& scene, CollisionRule rule) {
-            const std::string line = text_of(scene, rule) + "  " + name_of(rule) + "  " + scene.name;
+        const auto add_run = [&](const TestScene& scene, Method method) {
+            const std::string line = text_of(scene, method) + "  " + name_of(method) + "  " + scene.name;
             add(sum, line);
             ++n_runs;
             if (argc > 1 && world.is_root()) std::printf("%s\n", line.c_str());
@@ -68,16 +68,16 @@ int main(int argc, char** argv) {
         const auto is_asked_for = [&](const TestScene& scene) { return argc < 2 || scene.name.find(argv[1]) != std::string::npos; };
         for (TestScene& scene : scenes) {
             if (!is_asked_for(scene)) continue;
-            for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
-                if (rule == CollisionRule::all && is_long_under_all(scene)) continue;
-                if (rule == CollisionRule::all) scene.steps = std::min<std::int64_t>(scene.steps, 4);
-                add_run(scene, rule);
+            for (const Method method : {Method::time_stepped, Method::event_driven}) {
+                if (method == Method::event_driven && is_long_under_all(scene)) continue;
+                if (method == Method::event_driven) scene.steps = std::min<std::int64_t>(scene.steps, 4);
+                add_run(scene, method);
             }
         }
         for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-            for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
-                const TestScene scene = scene_with_effects(seed, rule);
-                if (is_asked_for(scene)) add_run(scene, rule);
+            for (const Method method : {Method::time_stepped, Method::event_driven}) {
+                const TestScene scene = scene_with_effects(seed, method);
+                if (is_asked_for(scene)) add_run(scene, method);
             }
         }
         if (world.is_root()) std::printf("%016llx %zu runs\n", static_cast<unsigned long long>(sum), n_runs);

@@ -19,16 +19,16 @@ using namespace carrom::test;
 
 namespace {
 
-constexpr CollisionRule both[] = {CollisionRule::one, CollisionRule::all};
+constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 
 /// The run's state as a checkpoint would hold it.
 StoredState stored(const Simulation& simulation) {
     return {{simulation.discs().begin(), simulation.discs().end()}, simulation.micro_steps_done()};
 }
 
-Simulation resume(const TestScene& scene, CollisionRule rule, StoredState state) {
+Simulation resume(const TestScene& scene, Method method, StoredState state) {
     Scene checked = scene_of(scene);
-    checked.rule = rule;
+    checked.method = method;
     return {checked, std::move(state), Communicator::world(), {}};
 }
 
@@ -40,15 +40,15 @@ TestScene some_gas() {
 }
 
 /// Like some_gas, from `micro_steps` on, the counters `counted` ahead; what comes of it in 20 steps.
-Outcome later(CollisionRule rule, std::int64_t micro_steps, std::uint64_t counted) {
+Outcome later(Method method, std::int64_t micro_steps, std::uint64_t counted) {
     const TestScene scene = some_gas();
-    StoredState state = stored(start(scene, rule));
+    StoredState state = stored(start(scene, method));
     state.micro_steps_done = micro_steps;
     for (Disc& disc : state.discs) {
         disc.wall_collisions += counted;
         disc.pair_collisions += counted;
     }
-    Simulation simulation = resume(scene, rule, state);
+    Simulation simulation = resume(scene, method, state);
     CHECK(simulation.step() == micro_steps / 2);
     run_to(simulation, micro_steps / 2 + 20);
     Outcome outcome = outcome_of(simulation);
@@ -62,63 +62,63 @@ Outcome later(CollisionRule rule, std::int64_t micro_steps, std::uint64_t counte
 bool has_same_bits(const Outcome& a, const Outcome& b) { return hash_of(a.discs) == hash_of(b.discs); }
 
 /// The state 20 steps on, by a run that is stopped and started again on the way.
-Outcome with_restart(const TestScene& scene, CollisionRule rule, StoredState state) {
-    Simulation first = resume(scene, rule, std::move(state));
+Outcome with_restart(const TestScene& scene, Method method, StoredState state) {
+    Simulation first = resume(scene, method, std::move(state));
     const std::int64_t step = first.step();
     run_to(first, step + 7);
-    Simulation second = resume(scene, rule, stored(first));
+    Simulation second = resume(scene, method, stored(first));
     run_to(second, step + 20);
     return outcome_of(second);
 }
 
 /// `most` collisions in `parts` parts; energy, and the hash after a restart, are looked at after each.
-void many_collisions(CollisionRule rule, std::size_t n, double most, int parts) {
+void many_collisions(Method method, std::size_t n, double most, int parts) {
     TestScene scene = gas(n, 0.3, 0.5, 803);
     scene.steps = std::int64_t{1} << 40;
-    Simulation simulation = start(scene, rule);
+    Simulation simulation = start(scene, method);
     const double energy = squared_speeds(outcome_of(simulation));
     double worst = 0, n_different = 0;
     for (int part = 1; part <= parts; ++part) {
         while (static_cast<double>(simulation.totals().pair_collisions) < most * part / parts) run_to(simulation, simulation.step() + 50);
-        const Outcome again = with_restart(scene, rule, stored(simulation));
+        const Outcome again = with_restart(scene, method, stored(simulation));
         run_to(simulation, simulation.step() + 20);
         const Outcome now = outcome_of(simulation);
         n_different += !has_same_bits(now, again);
         worst = std::max(worst, std::fabs(squared_speeds(now) / energy - 1));
     }
     const std::string what = number(most) + " collisions of " + std::to_string(n) + " discs";
-    hold("long", what + ": change of the energy", name_of(rule), worst, 1e-12);
-    hold("long", what + ": other bits after a restart", name_of(rule), n_different, 0);
+    hold("long", what + ": change of the energy", name_of(method), worst, 1e-12);
+    hold("long", what + ": other bits after a restart", name_of(method), n_different, 0);
 }
 
 } // namespace
 
 TEST_CASE("long: steps above 2^32 and up to 2^53 have the bits of the first ones", "[long]") {
-    for (const CollisionRule rule : both) {
-        const Outcome expected = later(rule, 0, 0);
+    for (const Method method : both) {
+        const Outcome expected = later(method, 0, 0);
         double n_different = 0;
         for (const int bits : {31, 32, 40, 52}) {
             // From 16 micro-steps before the boundary across it.
-            n_different += !has_same_bits(later(rule, (std::int64_t{1} << bits) - 16, 0), expected);
+            n_different += !has_same_bits(later(method, (std::int64_t{1} << bits) - 16, 0), expected);
         }
-        hold("long", "steps across 2^31, 2^32, 2^40, 2^52: runs with other bits", name_of(rule), n_different, 0);
+        hold("long", "steps across 2^31, 2^32, 2^40, 2^52: runs with other bits", name_of(method), n_different, 0);
     }
 }
 
 TEST_CASE("long: counters above 2^32 go on counting", "[long]") {
-    for (const CollisionRule rule : both) {
-        const Outcome expected = later(rule, 0, 0);
+    for (const Method method : both) {
+        const Outcome expected = later(method, 0, 0);
         double n_different = 0;
         for (const std::uint64_t counted : {(std::uint64_t{1} << 31) - 2, (std::uint64_t{1} << 32) - 2, std::uint64_t{1} << 50}) {
-            n_different += !has_same_bits(later(rule, 0, counted), expected);
+            n_different += !has_same_bits(later(method, 0, counted), expected);
         }
-        hold("long", "counters across 2^31, 2^32, at 2^50: runs with other bits", name_of(rule), n_different, 0);
+        hold("long", "counters across 2^31, 2^32, at 2^50: runs with other bits", name_of(method), n_different, 0);
     }
 }
 
 // Times count from the last sync, so that t + dt == t does not depend on how long the run is, but on sync_every.
 TEST_CASE("long: contacts late in a long sync interval are not lost", "[long]") {
-    for (const CollisionRule rule : both) {
+    for (const Method method : both) {
         for (const int bits : {10, 20, 30}) {
             TestScene scene = empty_scene("late contacts", 160, 0.5, 0);
             scene.setting.sync_every = std::int64_t{1} << bits;
@@ -130,13 +130,13 @@ TEST_CASE("long: contacts late in a long sync interval are not lost", "[long]") 
                 add_disc(scene, x, y, speed * ex, speed * ey);
                 add_disc(scene, x + (1 + gap) * ex, y + (1 + gap) * ey, -speed * ex, -speed * ey);
             }
-            StoredState state = stored(start(scene, rule));
+            StoredState state = stored(start(scene, method));
             state.micro_steps_done = (std::int64_t{1} << bits) - 6; // the discs fly from here, over the sync
             for (Disc& disc : state.discs) disc.tau = static_cast<double>(state.micro_steps_done);
-            Simulation simulation = resume(scene, rule, state);
+            Simulation simulation = resume(scene, method, state);
             run_to(simulation, simulation.step() + 12);
             const auto met = static_cast<double>(simulation.totals().pair_collisions);
-            hold("long", "contacts before and after a sync at 2^" + std::to_string(bits) + ": lost or repeated, of 64", name_of(rule),
+            hold("long", "contacts before and after a sync at 2^" + std::to_string(bits) + ": lost or repeated, of 64", name_of(method),
                  std::fabs(met - 64), 0);
         }
     }
@@ -147,10 +147,10 @@ TEST_CASE("long: late in a long sync interval overlaps are as deep as times are 
     for (const int bits : {6, 20, 30}) {
         TestScene scene = gas(64, 0.4, 0.3, 805);
         scene.setting.sync_every = std::int64_t{1} << bits;
-        StoredState state = stored(start(scene, CollisionRule::all));
+        StoredState state = stored(start(scene, Method::event_driven));
         state.micro_steps_done = scene.setting.sync_every - 40;
         for (Disc& disc : state.discs) disc.tau = static_cast<double>(state.micro_steps_done);
-        Simulation simulation = resume(scene, CollisionRule::all, state);
+        Simulation simulation = resume(scene, Method::event_driven, state);
         double worst = 0;
         for (int step = 0; step < 60; ++step) {
             run_to(simulation, simulation.step() + 1);
@@ -169,7 +169,7 @@ TEST_CASE("long: discs faster than times can tell end in finite time, with their
     for (const double speed : {0x1p30, 0x1p52, 0x1p60, 0x1p200}) {
         TestScene scene = gas(16, 0.2, speed, 806);
         scene.steps = 130;
-        const Outcome before = outcome_of(start(scene, CollisionRule::one)), after = run(scene, CollisionRule::one);
+        const Outcome before = outcome_of(start(scene, Method::time_stepped)), after = run(scene, Method::time_stepped);
         worst = std::max(worst, std::fabs(squared_speeds(after) / squared_speeds(before) - 1));
         const double allowed = 4 * ulp_of(scene.setting.box_size) + std::sqrt(squared_speeds(after)) * ulp_of(32);
         outside = std::max(outside, farthest_outside(after, scene.setting) / allowed);
@@ -179,10 +179,10 @@ TEST_CASE("long: discs faster than times can tell end in finite time, with their
 }
 
 TEST_CASE("long: energy and restarts over 2e5 collisions", "[long]") {
-    many_collisions(CollisionRule::one, 400, 1e5, 4);
-    many_collisions(CollisionRule::all, 400, 1e5, 4);
+    many_collisions(Method::time_stepped, 400, 1e5, 4);
+    many_collisions(Method::event_driven, 400, 1e5, 4);
 }
 
-TEST_CASE("long: energy and restarts over 1e9 collisions, rule all", "[long][.hours]") { many_collisions(CollisionRule::all, 10000, 1e9, 10); }
+TEST_CASE("long: energy and restarts over 1e9 collisions, rule all", "[long][.hours]") { many_collisions(Method::event_driven, 10000, 1e9, 10); }
 
-TEST_CASE("long: energy and restarts over 1e9 collisions, rule one", "[long][.hours]") { many_collisions(CollisionRule::one, 10000, 1e9, 10); }
+TEST_CASE("long: energy and restarts over 1e9 collisions, rule one", "[long][.hours]") { many_collisions(Method::time_stepped, 10000, 1e9, 10); }

@@ -19,7 +19,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "carrom/core/errors.hpp"
+#include "core/errors.hpp"
 #include "event_driven.hpp"
 #include "hold.hpp"
 #include "regressions.hpp"
@@ -33,9 +33,9 @@ using namespace carrom::test;
 
 namespace {
 
-constexpr CollisionRule both[] = {CollisionRule::one, CollisionRule::all};
+constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 
-std::uint64_t n_endless = 0; ///< scenes that are left out, for want of a reference
+std::uint64_t n_cascades = 0; ///< scenes that are left out, for want of a reference
 
 struct State {
     std::vector<Disc> discs;
@@ -54,12 +54,12 @@ template <class Reference> State state_after(Reference reference, std::int64_t s
 }
 
 /// The state that the rule's reference ends in; none if it is in collisions without end.
-std::optional<State> reference_state(const TestScene& scene, CollisionRule rule) {
-    if (rule == CollisionRule::one) return state_after(reference::OneRuleReference(scene.setting, scene.discs), scene.steps);
+std::optional<State> reference_state(const TestScene& scene, Method method) {
+    if (method == Method::time_stepped) return state_after(reference::TimeSteppedReference(scene.setting, scene.discs), scene.steps);
     try {
         return state_after(reference::EventDrivenReference(scene.setting, scene.discs, 20000), scene.steps);
     } catch (const std::runtime_error&) {
-        ++n_endless;
+        ++n_cascades;
         return std::nullopt;
     }
 }
@@ -70,10 +70,10 @@ bool is_transposed(const Disc& a, const Disc& b) {
 }
 
 /// Whether the log counts what the discs count, in times that are in order and in range.
-bool log_agrees(const TestScene& scene, CollisionRule rule, const Totals& totals) {
+bool log_agrees(const TestScene& scene, Method method, const Totals& totals) {
     std::uint64_t n_walls = 0, n_pairs = 0;
     double last = 0;
-    for (const Collision& collision : collisions_of(scene, rule)) {
+    for (const Collision& collision : collisions_of(scene, method)) {
         const double time = static_cast<double>(collision.micro_step) + collision.time;
         if (time < last || time > static_cast<double>(scene.steps * scene.setting.micro_steps)) return false;
         if (collision.q != Collision::wall && collision.p >= collision.q) return false;
@@ -83,29 +83,29 @@ bool log_agrees(const TestScene& scene, CollisionRule rule, const Totals& totals
     return n_walls == totals.wall_collisions && n_pairs == totals.pair_collisions;
 }
 
-bool has_same_bits_in_another_order(const TestScene& scene, CollisionRule rule, const Outcome& end, double window = 0.37) {
+bool has_same_bits_in_another_order(const TestScene& scene, Method method, const Outcome& end, double window = 0.37) {
     Tuning tuning;
     tuning.window = window;
     tuning.cell_width = 0.5;
-    return run(scene, rule, tuning, 7).totals.hash == end.totals.hash;
+    return run(scene, method, tuning, 7).totals.hash == end.totals.hash;
 }
 
 /// The first property that does not hold whatever the effects; empty if all do. **Collective.**
-std::string broken_with_effects(const TestScene& scene, CollisionRule rule) {
-    const auto expected = reference_state(scene, rule);
+std::string broken_with_effects(const TestScene& scene, Method method) {
+    const auto expected = reference_state(scene, method);
     if (!expected) return {};
-    const Outcome end = run(scene, rule);
+    const Outcome end = run(scene, method);
     if (end.discs.size() != scene.discs.size()) return "discs are lost";
     if (end.totals.hash != expected->hash()) return "other bits than the reference";
-    if (!log_agrees(scene, rule, end.totals)) return "log and counters do not agree";
-    if (!has_same_bits_in_another_order(scene, rule, end)) return "other bits in another storage order";
+    if (!log_agrees(scene, method, end.totals)) return "log and counters do not agree";
+    if (!has_same_bits_in_another_order(scene, method, end)) return "other bits in another storage order";
     return {};
 }
 
 /// Whether the log says of each disc what its counters say.
-bool counters_agree(const TestScene& scene, CollisionRule rule, const std::vector<Disc>& discs) {
+bool counters_agree(const TestScene& scene, Method method, const std::vector<Disc>& discs) {
     std::vector<std::array<std::uint64_t, 2>> n(discs.size());
-    for (const Collision& collision : collisions_of(scene, rule)) {
+    for (const Collision& collision : collisions_of(scene, method)) {
         ++n[collision.p][collision.q != Collision::wall];
         if (collision.q != Collision::wall) ++n[collision.q][1];
     }
@@ -126,20 +126,20 @@ long double energy_of(const State& state, const reference::Setting& setting) {
 /// Energy never grows where nothing gives any, and stays where nothing takes any either. (With gravity the self-check looks at it.)
 bool energy_is_right(const TestScene& scene, const State& end) {
     const Effects& effects = scene.setting.effects;
-    const auto has_side = [&effects](auto is_so) { return std::any_of(effects.sides.begin(), effects.sides.end(), is_so); };
-    if (effects.gravity.is_any() || has_side([](const Side& side) { return side.kind == SideKind::thermal || side.speed != 0; })) return true;
+    const auto has_side = [&effects](auto is_so) { return std::any_of(effects.boundaries.begin(), effects.boundaries.end(), is_so); };
+    if (effects.gravity.is_any() || has_side([](const Boundary& side) { return side.kind == BoundaryKind::thermal || side.speed != 0; })) return true;
     const State start{reference::stored_states(scene.setting, scene.discs), reference::stored_spins(scene.setting, scene.discs.size())};
     const long double before = energy_of(start, scene.setting), growth = energy_of(end, scene.setting) - before;
     const ContactEffect& contact = effects.contact;
     const bool keeps_slip = contact.tangential_restitution == -1 || contact.friction == 0 || (contact.tangential_restitution == 1 && std::isinf(contact.friction));
     const bool are_lossy = contact.restitution < 1 || (contact.kind == ContactKind::rough && !keeps_slip) || effects.drag > 0 || effects.obstacles.restitution < 1;
-    const bool may_take = are_lossy || has_side([](const Side& side) { return side.restitution < 1 || side.kind == SideKind::open; });
+    const bool may_take = are_lossy || has_side([](const Boundary& side) { return side.restitution < 1 || side.kind == BoundaryKind::open; });
     return (may_take ? growth : std::fabs(growth)) <= 1e-12L * before;
 }
 
 /// Whether the scene written as TOML is one that the program takes, and the same one.
-bool reads_back(const TestScene& scene, CollisionRule rule) {
-    const auto [read, rules] = regression_of(toml_of(scene, rule), "drawn.toml");
+bool reads_back(const TestScene& scene, Method method) {
+    const auto [read, methods] = regression_of(toml_of(scene, method), "drawn.toml");
     const auto has_no_spin = [](const std::vector<double>& spins) { return std::all_of(spins.begin(), spins.end(), [](double spin) { return spin == 0; }); };
     const std::vector<double>&spins = scene.setting.first_spins, &spins_read = read.setting.first_spins;
     return read.discs == scene.discs && read.setting.effects == scene.setting.effects && read.setting.radius == scene.setting.radius &&
@@ -147,13 +147,13 @@ bool reads_back(const TestScene& scene, CollisionRule rule) {
 }
 
 /// The same run, stopped half-way and begun again from what is stored.
-bool has_same_bits_begun_again(const TestScene& scene, CollisionRule rule, const Outcome& end) {
+bool has_same_bits_begun_again(const TestScene& scene, Method method, const Outcome& end) {
     Scene again = scene_of(scene);
-    again.rule = rule;
+    again.method = method;
     Tuning tuning;
     tuning.threads = omp_get_max_threads();
     tuning.discs_per_thread = 1;
-    Simulation first = start(scene, rule);
+    Simulation first = start(scene, method);
     run_to(first, scene.steps / 2);
     Simulation second(again, {{first.discs().begin(), first.discs().end()}, first.micro_steps_done(), {first.spins().begin(), first.spins().end()}}, Communicator::world(), tuning);
     run_to(second, scene.steps);
@@ -161,29 +161,29 @@ bool has_same_bits_begun_again(const TestScene& scene, CollisionRule rule, const
 }
 
 /// The scene with every step checked, but for boxes with open sides.
-Outcome run_checked(const TestScene& scene, CollisionRule rule) {
+Outcome run_checked(const TestScene& scene, Method method) {
     Scene checked = scene_of(scene);
-    checked.rule = rule;
-    Simulation simulation = start(scene, rule);
-    if (!scene.setting.effects.have_open_sides()) simulation.check_every_step(checked);
+    checked.method = method;
+    Simulation simulation = start(scene, method);
+    if (!scene.setting.effects.have_open_boundaries()) simulation.check_every_step(checked);
     run_to(simulation, scene.steps);
     return outcome_of(simulation);
 }
 
 /// The same for discs that differ, turn and leave, among obstacles. What follows a colon is told, and not compared. **Collective.**
-std::string broken_among_bodies(const TestScene& scene, CollisionRule rule) {
+std::string broken_among_bodies(const TestScene& scene, Method method) {
     if (!is_clear(scene)) return "drawn with an overlap";
     try {
-        if (!reads_back(scene, rule)) return "another scene when read back";
-        const auto expected = reference_state(scene, rule);
+        if (!reads_back(scene, method)) return "another scene when read back";
+        const auto expected = reference_state(scene, method);
         if (!expected) return {};
-        const Outcome end = run_checked(scene, rule);
+        const Outcome end = run_checked(scene, method);
         if (end.discs.size() != scene.discs.size()) return "discs are lost";
         if (end.totals.hash != expected->hash()) return "other bits than the reference";
         if (!energy_is_right(scene, *expected)) return "the energy has changed";
-        if (!log_agrees(scene, rule, end.totals) || !counters_agree(scene, rule, end.discs)) return "log and counters do not agree";
-        if (!has_same_bits_in_another_order(scene, rule, end) || !has_same_bits_in_another_order(scene, rule, end, 2.7)) return "other bits in another storage order";
-        if (!has_same_bits_begun_again(scene, rule, end)) return "other bits after a restart";
+        if (!log_agrees(scene, method, end.totals) || !counters_agree(scene, method, end.discs)) return "log and counters do not agree";
+        if (!has_same_bits_in_another_order(scene, method, end) || !has_same_bits_in_another_order(scene, method, end, 2.7)) return "other bits in another storage order";
+        if (!has_same_bits_begun_again(scene, method, end)) return "other bits after a restart";
     } catch (const InputError& error) {
         return std::string("refused: ") + error.what();
     } catch (const CollectiveError& error) {
@@ -193,19 +193,19 @@ std::string broken_among_bodies(const TestScene& scene, CollisionRule rule) {
 }
 
 /// The same for plain scenes. **Collective.**
-std::string broken_property(const TestScene& scene, CollisionRule rule) {
-    const auto expected = reference_state(scene, rule);
+std::string broken_property(const TestScene& scene, Method method) {
+    const auto expected = reference_state(scene, method);
     if (!expected) return {};
-    const Outcome start_of_run = outcome_of(start(scene, rule)), end = run(scene, rule);
+    const Outcome start_of_run = outcome_of(start(scene, method)), end = run(scene, method);
     if (end.discs.size() != scene.discs.size()) return "discs are lost";
     if (end.totals.hash != expected->hash()) return "other bits than the reference";
     const double energy = squared_speeds(start_of_run), speed = std::sqrt(energy);
     if (std::fabs(squared_speeds(end) - energy) > 1e-12 * energy) return "the energy has changed";
     const double latest = std::max(64.0, static_cast<double>(std::min(scene.setting.sync_every, scene.steps * scene.setting.micro_steps)));
     if (farthest_outside(end, scene.setting) > 4 * ulp_of(scene.setting.box_size) + speed * ulp_of(latest / 2)) return "a disc is outside";
-    if (!log_agrees(scene, rule, end.totals)) return "log and counters do not agree";
-    if (!has_same_bits_in_another_order(scene, rule, end)) return "other bits in another storage order";
-    const Outcome mirror = run(transposed(scene), rule);
+    if (!log_agrees(scene, method, end.totals)) return "log and counters do not agree";
+    if (!has_same_bits_in_another_order(scene, method, end)) return "other bits in another storage order";
+    const Outcome mirror = run(transposed(scene), method);
     if (!std::equal(end.discs.begin(), end.discs.end(), mirror.discs.begin(), is_transposed)) return "not bitwise transposed";
     return {};
 }
@@ -218,33 +218,33 @@ std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
 /// `draw(seed, rule)` makes the scenes, which are drawn `how`; `broken(scene, rule)` says what is wrong with one.
 template <class Draw>
 void try_scenes(const std::string& how, std::uint64_t first, std::uint64_t count, const Draw& draw,
-                std::string (*broken_in)(const TestScene&, CollisionRule) = broken_property) {
-    for (const CollisionRule rule : both) {
+                std::string (*broken_in)(const TestScene&, Method) = broken_property) {
+    for (const Method method : both) {
         double n_broken = 0;
-        n_endless = 0;
+        n_cascades = 0;
         for (std::uint64_t seed = first; seed < first + count && n_broken < 3; ++seed) {
-            const TestScene scene = draw(seed, rule);
-            const std::string broken = broken_in(scene, rule);
+            const TestScene scene = draw(seed, method);
+            const std::string broken = broken_in(scene, method);
             if (broken.empty()) continue;
             n_broken += 1;
             const auto kind = [](const std::string& text) { return text.substr(0, text.find(':')); };
             const TestScene small = shrunk(scene, [&](const TestScene& trial) {
                 try {
-                    return kind(broken_in(trial, rule)) == kind(broken);
+                    return kind(broken_in(trial, method)) == kind(broken);
                 } catch (const InputError&) { // rounded places may overlap
                     return false;
                 }
             });
-            FAIL_CHECK(scene.name << ", rule " << name_of(rule) << ": " << broken << "; small:\n" << toml_of(small, rule));
+            FAIL_CHECK(scene.name << ", rule " << name_of(method) << ": " << broken << "; small:\n" << toml_of(small, method));
         }
-        CHECK(n_endless <= count / 4);
-        hold("property", std::to_string(count) + " random scenes drawn " + how + ": a property broken", name_of(rule), n_broken, 0);
+        CHECK(n_cascades <= count / 4);
+        hold("property", std::to_string(count) + " random scenes drawn " + how + ": a property broken", name_of(method), n_broken, 0);
     }
 }
 
-TestScene troubled(std::uint64_t seed, CollisionRule) { return troubled_scene(seed); }
-TestScene troubled_with_effects(std::uint64_t seed, CollisionRule rule) { return with_effects(troubled_scene(seed), rule, seed); }
-TestScene wildly_troubled(std::uint64_t seed, CollisionRule rule) { return wildly_troubled_scene(seed, rule == CollisionRule::one); }
+TestScene troubled(std::uint64_t seed, Method) { return troubled_scene(seed); }
+TestScene troubled_with_effects(std::uint64_t seed, Method method) { return with_effects(troubled_scene(seed), method, seed); }
+TestScene wildly_troubled(std::uint64_t seed, Method method) { return wildly_troubled_scene(seed, method == Method::time_stepped); }
 
 } // namespace
 
@@ -286,10 +286,10 @@ TEST_CASE("property: twenty thousand random scenes drawn wildly", "[property][.h
 TEST_CASE("property: scenes that have failed before", "[property]") {
     std::size_t n_scenes = 0;
     for (const auto& entry : std::filesystem::directory_iterator(CARROM_REGRESSIONS)) {
-        const auto [scene, rules] = read_regression(entry.path().string());
-        for (const CollisionRule rule : rules) {
-            INFO(scene.name << ", rule " << name_of(rule));
-            CHECK((scene.setting.effects.are_any() ? broken_among_bodies : broken_property)(scene, rule) == "");
+        const auto [scene, methods] = read_regression(entry.path().string());
+        for (const Method method : methods) {
+            INFO(scene.name << ", rule " << name_of(method));
+            CHECK((scene.setting.effects.are_any() ? broken_among_bodies : broken_property)(scene, method) == "");
         }
         ++n_scenes;
     }

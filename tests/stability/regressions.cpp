@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "carrom/scene/read_scene.hpp"
+#include "scene/read_scene.hpp"
 #include "runs.hpp"
 #include "scene_tools.hpp"
 #include "troubled_effects.hpp"
@@ -30,23 +30,23 @@ template <class Change> bool keep_if_it_fails(TestScene& scene, const Fails& fai
 }
 
 /// One disc fewer; the largest radius is that of those that are left.
-void leave_out_class(reference::Setting& setting, DiscId gone) {
-    std::vector<DiscClass>& classes = setting.effects.classes;
-    if (classes.empty()) return;
-    auto its = classes.begin();
-    while (gone >= its->count) gone -= (its++)->count;
-    if (--its->count == 0) classes.erase(its);
+void leave_out_species(reference::Setting& setting, DiscId departed) {
+    std::vector<Species>& species = setting.effects.species;
+    if (species.empty()) return;
+    auto its = species.begin();
+    while (departed >= its->count) departed -= (its++)->count;
+    if (--its->count == 0) species.erase(its);
     setting.radius = 0;
-    for (const DiscClass& one : classes) setting.radius = std::max(setting.radius, one.radius);
+    for (const Species& one : species) setting.radius = std::max(setting.radius, one.radius);
 }
 
 void leave_out(TestScene& scene, std::size_t place) {
-    const DiscId gone = scene.discs[place].id;
+    const DiscId departed = scene.discs[place].id;
     scene.discs.erase(scene.discs.begin() + static_cast<std::ptrdiff_t>(place));
-    for (InputDisc& disc : scene.discs) disc.id -= disc.id > gone;
-    leave_out_class(scene.setting, gone);
+    for (InputDisc& disc : scene.discs) disc.id -= disc.id > departed;
+    leave_out_species(scene.setting, departed);
     std::vector<double>& spins = scene.setting.first_spins;
-    if (!spins.empty()) spins.erase(spins.begin() + static_cast<std::ptrdiff_t>(gone));
+    if (!spins.empty()) spins.erase(spins.begin() + static_cast<std::ptrdiff_t>(departed));
 }
 
 /// One effect fewer, or one that is simpler: each is tried by itself. A change that changes nothing is no success.
@@ -65,33 +65,33 @@ bool shrink_effects(TestScene& scene, const Fails& fails) {
     for (std::size_t i = obstacles.segments.size(); i-- > 0;) without([&](reference::Setting& s) { s.effects.obstacles.segments.erase(nth(s.effects.obstacles.segments, i)); });
     without([](reference::Setting& s) { s.effects.obstacles.restitution = 1; });
     for (const std::size_t low : {0u, 2u}) {
-        without([low](reference::Setting& s) { s.effects.sides[low] = s.effects.sides[low + 1] = {}; });
-        if (scene.setting.effects.sides[low].kind == SideKind::periodic) continue;
-        for (const std::size_t side : {low, low + 1}) without([side](reference::Setting& s) { s.effects.sides[side] = {}; });
+        without([low](reference::Setting& s) { s.effects.boundaries[low] = s.effects.boundaries[low + 1] = {}; });
+        if (scene.setting.effects.boundaries[low].kind == BoundaryKind::periodic) continue;
+        for (const std::size_t side : {low, low + 1}) without([side](reference::Setting& s) { s.effects.boundaries[side] = {}; });
     }
     without([](reference::Setting& s) { s.effects.gravity = {}; });
     without([](reference::Setting& s) { s.effects.drag = 0; });
     without([](reference::Setting& s) { s.effects.contact = {}, s.first_spins.clear(); });
     without([](reference::Setting& s) { s.first_spins.clear(); });
-    without([](reference::Setting& s) { for (DiscClass& one : s.effects.classes) one.mass = 1; });
+    without([](reference::Setting& s) { for (Species& one : s.effects.species) one.mass = 1; });
     return has_changed;
 }
 
 /// Effects, key by key, and the rule.
-std::string toml_of(const Effects& effects, CollisionRule rule) {
-    std::string text = fmt::format("collisions = \"{}\"\n", name_of(rule));
+std::string toml_of(const Effects& effects, Method method) {
+    std::string text = fmt::format("collisions = \"{}\"\n", name_of(method));
     bool is_lossy = effects.gravity.is_any() || effects.obstacles.restitution < 1;
-    for (std::size_t k = 0; k < side_names.size(); ++k) {
-        const Side& side = effects.sides[k];
+    for (std::size_t k = 0; k < boundary_names.size(); ++k) {
+        const Boundary& side = effects.boundaries[k];
         is_lossy = is_lossy || side.restitution < 1 || (effects.drag > 0 && side.speed != 0);
         if (side.is_plain()) continue;
-        text += fmt::format("[box.{}]\n", side_names[k]);
+        text += fmt::format("[box.{}]\n", boundary_names[k]);
         switch (side.kind) {
-        case SideKind::thermal: text += fmt::format("kind = \"thermal\"\ntemperature = {:.17g}\n", side.temperature); break;
-        case SideKind::moving: text += fmt::format("kind = \"moving\"\nspeed = {:.17g}\n", side.speed); break;
-        case SideKind::open: text += "kind = \"open\"\n"; break;
-        case SideKind::periodic: text += "kind = \"periodic\"\n"; break;
-        case SideKind::fixed: break;
+        case BoundaryKind::thermal: text += fmt::format("kind = \"thermal\"\ntemperature = {:.17g}\n", side.temperature); break;
+        case BoundaryKind::moving: text += fmt::format("kind = \"moving\"\nspeed = {:.17g}\n", side.speed); break;
+        case BoundaryKind::open: text += "kind = \"open\"\n"; break;
+        case BoundaryKind::periodic: text += "kind = \"periodic\"\n"; break;
+        case BoundaryKind::fixed: break;
         }
         if (side.restitution < 1) text += fmt::format("restitution = {:.17g}\n", side.restitution);
     }
@@ -105,7 +105,7 @@ std::string toml_of(const Effects& effects, CollisionRule rule) {
     if (is_dull || is_lossy) text += fmt::format("contact_time = {:.17g}\n", contact.contact_time);
     if (effects.gravity.is_any()) text += fmt::format("[effects.gravity]\nx = {:.17g}\ny = {:.17g}\n", effects.gravity.x, effects.gravity.y);
     if (effects.drag > 0) text += fmt::format("[effects.drag]\nrate = {:.17g}\n", effects.drag);
-    const bool is_thermal = std::any_of(effects.sides.begin(), effects.sides.end(), [](const Side& side) { return side.kind == SideKind::thermal; });
+    const bool is_thermal = std::any_of(effects.boundaries.begin(), effects.boundaries.end(), [](const Boundary& side) { return side.kind == BoundaryKind::thermal; });
     if (is_thermal) text += fmt::format("[effects.thermal]\nseed = {}\n", effects.thermal_seed);
     if (!effects.obstacles.are_any()) return text;
     text += "[effects.obstacles]\ndiscs = [\n";
@@ -140,20 +140,20 @@ TestScene shrunk(TestScene scene, const Fails& fails) {
     return scene;
 }
 
-std::string toml_of(const TestScene& scene, CollisionRule rule) {
+std::string toml_of(const TestScene& scene, Method method) {
     const reference::Setting& setting = scene.setting;
     std::vector<InputDisc> discs = scene.discs;
     std::sort(discs.begin(), discs.end(), [](const InputDisc& a, const InputDisc& b) { return a.id < b.id; });
     std::string rows;
     for (const InputDisc& disc : discs) {
         rows += fmt::format("  [{:.17g}, {:.17g}, {:.17g}, {:.17g}", disc.x, disc.y, disc.vx, disc.vy);
-        if (!setting.effects.classes.empty()) rows += fmt::format(", {:.17g}, {:.17g}", setting.radius_of(disc.id), setting.mass_of(disc.id));
+        if (!setting.effects.species.empty()) rows += fmt::format(", {:.17g}, {:.17g}", setting.radius_of(disc.id), setting.mass_of(disc.id));
         if (!setting.first_spins.empty()) rows += fmt::format(", {:.17g}", setting.first_spins[disc.id]);
         rows += "],\n";
     }
-    const std::string radius = setting.effects.classes.empty() ? fmt::format("radius = {:.17g}\n", setting.radius) : "";
+    const std::string radius = setting.effects.species.empty() ? fmt::format("radius = {:.17g}\n", setting.radius) : "";
     return fmt::format("[box]\nsize = {:.17g}\n[discs]\n{}list = [\n{}]\n[time]\nsteps = {}\nmicro_steps = {}\nsync_every = {}\n{}", setting.box_size, radius,
-                       rows, scene.steps, setting.micro_steps, setting.sync_every, setting.effects.are_any() ? toml_of(setting.effects, rule) : "");
+                       rows, scene.steps, setting.micro_steps, setting.sync_every, setting.effects.are_any() ? toml_of(setting.effects, method) : "");
 }
 
 Regression regression_of(const std::string& text, const std::string& name) {
@@ -164,9 +164,9 @@ Regression regression_of(const std::string& text, const std::string& name) {
     scene.setting.effects = read.effects;
     scene.discs = read.listed_discs;
     for (std::size_t id = 0; id < scene.discs.size() && !read.spins.empty(); ++id) scene.setting.first_spins.push_back(first_spin(read, id));
-    if (!read.effects.are_any()) return {scene, {CollisionRule::one, CollisionRule::all}};
+    if (!read.effects.are_any()) return {scene, {Method::time_stepped, Method::event_driven}};
     hand_to_reference(scene.setting);
-    return {scene, {read.rule}};
+    return {scene, {read.method}};
 }
 
 Regression read_regression(const std::string& path) {

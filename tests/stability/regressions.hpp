@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "carrom/scene/scene.hpp"
+#include "scene/scene.hpp"
 #include "scenes.hpp"
 
 namespace carrom::test {
@@ -15,12 +15,12 @@ namespace carrom::test {
 TestScene shrunk(TestScene scene, const std::function<bool(const TestScene&)>& fails);
 
 /// The scene as TOML that reads back to the same bits, to be kept in tests/stability/regressions; one with effects is for that rule.
-std::string toml_of(const TestScene& scene, CollisionRule rule);
+std::string toml_of(const TestScene& scene, Method method);
 
 /// A scene kept there. With effects it is for its own rule, else for both.
 struct Regression {
     TestScene scene;
-    std::vector<CollisionRule> rules;
+    std::vector<Method> methods;
 };
 Regression read_regression(const std::string& path);
 

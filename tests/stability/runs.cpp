@@ -10,8 +10,8 @@
 
 #include <omp.h>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/parallel/exchange.hpp"
+#include "core/errors.hpp"
+#include "parallel/exchange.hpp"
 #include "quad.hpp"
 
 namespace carrom::test {
@@ -29,9 +29,9 @@ template <class Item> std::vector<Item> gathered(std::span<const Item> mine, con
 
 } // namespace
 
-std::string name_of(CollisionRule rule) { return rule == CollisionRule::one ? "one" : "all"; }
+std::string name_of(Method method) { return method == Method::time_stepped ? "one" : "all"; }
 
-Simulation start(const TestScene& scene, CollisionRule rule, Tuning tuning, unsigned seed) {
+Simulation start(const TestScene& scene, Method method, Tuning tuning, unsigned seed) {
     const Communicator world = Communicator::world();
     std::mt19937 random(seed);
     std::vector<InputDisc> mine;
@@ -40,7 +40,7 @@ Simulation start(const TestScene& scene, CollisionRule rule, Tuning tuning, unsi
     }
     std::shuffle(mine.begin(), mine.end(), random);
     Scene checked = scene_of(scene);
-    checked.rule = rule;
+    checked.method = method;
     tuning.threads = omp_get_max_threads();
     tuning.discs_per_thread = 1;
     return {checked, std::move(mine), world, tuning};
@@ -56,15 +56,15 @@ Outcome outcome_of(const Simulation& simulation) {
     return outcome;
 }
 
-Outcome run(const TestScene& scene, CollisionRule rule, const Tuning& tuning, unsigned seed) {
-    Simulation simulation = start(scene, rule, tuning, seed);
+Outcome run(const TestScene& scene, Method method, const Tuning& tuning, unsigned seed) {
+    Simulation simulation = start(scene, method, tuning, seed);
     run_to(simulation, scene.steps);
     return outcome_of(simulation);
 }
 
-std::string failure_of(const TestScene& scene, CollisionRule rule) {
+std::string failure_of(const TestScene& scene, Method method) {
     try {
-        run(scene, rule);
+        run(scene, method);
     } catch (const InputError& error) {
         return error.what();
     } catch (const CollectiveError& error) {
@@ -73,8 +73,8 @@ std::string failure_of(const TestScene& scene, CollisionRule rule) {
     return {};
 }
 
-std::vector<Collision> collisions_of(const TestScene& scene, CollisionRule rule) {
-    Simulation simulation = start(scene, rule);
+std::vector<Collision> collisions_of(const TestScene& scene, Method method) {
+    Simulation simulation = start(scene, method);
     std::vector<Collision> mine;
     simulation.log_to(&mine);
     run_to(simulation, scene.steps);

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "carrom/core/disc.hpp"
-#include "carrom/parallel/communicator.hpp"
-#include "carrom/simulation/simulation.hpp"
+#include "core/disc.hpp"
+#include "parallel/communicator.hpp"
+#include "simulation/simulation.hpp"
 #include "scenes.hpp"
 
 namespace carrom::test {
@@ -20,11 +20,11 @@ struct Outcome {
 };
 
 /// "one" or "all".
-std::string name_of(CollisionRule rule);
+std::string name_of(Method method);
 
 /// The scene's start, dealt to the ranks at random and in an arbitrary order. As many threads as OpenMP has.
 /// **Collective.**
-Simulation start(const TestScene& scene, CollisionRule rule, Tuning tuning = {}, unsigned seed = 1);
+Simulation start(const TestScene& scene, Method method, Tuning tuning = {}, unsigned seed = 1);
 
 /// Goes on to `step`. **Collective.**
 void run_to(Simulation& simulation, std::int64_t step);
@@ -33,13 +33,13 @@ void run_to(Simulation& simulation, std::int64_t step);
 Outcome outcome_of(const Simulation& simulation);
 
 /// The whole scene. **Collective.**
-Outcome run(const TestScene& scene, CollisionRule rule, const Tuning& tuning = {}, unsigned seed = 1);
+Outcome run(const TestScene& scene, Method method, const Tuning& tuning = {}, unsigned seed = 1);
 
 /// The text with which the run is refused or ends; empty if it does not fail. **Collective.**
-std::string failure_of(const TestScene& scene, CollisionRule rule);
+std::string failure_of(const TestScene& scene, Method method);
 
 /// Every collision of the whole scene in the total order, on every rank. **Collective.**
-std::vector<Collision> collisions_of(const TestScene& scene, CollisionRule rule);
+std::vector<Collision> collisions_of(const TestScene& scene, Method method);
 
 /// One ulp of the box: the spacing of doubles just below `box_size` doubles at most.
 double ulp_of(double size);

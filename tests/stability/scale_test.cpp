@@ -11,8 +11,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/scene/read_scene.hpp"
+#include "core/errors.hpp"
+#include "scene/read_scene.hpp"
 #include "hold.hpp"
 #include "runs.hpp"
 #include "scene_tools.hpp"
@@ -22,7 +22,7 @@ using namespace carrom::test;
 
 namespace {
 
-constexpr CollisionRule both[] = {CollisionRule::one, CollisionRule::all};
+constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 
 std::vector<TestScene> ordinary_scenes() {
     TestScene tied = lattice(5, 1.25);
@@ -42,11 +42,11 @@ bool is_scaled(const Outcome& small, const Outcome& plain, int exponent) {
 }
 
 /// What the reader says to a scene of one disc: the problems' texts, or its warnings.
-std::string reader_says(double box_size, double radius, const std::string& rule, double speed = 0.25) {
+std::string reader_says(double box_size, double radius, const std::string& method, double speed = 0.25) {
     char text[400];
     std::snprintf(text, sizeof text,
                   "[box]\nsize = %.17g\n[discs]\nradius = %.17g\nlist = [[%.17g, %.17g, %.17g, 0.0]]\n[time]\nsteps = 5\n"
-                  "collisions = \"%s\"\n", box_size, radius, box_size / 2, box_size / 2, speed, rule.c_str());
+                  "collisions = \"%s\"\n", box_size, radius, box_size / 2, box_size / 2, speed, method.c_str());
     std::string said;
     try {
         for (const std::string& warning : read_scene(text, "scene.toml").warnings) said += "warning: " + warning;
@@ -74,20 +74,20 @@ TestScene cluster(double box_size, double x, double sign, double gap_unit) {
 } // namespace
 
 TEST_CASE("scale: scenes times 2^k have bitwise scaled results", "[scale]") {
-    for (const CollisionRule rule : both) {
+    for (const Method method : both) {
         double n_different = 0, n_runs = 0, n_refused = 0;
         for (const TestScene& scene : ordinary_scenes()) {
-            const Outcome plain = run(scene, rule);
+            const Outcome plain = run(scene, method);
             CHECK(plain.totals.pair_collisions > 3);
             // Every exponent on one rank; on several, which take their time to start and talk, all where it gets close.
             const int stride = Communicator::world().size() == 1 ? 1 : 11;
             for (int k = -250; k <= 250; k += k < -225 || k > 238 ? 1 : stride) {
                 const TestScene same = scaled(scene, k);
-                const std::string said = reader_says(same.setting.box_size, same.setting.radius, name_of(rule));
+                const std::string said = reader_says(same.setting.box_size, same.setting.radius, name_of(method));
                 n_refused += refuses(said);
                 if (refuses(said)) continue;
                 INFO(scene.name << ", k = " << k);
-                const bool is_same = is_scaled(run(same, rule), plain, k);
+                const bool is_same = is_scaled(run(same, method), plain, k);
                 CHECK(is_same);
                 n_different += !is_same;
                 n_runs += 1;
@@ -95,43 +95,43 @@ TEST_CASE("scale: scenes times 2^k have bitwise scaled results", "[scale]") {
         }
         CHECK(n_runs > 150);
         hold("scale", number(n_runs) + " scenes times 2^k, k = -250 to 250 (" + number(n_refused) + " more refused): without bitwise scaled results",
-             name_of(rule), n_different, 0);
+             name_of(method), n_different, 0);
     }
 }
 
 TEST_CASE("scale: what has no place in the range of doubles is refused with a reason", "[scale]") {
     double n_accepted = 0;
-    for (const char* const rule : {"one", "all"}) {
+    for (const char* const method : {"time-stepped", "event-driven"}) {
         for (const auto& [box, radius] : {std::pair(0x1p251, 0x1p240), {0x1p-220, 0x1p-231}, {1e150, 1e-150}, {1e150, 1e145}, {1e-145, 1e-150}}) {
-            n_accepted += !refuses(reader_says(box, radius, rule));
+            n_accepted += !refuses(reader_says(box, radius, method));
         }
-        n_accepted += !refuses(reader_says(16, 0.5, rule, 0x1p251)) + !refuses(reader_says(16, 0.5, rule, 0x1p-251));
+        n_accepted += !refuses(reader_says(16, 0.5, method, 0x1p251)) + !refuses(reader_says(16, 0.5, method, 0x1p-251));
     }
-    n_accepted += !refuses(reader_says(1e7, 1, "one"));
-    CHECK(reader_says(1e7, 1, "all").find("warning: ") == 0);
-    hold("scale", "r = 1e-150, L = 1e150, 2^+-251, L/r = 1e7 under \"one\": accepted", "both", n_accepted, 0);
+    n_accepted += !refuses(reader_says(1e7, 1, "time-stepped"));
+    CHECK(reader_says(1e7, 1, "event-driven").find("warning: ") == 0);
+    hold("scale", "r = 1e-150, L = 1e150, 2^+-251, L/r = 1e7 in the time-stepped method: accepted", "both", n_accepted, 0);
 }
 
 TEST_CASE("scale: a cluster far from the origin has the times of one near it", "[scale]") {
-    for (const CollisionRule rule : both) {
-        const double box_size = rule == CollisionRule::one ? 0x1p18 : 0x1p23; // L/r = 5e5 and 1.7e7
-        const auto near = collisions_of(cluster(box_size, 0x1p3, 1, 1), rule);
-        const auto far = collisions_of(cluster(box_size, box_size - 0x1p3, -1, 1), rule);
+    for (const Method method : both) {
+        const double box_size = method == Method::time_stepped ? 0x1p18 : 0x1p23; // L/r = 5e5 and 1.7e7
+        const auto near = collisions_of(cluster(box_size, 0x1p3, 1, 1), method);
+        const auto far = collisions_of(cluster(box_size, box_size - 0x1p3, -1, 1), method);
         REQUIRE(near.size() >= 5);
         REQUIRE(near.size() == far.size());
         const auto time = [](const Collision& c) { return static_cast<double>(c.micro_step) + c.time; };
-        hold("scale", "cluster at (L, L), exact places: error of the first contact, ulp", name_of(rule),
+        hold("scale", "cluster at (L, L), exact places: error of the first contact, ulp", name_of(method),
              std::fabs(time(near[0]) - time(far[0])) / ulp_of(time(near[0])), 4);
         double worst = 0;
         for (std::size_t i = 0; i < near.size(); ++i) {
             const double bound = 16 * static_cast<double>(i + 1) * ulp_of(box_size / 2) / 0.25;
             worst = std::max(worst, std::fabs(time(near[i]) - time(far[i])) / bound);
         }
-        hold("scale", "cluster at (L, L), a chain of collisions: error of times over 16 ulp(L)/|w| each", name_of(rule), worst, 1);
+        hold("scale", "cluster at (L, L), a chain of collisions: error of times over 16 ulp(L)/|w| each", name_of(method), worst, 1);
     }
 }
 
-// L/r = 1e7 is allowed under "all", with a warning: a coordinate then has 30 bits for a diameter.
+// L/r = 1e7 is allowed in the event-driven method, with a warning: a coordinate then has 30 bits for a diameter.
 TEST_CASE("scale: pairs in a box of 1e7 radii meet when they should", "[scale]") {
     TestScene scene = empty_scene("wide box", 1e7, 1, 400);
     Random random(503);
@@ -144,7 +144,7 @@ TEST_CASE("scale: pairs in a box of 1e7 radii meet when they should", "[scale]")
         expected.push_back(gap / 0.5);
     }
     double worst = 0;
-    const std::vector<Collision> found = collisions_of(scene, CollisionRule::all);
+    const std::vector<Collision> found = collisions_of(scene, Method::event_driven);
     REQUIRE(found.size() == expected.size());
     for (const Collision& collision : found) {
         const double time = static_cast<double>(collision.micro_step) + collision.time;

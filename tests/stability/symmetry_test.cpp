@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include "approach.hpp"
-#include "carrom/geometry/pair_contact.hpp"
+#include "geometry/pair_contact.hpp"
 #include "hold.hpp"
 #include "runs.hpp"
 #include "scene_tools.hpp"
@@ -21,10 +21,10 @@ using namespace carrom::test;
 
 namespace {
 
-constexpr CollisionRule both[] = {CollisionRule::one, CollisionRule::all};
+constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 
 /// Scenes that both rules can end within a second or so.
-std::vector<TestScene> scenes_for(CollisionRule rule) {
+std::vector<TestScene> scenes_for(Method method) {
     std::vector<TestScene> chosen;
     std::size_t number = 0;
     const std::size_t nth = Communicator::world().size() == 1 ? 1 : 5; // several ranks take their time to start and talk
@@ -33,7 +33,7 @@ std::vector<TestScene> scenes_for(CollisionRule rule) {
         const bool is_fast = std::any_of(scene.discs.begin(), scene.discs.end(), [&](const InputDisc& disc) {
             return std::fabs(disc.vx) + std::fabs(disc.vy) > 8 * scene.setting.radius;
         });
-        if (rule == CollisionRule::all && (scene.is_endless_under_all || is_fast)) continue;
+        if (method == Method::event_driven && (scene.cascades_when_event_driven || is_fast)) continue;
         if (scene.discs.size() > 100) continue;
         scene.steps = std::min<std::int64_t>(scene.steps, 12);
         chosen.push_back(scene);
@@ -50,8 +50,8 @@ TestScene mirrored(TestScene scene) {
     return scene;
 }
 
-bool refuses(const TestScene& scene, CollisionRule rule) {
-    return rule == CollisionRule::all && failure_of(scene, rule).find("overlap") != std::string::npos;
+bool refuses(const TestScene& scene, Method method) {
+    return method == Method::event_driven && failure_of(scene, method).find("overlap") != std::string::npos;
 }
 
 /// The scene at `outcome` with all velocities reversed.
@@ -66,12 +66,12 @@ TestScene reversed(TestScene scene, const Outcome& outcome) {
 } // namespace
 
 TEST_CASE("symmetry: transposed scenes have transposed bits", "[symmetry]") {
-    for (const CollisionRule rule : both) {
+    for (const Method method : both) {
         double n_different = 0, n_scenes = 0;
-        for (const TestScene& scene : scenes_for(rule)) {
-            if (refuses(scene, rule)) continue;
-            INFO(scene.name << ", rule " << name_of(rule));
-            const Outcome a = run(scene, rule), b = run(transposed(scene), rule);
+        for (const TestScene& scene : scenes_for(method)) {
+            if (refuses(scene, method)) continue;
+            INFO(scene.name << ", rule " << name_of(method));
+            const Outcome a = run(scene, method), b = run(transposed(scene), method);
             const bool is_same = std::equal(a.discs.begin(), a.discs.end(), b.discs.begin(), [](const Disc& p, const Disc& q) {
                 return p.x == q.y && p.y == q.x && p.vx == q.vy && p.vy == q.vx && p.tau == q.tau &&
                        p.pair_collisions == q.pair_collisions && p.wall_collisions == q.wall_collisions;
@@ -80,7 +80,7 @@ TEST_CASE("symmetry: transposed scenes have transposed bits", "[symmetry]") {
             n_different += !is_same;
             n_scenes += 1;
         }
-        hold("symmetry", number(n_scenes) + " scenes: without bitwise transposed results", name_of(rule), n_different, 0);
+        hold("symmetry", number(n_scenes) + " scenes: without bitwise transposed results", name_of(method), n_different, 0);
     }
 }
 
@@ -101,12 +101,12 @@ TEST_CASE("symmetry: the predicate has mirrored bits", "[symmetry]") {
 }
 
 TEST_CASE("symmetry: scenes of exact numbers have mirrored bits", "[symmetry]") {
-    for (const CollisionRule rule : both) {
+    for (const Method method : both) {
         double n_different = 0, n_scenes = 0;
-        for (const TestScene& scene : scenes_for(rule)) {
+        for (const TestScene& scene : scenes_for(method)) {
             if (!scene.is_exact) continue;
-            INFO(scene.name << ", rule " << name_of(rule));
-            const Outcome a = run(scene, rule), b = run(mirrored(scene), rule);
+            INFO(scene.name << ", rule " << name_of(method));
+            const Outcome a = run(scene, method), b = run(mirrored(scene), method);
             const double size = scene.setting.box_size;
             const bool is_same = std::equal(a.discs.begin(), a.discs.end(), b.discs.begin(), [&](const Disc& p, const Disc& q) {
                 return p.x == size - q.x && p.y == q.y && p.vx == -q.vx && p.vy == q.vy && p.tau == q.tau &&
@@ -117,11 +117,11 @@ TEST_CASE("symmetry: scenes of exact numbers have mirrored bits", "[symmetry]") 
             n_scenes += 1;
         }
         CHECK(n_scenes > 2);
-        hold("symmetry", number(n_scenes) + " scenes of exact numbers: without bitwise mirrored results", name_of(rule), n_different, 0);
+        hold("symmetry", number(n_scenes) + " scenes of exact numbers: without bitwise mirrored results", name_of(method), n_different, 0);
     }
 }
 
-TEST_CASE("symmetry: time reversed, the exact rule returns to its start", "[symmetry]") {
+TEST_CASE("symmetry: time reversed, the event-driven method returns to its start", "[symmetry]") {
     struct Gas {
         double packing, lambda, longest;
     };
@@ -134,8 +134,8 @@ TEST_CASE("symmetry: time reversed, the exact rule returns to its start", "[symm
             const double sigma = 2, thermal_speed = std::sqrt(square / 128); // kT = 1 in each direction
             for (const double share : {0.25, 0.5, 1.0}) {
                 scene.steps = std::lround(share * kind.longest * sigma / thermal_speed);
-                const Outcome there = run(scene, CollisionRule::all);
-                const Outcome back = run(reversed(scene, there), CollisionRule::all);
+                const Outcome there = run(scene, Method::event_driven);
+                const Outcome back = run(reversed(scene, there), Method::event_driven);
                 double error = 0;
                 for (const InputDisc& disc : scene.discs) {
                     const Disc& state = back.discs[disc.id];

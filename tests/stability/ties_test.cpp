@@ -22,12 +22,12 @@ using namespace carrom::test;
 
 namespace {
 
-constexpr CollisionRule both[] = {CollisionRule::one, CollisionRule::all};
+constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 
 /// The reference's hash, worked out on every rank.
-StateHash reference_hash(const TestScene& scene, CollisionRule rule) {
-    if (rule == CollisionRule::one) {
-        reference::OneRuleReference reference(scene.setting, scene.discs);
+StateHash reference_hash(const TestScene& scene, Method method) {
+    if (method == Method::time_stepped) {
+        reference::TimeSteppedReference reference(scene.setting, scene.discs);
         reference.run_steps(scene.steps);
         return hash_of(reference.discs());
     }
@@ -37,16 +37,16 @@ StateHash reference_hash(const TestScene& scene, CollisionRule rule) {
 }
 
 /// Runs that differ from the reference, over storage orders and windows.
-double count_differences(const TestScene& scene, CollisionRule rule) {
-    const StateHash expected = reference_hash(scene, rule);
+double count_differences(const TestScene& scene, Method method) {
+    const StateHash expected = reference_hash(scene, method);
     double n_different = 0;
     unsigned seed = 0;
     for (const std::optional<double> window : {std::optional<double>(), std::optional<double>(0.3), std::optional<double>(1.0)}) {
         Tuning tuning;
         tuning.window = window;
         tuning.rebalance_above = seed % 2 == 0 ? 0 : 1.05;
-        INFO(scene.name << ", rule " << name_of(rule));
-        const bool is_same = run(scene, rule, tuning, ++seed).totals.hash == expected;
+        INFO(scene.name << ", rule " << name_of(method));
+        const bool is_same = run(scene, method, tuning, ++seed).totals.hash == expected;
         CHECK(is_same);
         n_different += !is_same;
     }
@@ -103,15 +103,15 @@ TestScene touching_lattice() {
 }
 
 void check_family(const char* what, const std::vector<TestScene>& scenes, bool is_for_all = true) {
-    for (const CollisionRule rule : both) {
-        if (rule == CollisionRule::all && !is_for_all) continue;
+    for (const Method method : both) {
+        if (method == Method::event_driven && !is_for_all) continue;
         double n_different = 0;
         std::uint64_t seed = 300;
         for (const TestScene& scene : scenes) {
-            n_different += count_differences(scene, rule);
-            n_different += count_differences(shuffled(transposed(scene), ++seed), rule);
+            n_different += count_differences(scene, method);
+            n_different += count_differences(shuffled(transposed(scene), ++seed), method);
         }
-        hold("ties", std::string(what) + ": runs with other bits than the reference", name_of(rule), n_different, 0);
+        hold("ties", std::string(what) + ": runs with other bits than the reference", name_of(method), n_different, 0);
     }
 }
 
@@ -134,18 +134,18 @@ TEST_CASE("ties: Newton's cradle, with gaps and touching", "[ties]") {
     check_family("cradle with gaps", scenes);
     // Touching from wall to wall: one collision per disc and step is a wave; every collision at its time has no end.
     check_family("cradle touching from wall to wall", {cradle(9, 0.5, 0, 0.25)}, false);
-    const bool is_told = failure_of(cradle(9, 0.5, 0, 1), CollisionRule::all).find("collides without end") != std::string::npos;
-    hold("ties", "cradle touching from wall to wall: runs that do not end with a message", "all", !is_told, 0);
+    const bool is_reported = failure_of(cradle(9, 0.5, 0, 1), Method::event_driven).find("collides without end") != std::string::npos;
+    hold("ties", "cradle touching from wall to wall: runs that do not end with a message", "all", !is_reported, 0);
 }
 
 TEST_CASE("ties: a touching cradle in the open hands on its speed exactly", "[ties]") {
-    for (const CollisionRule rule : both) {
+    for (const Method method : both) {
         TestScene scene = empty_scene("open cradle", 64, 0.5, 24);
         add_disc(scene, 4, 32, 1, 0);
         for (int i = 0; i < 12; ++i) add_disc(scene, 8 + i, 32);
-        const Outcome outcome = run(scene, rule);
+        const Outcome outcome = run(scene, method);
         double wrong = 0;
         for (const Disc& disc : outcome.discs) wrong = std::max(wrong, std::fabs(disc.vx - (disc.id == 12 ? 1 : 0)) + std::fabs(disc.vy));
-        hold("ties", "open touching cradle of 12: largest error of a velocity", name_of(rule), wrong, 0);
+        hold("ties", "open touching cradle of 12: largest error of a velocity", name_of(method), wrong, 0);
     }
 }

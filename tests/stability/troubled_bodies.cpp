@@ -77,8 +77,8 @@ bool is_clear_of_obstacles(const TestScene& scene, Point p, double radius) {
 
 class Drawing {
 public:
-    Drawing(std::uint64_t seed, CollisionRule rule)
-        : random_(seed ^ 0x517cc1b727220a95u), is_all_(rule == CollisionRule::all), largest_(of({0.5, 0.25, 0.3, 1})),
+    Drawing(std::uint64_t seed, Method method)
+        : random_(seed ^ 0x517cc1b727220a95u), is_all_(method == Method::event_driven), largest_(of({0.5, 0.25, 0.3, 1})),
           scene_(empty_scene("troubled bodies " + std::to_string(seed), largest_ * of({8, 8, 12, 14.6, 30}), largest_, 6)) {
         scene_.setting.sync_every = std::array{1, 2, 3, 64}[random_.index(4)];
         scene_.setting.micro_steps = std::array{1, 1, 2, 3, 4}[random_.index(5)];
@@ -94,7 +94,7 @@ public:
             effects().obstacles = {};
             add({scene_.setting.box_size / 2, scene_.setting.box_size / 2}, {0, largest_}, kinds_[0]);
         }
-        settle_classes();
+        decide_species();
         hand_to_reference(scene_.setting);
         scene_.name += ", with " + (description(effects()).empty() ? "no effect" : description(effects()));
         return std::move(scene_);
@@ -140,7 +140,7 @@ private:
             const double mass = are_heavy ? of({1, 1, 2, 1e3, 1e6}) : of({1, 1, 2, 0.5, 0.3, 1e-3, 1e3});
             kinds_.push_back({1, largest_ * of({1, 1, 0.5, 0.25, 0.3, 1.0 / 3, 0.1, 1e-2, 1e-3}), mass});
         }
-        has_classes_ = true;
+        has_species_ = true;
     }
 
     void add_segment(Point from, Point to) {
@@ -187,7 +187,7 @@ private:
         const bool is_rough = !one_in(3);
         if (is_rough) contact = {ContactKind::rough, of({0, 0.5, 1 - 0x1p-53, 1, 1}), 0.001, of({-1, 0, 0.5, 1, 1}), std::numeric_limits<double>::infinity(), of({0.5, 0.5, 1, 0.1, 1e-6})};
         else if (one_in(2)) contact = {ContactKind::restitution, of({0, 0.5, 0.9, 1 - 0x1p-53, 1}), 0.001};
-        else if (!has_classes_ && one_in(2)) contact.kind = ContactKind::none;
+        else if (!has_species_ && one_in(2)) contact.kind = ContactKind::none;
         if (is_rough && one_in(3)) contact.friction = of({0, 0.3});
         draw_sides();
         if (effects().are_periodic()) tame_masses();
@@ -203,31 +203,31 @@ private:
     /// Heavy discs may make light ones faster by the root of their masses' ratio, and in periodic boxes every image that one passes costs.
     void tame_masses() {
         double least = 1, most = 1;
-        for (DiscClass& kind : kinds_) {
+        for (Species& kind : kinds_) {
             kind.mass = std::clamp(kind.mass, 1e-2, 1e2);
             least = std::min(least, kind.mass);
             most = std::max(most, kind.mass);
         }
-        for (Side& side : effects().sides) side.temperature = std::min(side.temperature, largest_ * largest_ * least);
+        for (Boundary& side : effects().boundaries) side.temperature = std::min(side.temperature, largest_ * largest_ * least);
         if (most > 10 * least) scene_.setting.sync_every = std::min<std::int64_t>(scene_.setting.sync_every, 3);
     }
     double lightest() const {
-        return std::min_element(kinds_.begin(), kinds_.end(), [](const DiscClass& a, const DiscClass& b) { return a.mass < b.mass; })->mass;
+        return std::min_element(kinds_.begin(), kinds_.end(), [](const Species& a, const Species& b) { return a.mass < b.mass; })->mass;
     }
     void draw_sides() {
         const bool has_open = one_in(3);
         for (const std::size_t low : {0u, 2u}) {
             const bool is_periodic = !has_open && one_in(3);
-            for (const std::size_t number : {low, low + 1}) effects().sides[number] = is_periodic ? Side{SideKind::periodic, 1, 0, 0} : drawn_side(number, has_open);
+            for (const std::size_t number : {low, low + 1}) effects().boundaries[number] = is_periodic ? Boundary{BoundaryKind::periodic, 1, 0, 0} : drawn_side(number, has_open);
         }
     }
-    Side drawn_side(std::size_t number, bool has_open) {
-        if (has_open && one_in(2)) return {SideKind::open, 1, 0, 0};
+    Boundary drawn_side(std::size_t number, bool has_open) {
+        if (has_open && one_in(2)) return {BoundaryKind::open, 1, 0, 0};
         const bool may_move = is_all_ && !has_open && !effects().obstacles.are_any();
         switch (random_.index(6)) {
-        case 0: return {SideKind::fixed, of({0, 0.5, 0.9}), 0, 0};
-        case 1: return {SideKind::thermal, 1, largest_ * largest_ * lightest(), 0}; // a light disc must not fly through the box hundreds of times
-        case 2: if (may_move) return {SideKind::moving, of({1, 0.5}), 0, largest_ * (number % 2 == 0 ? of({0.01, 0.125}) : of({-0.125, -0.01, 0.01}))}; break;
+        case 0: return {BoundaryKind::fixed, of({0, 0.5, 0.9}), 0, 0};
+        case 1: return {BoundaryKind::thermal, 1, largest_ * largest_ * lightest(), 0}; // a light disc must not fly through the box hundreds of times
+        case 2: if (may_move) return {BoundaryKind::moving, of({1, 0.5}), 0, largest_ * (number % 2 == 0 ? of({0.01, 0.125}) : of({-0.125, -0.01, 0.01}))}; break;
         default: break;
         }
         return {};
@@ -255,7 +255,7 @@ private:
         std::size_t k = random_.index(scene_.discs.size() + list.discs.size() + list.segments.size());
         if (k < scene_.discs.size()) {
             const InputDisc& disc = scene_.discs[k];
-            return {place_of(disc), {disc.vx, disc.vy}, classes_[k].radius};
+            return {place_of(disc), {disc.vx, disc.vy}, species_list_[k].radius};
         }
         k -= scene_.discs.size();
         if (k < list.discs.size()) return {{list.discs[k].x, list.discs[k].y}, {}, list.discs[k].radius};
@@ -265,7 +265,7 @@ private:
     bool has_round_things() { return !scene_.discs.empty() || effects().obstacles.are_any(); }
 
     void try_disc() {
-        const DiscClass kind = !classes_.empty() && one_in(2) ? classes_.back() : kinds_[random_.index(kinds_.size())];
+        const Species kind = !species_list_.empty() && one_in(2) ? species_list_.back() : kinds_[random_.index(kinds_.size())];
         Point at = anywhere(kind.radius), going = velocity();
         switch (random_.index(8)) {
         case 0: break;
@@ -280,7 +280,7 @@ private:
         at = Room(scene_).inside(at);
         if (!Room(scene_).holds(at, kind.radius) || !is_clear_of_obstacles(scene_, at, kind.radius)) return;
         for (std::size_t k = 0; k < scene_.discs.size(); ++k)
-            if (!Room(scene_).are_apart(place_of(scene_.discs[k]) - at, kind.radius + classes_[k].radius)) return;
+            if (!Room(scene_).are_apart(place_of(scene_.discs[k]) - at, kind.radius + species_list_[k].radius)) return;
         add(at, going, kind);
     }
     void beside_one(double radius, Point& at) {
@@ -340,18 +340,18 @@ private:
         if (one_in(2)) going = -largest_ * of({0, 0.5, 1}) * wedge.axis;
     }
 
-    void add(Point at, Point going, const DiscClass& kind) {
+    void add(Point at, Point going, const Species& kind) {
         add_disc(scene_, at.x, at.y, going.x, going.y);
-        classes_.push_back({1, kind.radius, kind.mass});
+        species_list_.push_back({1, kind.radius, kind.mass});
         const double speed = length(going);
         const double spin = of({0, 0, 1, -1, 0.5}) * (speed > 0 ? speed : largest_) / kind.radius;
         if (effects().contact.kind == ContactKind::rough) scene_.setting.first_spins.push_back(spin);
     }
-    void settle_classes() {
-        if (!has_classes_) return;
+    void decide_species() {
+        if (!has_species_) return;
         scene_.setting.radius = 0;
-        for (const DiscClass& one : classes_) {
-            auto& all = effects().classes;
+        for (const Species& one : species_list_) {
+            auto& all = effects().species;
             scene_.setting.radius = std::max(scene_.setting.radius, one.radius);
             if (!all.empty() && all.back().radius == one.radius && all.back().mass == one.mass) ++all.back().count;
             else all.push_back(one);
@@ -367,15 +367,15 @@ private:
     bool is_all_;
     double largest_; ///< radius
     TestScene scene_;
-    std::vector<DiscClass> kinds_;   ///< to choose from
-    std::vector<DiscClass> classes_; ///< of each disc
-    bool has_classes_ = false;
+    std::vector<Species> kinds_;   ///< to choose from
+    std::vector<Species> species_list_; ///< of each disc
+    bool has_species_ = false;
     std::vector<Wedge> wedges_;
 };
 
 } // namespace
 
-TestScene troubled_bodies(std::uint64_t seed, CollisionRule rule) { return Drawing(seed, rule).drawn(); }
+TestScene troubled_bodies(std::uint64_t seed, Method method) { return Drawing(seed, method).drawn(); }
 
 bool is_clear(const TestScene& scene) {
     const Room room(scene);

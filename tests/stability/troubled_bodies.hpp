@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "carrom/scene/scene.hpp"
+#include "scene/scene.hpp"
 #include "scenes.hpp"
 
 namespace carrom::test {
@@ -13,7 +13,7 @@ namespace carrom::test {
 /// them; open sides; and of the other effects what goes together with them (docs/user.md). Discs touch each other (by their own
 /// radii), walls and obstacles, rest in wedges, graze, and meet or leave at the boundaries of micro-steps. None overlaps by more than
 /// rounding. The same arguments give the same bits on every machine.
-TestScene troubled_bodies(std::uint64_t seed, CollisionRule rule);
+TestScene troubled_bodies(std::uint64_t seed, Method method);
 
 /// Whether no disc is in another one, in an obstacle or outside the box by more than rounding.
 bool is_clear(const TestScene& scene);

@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "carrom/effects/drag.hpp"
-#include "carrom/effects/fall.hpp"
-#include "carrom/effects/falling_contact.hpp"
+#include "dynamics/drag.hpp"
+#include "dynamics/fall.hpp"
+#include "dynamics/falling_contact.hpp"
 #include "scene_tools.hpp"
 
 namespace carrom::test {
@@ -23,12 +23,12 @@ ContactEffect troubled_contact(Random& random) {
 }
 
 /// A wall; `may_move` where the rule lets walls move.
-Side troubled_wall(std::size_t number, bool may_move, Random& random) {
+Boundary troubled_wall(std::size_t number, bool may_move, Random& random) {
     const double inwards = number % 2 == 0 ? 1 : -1;
     switch (random.index(5)) {
-    case 0: return {SideKind::fixed, std::array{0.0, 0.5, 0.9}[random.index(3)], 0, 0};
-    case 1: return {SideKind::thermal, 1, 0.25, 0};
-    case 2: if (may_move) return {SideKind::moving, std::array{1.0, 0.5}[random.index(2)], 0, inwards * std::array{-0.25, -0.01, 0.01}[random.index(3)]}; break;
+    case 0: return {BoundaryKind::fixed, std::array{0.0, 0.5, 0.9}[random.index(3)], 0, 0};
+    case 1: return {BoundaryKind::thermal, 1, 0.25, 0};
+    case 2: if (may_move) return {BoundaryKind::moving, std::array{1.0, 0.5}[random.index(2)], 0, inwards * std::array{-0.25, -0.01, 0.01}[random.index(3)]}; break;
     default: break;
     }
     return {};
@@ -47,21 +47,21 @@ void hand_to_reference(reference::Setting& setting) {
     setting.dragged_fall_delay = [c](double distance, double velocity, double pull) { return dragged_fall_delay(distance, velocity, pull, c); };
 }
 
-TestScene with_effects(TestScene scene, CollisionRule rule, std::uint64_t seed) {
+TestScene with_effects(TestScene scene, Method method, std::uint64_t seed) {
     Random random(seed ^ 0x9e3779b97f4a7c15u);
     reference::Setting& setting = scene.setting;
     Effects& effects = setting.effects;
-    const bool is_all = rule == CollisionRule::all;
+    const bool is_all = method == Method::event_driven;
     const double interval = static_cast<double>(setting.sync_every) / static_cast<double>(setting.micro_steps);
     effects.contact = troubled_contact(random);
     effects.contact.contact_time = std::min(effects.contact.contact_time, interval / 4);
     const bool has_drag = is_all && random.index(4) == 0;
     for (const std::size_t low : {0u, 2u}) {
         if (!has_drag && random.index(3) == 0) {
-            effects.sides[low] = effects.sides[low + 1] = {SideKind::periodic, 1, 0, 0};
+            effects.boundaries[low] = effects.boundaries[low + 1] = {BoundaryKind::periodic, 1, 0, 0};
             continue;
         }
-        for (const std::size_t number : {low, low + 1}) effects.sides[number] = troubled_wall(number, is_all, random);
+        for (const std::size_t number : {low, low + 1}) effects.boundaries[number] = troubled_wall(number, is_all, random);
     }
     if (has_drag) effects.drag = std::min(0.2, 1 / interval);
     // A frame that falls by half the box between syncs is refused.

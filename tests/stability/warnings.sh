@@ -58,7 +58,7 @@ expect_told '1e+05 times through the box with periodic sides' 'a million flights
 discs periodic 3,3,1e3,0 5,7,0,0 && expect_no_warning 'a hundred flights round a box'
 for rule in one all; do
     discs wall 3,3,0,1 5,3,0,-1
-    run 1 run scene.toml --quiet --set time.collisions=$rule --set box.size=20
+    run 1 run scene.toml --quiet --set time.method=$rule --set box.size=20
     expect_told 'slide along each other' "a pair that slides, rule $rule"
 done
 finish

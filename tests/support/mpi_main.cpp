@@ -12,8 +12,8 @@
 
 #include <unistd.h>
 
-#include "carrom/parallel/communicator.hpp"
-#include "carrom/parallel/mpi.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/mpi.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "carrom/core/random_numbers.hpp"
+#include "core/random_numbers.hpp"
 
 namespace carrom::test {
 
@@ -213,9 +213,9 @@ TestScene break_shot(std::size_t rows, double radius, double speed, double aim) 
     return scene;
 }
 
-TestScene ancestor_like(std::size_t n, double box_size, double radius, std::uint64_t seed) {
+TestScene legacy_like(std::size_t n, double box_size, double radius, std::uint64_t seed) {
     Random random(seed);
-    TestScene scene = empty_scene("ancestor's speeds, " + std::to_string(n) + " discs, L " + number(box_size) +
+    TestScene scene = empty_scene("legacy's speeds, " + std::to_string(n) + " discs, L " + number(box_size) +
                                       ", r " + number(radius),
                                   box_size, radius, 50);
     add_gas(scene, n, random);
@@ -230,7 +230,7 @@ TestScene ancestor_like(std::size_t n, double box_size, double radius, std::uint
 
 void set_thermal_seed(reference::Setting& setting, std::uint64_t seed) {
     setting.effects.thermal_seed = seed;
-    setting.thermal_draw = [seed](const Side& side, DiscId id, std::uint64_t count, std::size_t number) {
+    setting.thermal_draw = [seed](const Boundary& side, DiscId id, std::uint64_t count, std::size_t number) {
         DiscRandom random(seed, Purpose::thermal_wall, id, 4 * count + number);
         const double away = std::sqrt(2 * side.temperature * random_exponential(random));
         const double speed = std::sqrt(2 * side.temperature * random_exponential(random));

@@ -71,8 +71,8 @@ TestScene lattice(std::size_t k, double spacing);
 /// A triangle of `rows` rows of touching discs of radius r and a cue disc that aims at its tip.
 TestScene break_shot(std::size_t rows, double radius, double speed, double aim);
 
-/// The ancestor's generated scene with our own random numbers.
-TestScene ancestor_like(std::size_t n, double box_size, double radius, std::uint64_t seed);
+/// The course program's generated scene with our own random numbers.
+TestScene legacy_like(std::size_t n, double box_size, double radius, std::uint64_t seed);
 
 /// Thermal walls of this seed, and to the reference what they draw: it is told, not stated a second time.
 void set_thermal_seed(reference::Setting& setting, std::uint64_t seed);

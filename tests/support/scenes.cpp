@@ -23,8 +23,8 @@ std::vector<TestScene> large_scenes() {
     add(gas(2025, 0.3, 0.02, 2002), 80);
     add(gas(2025, 0.3, 6, 2003), 10);
     add(gas(2025, 0.7, 0.1, 2004), 20);
-    add(ancestor_like(2000, 20000, 1, 2005), 10);
-    add(ancestor_like(2000, 250, 1, 2006), 4);
+    add(legacy_like(2000, 20000, 1, 2005), 10);
+    add(legacy_like(2000, 250, 1, 2006), 4);
     add(chain(2000, "mixed", 2007), 2);
     add(zigzag(2000, "tied", 2008), 4);
     add(zigzag(2000, "rising", 2009), 4);

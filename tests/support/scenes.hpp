@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "carrom/scene/scene.hpp"
-#include "one_rule.hpp"
+#include "scene/scene.hpp"
+#include "time_stepped.hpp"
 
 namespace carrom::test {
 
@@ -23,8 +23,8 @@ struct TestScene {
 
     /// All numbers of the run are exact in binary, so any correct formula gives the same bits.
     bool is_exact = false;
-    /// Zeno's scenes, with infinitely many collisions in no time under the rule "all".
-    bool is_endless_under_all = false;
+    /// Zeno's scenes, with infinitely many collisions in no time in the event-driven method.
+    bool cascades_when_event_driven = false;
     /// Pairs that must collide, where the scene is built so that this is known.
     std::optional<std::uint64_t> expected_pair_collisions;
 };
@@ -41,7 +41,7 @@ TestScene shuffled(TestScene scene, std::uint64_t seed);
 
 std::vector<TestScene> gases();              ///< packing 0.05 to 0.7, 0.001 to 40 diameters per step
 std::vector<TestScene> still_gases();        ///< still discs and one fast one, or none
-std::vector<TestScene> fast_scenes();        ///< the ancestor's speeds, L/8r to L/4 per step
+std::vector<TestScene> fast_scenes();        ///< the course program's speeds, L/8r to L/4 per step
 std::vector<TestScene> cradles();            ///< lines from wall to wall, touching or not, along x and y
 std::vector<TestScene> chains();             ///< every disc in conflict with both neighbours, across the box
 std::vector<TestScene> lattices();           ///< square lattices with many equal contact times

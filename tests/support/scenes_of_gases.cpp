@@ -46,7 +46,7 @@ std::vector<TestScene> fast_scenes() {
     for (const double box_size : {50.0, 200.0, 20000.0}) {
         for (const std::size_t n : {std::size_t{3}, std::size_t{20}, std::size_t{60}}) {
             for (const std::int64_t micro_steps : {1, 2, 10}) {
-                TestScene scene = ancestor_like(n, box_size, 1, ++seed);
+                TestScene scene = legacy_like(n, box_size, 1, ++seed);
                 scene.name += ", " + std::to_string(micro_steps) + " micro-steps";
                 scene.setting.micro_steps = micro_steps;
                 scene.setting.sync_every = std::array{64, 4, 1}[seed % 3];
@@ -55,9 +55,9 @@ std::vector<TestScene> fast_scenes() {
             }
         }
     }
-    TestScene crowd = ancestor_like(400, 20000, 1, ++seed);
-    crowd.steps = 20;
-    scenes.push_back(crowd);
+    TestScene cascade = legacy_like(400, 20000, 1, ++seed);
+    cascade.steps = 20;
+    scenes.push_back(cascade);
     return scenes;
 }
 

@@ -31,14 +31,14 @@ std::vector<TestScene> cradles() {
             for (const double speed : {0.25, 5.0}) {
                 TestScene scene = cradle(n, 0.5, gap, speed);
                 scene.is_exact = speed == 0.25;
-                scene.is_endless_under_all = gap == 0;
+                scene.cascades_when_event_driven = gap == 0;
                 add_variants(scenes, scene, ++seed);
             }
         }
     }
     for (const double gap : {0.0, 0.07}) {
         TestScene scene = cradle(30, 0.3, gap, 0.9);
-        scene.is_endless_under_all = gap == 0;
+        scene.cascades_when_event_driven = gap == 0;
         add_variants(scenes, scene, ++seed);
         scene.name += ", both ends move";
         scene.discs.back().vx = -0.9;
@@ -73,7 +73,7 @@ std::vector<TestScene> lattices() {
             TestScene columns = lattice(k, spacing);
             columns.name += ", columns in turn";
             columns.is_exact = true;
-            columns.is_endless_under_all = spacing == 1;
+            columns.cascades_when_event_driven = spacing == 1;
             for (std::size_t i = 0; i < k * k; ++i) columns.discs[i].vx = i % k % 2 == 0 ? 0.25 : -0.25;
             scenes.push_back(columns);
             scenes.push_back(shuffled(transposed(columns), ++seed));
@@ -90,7 +90,7 @@ std::vector<TestScene> lattices() {
 
             TestScene kicked = lattice(k, spacing);
             kicked.name += ", one kicked";
-            kicked.is_endless_under_all = spacing == 1;
+            kicked.cascades_when_event_driven = spacing == 1;
             kicked.discs[k + 1].vx = 0.75;
             kicked.discs[k + 1].vy = 0.5;
             scenes.push_back(kicked);

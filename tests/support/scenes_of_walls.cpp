@@ -39,14 +39,14 @@ void add_tight_boxes(std::vector<TestScene>& scenes) {
             TestScene scene = empty_scene("a disc that fills the box, room " + number(room) +
                                               ", speed " + number(speed),
                                           box_size, 1, 20);
-            scene.is_endless_under_all = room < 1e-3 && speed > 0;
+            scene.cascades_when_event_driven = room < 1e-3 && speed > 0;
             add_disc(scene, box_size / 2, box_size / 2, speed, -0.75 * speed);
             scenes.push_back(scene);
         }
     }
     for (const double speed : {0.125, 3.0}) {
         TestScene scene = empty_scene("four discs that fill the box, speed " + number(speed), 4, 1, 30);
-        scene.is_endless_under_all = true;
+        scene.cascades_when_event_driven = true;
         add_disc(scene, 1, 1, speed, 0.5 * speed);
         add_disc(scene, 3, 1, 0, -speed);
         add_disc(scene, 1, 3, -speed, -speed);

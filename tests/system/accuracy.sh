@@ -61,7 +61,7 @@ cmp <(bits whole.csv) <((head -1 share1.csv; tail -qn +2 share?.csv) | cut -d, -
 
 [ "$(cut -d, -f1-15,17-30 whole.csv | sed 1d | sort | uniq -c | awk '$1 != 2' | wc -l)" -eq 0 ] || complain 'a repetition has other results'
 
-# Distances: none between the exact rule and itself, all above 0 and below the box's diagonal, and the same again.
+# Distances: none between the event-driven method and itself, all above 0 and below the box's diagonal, and the same again.
 run 1 "${study[@]}" --distances --arithmetic stable --output distances.csv
 expect_code 0 'distances'
 [ "$(cut -d, -f9-11 distances.csv | sed 1d | sort -u | wc -l)" -eq 3 ] || complain 'not three settings beside the exact one'
@@ -86,7 +86,7 @@ expect_code 2 'a table over another file'
 for ranks in 1 2; do
     run "$ranks" run small.toml --accuracy 1e-6 --set output.checkpoint.folder="kept$ranks"
     expect_code 0 "a run with an accuracy on $ranks ranks"
-    expect_told 'collisions = "all"' 'what was chosen'
+    expect_told 'method = "event-driven"' 'what was chosen'
 done
 run 1 run small.toml --accuracy 1e-6 --steps 30 --set output.checkpoint.folder=kept1 --restart latest
 expect_code 0 'going on from a run with an accuracy'

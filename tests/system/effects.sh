@@ -15,7 +15,7 @@ packing = 0.15
 speed = 0.3
 [time]
 steps = 150
-collisions = "all"
+method = "event-driven"
 [effects.contact]
 kind = "restitution"
 restitution = 0.95
@@ -49,7 +49,7 @@ tail -n 400 "$test_folder/out" | cmp - "$test_folder/end" || complain 'other lin
 # Rough discs of two classes leave.
 sed 's/^left = .*/left = { kind = "open" }/; s/^right = .*/right = { kind = "open" }/
     /^count =/d; /^packing =/d; s/^kind = "restitution"/kind = "rough"\ntangential_restitution = 0.3/' fall.toml >leak.toml
-printf '[[discs.classes]]\ncount = %s\nradius = %s\nmass = %s\nspin = 0.4\n' 100 1.5 2 300 0.8 0.7 >>leak.toml
+printf '[[discs.species]]\ncount = %s\nradius = %s\nmass = %s\nspin = 0.4\n' 100 1.5 2 300 0.8 0.7 >>leak.toml
 run 2 run leak.toml --quiet --report leak.json --set output.text=ends --set output.trajectory.file=leak.h5 --set output.trajectory.every_steps=30
 expect_code 0 'open sides'
 tail -n 400 "$test_folder/out" >"$test_folder/end"
@@ -82,10 +82,10 @@ file = "out.h5"
 every_steps = 50
 SCENE
 run 1 run out.toml
-expect_code 0 'an open side, rule "one"'
-expect_told ' of 20 discs: right ' 'an open side, rule "one"'
+expect_code 0 'an open side, time-stepped method'
+expect_told ' of 20 discs: right ' 'an open side, time-stepped method'
 run 1 verify out.h5
-expect_code 0 'the trajectory of an open side, rule "one"'
+expect_code 0 'the trajectory of an open side, time-stepped method'
 LC_ALL=C sed 's/\x00\x00\x00\x00\x00\x00\xe1\x3f/\x00\x00\x00\x00\x00\x00\xd1\x3f/' out.h5 >smaller.h5
 LC_ALL=C sed 's/open_sides/open_walls/' out.h5 >walled.h5
 for file in smaller.h5 walled.h5; do
@@ -106,7 +106,7 @@ radius = 0.5
 speed = 1
 [time]
 steps = 100
-collisions = "all"
+method = "event-driven"
 [output.trajectory]
 every_steps = 5
 SCENE
@@ -138,15 +138,15 @@ expect_told 'in boxes with open sides' 'measurements in an open box'
 run 1 run fall.toml --restart kept --set effects.gravity.y=-0.01
 expect_code 2 'another gravity'
 expect_told "'effects.gravity.y' is -0.005 there and -0.01 here" 'another gravity'
-# Discs of several classes: no ancestor text, no lattice of one size; their radii and masses go into recordings, and come back with a restart.
+# Discs of several classes: no legacy text, no lattice of one size; their radii and masses go into recordings, and come back with a restart.
 cat >mixture.toml <<'SCENE'
 [box]
 size = 60
-[[discs.classes]]
+[[discs.species]]
 count = 5
 radius = 4
 mass = 20
-[[discs.classes]]
+[[discs.species]]
 count = 300
 radius = 0.5
 [time]
@@ -162,7 +162,7 @@ run 1 verify m.h5
 expect_code 0 "the mixture's trajectory"
 run 1 info mixed/checkpoint-000000000060.h5
 grep -q '5 discs of radius 4 and mass 20, 300 discs of radius 0.5 and mass 1' "$test_folder/out" || complain 'no classes in info'
-run 1 run --restart mixed --steps 90 --set time.collisions=all
+run 1 run --restart mixed --steps 90 --set time.method=event-driven
 expect_code 2 'another rule'
 run 2 run --restart mixed --steps 90 --quiet --report mixed_rest.json
 run 1 run mixture.toml --steps 90 --quiet --report mixed_whole.json
@@ -200,9 +200,9 @@ several() { # SCENE LINES...
 several each.toml 'count = 144' 'file = "discs.txt"' 'columns = ["radius", "mass", "spin"]'
 several listed.toml "list = [$(sort -n discs.txt | awk '{ print "[" $2 "," $3 "," $4 "," $5 "," $6 "," $7 "," $8 "]," }')]"
 for rule in one all; do
-    run 3 run each.toml --set time.collisions=$rule --quiet --report each.json --set output.checkpoint.folder=each_$rule --set output.checkpoint.every_steps=25
+    run 3 run each.toml --set time.method=$rule --quiet --report each.json --set output.checkpoint.folder=each_$rule --set output.checkpoint.every_steps=25
     expect_code 0 "discs of their own, rule $rule"
-    run 1 run listed.toml --set time.collisions=$rule --threads 2 --quiet --report listed.json
+    run 1 run listed.toml --set time.method=$rule --threads 2 --quiet --report listed.json
     expect_code 0 "the same discs listed, rule $rule"
     [ "$(json_value each.json state_hash)" = "$(json_value listed.json state_hash)" ] || complain "discs of a file have other bits than listed ones, rule $rule"
 done

@@ -27,7 +27,7 @@ laws=("double naive" "double naive --set time.contraction=true"
 for name in dense fast; do
     for rule in one all; do
         for law in "${laws[@]}"; do
-            words=(run "$name.toml" --set "time.collisions=$rule" --set "time.precision=${law%% *}" --set "time.arithmetic=${law#* }")
+            words=(run "$name.toml" --set "time.method=$rule" --set "time.precision=${law%% *}" --set "time.arithmetic=${law#* }")
             read -r -a words <<<"${words[*]}"
             hash=
             for shape in '1 1' '2 2 --window 0.3 --rebalance-every 1 --rebalance-above 0'; do

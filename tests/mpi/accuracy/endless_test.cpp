@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/scene/read_scene.hpp"
-#include "trial.hpp"
+#include "core/errors.hpp"
+#include "scene/read_scene.hpp"
+#include "apps/trial.hpp"
 
 using namespace carrom;
 
@@ -42,18 +42,18 @@ std::string end_of(const RunSetting& setting, const Communicator& world, Totals&
 TEST_CASE("Collisions at a rounding of time from each other have no end where settings cannot tell, and are told of") {
     const Communicator world = Communicator::world();
     Totals totals;
-    CHECK(end_of({CollisionRule::all}, world, totals) == "");
+    CHECK(end_of({Method::event_driven}, world, totals) == "");
     CHECK(totals.wall_collisions == n_bounces);
     for (const Precision precision : {Precision::double_, Precision::single}) {
         for (const Arithmetic arithmetic : {Arithmetic::stable, Arithmetic::naive}) {
             if (precision == Precision::double_ && arithmetic == Arithmetic::stable) continue;
-            const std::string text = end_of({CollisionRule::all, 1, precision, arithmetic}, world, totals);
+            const std::string text = end_of({Method::event_driven, 1, precision, arithmetic}, world, totals);
             INFO(text);
             CHECK(text.starts_with("disc 0 collides without end at step 0."));
             CHECK(text.find("the scene's precision and arithmetic do not tell when it moves") != std::string::npos);
         }
     }
-    // The rule "one" has an end always: a collision a step.
-    CHECK(end_of({CollisionRule::one, 1, Precision::single, Arithmetic::naive}, world, totals) == "");
+    // The time-stepped method has an end always: a collision a step.
+    CHECK(end_of({Method::time_stepped, 1, Precision::single, Arithmetic::naive}, world, totals) == "");
     CHECK(totals.wall_collisions == 1);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the rule "one" loses at a given number of collisions per disc and micro-step, held to a table that was measured
+// What the time-stepped method loses at a given number of collisions per disc and micro-step, held to a table that was measured
 // with a separate program (256 discs, hard walls, rates to 1.2 %, most of it common to a column).
 #include "catch.hpp"
 
@@ -8,8 +8,8 @@
 #include <map>
 #include <numbers>
 
-#include "carrom/simulation/initial_state.hpp"
-#include "trial.hpp"
+#include "initial_state/initial_state.hpp"
+#include "apps/trial.hpp"
 
 using namespace carrom;
 
@@ -44,7 +44,7 @@ Mean mean_of(const std::vector<double>& terms) {
 }
 
 struct Loss {
-    Mean rate, overlaps; ///< pair collisions over those of the exact rule; overlapping pairs that a disc takes part in
+    Mean rate, overlaps; ///< pair collisions over those of the event-driven method; overlapping pairs that a disc takes part in
 };
 
 Loss measure(double packing, double frequency, const RunSetting& setting, const Communicator& world) {
@@ -57,7 +57,7 @@ Loss measure(double packing, double frequency, const RunSetting& setting, const 
         auto& [begin, rate] = exact[{packing, start}];
         if (begin.discs.empty()) {
             begin = bring_to_equilibrium(scene, initial_state(scene, nullptr, world), 20, world, {});
-            rate = static_cast<double>(run_trial(scene, {CollisionRule::all}, begin, length, world, {}).totals.pair_collisions);
+            rate = static_cast<double>(run_trial(scene, {Method::event_driven}, begin, length, world, {}).totals.pair_collisions);
         }
         const Trial trial = run_trial(scene, setting, begin, length, world, {});
         rates.push_back(static_cast<double>(trial.totals.pair_collisions) / rate);
@@ -88,7 +88,7 @@ TEST_CASE("The rule one loses as many collisions, and leaves as many overlaps, a
     const Communicator world = Communicator::world();
     for (const Column& column : table) {
         for (std::size_t i = 0; i < column.losses.size(); ++i) {
-            const Loss loss = measure(column.packing, column.frequency, {CollisionRule::one, std::int64_t{1} << i}, world);
+            const Loss loss = measure(column.packing, column.frequency, {Method::time_stepped, std::int64_t{1} << i}, world);
             const KnownLoss& known = column.losses[i];
             CAPTURE(column.packing, 4 << i, loss.rate.value, loss.rate.error, known.rate, loss.overlaps.value, loss.overlaps.error, known.overlaps);
             CHECK(std::fabs(loss.rate.value - known.rate) < 4 * std::hypot(table_error, error_of_rate(loss.rate)));
@@ -102,8 +102,8 @@ TEST_CASE("The rule one loses as many collisions, and leaves as many overlaps, a
 TEST_CASE("Errors fall in first order when discs are few, more slowly when they are dense") {
     const Communicator world = Communicator::world();
     const auto order = [&](const Column& column) { // between 1/4 and 1/32
-        const Mean coarse = measure(column.packing, column.frequency, {CollisionRule::one, 1}, world).rate;
-        const Mean fine = measure(column.packing, column.frequency, {CollisionRule::one, 8}, world).rate;
+        const Mean coarse = measure(column.packing, column.frequency, {Method::time_stepped, 1}, world).rate;
+        const Mean fine = measure(column.packing, column.frequency, {Method::time_stepped, 8}, world).rate;
         const double lost_coarse = 1 - coarse.value, lost_fine = 1 - fine.value;
         return Mean{std::log(lost_coarse / lost_fine) / std::log(8.0),
                     std::hypot(error_of_rate(coarse) / lost_coarse, error_of_rate(fine) / lost_fine) / std::log(8.0)};
@@ -119,10 +119,10 @@ TEST_CASE("Errors fall in first order when discs are few, more slowly when they 
 TEST_CASE("Precision and formula change no rate where discs are near to each other") {
     const Communicator world = Communicator::world();
     const Column& column = table[1];
-    const Loss usual = measure(column.packing, column.frequency, {CollisionRule::one, 4}, world);
+    const Loss usual = measure(column.packing, column.frequency, {Method::time_stepped, 4}, world);
     for (const Precision precision : {Precision::double_, Precision::single}) {
         for (const bool contraction : {false, true}) {
-            const RunSetting setting{CollisionRule::one, 4, precision, Arithmetic::naive, contraction};
+            const RunSetting setting{Method::time_stepped, 4, precision, Arithmetic::naive, contraction};
             const Loss loss = measure(column.packing, column.frequency, setting, world);
             CAPTURE(precision == Precision::single, contraction, loss.rate.value, usual.rate.value);
             CHECK(std::fabs(loss.rate.value - usual.rate.value) < 4 * std::hypot(error_of_rate(loss.rate), error_of_rate(usual.rate)));
@@ -135,7 +135,7 @@ TEST_CASE("Under the rule all no precision and no formula changes the rate, and 
     for (const Column& column : table) {
         for (const Precision precision : {Precision::double_, Precision::single}) {
             for (const Arithmetic arithmetic : {Arithmetic::stable, Arithmetic::naive}) {
-                const Loss loss = measure(column.packing, column.frequency, {CollisionRule::all, 2, precision, arithmetic}, world);
+                const Loss loss = measure(column.packing, column.frequency, {Method::event_driven, 2, precision, arithmetic}, world);
                 CAPTURE(column.packing, precision == Precision::single, arithmetic == Arithmetic::naive, loss.rate.value, loss.rate.error);
                 CHECK(std::fabs(loss.rate.value - 1) < 4 * error_of_rate(loss.rate));
                 if (arithmetic == Arithmetic::stable) CHECK(loss.overlaps.value == 0);
@@ -149,8 +149,8 @@ TEST_CASE("Single precision rounds every state, keeps energy to its own rounding
     const Scene scene = known_gas(0.3, 2.4595, 7);
     const TrialStart start = bring_to_equilibrium(scene, initial_state(scene, nullptr, world), 5, world, {});
     const TrialLength length{200, 200, 1};
-    const Trial usual = run_trial(scene, {CollisionRule::one, 2}, start, length, world, {});
-    const Trial single = run_trial(scene, {CollisionRule::one, 2, Precision::single}, start, length, world, {});
+    const Trial usual = run_trial(scene, {Method::time_stepped, 2}, start, length, world, {});
+    const Trial single = run_trial(scene, {Method::time_stepped, 2, Precision::single}, start, length, world, {});
     CHECK_FALSE(usual.totals.hash == single.totals.hash);
     CHECK(std::fabs(single.totals.kinetic_energy / usual.totals.kinetic_energy - 1) < 256 * 0x1p-24);
     bool all_are_floats = true, is_double = false;
@@ -163,9 +163,9 @@ TEST_CASE("Single precision rounds every state, keeps energy to its own rounding
 
 TEST_CASE("Micro-steps by a power of two are exact scaling: the same bits as velocities divided by hand") {
     const Communicator world = Communicator::world();
-    for (const auto& [rule, k] : {std::pair{CollisionRule::one, std::int64_t{2}}, {CollisionRule::one, 8}, {CollisionRule::one, 64}, {CollisionRule::all, 8}}) {
+    for (const auto& [method, k] : {std::pair{Method::time_stepped, std::int64_t{2}}, {Method::time_stepped, 8}, {Method::time_stepped, 64}, {Method::event_driven, 8}}) {
         Scene scene = known_gas(0.3, 2.4595, 11);
-        scene.rule = rule;
+        scene.method = method;
         scene.steps = 40;
         scene.micro_steps = k;
         std::vector<InputDisc> discs = initial_state(scene, nullptr, world);

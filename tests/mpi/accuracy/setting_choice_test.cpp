@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/scene/read_scene.hpp"
-#include "carrom/simulation/initial_state.hpp"
-#include "setting_choice.hpp"
+#include "core/errors.hpp"
+#include "scene/read_scene.hpp"
+#include "initial_state/initial_state.hpp"
+#include "apps/setting_choice.hpp"
 
 using namespace carrom;
 
@@ -23,8 +23,8 @@ void check_delivery(Scene scene, double accuracy, const Communicator& world, int
     scene.accuracy = accuracy;
     choose_setting(scene, initial_state(scene, nullptr, world), true, world, {});
     CHECK_FALSE(scene.accuracy);
-    const RunSetting setting{scene.rule, scene.micro_steps};
-    CAPTURE(scene.n_discs, scene.packing(), accuracy, setting.micro_steps, setting.rule == CollisionRule::all);
+    const RunSetting setting{scene.method, scene.micro_steps};
+    CAPTURE(scene.n_discs, scene.packing(), accuracy, setting.micro_steps, setting.method == Method::event_driven);
     double frequency = 0, pressure = 0, error = 0;
     for (int start = 0; start < n_starts; ++start) {
         Scene other = scene;
@@ -33,7 +33,7 @@ void check_delivery(Scene scene, double accuracy, const Communicator& world, int
         TrialLength length;
         length.steps = std::max<std::int64_t>(1, std::llround(pairs / (begin.frequency * static_cast<double>(scene.n_discs) / 2)));
         const TrialError here = error_of(run_trial(other, setting, begin, length, world, {}),
-                                         run_trial(other, {CollisionRule::all}, begin, length, world, {}));
+                                         run_trial(other, {Method::event_driven}, begin, length, world, {}));
         frequency += here.frequency / n_starts;
         pressure += here.pressure / n_starts;
         error += here.error / n_starts;
@@ -57,16 +57,16 @@ TEST_CASE("An accuracy is delivered where errors are small at first and grow for
     check_delivery(unknown_gas("count = 16384\npacking = 0.7\nspeed = 0.006\ngenerator = 'lattice'\n"), 0.1, world, 1, 60 * 16384 / 2.0);
 }
 
-TEST_CASE("What no pilot can see is left to the exact rule, and the choice is written over the question") {
+TEST_CASE("What no pilot can see is left to the event-driven method, and the choice is written over the question") {
     const Communicator world = Communicator::world();
     Scene scene = unknown_gas("count = 300\npacking = 0.1\nspeed = 0.3\n");
     scene.overrides = {"time.accuracy=1e-6", "time.steps=9"};
     scene.accuracy = 1e-6;
     choose_setting(scene, initial_state(scene, nullptr, world), true, world, {});
-    CHECK(scene.rule == CollisionRule::all);
-    CHECK(scene.overrides == std::vector<std::string>{"time.steps=9", "time.collisions=all", "time.micro_steps=1"});
+    CHECK(scene.method == Method::event_driven);
+    CHECK(scene.overrides == std::vector<std::string>{"time.steps=9", "time.method=event-driven", "time.micro_steps=1"});
     const Scene again = read_scene({"gas.toml", "[box]\nsize = 50\n[discs]\ncount = 300\npacking = 0.1\n[time]\nsteps = 1\naccuracy = 0.1\n", 0, false}, scene.overrides);
-    CHECK((again.rule == CollisionRule::all && !again.accuracy && again.steps == 9));
+    CHECK((again.method == Method::event_driven && !again.accuracy && again.steps == 9));
 }
 
 TEST_CASE("Discs that never meet have no error to choose by") {

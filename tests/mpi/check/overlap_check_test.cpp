@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the self-check says of two discs that fly into each other, as if an engine had missed their contact.
-#include "state_check.hpp"
+#include "check/state_check.hpp"
 
 #include <memory>
 #include <span>
@@ -8,14 +8,14 @@
 
 #include "catch.hpp"
 
-#include "settled_discs.hpp"
+#include "local_discs.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
 
 namespace {
 
-constexpr CollisionRule both[] = {CollisionRule::one, CollisionRule::all};
+constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 
 /// Two discs of radius 1 in a box of 20, as if no contact had been found: 0 flies to the right, 1 rests or flies.
 struct Passing {
@@ -25,21 +25,21 @@ struct Passing {
     std::unique_ptr<StateCheck> check;
     std::int64_t step = 0;
 
-    Passing(CollisionRule rule, double x, double speed) {
+    Passing(Method method, double x, double speed) {
         scene.name = "two discs";
         scene.box_size = 20;
         scene.radius = 1;
         scene.n_discs = 2;
-        scene.rule = rule;
+        scene.method = method;
         discs[0].x = x;
         discs[0].vx = speed;
         discs[1].x = 9.5;
         discs[1].id = 1;
         discs[0].y = discs[1].y = 10;
-        const SettledDiscs settled = at(0);
-        check = std::make_unique<StateCheck>(scene, std::span(settled.discs).first(settled.n_own), 0, world);
+        const LocalDiscs local_view = at(0);
+        check = std::make_unique<StateCheck>(scene, std::span(local_view.discs).first(local_view.n_own), 0, world);
     }
-    SettledDiscs at(double time) const { return settled_by_hand(discs, time, 20, 1, world.rank(), world.size()); }
+    LocalDiscs at(double time) const { return view_by_hand(discs, time, 20, 1, world.rank(), world.size()); }
 
     /// Whether the end of the next step is found right; `walls` of disc 0 are counted and logged in it.
     bool is_right(std::uint64_t walls = 0) {
@@ -62,8 +62,8 @@ struct Passing {
 } // namespace
 
 TEST_CASE("check: an overlap that comes about while both are free is not explained") {
-    for (const CollisionRule rule : both) {
-        Passing passing(rule, 5, 1); // contact after 2.5 steps
+    for (const Method method : both) {
+        Passing passing(method, 5, 1); // contact after 2.5 steps
         CHECK(passing.is_right());
         CHECK(passing.is_right());
         CHECK(!passing.is_right());
@@ -71,8 +71,8 @@ TEST_CASE("check: an overlap that comes about while both are free is not explain
 }
 
 TEST_CASE("check: a contact lost at the boundary of two steps is not explained") {
-    for (const CollisionRule rule : both) {
-        Passing passing(rule, 5.5, 1); // contact after 2 steps
+    for (const Method method : both) {
+        Passing passing(method, 5.5, 1); // contact after 2 steps
         CHECK(passing.is_right());
         CHECK(passing.is_right());
         CHECK(!passing.is_right());
@@ -80,28 +80,28 @@ TEST_CASE("check: a contact lost at the boundary of two steps is not explained")
 }
 
 TEST_CASE("check: discs so slow that an overlap deepens by less than its bound a step are found all the same") {
-    Passing passing(CollisionRule::one, 7.5 - 1e-11, 5e-14);
+    Passing passing(Method::time_stepped, 7.5 - 1e-11, 5e-14);
     bool is_right = true;
     while (is_right && passing.step < 3000) is_right = passing.is_right();
     CHECK(!is_right);
 }
 
 TEST_CASE("check: the rule one explains overlaps with a disc that has had its collision, the rule all none") {
-    Passing one(CollisionRule::one, 6.7, 1);
+    Passing one(Method::time_stepped, 6.7, 1);
     CHECK(one.is_right(1));
     CHECK(one.is_right()); // they go on through each other
     CHECK(one.is_right());
-    Passing all(CollisionRule::all, 6.7, 1);
+    Passing all(Method::event_driven, 6.7, 1);
     CHECK(!all.is_right(1));
 }
 
 TEST_CASE("check: a collision in an earlier step explains nothing") {
-    Passing passing(CollisionRule::one, 5.7, 1); // contact after 1.8 steps
+    Passing passing(Method::time_stepped, 5.7, 1); // contact after 1.8 steps
     CHECK(passing.is_right(1));
     CHECK(!passing.is_right());
 }
 
 TEST_CASE("check: discs that overlap from the start may, under the rule one") {
-    Passing passing(CollisionRule::one, 8, 0.25);
+    Passing passing(Method::time_stepped, 8, 0.25);
     for (int k = 0; k < 5; ++k) CHECK(passing.is_right());
 }

@@ -12,17 +12,17 @@
 
 #include "catch.hpp"
 
-#include "carrom/simulation/check_failure.hpp"
-#include "one_engine.hpp"
+#include "check/check_failure.hpp"
+#include "time_stepped/time_stepped_engine.hpp"
 #include "scene_tools.hpp"
-#include "state_check.hpp"
+#include "check/state_check.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
 
 namespace {
 
-constexpr Side periodic{SideKind::periodic, 1, 0, 0};
+constexpr Boundary periodic{BoundaryKind::periodic, 1, 0, 0};
 
 std::vector<InputDisc> share_of(const std::vector<InputDisc>& discs, const Communicator& world) {
     std::vector<InputDisc> mine;
@@ -31,14 +31,14 @@ std::vector<InputDisc> share_of(const std::vector<InputDisc>& discs, const Commu
     return mine;
 }
 
-Scene scene_of(const TestScene& test, CollisionRule rule) {
+Scene scene_of(const TestScene& test, Method method) {
     Scene scene = test::scene_of(test);
-    scene.rule = rule;
+    scene.method = method;
     return scene;
 }
 
-StateHash hash_after(const TestScene& test, CollisionRule rule, bool is_checked, const Communicator& world) {
-    const Scene scene = scene_of(test, rule);
+StateHash hash_after(const TestScene& test, Method method, bool is_checked, const Communicator& world) {
+    const Scene scene = scene_of(test, method);
     Simulation simulation(scene, share_of(test.discs, world), world, {});
     if (is_checked) simulation.check_every_step(scene);
     while (simulation.step() < test.steps) simulation.advance_towards(test.steps);
@@ -47,7 +47,7 @@ StateHash hash_after(const TestScene& test, CollisionRule rule, bool is_checked,
 
 /// What the check finds as discs that have flown on for a micro-step meet nobody, whatever is there.
 std::optional<CheckFailure> failure_of_flight(const TestScene& test, const Communicator& world) {
-    const Scene scene = scene_of(test, CollisionRule::one);
+    const Scene scene = scene_of(test, Method::time_stepped);
     std::vector<Disc> before, now;
     for (const InputDisc& input : share_of(test.discs, world)) {
         Disc& disc = before.emplace_back();
@@ -58,9 +58,9 @@ std::optional<CheckFailure> failure_of_flight(const TestScene& test, const Commu
         now.back().tau = 1;
     }
     StateCheck check(scene, before, 0, world);
-    const std::unique_ptr<Engine> engine = make_one_engine(scene, {now, 1}, world, {});
+    const std::unique_ptr<Engine> engine = make_time_stepped_engine(scene, {now, 1}, world, {});
     try {
-        check.look(engine->settled(), 1, {});
+        check.look(engine->local_view(), 1, {});
     } catch (const CheckFailure& found) {
         return found;
     }
@@ -71,15 +71,15 @@ std::optional<CheckFailure> failure_of_flight(const TestScene& test, const Commu
 
 TEST_CASE("check: runs in periodic boxes break no invariant, and have their bits") {
     const Communicator world = Communicator::world();
-    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
         for (const auto& [is_along_x, are_rough] : {std::pair(false, false), {true, false}, {false, true}, {true, true}}) {
             TestScene test = gas(60, 0.4, 1.5, 61); // flies through the box once between syncs, some discs more often
-            test.setting.effects.sides = {periodic, periodic, periodic, periodic};
+            test.setting.effects.boundaries = {periodic, periodic, periodic, periodic};
             if (is_along_x) {
-                test.setting.effects.sides[2] = {SideKind::fixed, 0.9, 0, 0};
-                test.setting.effects.sides[3] = {SideKind::thermal, 1, 0.5, 0};
+                test.setting.effects.boundaries[2] = {BoundaryKind::fixed, 0.9, 0, 0};
+                test.setting.effects.boundaries[3] = {BoundaryKind::thermal, 1, 0.5, 0};
                 test.setting.effects.contact = {ContactKind::restitution, 0.95, 0.001};
-                if (rule == CollisionRule::all) test.setting.effects.gravity = {0, -0.01};
+                if (method == Method::event_driven) test.setting.effects.gravity = {0, -0.01};
             }
             test.setting.effects.obstacles = {{{0, 0, 1}, {test.setting.box_size, 9, 0.5}}, {{0, 15, 5, 18}}, 1};
             std::erase_if(test.discs, [&](const InputDisc& disc) { // those that are in the way
@@ -90,13 +90,13 @@ TEST_CASE("check: runs in periodic boxes break no invariant, and have their bits
             });
             for (std::size_t k = 0; k < test.discs.size(); ++k) test.discs[k].id = k;
             if (are_rough) {
-                test.setting.effects.classes = {{20, 1, 5}, {test.discs.size() - 20, 0.7, 0.3}};
+                test.setting.effects.species = {{20, 1, 5}, {test.discs.size() - 20, 0.7, 0.3}};
                 test.setting.effects.contact = {ContactKind::rough, is_along_x ? 0.95 : 1, 0.001, is_along_x ? 0.3 : 1, std::numeric_limits<double>::infinity(), 0.5};
             }
             test.setting.sync_every = 12;
             test.steps = 30;
-            INFO((rule == CollisionRule::one ? "rule one" : "rule all") << (is_along_x ? ", along x" : ", all round") << (are_rough ? ", rough" : ""));
-            CHECK(to_string(hash_after(test, rule, true, world)) == to_string(hash_after(test, rule, false, world)));
+            INFO((method == Method::time_stepped ? "rule one" : "rule all") << (is_along_x ? ", along x" : ", all round") << (are_rough ? ", rough" : ""));
+            CHECK(to_string(hash_after(test, method, true, world)) == to_string(hash_after(test, method, false, world)));
         }
     }
 }
@@ -105,22 +105,22 @@ TEST_CASE("check: runs in periodic boxes break no invariant, and have their bits
 TEST_CASE("check: an overlap across a seam is found, of discs that are as large as that") {
     for (const double radius : {1.0, 0.23, 0.22}) {
         TestScene test = empty_scene("across the seam", 40, 1, 10);
-        test.setting.effects.sides = {periodic, periodic, periodic, periodic};
+        test.setting.effects.boundaries = {periodic, periodic, periodic, periodic};
         add_disc(test, 2.2, 39.9, -2, 0);
         add_disc(test, 37.8, 0.1, 2, 0);
-        if (radius < 1) test.setting.effects.classes = {{1, radius, 1}, {1, radius, 3}};
+        if (radius < 1) test.setting.effects.species = {{1, radius, 1}, {1, radius, 3}};
         const auto failure = failure_of_flight(test, Communicator::world());
         CHECK(failure.has_value() == (2 * radius > std::hypot(0.4, 0.2)));
         if (!failure) continue;
         CHECK(failure->invariant == Invariant::overlap);
         CHECK(failure->disc == 0);
-        CHECK(failure->neighbourhood.size() == 2);
+        CHECK(failure->discs_around.size() == 2);
     }
 }
 
 TEST_CASE("check: a disc in an obstacle is found, across a seam too") {
     TestScene test = empty_scene("into a body", 40, 1, 10);
-    test.setting.effects.sides = {periodic, periodic, periodic, periodic};
+    test.setting.effects.boundaries = {periodic, periodic, periodic, periodic};
     test.setting.effects.obstacles = {{{20, 20, 1}, {39, 10, 2}}, {}, 1};
     add_disc(test, 4, 10, -2, 0); // 3 from its centre then
     add_disc(test, 10, 30, 1, 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The self-check on data that it sees at the end of a step: as the engines leave it, on every scene the tests have, and
 // with one thing made wrong. Spoilt is a copy: the engines have no way to fail on purpose.
-#include "state_check.hpp"
+#include "check/state_check.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,20 +11,20 @@
 
 #include "catch.hpp"
 
-#include "exact_engine.hpp"
-#include "one_engine.hpp"
-#include "one_rule.hpp"
+#include "event_driven/event_driven_engine.hpp"
+#include "time_stepped/time_stepped_engine.hpp"
+#include "time_stepped.hpp"
 #include "scene_tools.hpp"
 #include "scenes.hpp"
 #include "shape_parts.hpp"
-#include "settled_discs.hpp"
+#include "local_discs.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
 
 namespace {
 
-constexpr CollisionRule both[] = {CollisionRule::one, CollisionRule::all};
+constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 
 std::vector<Disc> share_of(const TestScene& scene, const Communicator& world) {
     std::vector<Disc> mine;
@@ -34,20 +34,20 @@ std::vector<Disc> share_of(const TestScene& scene, const Communicator& world) {
     return mine;
 }
 
-Scene checked_scene(const TestScene& test_scene, CollisionRule rule) {
+Scene checked_scene(const TestScene& test_scene, Method method) {
     Scene scene = scene_of(test_scene);
-    scene.rule = rule;
+    scene.method = method;
     return scene;
 }
 
 std::unique_ptr<Engine> engine_of(const Scene& scene, StoredState state, const Communicator& world) {
-    if (scene.rule == CollisionRule::all) return make_exact_engine(scene, std::move(state), world, {});
-    return make_one_engine(scene, std::move(state), world, {});
+    if (scene.method == Method::event_driven) return make_event_driven_engine(scene, std::move(state), world, {});
+    return make_time_stepped_engine(scene, std::move(state), world, {});
 }
 
 /// The text of a failure in the first steps of a scene; empty if there is none, or the engine refuses the scene.
-std::string failure_of(const TestScene& test_scene, CollisionRule rule, const Communicator& world) {
-    Scene scene = checked_scene(test_scene, rule);
+std::string failure_of(const TestScene& test_scene, Method method, const Communicator& world) {
+    Scene scene = checked_scene(test_scene, method);
     try {
         std::vector<InputDisc> mine;
         for (const InputDisc& disc : test_scene.discs) {
@@ -55,13 +55,13 @@ std::string failure_of(const TestScene& test_scene, CollisionRule rule, const Co
         }
         Simulation simulation(scene, std::move(mine), world, {});
         simulation.check_every_step(scene);
-        const std::int64_t last = std::min<std::int64_t>(test_scene.steps, rule == CollisionRule::all ? 4 : world.size() == 1 ? 70 : 6);
+        const std::int64_t last = std::min<std::int64_t>(test_scene.steps, method == Method::event_driven ? 4 : world.size() == 1 ? 70 : 6);
         while (simulation.step() < last) simulation.advance_towards(last);
     } catch (const CheckFailure& failure) {
         return failure.what();
-    } catch (const InputError&) { // overlaps, under "all"
+    } catch (const InputError&) { // overlaps, in the event-driven method
     } catch (const CollectiveError& error) {
-        if (!test_scene.is_endless_under_all) return error.what();
+        if (!test_scene.cascades_when_event_driven) return error.what();
     }
     return {};
 }
@@ -72,7 +72,7 @@ TestScene gas_of(const Effects& effects) {
     return scene;
 }
 
-/// Effects that a check has to make allowance for; `is_for_one`: under the rule "one" too.
+/// Effects that a check has to make allowance for; `is_for_one`: in the time-stepped method too.
 struct NamedEffects {
     const char* name;
     Effects effects;
@@ -82,21 +82,21 @@ std::vector<NamedEffects> all_effects() {
     Effects none, lossy, lossy_walls, thermal, piston, falling, pile, slowed, sinking;
     none.contact.kind = ContactKind::none;
     lossy.contact = {ContactKind::restitution, 0.8, 0.001};
-    lossy_walls.sides[0].restitution = lossy_walls.sides[3].restitution = 0.6;
-    thermal.sides[1] = {SideKind::thermal, 1, 2, 0};
-    piston.sides[1] = {SideKind::moving, 1, 0, -0.05};
-    piston.sides[2] = {SideKind::moving, 0.9, 0, 0.03};
+    lossy_walls.boundaries[0].restitution = lossy_walls.boundaries[3].restitution = 0.6;
+    thermal.boundaries[1] = {BoundaryKind::thermal, 1, 2, 0};
+    piston.boundaries[1] = {BoundaryKind::moving, 1, 0, -0.05};
+    piston.boundaries[2] = {BoundaryKind::moving, 0.9, 0, 0.03};
     falling.gravity = {0.01, -0.03};
     pile = lossy;
     pile.gravity = {0, -0.1};
-    pile.sides[2].restitution = 0.3;
+    pile.boundaries[2].restitution = 0.3;
     slowed.drag = 0.05;
     sinking = pile;
     sinking.drag = 0.05;
     Effects mixed, heaps, rubbing, rolling; // the last keeps its energy
-    mixed.classes = {{14, 1, 4}, {30, 0.8, 1}, {20, 0.5, 0.5}};
+    mixed.species = {{14, 1, 4}, {30, 0.8, 1}, {20, 0.5, 0.5}};
     heaps = pile;
-    heaps.classes = mixed.classes;
+    heaps.species = mixed.species;
     rubbing.contact = {ContactKind::rough, 0.9, 0.001, 0.3, 0.4, 0.5};
     rolling = mixed;
     rolling.contact = {ContactKind::rough, 1, 0.001, 1, std::numeric_limits<double>::infinity(), 0.3};
@@ -109,23 +109,23 @@ std::vector<NamedEffects> all_effects() {
 /// What the check sees after the first step of a gas, and what it says when that has been spoilt.
 class OneStep {
 public:
-    explicit OneStep(CollisionRule rule, const Effects& effects = {})
-        : world_(Communicator::world()), test_scene_(gas_of(effects)), scene_(checked_scene(test_scene_, rule)),
+    explicit OneStep(Method method, const Effects& effects = {})
+        : world_(Communicator::world()), test_scene_(gas_of(effects)), scene_(checked_scene(test_scene_, method)),
           engine_(engine_of(scene_, {share_of(test_scene_, world_), 0}, world_)), check_(scene_, engine_->own(), 0, world_, {}, 0, engine_->spins()) {
         engine_->log_to(&log);
         engine_->advance_towards(1);
-        settled = copy_of(engine_->settled());
+        local_view = copy_of(engine_->local_view());
         spins.assign(engine_->spins().begin(), engine_->spins().end());
     }
 
     /// This rank's own disc of that id, or null.
     Disc* own(DiscId id) {
-        for (std::size_t i = 0; i < settled.n_own; ++i) {
-            if (settled.discs[i].id == id) return &settled.discs[i];
+        for (std::size_t i = 0; i < local_view.n_own; ++i) {
+            if (local_view.discs[i].id == id) return &local_view.discs[i];
         }
         return nullptr;
     }
-    void sort_into_cells() { settled.sort_into_cells(scene_.box_size, scene_.radius); }
+    void sort_into_cells() { local_view.sort_into_cells(scene_.box_size, scene_.radius); }
     const Scene& scene() const { return scene_; }
     const Communicator& world() const { return world_; }
 
@@ -156,7 +156,7 @@ public:
     std::optional<CheckFailure> look() {
         std::optional<CheckFailure> met;
         try {
-            check_.look(settled.view(), engine_->micro_steps_done(), log, spins);
+            check_.look(local_view.view(), engine_->micro_steps_done(), log, spins);
         } catch (const CheckFailure& failure) {
             met = failure;
         }
@@ -166,7 +166,7 @@ public:
         return met;
     }
 
-    SettledDiscs settled;
+    LocalDiscs local_view;
     std::vector<double> spins; ///< along the own discs, of rough ones
     std::vector<Collision> log;
 
@@ -180,9 +180,9 @@ private:
 
 /// Spoils a step under both rules and checks what is said of it: the invariant, the step, and the disc if `disc` is given.
 void expect(Invariant invariant, const std::function<std::optional<DiscId>(OneStep&)>& spoil) {
-    for (const CollisionRule rule : both) {
-        INFO("rule " << (rule == CollisionRule::one ? "one" : "all"));
-        OneStep step(rule);
+    for (const Method method : both) {
+        INFO("rule " << (method == Method::time_stepped ? "one" : "all"));
+        OneStep step(method);
         const std::optional<DiscId> disc = spoil(step);
         const auto failure = step.look();
         CHECK(failure.has_value());
@@ -196,7 +196,7 @@ void expect(Invariant invariant, const std::function<std::optional<DiscId>(OneSt
         CHECK(failure->disc == *disc);
         const bool is_own = step.own(*disc) != nullptr;
         if (is_own && invariant != Invariant::owned_once) CHECK(failure->rank == step.world().rank());
-        const auto& around = failure->neighbourhood;
+        const auto& around = failure->discs_around;
         CHECK(around.size() == 12);
         CHECK(std::any_of(around.begin(), around.end(), [&](const InputDisc& d) { return d.id == *disc; }));
     }
@@ -209,17 +209,17 @@ TEST_CASE("check: nothing is wrong in the scenes of the tests") {
     std::size_t number = 0;
     for (const TestScene& scene : small_scenes()) {
         ++number;
-        for (const CollisionRule rule : both) {
-            if (is_left_to_others(number + (rule == CollisionRule::one))) continue;
-            if (rule == CollisionRule::all && (scene.is_endless_under_all || scene.discs.size() > 100)) continue;
-            INFO(scene.name << (rule == CollisionRule::one ? ", one" : ", all"));
-            CHECK(failure_of(scene, rule, world) == "");
+        for (const Method method : both) {
+            if (is_left_to_others(number + (method == Method::time_stepped))) continue;
+            if (method == Method::event_driven && (scene.cascades_when_event_driven || scene.discs.size() > 100)) continue;
+            INFO(scene.name << (method == Method::time_stepped ? ", one" : ", all"));
+            CHECK(failure_of(scene, method, world) == "");
         }
     }
 }
 
 TEST_CASE("check: nothing is wrong in a step that is not spoilt") {
-    for (const CollisionRule rule : both) CHECK(!OneStep(rule).look().has_value());
+    for (const Method method : both) CHECK(!OneStep(method).look().has_value());
 }
 
 TEST_CASE("check: nothing is wrong in scenes with effects") {
@@ -227,20 +227,20 @@ TEST_CASE("check: nothing is wrong in scenes with effects") {
     std::size_t number = 0;
     for (const NamedEffects& named : all_effects()) {
         ++number;
-        for (const CollisionRule rule : both) {
-            if (is_left_to_others(number + (rule == CollisionRule::one))) continue;
-            if (rule == CollisionRule::one && !named.is_for_one) continue;
+        for (const Method method : both) {
+            if (is_left_to_others(number + (method == Method::time_stepped))) continue;
+            if (method == Method::time_stepped && !named.is_for_one) continue;
             TestScene scene = gas_of(named.effects);
             scene.steps = 60;
             scene.setting.sync_every = 7;
             scene.setting.micro_steps = 2;
-            Scene checked = checked_scene(scene, rule);
+            Scene checked = checked_scene(scene, method);
             std::vector<InputDisc> mine;
             for (const InputDisc& disc : scene.discs)
                 if (static_cast<int>(disc.id % static_cast<DiscId>(world.size())) == world.rank()) mine.push_back(disc);
             Simulation simulation(checked, std::move(mine), world, {});
             simulation.check_every_step(checked);
-            INFO(named.name << (rule == CollisionRule::one ? ", one" : ", all"));
+            INFO(named.name << (method == Method::time_stepped ? ", one" : ", all"));
             CHECK_NOTHROW([&] { while (simulation.step() < scene.steps) simulation.advance_towards(scene.steps); }());
         }
     }
@@ -250,7 +250,7 @@ namespace {
 
 /// The invariant that a check of a step with effects finds broken once `spoil` has had its way; none if it finds nothing.
 std::optional<Invariant> found_in(const Effects& effects, const std::function<void(OneStep&)>& spoil) {
-    OneStep step(CollisionRule::all, effects);
+    OneStep step(Method::event_driven, effects);
     spoil(step);
     const auto failure = step.look();
     return failure ? std::optional(failure->invariant) : std::nullopt;
@@ -263,7 +263,7 @@ TEST_CASE("check: with effects, what is wrong is found all the same") {
         return [=](OneStep& step) {
             Disc* const disc = step.own(id);
             if (!disc) return;
-            disc->x += disc->vx * (1 - factor) * (step.settled.time - disc->tau); // where it was
+            disc->x += disc->vx * (1 - factor) * (step.local_view.time - disc->tau); // where it was
             disc->vx *= factor;
         };
     };
@@ -278,7 +278,7 @@ TEST_CASE("check: with effects, what is wrong is found all the same") {
         CHECK(found_in(named.effects, collided_disc_faster(3)) == Invariant::energy);
     }
     const auto turns_faster = [](OneStep& step, DiscId id) {
-        if (const Disc* const disc = step.own(id)) step.spins[static_cast<std::size_t>(disc - step.settled.discs.data())] += 0.2;
+        if (const Disc* const disc = step.own(id)) step.spins[static_cast<std::size_t>(disc - step.local_view.discs.data())] += 0.2;
     };
     for (const NamedEffects& named : all_effects()) {
         if (named.effects.contact.kind != ContactKind::rough) continue;
@@ -287,9 +287,9 @@ TEST_CASE("check: with effects, what is wrong is found all the same") {
               (named.effects.contact.restitution == 1 ? std::optional(Invariant::energy) : std::nullopt)); // else it might be what is lost
     }
     Effects piston;
-    piston.sides[1] = {SideKind::moving, 1, 0, -0.5};
+    piston.boundaries[1] = {BoundaryKind::moving, 1, 0, -0.5};
     CHECK(found_in(piston, [](OneStep& step) { // inside the box as it was, outside as it is
-              if (Disc* const disc = step.own(7)) disc->x += step.scene().box_size - step.scene().radius - 0.2 - disc->x_at(step.settled.time);
+              if (Disc* const disc = step.own(7)) disc->x += step.scene().box_size - step.scene().radius - 0.2 - disc->x_at(step.local_view.time);
           }) == Invariant::in_box);
     Effects falling;
     falling.gravity.y = -0.03;
@@ -306,8 +306,8 @@ TEST_CASE("check: a number that is not finite") {
 TEST_CASE("check: a disc that nobody owns any more") {
     expect(Invariant::owned_once, [](OneStep& step) {
         if (Disc* const disc = step.own(7)) {
-            std::swap(*disc, step.settled.discs[step.settled.n_own - 1]);
-            --step.settled.n_own;
+            std::swap(*disc, step.local_view.discs[step.local_view.n_own - 1]);
+            --step.local_view.n_own;
         }
         return 7;
     });
@@ -330,7 +330,7 @@ TEST_CASE("check: a disc that does not exist") {
 TEST_CASE("check: a disc outside the box, by little") {
     expect(Invariant::in_box, [](OneStep& step) {
         const double size = step.scene().box_size;
-        if (Disc* const disc = step.own(7)) disc->y += (size - step.scene().radius) * (1 + 1e-12) - disc->y_at(step.settled.time);
+        if (Disc* const disc = step.own(7)) disc->y += (size - step.scene().radius) * (1 + 1e-12) - disc->y_at(step.local_view.time);
         return 7;
     });
 }
@@ -340,8 +340,8 @@ TEST_CASE("check: a disc in another rank's strip") {
     expect(Invariant::in_strip, [](OneStep& step) {
         if (Disc* const disc = step.own(7)) {
             const double from_left = step.scene().radius, from_right = step.scene().box_size - step.scene().radius;
-            const bool is_left = step.settled.strips.owner(from_left) == step.world().rank();
-            disc->x += (is_left ? from_right : from_left) - disc->x_at(step.settled.time);
+            const bool is_left = step.local_view.strips.owner(from_left) == step.world().rank();
+            disc->x += (is_left ? from_right : from_left) - disc->x_at(step.local_view.time);
         }
         return 7;
     });
@@ -350,7 +350,7 @@ TEST_CASE("check: a disc in another rank's strip") {
 TEST_CASE("check: a disc in another cell than it is filed under") {
     expect(Invariant::in_cell, [](OneStep& step) {
         if (Disc* const disc = step.own(7)) {
-            const double y = disc->y_at(step.settled.time), width = step.settled.grid.frame().cell_width;
+            const double y = disc->y_at(step.local_view.time), width = step.local_view.grid.frame().cell_width;
             disc->y += y > step.scene().box_size / 2 ? -width : width;
         }
         return 7;

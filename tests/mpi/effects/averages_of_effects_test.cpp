@@ -13,8 +13,8 @@ using namespace carrom::test;
 
 namespace {
 
-Averages averages_of(const TestScene& scene, CollisionRule rule = CollisionRule::all) {
-    Simulation simulation = simulation_of(scene, rule, Communicator::world());
+Averages averages_of(const TestScene& scene, Method method = Method::event_driven) {
+    Simulation simulation = simulation_of(scene, method, Communicator::world());
     advance_to(simulation, scene.steps);
     return simulation.averages();
 }
@@ -40,8 +40,8 @@ TEST_CASE("effects: averages of speeds over a thermal floor under gravity are Ma
     const double temperature = 0.2;
     scene.setting.effects.contact.kind = ContactKind::none;
     scene.setting.effects.gravity = {0, -0.01};
-    scene.setting.effects.sides[2] = {SideKind::thermal, 1, temperature, 0};
-    Simulation simulation = simulation_of(scene, CollisionRule::all, Communicator::world());
+    scene.setting.effects.boundaries[2] = {BoundaryKind::thermal, 1, temperature, 0};
+    Simulation simulation = simulation_of(scene, Method::event_driven, Communicator::world());
     advance_to(simulation, 2000); // several flights
     simulation.average_anew();
     advance_to(simulation, 4000);
@@ -62,9 +62,9 @@ TEST_CASE("effects: averages of what is slowed down, leaves, or flies among obst
 
     // Leaving: those that are in the box are as fast as ever, however many have left.
     TestScene leaving = swarm(0.5, 160);
-    leaving.setting.effects.sides[0].kind = SideKind::open;
-    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
-        const Averages of_leaving = averages_of(leaving, rule);
+    leaving.setting.effects.boundaries[0].kind = BoundaryKind::open;
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
+        const Averages of_leaving = averages_of(leaving, method);
         CHECK(of_leaving.mean_speed.value == Approx(0.5).epsilon(1e-12));
         CHECK(of_leaving.speed_kurtosis.value == Approx(1).epsilon(1e-12));
         CHECK(std::isnan(of_leaving.collision_frequency.value));
@@ -85,9 +85,9 @@ TEST_CASE("effects: the frequency of collisions is what is counted, whatever the
     scene.steps = 96;
     scene.setting.sync_every = 16;
     scene.setting.effects.gravity = {0, -0.005};
-    scene.setting.effects.sides[1] = {SideKind::moving, 1, 0, -0.02};
+    scene.setting.effects.boundaries[1] = {BoundaryKind::moving, 1, 0, -0.02};
     set_drag(scene, 0.005);
-    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
     advance_to(simulation, scene.steps);
     const Totals totals = simulation.totals();
     CHECK(totals.pair_collisions > 300);

@@ -6,7 +6,7 @@
 
 #include "catch.hpp"
 
-#include "carrom/parallel/exchange.hpp"
+#include "parallel/exchange.hpp"
 #include "effect_runs.hpp"
 
 using namespace carrom;
@@ -40,7 +40,7 @@ TEST_CASE("effects: a thin gas cools by Haff's law") {
     TestScene scene = gas(2500, 0.03, 0.1, 601);
     const double restitution = 0.95, loss = 1 - restitution * restitution;
     scene.setting.effects.contact = {ContactKind::restitution, restitution, 0.001};
-    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
     advance_to(simulation, 300); // some three collisions a disc: speeds were not Maxwell's
     const Totals start = simulation.totals();
     std::vector<double> slownesses;
@@ -67,7 +67,7 @@ TEST_CASE("effects: inelastic collapse comes to an end, and energy only falls") 
     for (const std::size_t n : {3u, 30u}) {
         TestScene scene = cradle(n, 0.5, 0.25, 1);
         scene.setting.effects.contact = {ContactKind::restitution, 0.05, 0.001};
-        Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+        Simulation simulation = simulation_of(scene, Method::event_driven, world);
         double before = simulation.totals().kinetic_energy;
         for (std::int64_t step = 10; step <= 100; step += 10) {
             advance_to(simulation, step);
@@ -84,7 +84,7 @@ TEST_CASE("effects: discs that do not meet fly as if each were alone") {
     TestScene scene = gas(400, 0.3, 2, 602);
     scene.steps = 100;
     scene.setting.effects.contact.kind = ContactKind::none;
-    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
     advance_to(simulation, scene.steps);
     const double r = scene.setting.radius;
     const long double length = static_cast<long double>(scene.setting.box_size) - 2 * r;

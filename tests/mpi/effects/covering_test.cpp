@@ -11,11 +11,11 @@
 
 #include "catch.hpp"
 
-#include "carrom/effects/falling_contact.hpp"
+#include "dynamics/falling_contact.hpp"
 #include "effect_runs.hpp"
 #include "scene_tools.hpp"
 #include "event_driven.hpp"
-#include "one_rule.hpp"
+#include "time_stepped.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -25,7 +25,7 @@ namespace {
 /// What a run is put together from.
 struct Plan {
     TestScene scene;
-    CollisionRule rule = CollisionRule::all;
+    Method method = Method::event_driven;
     Tuning tuning;
     bool is_restarted = false;
 };
@@ -36,22 +36,22 @@ struct Choice {
 };
 using Row = std::vector<Choice>;
 
-Choice side_choice(std::size_t number, const char* kind, const Side& side) {
-    return {std::string(side_names[number]) + " " + kind, [=](Plan& plan) { plan.scene.setting.effects.sides[number] = side; }};
+Choice side_choice(std::size_t number, const char* kind, const Boundary& side) {
+    return {std::string(boundary_names[number]) + " " + kind, [=](Plan& plan) { plan.scene.setting.effects.boundaries[number] = side; }};
 }
 
 Row sides_of(std::size_t number) {
     const double inwards = number % 2 == 0 ? 0.02 : -0.02;
-    Row row{side_choice(number, "wall", {}), side_choice(number, "lossy", {SideKind::fixed, 0.7, 0, 0}),
-            side_choice(number, "thermal", {SideKind::thermal, 1, 0.2, 0}), side_choice(number, "moving", {SideKind::moving, 0.9, 0, inwards})};
-    if (number % 2 == 0) row.push_back(side_choice(number, "open", {SideKind::open, 1, 0, 0}));
+    Row row{side_choice(number, "wall", {}), side_choice(number, "lossy", {BoundaryKind::fixed, 0.7, 0, 0}),
+            side_choice(number, "thermal", {BoundaryKind::thermal, 1, 0.2, 0}), side_choice(number, "moving", {BoundaryKind::moving, 0.9, 0, inwards})};
+    if (number % 2 == 0) row.push_back(side_choice(number, "open", {BoundaryKind::open, 1, 0, 0}));
     return row;
 }
 
 /// Two opposite sides periodic, in place of what they are.
 Choice seams(const char* name, std::size_t low_side) {
     return {name, [=](Plan& plan) {
-                for (const std::size_t side : {low_side, low_side + 1}) plan.scene.setting.effects.sides[side] = {SideKind::periodic, 1, 0, 0};
+                for (const std::size_t side : {low_side, low_side + 1}) plan.scene.setting.effects.boundaries[side] = {BoundaryKind::periodic, 1, 0, 0};
             }};
 }
 
@@ -83,10 +83,10 @@ Choice window(const char* name, std::optional<double> length) {
 }
 
 /// Every other half of the discs is smaller and lighter.
-void split_into_classes(Plan& plan) {
+void split_into_species(Plan& plan) {
     const double radius = plan.scene.setting.radius;
     const std::uint64_t n = plan.scene.discs.size();
-    plan.scene.setting.effects.classes = {{n / 4, radius, 2}, {n / 4, 0.7 * radius, 0.6}, {n / 4, radius, 2}, {n - 3 * (n / 4), 0.7 * radius, 0.6}};
+    plan.scene.setting.effects.species = {{n / 4, radius, 2}, {n / 4, 0.7 * radius, 0.6}, {n / 4, radius, 2}, {n - 3 * (n / 4), 0.7 * radius, 0.6}};
 }
 
 /// A few bodies, which the discs that are in their place leave.
@@ -96,16 +96,16 @@ void put_obstacles(Plan& plan) {
     setting.effects.obstacles = {{{0.3 * size, 0.4 * size, 0.05 * size}, {0.7 * size, 0.6 * size, 0}},
                                  {{0, 0.3 * size, 0.25 * size, 0.2 * size}, {0.55 * size, 0.8 * size, 0.7 * size, 0.75 * size}}, 0.8};
     make_room_for_obstacles(plan.scene);
-    if (!setting.effects.classes.empty()) split_into_classes(plan); // of those that are left
+    if (!setting.effects.species.empty()) split_into_species(plan); // of those that are left
 }
 
 /// The first row makes the scene that the others change.
 std::vector<Row> table() {
     return {{shape(gas(200, 0.05, 0.8, 701)), shape(gas(144, 0.6, 0.3, 702)), shape(break_shot(5, 0.5, 3, 0.1))},
-            {{"rule one", [](Plan& plan) { plan.rule = CollisionRule::one; }}, {"rule all", [](Plan& plan) { plan.rule = CollisionRule::all; }}},
+            {{"rule one", [](Plan& plan) { plan.method = Method::time_stepped; }}, {"rule all", [](Plan& plan) { plan.method = Method::event_driven; }}},
             {contact("elastic", {}), contact("no contact", {ContactKind::none, 1, 0.001}), contact("restitution", {ContactKind::restitution, 0.85, 0.002}),
              contact("rough", {ContactKind::rough, 0.9, 0.002, 0.4, 0.3, 0.5})},
-            {{"one size", [](Plan&) {}}, {"several classes", split_into_classes}},
+            {{"one size", [](Plan&) {}}, {"several classes", split_into_species}},
             sides_of(0),
             sides_of(1),
             sides_of(2),
@@ -223,7 +223,7 @@ StateHash reference_hash(const Plan& plan, const Communicator& world) {
         for (std::size_t i = 0; i < reference.spins().size(); ++i) hash += hash_of_spin(i, reference.spins()[i]);
     };
     if (world.is_root()) {
-        if (plan.rule == CollisionRule::one) run_with(reference::OneRuleReference(plan.scene.setting, plan.scene.discs));
+        if (plan.method == Method::time_stepped) run_with(reference::TimeSteppedReference(plan.scene.setting, plan.scene.discs));
         else run_with(reference::EventDrivenReference(plan.scene.setting, plan.scene.discs));
     }
     world.broadcast(hash);
@@ -231,11 +231,11 @@ StateHash reference_hash(const Plan& plan, const Communicator& world) {
 }
 
 StateHash engine_hash(const Plan& plan, const Communicator& world) {
-    Simulation first = simulation_of(plan.scene, plan.rule, world, plan.tuning);
+    Simulation first = simulation_of(plan.scene, plan.method, world, plan.tuning);
     advance_to(first, plan.is_restarted ? plan.scene.steps / 2 : plan.scene.steps);
     if (!plan.is_restarted) return first.totals().hash;
     Scene scene = scene_of(plan.scene);
-    scene.rule = plan.rule;
+    scene.method = plan.method;
     const StoredState state{{first.discs().begin(), first.discs().end()}, first.micro_steps_done(), {first.spins().begin(), first.spins().end()}};
     Simulation second(scene, state, world, plan.tuning);
     advance_to(second, plan.scene.steps);

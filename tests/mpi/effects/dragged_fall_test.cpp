@@ -6,7 +6,7 @@
 
 #include "catch.hpp"
 
-#include "carrom/parallel/exchange.hpp"
+#include "parallel/exchange.hpp"
 #include "effect_runs.hpp"
 
 using namespace carrom;
@@ -22,7 +22,7 @@ TestScene ball(double height, double restitution) {
     TestScene scene = empty_scene("ball in air", 128, 1, 1);
     add_disc(scene, 64, 1 + height, 0.0625, 0);
     scene.setting.effects.gravity = {0, -g};
-    scene.setting.effects.sides[2].restitution = restitution;
+    scene.setting.effects.boundaries[2].restitution = restitution;
     scene.setting.sync_every = 50;
     set_drag(scene, rate);
     return scene;
@@ -54,7 +54,7 @@ Disc only_disc(const Simulation& simulation, const Communicator& world) {
 
 TEST_CASE("effects: a ball falls through the air as the formula says, and no faster than g / c") {
     const Communicator world = Communicator::world();
-    Simulation simulation = simulation_of(ball(120, 1), CollisionRule::all, world);
+    Simulation simulation = simulation_of(ball(120, 1), Method::event_driven, world);
     for (const std::int64_t step : {20, 50, 123, 400, 600}) { // between syncs, too
         advance_to(simulation, step);
         const Disc disc = only_disc(simulation, world);
@@ -71,7 +71,7 @@ TEST_CASE("effects: a ball in the air bounces when the formula says") {
     for (const double restitution : {1.0, 0.8}) {
         TestScene scene = ball(50, restitution);
         scene.setting.effects.contact.contact_time = 0.02; // it comes to rest, and bounces on
-        Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+        Simulation simulation = simulation_of(scene, Method::event_driven, world);
         std::vector<Collision> log, all;
         simulation.log_to(&log);
         advance_to(simulation, 700);
@@ -98,7 +98,7 @@ TEST_CASE("effects: a ball in the air comes to rest in bounded time; with ever l
     TestScene scene = ball(5, 0.5);
     scene.steps = 400;
     scene.setting.effects.contact.contact_time = 0.01;
-    const Totals rest = run(scene, CollisionRule::all, world);
+    const Totals rest = run(scene, Method::event_driven, world);
     CHECK(static_cast<double>(rest.wall_collisions) < 1.01 * 400 / 0.01); // flights of what leaves with g t / 2 are a little shorter than t
     CHECK(rest.wall_collisions > 100);
     CHECK(rest.kinetic_energy + rest.potential_energy - g < 0.05 * 0.02 * g);
@@ -106,10 +106,10 @@ TEST_CASE("effects: a ball in the air comes to rest in bounded time; with ever l
     scene = ball(47, 0.8); // 50 would come down at a sync, which counts as a touch
     Simulation thin = [&] {
         set_drag(scene, 1e-13);
-        return simulation_of(scene, CollisionRule::all, world);
+        return simulation_of(scene, Method::event_driven, world);
     }();
     scene.setting.effects.drag = 0;
-    Simulation none = simulation_of(scene, CollisionRule::all, world);
+    Simulation none = simulation_of(scene, Method::event_driven, world);
     for (Simulation* simulation : {&thin, &none}) advance_to(*simulation, 700);
     const Disc in_thin = only_disc(thin, world), in_none = only_disc(none, world);
     CHECK(in_thin.wall_collisions == in_none.wall_collisions);
@@ -124,7 +124,7 @@ TEST_CASE("effects: a gas in the air loses energy at the rate of twice that of i
     scene.setting.effects.gravity = {0.004, -0.01};
     scene.setting.sync_every = 16;
     set_drag(scene, 0.01);
-    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
     const Totals start = simulation.totals();
     // d(K + U)/dt = -2 c K, by Simpson's rule: K is smooth in elastic collisions.
     double integral = 0;
@@ -145,10 +145,10 @@ TEST_CASE("effects: what a wall pushes through the air goes with it") {
     const Communicator world = Communicator::world();
     TestScene scene = empty_scene("pushed", 128, 1, 1);
     add_disc(scene, 20, 64, 0, 0);
-    scene.setting.effects.sides[0] = {SideKind::moving, 0.5, 0, 0.05};
+    scene.setting.effects.boundaries[0] = {BoundaryKind::moving, 0.5, 0, 0.05};
     scene.setting.effects.contact.contact_time = 0.05;
     set_drag(scene, rate);
-    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
     advance_to(simulation, 1000);
     const Disc disc = only_disc(simulation, world);
     CHECK(disc.x - 1 == Approx(0.05 * 1000).margin(1e-6)); // it hops by c u t^2 / 8

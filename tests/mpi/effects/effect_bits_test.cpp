@@ -10,7 +10,7 @@
 
 #include "catch.hpp"
 
-#include "carrom/effects/falling_contact.hpp"
+#include "dynamics/falling_contact.hpp"
 #include "reference_bits.hpp"
 
 using namespace carrom;
@@ -50,31 +50,31 @@ TEST_CASE("effects: discs that do not meet, and discs that lose energy, have the
         for (const auto& [kind, restitution, time] : {std::tuple(ContactKind::none, 1.0, 0.001), {ContactKind::restitution, 0.8, 0.001},
                                                       {ContactKind::restitution, 0.05, 0.01}, {ContactKind::restitution, 0.0, 0.2}}) {
             contact = {kind, restitution, time};
-            for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
+            for (const Method method : {Method::time_stepped, Method::event_driven}) check_bits(scene, method);
         }
     }
 }
 
 // Every pair of contact, sides and gravity is met in some scene.
 TEST_CASE("effects: sides and gravity have the references' bits, alone and together") {
-    const Side lossy{SideKind::fixed, 0.7, 0, 0}, piston{SideKind::moving, 1, 0, -0.03}, rising{SideKind::moving, 0.9, 0, 0.02};
+    const Boundary lossy{BoundaryKind::fixed, 0.7, 0, 0}, piston{BoundaryKind::moving, 1, 0, -0.03}, rising{BoundaryKind::moving, 0.9, 0, 0.02};
     const ContactEffect elastic, none{ContactKind::none, 1, 0.001}, inelastic{ContactKind::restitution, 0.85, 0.002};
     struct Case {
         ContactEffect contact;
-        std::array<Side, 4> sides;
+        std::array<Boundary, 4> boundaries;
         Gravity gravity;
     };
-    const std::array<Side, 4> plain{}, all_lossy{lossy, lossy, lossy, lossy}, pistons{Side{}, piston, rising, piston}, floor{Side{}, Side{}, lossy, rising};
+    const std::array<Boundary, 4> plain{}, all_lossy{lossy, lossy, lossy, lossy}, pistons{Boundary{}, piston, rising, piston}, floor{Boundary{}, Boundary{}, lossy, rising};
     const std::vector<Case> cases{{elastic, all_lossy, {}}, {elastic, pistons, {}},        {elastic, plain, {0, -0.05}},
                                   {none, floor, {0.03, 0.04}}, {inelastic, pistons, {0, -0.03}}, {inelastic, all_lossy, {-0.02, -0.01}}};
     for (TestScene scene : base_scenes()) {
         for (const Case& c : cases) {
-            scene.setting.effects = {c.contact, c.sides, c.gravity};
-            check_bits(scene, CollisionRule::all);
+            scene.setting.effects = {c.contact, c.boundaries, c.gravity};
+            check_bits(scene, Method::event_driven);
         }
         for (const ContactEffect& contact : {elastic, none, inelastic}) {
             scene.setting.effects = {contact, all_lossy, {}};
-            check_bits(scene, CollisionRule::one);
+            check_bits(scene, Method::time_stepped);
         }
     }
 }
@@ -83,32 +83,32 @@ TEST_CASE("effects: sides and gravity have the references' bits, alone and toget
 TEST_CASE("effects: obstacles have the references' bits, with restitution, gravity and drag too") {
     for (TestScene scene : obstructed_scenes()) {
         Effects& effects = scene.setting.effects;
-        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
+        for (const Method method : {Method::time_stepped, Method::event_driven}) check_bits(scene, method);
         effects.obstacles.restitution = 0.7;
         effects.contact = {ContactKind::restitution, 0.9, 0.002};
-        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
+        for (const Method method : {Method::time_stepped, Method::event_driven}) check_bits(scene, method);
         effects.gravity = {0.01, -0.03};
         scene.setting.falling_contact = falling_contact;
-        check_bits(scene, CollisionRule::all);
+        check_bits(scene, Method::event_driven);
         effects.gravity = {};
         set_drag(scene, 0.2);
-        check_bits(scene, CollisionRule::all);
+        check_bits(scene, Method::event_driven);
     }
 }
 
 TEST_CASE("effects: open sides have the references' bits, with obstacles and gravity too") {
-    const Side open{SideKind::open, 1, 0, 0};
+    const Boundary open{BoundaryKind::open, 1, 0, 0};
     for (TestScene scene : {base_scenes()[0], base_scenes()[1], obstructed_scenes()[1]}) {
         scene.steps = 24;
         Effects& effects = scene.setting.effects;
-        effects.sides = {open, Side{}, Side{}, Side{}};
-        check_bits(scene, CollisionRule::one);
-        effects.sides = {open, open, open, open};
-        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
-        effects.sides = {Side{}, open, open, Side{}};
+        effects.boundaries = {open, Boundary{}, Boundary{}, Boundary{}};
+        check_bits(scene, Method::time_stepped);
+        effects.boundaries = {open, open, open, open};
+        for (const Method method : {Method::time_stepped, Method::event_driven}) check_bits(scene, method);
+        effects.boundaries = {Boundary{}, open, open, Boundary{}};
         effects.gravity = {0.02, -0.05};
         scene.setting.falling_contact = falling_contact;
-        check_bits(scene, CollisionRule::all);
+        check_bits(scene, Method::event_driven);
     }
 }
 
@@ -116,35 +116,35 @@ TEST_CASE("effects: drag has the reference's bits, with gravity and moving walls
     for (TestScene scene : base_scenes()) {
         Effects& effects = scene.setting.effects;
         set_drag(scene, 0.2);
-        check_bits(scene, CollisionRule::all);
+        check_bits(scene, Method::event_driven);
         effects.gravity = {0.02, -0.05};
-        check_bits(scene, CollisionRule::all);
+        check_bits(scene, Method::event_driven);
         effects.contact = {ContactKind::restitution, 0.9, 0.002};
-        effects.sides[2].restitution = 0.8;
-        check_bits(scene, CollisionRule::all);
-        effects.sides[1] = {SideKind::moving, 1, 0, -0.03};
-        effects.sides[3] = {SideKind::moving, 0.9, 0, 0.02};
-        check_bits(scene, CollisionRule::all);
+        effects.boundaries[2].restitution = 0.8;
+        check_bits(scene, Method::event_driven);
+        effects.boundaries[1] = {BoundaryKind::moving, 1, 0, -0.03};
+        effects.boundaries[3] = {BoundaryKind::moving, 0.9, 0, 0.02};
+        check_bits(scene, Method::event_driven);
     }
 }
 
 TEST_CASE("effects: thermal walls have the references' bits") {
-    const Side warm{SideKind::thermal, 1, 0.3, 0}, cold{SideKind::thermal, 1, 0.01, 0};
+    const Boundary warm{BoundaryKind::thermal, 1, 0.3, 0}, cold{BoundaryKind::thermal, 1, 0.01, 0};
     for (TestScene scene : base_scenes()) {
         scene.steps = 24;
         set_thermal_seed(scene.setting, 77);
         Effects& effects = scene.setting.effects;
-        effects.sides = {cold, warm, warm, cold};
-        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
-        effects.sides = {Side{}, Side{}, warm, Side{SideKind::fixed, 0.5, 0, 0}};
+        effects.boundaries = {cold, warm, warm, cold};
+        for (const Method method : {Method::time_stepped, Method::event_driven}) check_bits(scene, method);
+        effects.boundaries = {Boundary{}, Boundary{}, warm, Boundary{BoundaryKind::fixed, 0.5, 0, 0}};
         effects.contact = {ContactKind::restitution, 0.9, 0.002};
-        check_bits(scene, CollisionRule::one);
+        check_bits(scene, Method::time_stepped);
         effects.gravity = {0.01, -0.02};
-        check_bits(scene, CollisionRule::all);
+        check_bits(scene, Method::event_driven);
         set_drag(scene, 0.2);
-        check_bits(scene, CollisionRule::all);
+        check_bits(scene, Method::event_driven);
         effects.gravity = {};
-        check_bits(scene, CollisionRule::all);
+        check_bits(scene, Method::event_driven);
     }
 }
 
@@ -152,15 +152,15 @@ TEST_CASE("effects: walls that are elastic and at rest, and no gravity, are the 
     const Communicator world = Communicator::world();
     std::vector<TestScene> scenes = base_scenes();
     for (const TestScene& scene : wall_scenes()) {
-        if (!scene.is_endless_under_all && scene.discs.size() < 100) scenes.push_back(scene);
+        if (!scene.cascades_when_event_driven && scene.discs.size() < 100) scenes.push_back(scene);
     }
     for (TestScene& scene : scenes) {
-        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+        for (const Method method : {Method::time_stepped, Method::event_driven}) {
             INFO(scene.name);
             scene.setting.effects = {};
-            const Totals plain = run(scene, rule, world);
-            scene.setting.effects.sides[1] = {SideKind::moving, 1, 0, 0};
-            CHECK(to_string(run(scene, rule, world).hash) == to_string(plain.hash));
+            const Totals plain = run(scene, method, world);
+            scene.setting.effects.boundaries[1] = {BoundaryKind::moving, 1, 0, 0};
+            CHECK(to_string(run(scene, method, world).hash) == to_string(plain.hash));
         }
     }
 }
@@ -168,12 +168,12 @@ TEST_CASE("effects: walls that are elastic and at rest, and no gravity, are the 
 TEST_CASE("effects: a restitution of 1 is the plain law to the bit") {
     const Communicator world = Communicator::world();
     for (TestScene scene : base_scenes()) {
-        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+        for (const Method method : {Method::time_stepped, Method::event_driven}) {
             scene.setting.effects = {};
-            const Totals plain = run(scene, rule, world);
+            const Totals plain = run(scene, method, world);
             scene.setting.effects.contact = {ContactKind::restitution, 1, 0.001};
             INFO(scene.name);
-            CHECK(to_string(run(scene, rule, world).hash) == to_string(plain.hash));
+            CHECK(to_string(run(scene, method, world).hash) == to_string(plain.hash));
             CHECK(plain.pair_collisions > 0);
         }
     }

@@ -7,7 +7,7 @@
 
 #include "catch.hpp"
 
-#include "carrom/simulation/effect_costs.hpp"
+#include "simulation/effect_costs.hpp"
 #include "effect_runs.hpp"
 #include "scene_tools.hpp"
 
@@ -18,9 +18,9 @@ namespace {
 
 constexpr CostsOfRun short_run = {200, 1000, 1e-6, 0.02};
 
-Scene scene_with(const std::function<void(Scene&)>& set, CollisionRule rule) {
+Scene scene_with(const std::function<void(Scene&)>& set, Method method) {
     Scene scene = scene_of(gas(200, 0.05, 0.8, 821)); // r = 0.5
-    scene.rule = rule;
+    scene.method = method;
     set(scene);
     return scene;
 }
@@ -44,18 +44,18 @@ TEST_CASE("effects: each one's cost is a number") {
         [](Scene& scene) { scene.effects.contact.kind = ContactKind::none; },
         [](Scene& scene) { scene.effects.contact.kind = ContactKind::none, scene.radius *= 10; }, // no lattice of so many
         [](Scene& scene) { scene.effects.contact = {ContactKind::rough, 0.9, 0.01, 0.5, 0.3}; },
-        [](Scene& scene) { scene.effects.sides[0] = {SideKind::thermal, 1, 0.2, 0}; },
-        [](Scene& scene) { scene.effects.sides[2].restitution = 0.5; },
-        [](Scene& scene) { scene.effects.sides[1] = {SideKind::open, 1, 0, 0}; },
-        [](Scene& scene) { scene.effects.sides[1] = {SideKind::moving, 1, 0, -0.5 * scene.box_size}; },
-        [](Scene& scene) { scene.effects.sides[0].kind = scene.effects.sides[1].kind = SideKind::periodic; },
+        [](Scene& scene) { scene.effects.boundaries[0] = {BoundaryKind::thermal, 1, 0.2, 0}; },
+        [](Scene& scene) { scene.effects.boundaries[2].restitution = 0.5; },
+        [](Scene& scene) { scene.effects.boundaries[1] = {BoundaryKind::open, 1, 0, 0}; },
+        [](Scene& scene) { scene.effects.boundaries[1] = {BoundaryKind::moving, 1, 0, -0.5 * scene.box_size}; },
+        [](Scene& scene) { scene.effects.boundaries[0].kind = scene.effects.boundaries[1].kind = BoundaryKind::periodic; },
         [](Scene& scene) { scene.effects.gravity = {0, -1e-4}; },
         [](Scene& scene) { scene.effects.drag = 1e-4; },
         [](Scene& scene) { scene.effects.obstacles = {{{7, 7, 0.5}}, {{1, 2, 9, 2}}, 0.8}; },
-        [](Scene& scene) { scene.effects.classes = {{100, 1.0, 1.0}, {100, 0.9, 4.0}}; },
-        [](Scene& scene) { scene.effects.classes = {{1, 2 * scene.radius, 100}, {199, scene.radius, 1}}, scene.radius *= 2; }};
-    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all})
-        for (const auto& set : all_kinds) check_costs(scene_with(set, rule));
+        [](Scene& scene) { scene.effects.species = {{100, 1.0, 1.0}, {100, 0.9, 4.0}}; },
+        [](Scene& scene) { scene.effects.species = {{1, 2 * scene.radius, 100}, {199, scene.radius, 1}}, scene.radius *= 2; }};
+    for (const Method method : {Method::time_stepped, Method::event_driven})
+        for (const auto& set : all_kinds) check_costs(scene_with(set, method));
 }
 
 // Beyond what timing scatters by: a forest of obstacles is looked through by each disc in each step, a wall's restitution by next to none.
@@ -63,10 +63,10 @@ TEST_CASE("effects: what costs much is told from what costs little") {
     const auto set = [](Scene& scene) {
         for (double x = 1; x < scene.box_size; x += 2.5)
             for (double y = 1; y < scene.box_size; y += 2.5) scene.effects.obstacles.discs.push_back({x, y, 0.1});
-        scene.effects.sides[2].restitution = 0.999;
+        scene.effects.boundaries[2].restitution = 0.999;
     };
-    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
-        const std::vector<EffectCost> costs = effect_costs(scene_with(set, rule), {200, 1000, 1e-6, 0.1});
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
+        const std::vector<EffectCost> costs = effect_costs(scene_with(set, method), {200, 1000, 1e-6, 0.1});
         REQUIRE(costs.size() == 2);
         CHECK(costs[1].time_share > 0.1);
         CHECK(costs[1].time_share > 2 * costs[0].time_share);
@@ -75,7 +75,7 @@ TEST_CASE("effects: what costs much is told from what costs little") {
 }
 
 TEST_CASE("effects: a sample that would take too long is left out") {
-    const Scene scene = scene_with([](Scene& all) { all.effects.contact.kind = ContactKind::none; }, CollisionRule::one);
+    const Scene scene = scene_with([](Scene& all) { all.effects.contact.kind = ContactKind::none; }, Method::time_stepped);
     const std::vector<EffectCost> slow = effect_costs(scene, {200, 1000, 1, 0.1}); // a second per disc and step
     REQUIRE(slow.size() == 1);
     CHECK(!slow[0].time_ratio);
@@ -91,7 +91,7 @@ TEST_CASE("effects: a sample keeps to its time, whatever the run was like") {
         return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     };
     constexpr double limit = 2; // seconds of this process, and 0.05 are asked for: far above what a slow machine makes of that
-    const auto crowd = [](Scene& scene) {
+    const auto cascade = [](Scene& scene) {
         scene.n_discs = 3000;
         scene.box_size = 2 * scene.radius * std::sqrt(3000.0) * 0.93; // packing 0.9
         scene.effects.contact.kind = ContactKind::none;
@@ -99,21 +99,21 @@ TEST_CASE("effects: a sample keeps to its time, whatever the run was like") {
     const auto sizes = [](Scene& scene) {
         scene.n_discs = 40;
         scene.box_size = 21 * scene.radius;
-        scene.effects.classes = {{30, scene.radius, 0.01}, {10, 0.5 * scene.radius, 100}};
+        scene.effects.species = {{30, scene.radius, 0.01}, {10, 0.5 * scene.radius, 100}};
     };
-    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all})
+    for (const Method method : {Method::time_stepped, Method::event_driven})
         for (const double energy : {1e3, 1e6, 1e9}) {
-            CHECK(seconds_of(scene_with(crowd, rule), {3000, energy, 1e-9, 0.05}) < limit);
-            CHECK(seconds_of(scene_with(sizes, rule), {40, energy, 1e-6, 0.05}) < limit);
-            CHECK(seconds_of(scene_with([](Scene& scene) { scene.effects.sides[0].kind = SideKind::open; }, rule), {1, energy, 1e-9, 0.05}) < limit);
+            CHECK(seconds_of(scene_with(cascade, method), {3000, energy, 1e-9, 0.05}) < limit);
+            CHECK(seconds_of(scene_with(sizes, method), {40, energy, 1e-6, 0.05}) < limit);
+            CHECK(seconds_of(scene_with([](Scene& scene) { scene.effects.boundaries[0].kind = BoundaryKind::open; }, method), {1, energy, 1e-9, 0.05}) < limit);
         }
 }
 
 TEST_CASE("effects: large scenes are sampled, spins and many classes counted in bytes") {
-    Scene scene = scene_with([](Scene& all) { all.effects.contact = {ContactKind::rough, 0.9, 0.01, 0.5, 0.3}; }, CollisionRule::one);
+    Scene scene = scene_with([](Scene& all) { all.effects.contact = {ContactKind::rough, 0.9, 0.01, 0.5, 0.3}; }, Method::time_stepped);
     scene.n_discs = 1000000;
     scene.box_size *= std::sqrt(5000.0);
-    for (int k = 0; k < 10; ++k) scene.effects.classes.push_back({100000, scene.radius, 1.0 + k});
+    for (int k = 0; k < 10; ++k) scene.effects.species.push_back({100000, scene.radius, 1.0 + k});
     CostsOfRun run = short_run;
     run.n_discs = scene.n_discs;
     const std::vector<EffectCost> costs = effect_costs(scene, run);

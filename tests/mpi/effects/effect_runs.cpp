@@ -7,9 +7,9 @@
 
 #include <omp.h>
 
-#include "carrom/effects/drag.hpp"
-#include "carrom/effects/fall.hpp"
-#include "carrom/effects/obstacles.hpp"
+#include "dynamics/drag.hpp"
+#include "dynamics/fall.hpp"
+#include "dynamics/obstacles.hpp"
 
 namespace carrom::test {
 
@@ -27,9 +27,9 @@ std::vector<InputDisc> share_of(const TestScene& scene, const Communicator& worl
 
 } // namespace
 
-Simulation simulation_of(const TestScene& scene, CollisionRule rule, const Communicator& world, const Tuning& tuning) {
+Simulation simulation_of(const TestScene& scene, Method method, const Communicator& world, const Tuning& tuning) {
     Scene all = scene_of(scene);
-    all.rule = rule;
+    all.method = method;
     Tuning threaded = tuning;
     threaded.threads = omp_get_max_threads();
     threaded.discs_per_thread = 1;
@@ -57,8 +57,8 @@ void set_drag(TestScene& scene, double rate) {
     setting.dragged_fall_delay = [c](double distance, double velocity, double pull) { return dragged_fall_delay(distance, velocity, pull, c); };
 }
 
-Totals run(const TestScene& scene, CollisionRule rule, const Communicator& world, const Tuning& tuning) {
-    Simulation simulation = simulation_of(scene, rule, world, tuning);
+Totals run(const TestScene& scene, Method method, const Communicator& world, const Tuning& tuning) {
+    Simulation simulation = simulation_of(scene, method, world, tuning);
     advance_to(simulation, scene.steps);
     return simulation.totals();
 }

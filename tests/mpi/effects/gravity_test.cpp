@@ -6,8 +6,8 @@
 
 #include "catch.hpp"
 
-#include "carrom/effects/drag.hpp"
-#include "carrom/parallel/exchange.hpp"
+#include "dynamics/drag.hpp"
+#include "parallel/exchange.hpp"
 #include "effect_runs.hpp"
 
 using namespace carrom;
@@ -22,13 +22,13 @@ TestScene ball(double height, double restitution) {
     TestScene scene = empty_scene("ball", 128, 1, 1);
     add_disc(scene, 64, 1 + height, 0.0625, 0);
     scene.setting.effects.gravity = {0, -g};
-    scene.setting.effects.sides[2].restitution = restitution;
+    scene.setting.effects.boundaries[2].restitution = restitution;
     return scene;
 }
 
 /// Times of all collisions with walls, ascending. **Collective.**
 std::vector<double> wall_times(TestScene scene, std::int64_t steps, const Communicator& world) {
-    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
     std::vector<Collision> log, all;
     simulation.log_to(&log);
     advance_to(simulation, steps);
@@ -64,10 +64,10 @@ TEST_CASE("effects: a ball bounces when Galileo says") {
 
 TEST_CASE("effects: an elastic ball comes back to its height after ten thousand bounces; a lossy one comes to rest in bounded time") {
     const Communicator world = Communicator::world();
-    const Totals start = run(ball(0.5, 1), CollisionRule::all, world);
+    const Totals start = run(ball(0.5, 1), Method::event_driven, world);
     TestScene scene = ball(0.5, 1);
     scene.steps = 200000;
-    const Totals end = run(scene, CollisionRule::all, world);
+    const Totals end = run(scene, Method::event_driven, world);
     CHECK(end.wall_collisions > 9000);
     CHECK(end.kinetic_energy + end.potential_energy == Approx(start.kinetic_energy + start.potential_energy).epsilon(1e-10));
 
@@ -75,7 +75,7 @@ TEST_CASE("effects: an elastic ball comes back to its height after ten thousand 
     scene.steps = 400;
     scene.discs[0].vx = 0;
     scene.setting.effects.contact.contact_time = 0.01;
-    const Totals rest = run(scene, CollisionRule::all, world);
+    const Totals rest = run(scene, Method::event_driven, world);
     CHECK(static_cast<double>(rest.wall_collisions) < 400 / 0.01);
     CHECK(rest.wall_collisions > 100);
     CHECK(rest.kinetic_energy + rest.potential_energy - g < 0.05 * 0.02 * g); // no higher than the contact time takes it
@@ -85,7 +85,7 @@ TEST_CASE("effects: a gas that falls keeps its energy") {
     const Communicator world = Communicator::world();
     TestScene scene = gas(400, 0.2, 0.5, 603);
     scene.setting.effects.gravity = {0.004, -0.01};
-    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
     const Totals start = simulation.totals();
     for (const std::int64_t step : {37, 100, 203}) { // between syncs, too
         advance_to(simulation, step);
@@ -104,8 +104,8 @@ TEST_CASE("effects: the barometric formula over a thermal floor") {
     Effects& effects = scene.setting.effects;
     effects.contact.kind = ContactKind::none;
     effects.gravity = {0, -g};
-    effects.sides[2] = {SideKind::thermal, 1, temperature, 0};
-    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    effects.boundaries[2] = {BoundaryKind::thermal, 1, temperature, 0};
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
     advance_to(simulation, 3001); // twenty flights; the box is some 28 times T / g high
     std::vector<double> heights, all;
     for (const Disc& disc : simulation.shown()) heights.push_back(disc.y - scene.setting.radius);
@@ -140,7 +140,7 @@ TEST_CASE("effects: drag leaves exp(-2 c t) of a gas's energy, and takes a disc 
     TestScene scene = gas(300, 0.3, 0.5, 605);
     const double rate = 0.01;
     scene.setting.effects.drag = rate;
-    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
     const double start = simulation.totals().kinetic_energy;
     for (const std::int64_t step : {37, 100, 203}) { // between syncs, too
         advance_to(simulation, step);
@@ -153,7 +153,7 @@ TEST_CASE("effects: drag leaves exp(-2 c t) of a gas's energy, and takes a disc 
     TestScene alone = empty_scene("one disc", 100, 1, 300);
     add_disc(alone, 5, 50, 0.5, 0);
     alone.setting.effects.drag = rate;
-    Simulation flight = simulation_of(alone, CollisionRule::all, world);
+    Simulation flight = simulation_of(alone, Method::event_driven, world);
     advance_to(flight, 300);
     for (const Disc& disc : flight.shown()) CHECK(disc.x == Approx(5 + 0.5 * -std::expm1(-3.0) / rate).epsilon(1e-13));
 }

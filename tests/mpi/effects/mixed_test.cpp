@@ -6,7 +6,7 @@
 
 #include "catch.hpp"
 
-#include "carrom/parallel/exchange.hpp"
+#include "parallel/exchange.hpp"
 #include "reference_bits.hpp"
 
 using namespace carrom;
@@ -15,15 +15,15 @@ using namespace carrom::test;
 namespace {
 
 /// Discs of these classes at random without overlaps, the largest class first; speeds in largest diameters per step.
-TestScene mixture(const std::vector<DiscClass>& classes, double box_size, double speed, std::uint64_t seed) {
+TestScene mixture(const std::vector<Species>& species, double box_size, double speed, std::uint64_t seed) {
     double largest = 0;
-    for (const DiscClass& one : classes) largest = std::max(largest, one.radius);
+    for (const Species& one : species) largest = std::max(largest, one.radius);
     TestScene scene = empty_scene("mixture", box_size, largest, 14);
-    scene.setting.effects.classes = classes;
+    scene.setting.effects.species = species;
     scene.setting.sync_every = 5;
     scene.setting.micro_steps = 2;
     Random random(seed);
-    for (const DiscClass& one : classes) {
+    for (const Species& one : species) {
         for (std::uint64_t k = 0; k < one.count; ++k) {
             for (bool is_free = false; !is_free;) {
                 const double x = random.uniform(one.radius, box_size - one.radius), y = random.uniform(one.radius, box_size - one.radius);
@@ -40,8 +40,8 @@ TestScene mixture(const std::vector<DiscClass>& classes, double box_size, double
 
 /// Three sizes, masses that are no function of them.
 std::vector<TestScene> mixtures() {
-    const std::vector<DiscClass> three{{12, 2.5, 3}, {60, 1, 1.3}, {150, 0.3, 0.07}};
-    std::vector<DiscClass> many; // more than are searched one by one
+    const std::vector<Species> three{{12, 2.5, 3}, {60, 1, 1.3}, {150, 0.3, 0.07}};
+    std::vector<Species> many; // more than are searched one by one
     for (int k = 0; k < 40; ++k) many.push_back({1 + static_cast<std::uint64_t>(k % 3), 2 - 0.04 * k, 1 + 0.5 * (k % 4)});
     return {mixture(three, 40, 0.6, 701), mixture(three, 31, 0.2, 702), mixture(many, 30, 0.4, 703)};
 }
@@ -72,15 +72,15 @@ double mass_of(const TestScene& scene, DiscId id) { return scene.setting.mass_of
 TEST_CASE("effects: mixtures have the references' bits, alone and with other effects") {
     for (TestScene scene : mixtures()) {
         Effects& effects = scene.setting.effects;
-        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
+        for (const Method method : {Method::time_stepped, Method::event_driven}) check_bits(scene, method);
         effects.contact = {ContactKind::restitution, 0.8, 0.002};
-        effects.sides[3].restitution = 0.7;
-        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
+        effects.boundaries[3].restitution = 0.7;
+        for (const Method method : {Method::time_stepped, Method::event_driven}) check_bits(scene, method);
         effects.gravity = {0.01, -0.03};
-        effects.sides[1] = {SideKind::moving, 1, 0, -0.03};
-        effects.sides[2] = {SideKind::thermal, 1, 0.3, 0};
+        effects.boundaries[1] = {BoundaryKind::moving, 1, 0, -0.03};
+        effects.boundaries[2] = {BoundaryKind::thermal, 1, 0.3, 0};
         set_thermal_seed(scene.setting, 77);
-        check_bits(scene, CollisionRule::all);
+        check_bits(scene, Method::event_driven);
     }
 }
 
@@ -89,7 +89,7 @@ TEST_CASE("effects: mixtures among obstacles have the references' bits") {
         put_bodies_between(scene, 5, 711);
         scene.setting.effects.obstacles.restitution = 0.9;
         for (InputDisc& disc : scene.discs) disc.vx *= 2, disc.vy *= 2; // so that many meet something else in the same micro-step
-        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
+        for (const Method method : {Method::time_stepped, Method::event_driven}) check_bits(scene, method);
     }
 }
 
@@ -97,19 +97,19 @@ TEST_CASE("effects: mixtures leave through open sides, each disc a radius of its
     const Communicator world = Communicator::world();
     for (TestScene scene : mixtures()) {
         const double size = scene.setting.box_size;
-        scene.setting.effects.sides[0] = scene.setting.effects.sides[3] = {SideKind::open, 1, 0, 0};
+        scene.setting.effects.boundaries[0] = scene.setting.effects.boundaries[3] = {BoundaryKind::open, 1, 0, 0};
         for (const ContactEffect& contact : {ContactEffect{}, ContactEffect{ContactKind::rough, 0.9, 0.002, 0.4, 0.3, 0.5}}) {
             scene.setting.effects.contact = contact;
-            for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
-                check_bits(scene, rule);
-                Simulation simulation = simulation_of(scene, rule, world);
+            for (const Method method : {Method::time_stepped, Method::event_driven}) {
+                check_bits(scene, method);
+                Simulation simulation = simulation_of(scene, method, world);
                 advance_to(simulation, scene.steps);
                 const Totals totals = simulation.totals();
-                CHECK((totals.gone[0] > 2 && totals.gone[3] > 2));
+                CHECK((totals.departed[0] > 2 && totals.departed[3] > 2));
                 const std::span<const Disc> discs = simulation.discs();
                 const std::span<const double> spins = simulation.spins();
                 for (std::size_t i = 0; i < discs.size(); ++i) {
-                    if (!discs[i].is_gone()) continue;
+                    if (!discs[i].has_departed()) continue;
                     const double radius = scene.setting.radius_of(discs[i].id);
                     CHECK((discs[i].x == -radius || discs[i].y == size + radius));
                     CHECK((discs[i].vx == 0 && discs[i].vy == 0 && (spins.empty() || spins[i] == 0)));
@@ -122,14 +122,14 @@ TEST_CASE("effects: mixtures leave through open sides, each disc a radius of its
 TEST_CASE("effects: classes of one radius and one mass are the plain law to the bit") {
     const Communicator world = Communicator::world();
     for (TestScene scene : base_scenes()) {
-        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+        for (const Method method : {Method::time_stepped, Method::event_driven}) {
             INFO(scene.name);
             scene.setting.effects = {};
-            const Totals plain = run(scene, rule, world);
+            const Totals plain = run(scene, method, world);
             const double r = scene.setting.radius;
             for (const double mass : {1.0, 0.3}) {
-                scene.setting.effects.classes = {{5, r, mass}, {scene.discs.size() - 5, r, mass}};
-                const Totals mixed = run(scene, rule, world);
+                scene.setting.effects.species = {{5, r, mass}, {scene.discs.size() - 5, r, mass}};
+                const Totals mixed = run(scene, method, world);
                 CHECK(to_string(mixed.hash) == to_string(plain.hash));
                 CHECK(mixed.overlapping_pairs == plain.overlapping_pairs);
                 CHECK(mixed.kinetic_energy == Approx(mass * plain.kinetic_energy).epsilon(1e-14));
@@ -141,12 +141,12 @@ TEST_CASE("effects: classes of one radius and one mass are the plain law to the 
 // An elastic head-on collision, by the conservation of momentum and energy.
 TEST_CASE("effects: unequal discs exchange momentum as mechanics says, touching at the sum of their radii") {
     const Communicator world = Communicator::world();
-    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
         TestScene scene = empty_scene("two discs", 64, 4, 12);
-        scene.setting.effects.classes = {{1, 4, 5}, {1, 1, 0.5}};
+        scene.setting.effects.species = {{1, 4, 5}, {1, 1, 0.5}};
         add_disc(scene, 20, 32, 1, 0);
         add_disc(scene, 35, 32, 0, 0);
-        Simulation simulation = simulation_of(scene, rule, world);
+        Simulation simulation = simulation_of(scene, method, world);
         std::vector<Collision> log;
         simulation.log_to(&log);
         advance_to(simulation, scene.steps);
@@ -169,7 +169,7 @@ TEST_CASE("effects: a mixture that starts with equal speeds comes to equal energ
     TestScene scene = mixture({{100, 1.5, 8}, {200, 1, 2}, {300, 0.5, 0.5}}, 80, 0.2, 704);
     scene.setting.micro_steps = 1;
     scene.setting.sync_every = 64;
-    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
     const Totals start = simulation.totals();
     advance_to(simulation, 1000);
     std::vector<double> sums(3, 0);

@@ -7,8 +7,8 @@
 
 #include "catch.hpp"
 
-#include "carrom/effects/obstacles.hpp"
-#include "carrom/parallel/exchange.hpp"
+#include "dynamics/obstacles.hpp"
+#include "parallel/exchange.hpp"
 #include "effect_runs.hpp"
 
 using namespace carrom;
@@ -16,7 +16,7 @@ using namespace carrom::test;
 
 namespace {
 
-constexpr Side periodic{SideKind::periodic, 1, 0, 0};
+constexpr Boundary periodic{BoundaryKind::periodic, 1, 0, 0};
 
 /// Fixed discs of radius 2 on a shaken square grid in a box of side 10 n, and discs of radius 0.25 that do not meet between them. Between
 /// periodic sides the grid is moved, so that the sides cut the fixed discs.
@@ -24,7 +24,7 @@ TestScene lorentz_gas(std::size_t n, std::size_t n_discs, bool is_periodic) {
     TestScene scene = empty_scene("Lorentz gas", 10 * static_cast<double>(n), 0.25, 1);
     Random random(701);
     ObstacleList& list = scene.setting.effects.obstacles;
-    if (is_periodic) scene.setting.effects.sides.fill(periodic);
+    if (is_periodic) scene.setting.effects.boundaries.fill(periodic);
     const auto place = [&](std::size_t k) { return std::fmod(10 * static_cast<double>(k) + random.uniform(3.5, 6.5) + (is_periodic ? 5 : 0), scene.setting.box_size); };
     for (std::size_t k = 0; k < n * n; ++k) {
         const double x = place(k % n);
@@ -43,7 +43,7 @@ TestScene lorentz_gas(std::size_t n, std::size_t n_discs, bool is_periodic) {
 /// A body in the middle and a segment; all that moved along the diagonal, where sides are periodic.
 TestScene sinai_billiard(bool is_periodic, double moved) {
     TestScene scene = empty_scene("Sinai's billiard", 20, 0.5, is_periodic ? 96 : 64);
-    if (is_periodic) scene.setting.effects.sides.fill(periodic);
+    if (is_periodic) scene.setting.effects.boundaries.fill(periodic);
     const auto at = [moved](double place) { return std::fmod(place + moved, 20); };
     scene.setting.effects.obstacles.discs = {{at(10), at(10), 3}};
     scene.setting.effects.obstacles.segments = {{at(2), at(12), at(5), at(17)}};
@@ -72,18 +72,18 @@ std::vector<Disc> all_discs(const Simulation& simulation, const Communicator& wo
 TEST_CASE("effects: the mean free path in a Lorentz gas is what geometry says, under both rules") {
     const Communicator world = Communicator::world();
     for (const bool is_periodic : {false, true}) {
-        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+        for (const Method method : {Method::time_stepped, Method::event_driven}) {
             TestScene scene = lorentz_gas(8, 400, is_periodic);
             scene.steps = 512;
             const double side = is_periodic ? 80 : 80 - 0.5, reach = 2.25, n = 64;
             const double area = side * side - n * std::numbers::pi * reach * reach;
             const double perimeter = (is_periodic ? 0 : 4 * side) + n * 2 * std::numbers::pi * reach;
             const double known = std::numbers::pi * area / perimeter;
-            const Totals end = run(scene, rule, world);
+            const Totals end = run(scene, method, world);
             const double path = 400 * 0.5 * 512 / static_cast<double>(end.wall_collisions);
             CHECK(end.wall_collisions > 5000); // a relative error of 1.4 % at most
-            // Under the rule "one" a disc loses next to nothing: at most one collision in a step of a twentieth of a path.
-            CHECK(path == Approx(known).epsilon(rule == CollisionRule::one ? 0.05 : 0.03));
+            // In the time-stepped method a disc loses next to nothing: at most one collision in a step of a twentieth of a path.
+            CHECK(path == Approx(known).epsilon(method == Method::time_stepped ? 0.05 : 0.03));
             CHECK(end.kinetic_energy == Approx(400 * 0.125).epsilon(1e-12));
         }
     }
@@ -94,12 +94,12 @@ TEST_CASE("effects: Sinai's billiard runs back to where it began, between walls 
     const Communicator world = Communicator::world();
     for (const bool is_periodic : {false, true}) {
         const TestScene scene = sinai_billiard(is_periodic, 0);
-        Simulation there = simulation_of(scene, CollisionRule::all, world);
+        Simulation there = simulation_of(scene, Method::event_driven, world);
         advance_to(there, scene.steps);
         CHECK(there.totals().wall_collisions >= 6);
         TestScene backwards = scene;
         for (const Disc& disc : all_discs(there, world)) backwards.discs[disc.id] = {disc.id, disc.x, disc.y, -disc.vx, -disc.vy};
-        Simulation back = simulation_of(backwards, CollisionRule::all, world);
+        Simulation back = simulation_of(backwards, Method::event_driven, world);
         advance_to(back, scene.steps);
         for (const Disc& disc : all_discs(back, world)) {
             CHECK(disc.x == Approx(scene.discs[disc.id].x).epsilon(1e-9));
@@ -112,8 +112,8 @@ TEST_CASE("effects: Sinai's billiard runs back to where it began, between walls 
 
 TEST_CASE("effects: where the seams are in a periodic box is of no account, under both rules") {
     const Communicator world = Communicator::world();
-    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
-        Simulation first = simulation_of(sinai_billiard(true, 0), rule, world), second = simulation_of(sinai_billiard(true, 10), rule, world);
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
+        Simulation first = simulation_of(sinai_billiard(true, 0), method, world), second = simulation_of(sinai_billiard(true, 10), method, world);
         advance_to(first, 96);
         advance_to(second, 96);
         CHECK(first.totals().wall_collisions >= 6);
@@ -137,7 +137,7 @@ TEST_CASE("effects: diffusion in a periodic Lorentz gas is that of hops from tra
     constexpr double w = 0.1, spacing = 2 + w, size = 26 * spacing, point = 0.001;
     constexpr std::int64_t n_discs = 1000, lag = 100, look = 20, n_lags = 8;
     TestScene scene = empty_scene("triangular Lorentz gas", size, point, n_lags * lag);
-    scene.setting.effects.sides.fill(periodic);
+    scene.setting.effects.boundaries.fill(periodic);
     scene.setting.effects.contact.kind = ContactKind::none;
     for (int row = 0; row < 30; ++row)
         for (int k = 0; k < 26; ++k) scene.setting.effects.obstacles.discs.push_back({(k + 0.5 * (row % 2)) * spacing, row * size / 30, 1 - point});
@@ -150,7 +150,7 @@ TEST_CASE("effects: diffusion in a periodic Lorentz gas is that of hops from tra
         }
         make_room_for_obstacles(scene);
     }
-    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
     std::vector<Disc> before = all_discs(simulation, world);
     std::vector<double> x(before.size(), 0), y(before.size(), 0); // since the lag began
     double squares_at_look = 0, squares_at_lag = 0;
@@ -186,7 +186,7 @@ TEST_CASE("effects: discs that fall through elastic pins keep their energy, and 
     list.segments = {{0, 8, 30, 3}, {60, 8, 30, 3}};
     for (int k = 0; k < 40; ++k) add_disc(scene, 2 + 1.4 * k, 52 + k % 3 * 2, 0.001 * k, 0);
     scene.setting.effects.gravity = {0, -0.01};
-    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
     const Totals start = simulation.totals();
     advance_to(simulation, 203); // between two syncs
     const Totals end = simulation.totals();
@@ -198,7 +198,7 @@ TEST_CASE("effects: discs that fall through elastic pins keep their energy, and 
     scene.setting.effects.contact.kind = ContactKind::restitution;
     scene.setting.effects.contact.restitution = 0.5;
     scene.steps = 600;
-    const Totals rest = run(scene, CollisionRule::all, world);
+    const Totals rest = run(scene, Method::event_driven, world);
     CHECK(rest.kinetic_energy < 1e-3 * start.potential_energy);
     CHECK(rest.overlapping_pairs == 0);
 }
@@ -206,14 +206,14 @@ TEST_CASE("effects: discs that fall through elastic pins keep their energy, and 
 TEST_CASE("effects: discs of several classes meet obstacles where their own radii say, under both rules") {
     const Communicator world = Communicator::world();
     TestScene scene = empty_scene("two sizes", 100, 1, 20);
-    scene.setting.effects.classes = {{2, 1, 3}, {2, 0.3, 0.1}};
+    scene.setting.effects.species = {{2, 1, 3}, {2, 0.3, 0.1}};
     scene.setting.effects.obstacles = {{{50, 50, 4}}, {{50, 0, 50, 19.25}, {50, 20.75, 50, 45}}, 1};
     add_disc(scene, 10, 50, 2, 0);
     add_disc(scene, 20, 20, 2, 0); // to a slit of 1.5
     add_disc(scene, 90, 50, -2, 0);
     add_disc(scene, 40, 20.1, 2, 0);
-    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
-        Simulation simulation = simulation_of(scene, rule, world);
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
+        Simulation simulation = simulation_of(scene, method, world);
         advance_to(simulation, 20);
         const std::vector<Disc> end = all_discs(simulation, world);
         CHECK(end[0].x == Approx(45 - 2 * (20 - 17.5)).epsilon(1e-14));

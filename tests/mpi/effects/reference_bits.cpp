@@ -6,7 +6,7 @@
 #include "catch.hpp"
 
 #include "event_driven.hpp"
-#include "one_rule.hpp"
+#include "time_stepped.hpp"
 
 namespace carrom::test {
 
@@ -26,21 +26,21 @@ template <class Reference> StateHash reference_hash(const TestScene& scene, cons
 
 } // namespace
 
-void check_bits(const TestScene& scene, CollisionRule rule) {
+void check_bits(const TestScene& scene, Method method) {
     const Communicator world = Communicator::world();
-    const StateHash expected = rule == CollisionRule::one ? reference_hash<reference::OneRuleReference>(scene, world)
+    const StateHash expected = method == Method::time_stepped ? reference_hash<reference::TimeSteppedReference>(scene, world)
                                                           : reference_hash<reference::EventDrivenReference>(scene, world);
-    INFO(scene.name << (rule == CollisionRule::one ? ", rule one" : ", rule all"));
+    INFO(scene.name << (method == Method::time_stepped ? ", rule one" : ", rule all"));
     for (const std::optional<double>& window : {std::optional<double>{}, {0.3}, {2.7}}) {
         Tuning tuning;
         tuning.window = window;
         tuning.rebalance_above = window ? 0 : 1.05;
-        CHECK(to_string(run(scene, rule, world, tuning).hash) == to_string(expected));
+        CHECK(to_string(run(scene, method, world, tuning).hash) == to_string(expected));
     }
-    Simulation first = simulation_of(scene, rule, world);
+    Simulation first = simulation_of(scene, method, world);
     advance_to(first, scene.steps / 2);
     Scene again = scene_of(scene);
-    again.rule = rule;
+    again.method = method;
     Simulation second(again, {{first.discs().begin(), first.discs().end()}, first.micro_steps_done(), {first.spins().begin(), first.spins().end()}}, world, {});
     advance_to(second, scene.steps);
     CHECK(to_string(second.totals().hash) == to_string(expected));

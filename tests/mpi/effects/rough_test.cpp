@@ -35,15 +35,15 @@ struct Meeting {
     std::array<Solid, 2> before, after;
 };
 
-Meeting meet(const ContactEffect& contact, CollisionRule rule, const Communicator& world) {
+Meeting meet(const ContactEffect& contact, Method method, const Communicator& world) {
     TestScene scene = empty_scene("two discs", 64, 3, 40);
     scene.setting.effects.contact = contact;
-    scene.setting.effects.classes = {{1, 3, 5}, {1, 1, 0.7}};
+    scene.setting.effects.species = {{1, 3, 5}, {1, 1, 0.7}};
     scene.setting.sync_every = 64;
     add_disc(scene, 20, 30, 0.5, 0.05);
     add_disc(scene, 34, 31.5, -0.25, -0.01);
     Scene all = scene_of(scene);
-    all.rule = rule;
+    all.method = method;
     StoredState state;
     const std::vector<double> spins{0.07, -0.3};
     if (world.is_root()) {
@@ -54,7 +54,7 @@ Meeting meet(const ContactEffect& contact, CollisionRule rule, const Communicato
     Meeting meeting;
     for (std::size_t k = 0; k < 2; ++k) {
         const InputDisc& disc = scene.discs[k];
-        const DiscClass& body = scene.setting.effects.classes[k];
+        const Species& body = scene.setting.effects.species[k];
         meeting.before[k] = {disc.x, disc.y, disc.vx, disc.vy, spins[k], body.radius, body.mass, contact.inertia};
     }
     advance_to(simulation, 20);
@@ -96,28 +96,28 @@ TEST_CASE("effects: rough discs have the references' bits, alone and with other 
         for (const ContactEffect& contact : {rough(0.9, 0.4, 0.3), rough(1, 1, no_limit), rough(0.6, -0.5, 1, 1)}) {
             effects = {};
             effects.contact = contact;
-            for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
+            for (const Method method : {Method::time_stepped, Method::event_driven}) check_bits(scene, method);
         }
         const double r = scene.setting.radius;
-        effects.classes = {{2, r, 3}, {4, 0.5 * r, 0.2}, {scene.discs.size() - 6, r, 1}};
-        effects.sides[3].restitution = 0.7;
-        check_bits(scene, CollisionRule::one);
+        effects.species = {{2, r, 3}, {4, 0.5 * r, 0.2}, {scene.discs.size() - 6, r, 1}};
+        effects.boundaries[3].restitution = 0.7;
+        check_bits(scene, Method::time_stepped);
         effects.gravity = {0.01, -0.03};
-        effects.sides[1] = {SideKind::moving, 1, 0, -0.03};
-        check_bits(scene, CollisionRule::all);
+        effects.boundaries[1] = {BoundaryKind::moving, 1, 0, -0.03};
+        check_bits(scene, Method::event_driven);
     }
 }
 
 TEST_CASE("effects: smooth discs are the plain law to the bit, whatever their spins") {
     const Communicator world = Communicator::world();
     for (TestScene scene : base_scenes()) {
-        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+        for (const Method method : {Method::time_stepped, Method::event_driven}) {
             INFO(scene.name);
             scene.setting.effects = {};
-            const StateHash plain = run(scene, rule, world).hash;
+            const StateHash plain = run(scene, method, world).hash;
             for (const ContactEffect& contact : {rough(1, -1, no_limit), rough(1, 0.5, 0)}) {
                 scene.setting.effects.contact = contact;
-                Simulation simulation = simulation_of(scene, rule, world);
+                Simulation simulation = simulation_of(scene, method, world);
                 advance_to(simulation, scene.steps);
                 StateHash hash = hash_of(simulation.discs());
                 std::array<std::uint64_t, 2> sums{hash.low, hash.high};
@@ -134,9 +134,9 @@ TEST_CASE("effects: smooth discs are the plain law to the bit, whatever their sp
 // m/2 ((1 - e^2) g_n^2 + a (1 - b^2) g_t^2) is lost where surfaces stick.
 TEST_CASE("effects: a collision of rough discs conserves what it must, and loses what its coefficients say") {
     const Communicator world = Communicator::world();
-    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
         for (const ContactEffect& contact : {rough(0.8, 0.3, no_limit), rough(1, 1, no_limit), rough(0.5, -0.4, no_limit, 1), rough(0.9, 0.9, 0.02, 0.25)}) {
-            const auto [before, after] = meet(contact, rule, world);
+            const auto [before, after] = meet(contact, method, world);
             const long double ex = before[1].x - before[0].x, ey = before[1].y - before[0].y, length = std::sqrt(ex * ex + ey * ey);
             CHECK(static_cast<double>(length) == Approx(4).epsilon(1e-13));
             const long double cx = before[0].x + ex * 3 / 4, cy = before[0].y + ey * 3 / 4;
@@ -168,7 +168,7 @@ TEST_CASE("effects: a gas of perfectly rough discs keeps its energy, and a third
     const Communicator world = Communicator::world();
     TestScene scene = gas(400, 0.3, 0.3, 606);
     scene.setting.effects.contact = rough(1, 1, no_limit);
-    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
     const double start = simulation.totals().kinetic_energy;
     advance_to(simulation, 600);
     constexpr int n_looks = 30;

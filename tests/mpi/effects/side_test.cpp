@@ -29,11 +29,11 @@ double mean_energy(Simulation& simulation, int n_looks, std::int64_t apart) {
 
 TEST_CASE("effects: walls of one temperature give it to a gas, under both rules") {
     const Communicator world = Communicator::world();
-    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
         TestScene scene = gas(400, 0.1, 0.2, 605);
         scene.steps = 1000000;
-        for (Side& side : scene.setting.effects.sides) side = {SideKind::thermal, 1, 0.5, 0};
-        Simulation simulation = simulation_of(scene, rule, world);
+        for (Boundary& side : scene.setting.effects.boundaries) side = {BoundaryKind::thermal, 1, 0.5, 0};
+        Simulation simulation = simulation_of(scene, method, world);
         advance_to(simulation, 1500);
         // E / N is T with the variance T^2 / N: 30 looks that are hardly correlated leave 1 % or so.
         CHECK(mean_energy(simulation, 30, 150) == Approx(0.5).epsilon(0.04));
@@ -47,9 +47,9 @@ TEST_CASE("effects: an ideal gas between walls of two temperatures has their geo
     TestScene scene = gas(1000, 0.02, 0.5, 606);
     Effects& effects = scene.setting.effects;
     effects.contact.kind = ContactKind::none;
-    effects.sides[0] = {SideKind::thermal, 1, 1, 0};
-    effects.sides[1] = {SideKind::thermal, 1, 9, 0};
-    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    effects.boundaries[0] = {BoundaryKind::thermal, 1, 1, 0};
+    effects.boundaries[1] = {BoundaryKind::thermal, 1, 9, 0};
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
     advance_to(simulation, 4000);
     // Slow discs stay long, so looks hang together; single energies scatter by a few times 3.
     CHECK(mean_energy(simulation, 20, 400) == Approx(3).epsilon(0.06));
@@ -57,15 +57,15 @@ TEST_CASE("effects: an ideal gas between walls of two temperatures has their geo
 
 TEST_CASE("effects: walls take what their restitution says") {
     const Communicator world = Communicator::world();
-    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
         TestScene scene = empty_scene("one disc", 16, 1, 14 * 4);
         add_disc(scene, 8, 8, 1, 0);
-        scene.setting.effects.sides[0].restitution = 0.5;
-        scene.setting.effects.sides[1].restitution = 0.25;
+        scene.setting.effects.boundaries[0].restitution = 0.5;
+        scene.setting.effects.boundaries[1].restitution = 0.25;
         scene.steps = 40; // right at 7, then 14 / 0.25 = 56 steps back
-        CHECK(run(scene, rule, world).kinetic_energy == 0.5 * 0.0625);
+        CHECK(run(scene, method, world).kinetic_energy == 0.5 * 0.0625);
         scene.steps = 70;
-        CHECK(run(scene, rule, world).kinetic_energy == 0.5 * 0.0625 * 0.25);
+        CHECK(run(scene, method, world).kinetic_energy == 0.5 * 0.0625 * 0.25);
     }
 }
 
@@ -74,8 +74,8 @@ TEST_CASE("effects: a disc before a piston is where arithmetic says") {
     TestScene scene = empty_scene("piston", 102, 1, 300);
     add_disc(scene, 40, 50, 0.7, 0);
     const double u = 0.2;
-    scene.setting.effects.sides[1] = {SideKind::moving, 1, 0, -u};
-    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    scene.setting.effects.boundaries[1] = {BoundaryKind::moving, 1, 0, -u};
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
     advance_to(simulation, scene.steps);
     long double x = 40, v = 0.7, t = 0;
     int n = 0;
@@ -107,9 +107,9 @@ TEST_CASE("effects: a wall hits a disc that falls away from it afterwards") {
         const double place = side % 2 == 0 ? 1 + d : 101 - d;
         if (side < 2) add_disc(scene, place, 50, sign * v, 0);
         else add_disc(scene, 50, place, 0, sign * v);
-        scene.setting.effects.sides[side] = {SideKind::moving, 1, 0, sign * u};
+        scene.setting.effects.boundaries[side] = {BoundaryKind::moving, 1, 0, sign * u};
         (side < 2 ? scene.setting.effects.gravity.x : scene.setting.effects.gravity.y) = sign * g;
-        Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+        Simulation simulation = simulation_of(scene, Method::event_driven, world);
         advance_to(simulation, scene.steps);
         const long double hit = ((static_cast<long double>(u) - v) - std::sqrt((u - static_cast<long double>(v)) * (u - static_cast<long double>(v)) - 2.0L * g * d)) / g;
         const long double after = 2.0L * u - (v + g * hit), rest = 32 - hit;
@@ -130,8 +130,8 @@ TEST_CASE("effects: an ideal gas is compressed adiabatically, and its energy is 
     const double u = 0.004;
     Effects& effects = scene.setting.effects;
     effects.contact.kind = ContactKind::none;
-    for (std::size_t k = 0; k < 4; ++k) effects.sides[k] = {SideKind::moving, 1, 0, k % 2 == 0 ? u : -u};
-    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    for (std::size_t k = 0; k < 4; ++k) effects.boundaries[k] = {BoundaryKind::moving, 1, 0, k % 2 == 0 ? u : -u};
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
     std::vector<Collision> log;
     simulation.log_to(&log);
     const double length = scene.setting.box_size - 2 * scene.setting.radius;
@@ -152,11 +152,11 @@ TEST_CASE("effects: an ideal gas is compressed adiabatically, and its energy is 
 // Discs that do not meet leave when each one's flight, unfolded at the closed walls, says; they stand where they left.
 TEST_CASE("effects: discs leave through open sides when their flights say, and are counted") {
     const Communicator world = Communicator::world();
-    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
         TestScene scene = gas(300, 0.05, 0.8, 608);
         Effects& effects = scene.setting.effects;
         effects.contact.kind = ContactKind::none;
-        effects.sides[1] = effects.sides[2] = {SideKind::open, 1, 0, 0};
+        effects.boundaries[1] = effects.boundaries[2] = {BoundaryKind::open, 1, 0, 0};
         scene.steps = 60;
         const long double r = scene.setting.radius, size = scene.setting.box_size;
         std::array<std::uint64_t, 4> known{};
@@ -167,16 +167,16 @@ TEST_CASE("effects: discs leave through open sides when their flights say, and a
             const long double ty = disc.vy == 0 ? 1e9L : way_y / std::fabs(static_cast<long double>(disc.vy));
             if (std::min(tx, ty) <= 60) known[tx < ty ? 1 : 2] += 1;
         }
-        Simulation simulation = simulation_of(scene, rule, world);
+        Simulation simulation = simulation_of(scene, method, world);
         advance_to(simulation, 60);
         const Totals totals = simulation.totals();
-        INFO((rule == CollisionRule::one ? "one" : "all"));
-        CHECK(totals.gone == known);
+        INFO((method == Method::time_stepped ? "one" : "all"));
+        CHECK(totals.departed == known);
         CHECK(known[1] > 20);
         CHECK(known[2] > 20);
         CHECK(totals.n_discs == 300);
         for (const Disc& disc : simulation.shown()) {
-            if (!disc.is_gone()) continue;
+            if (!disc.has_departed()) continue;
             CHECK((disc.x == scene.setting.box_size + scene.setting.radius || disc.y == -scene.setting.radius));
             CHECK((disc.vx == 0 && disc.vy == 0));
         }
@@ -185,12 +185,12 @@ TEST_CASE("effects: discs leave through open sides when their flights say, and a
 
 TEST_CASE("effects: a box without sides empties, and time goes on") {
     const Communicator world = Communicator::world();
-    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
         TestScene scene = gas(100, 0.3, 0.5, 609);
-        for (Side& side : scene.setting.effects.sides) side = {SideKind::open, 1, 0, 0};
+        for (Boundary& side : scene.setting.effects.boundaries) side = {BoundaryKind::open, 1, 0, 0};
         scene.steps = 3000;
-        const Totals end = run(scene, rule, world);
-        CHECK(end.gone[0] + end.gone[1] + end.gone[2] + end.gone[3] == 100);
+        const Totals end = run(scene, method, world);
+        CHECK(end.departed[0] + end.departed[1] + end.departed[2] + end.departed[3] == 100);
         CHECK(end.kinetic_energy == 0);
         CHECK(end.overlapping_pairs == 0);
     }

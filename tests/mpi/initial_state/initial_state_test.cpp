@@ -13,15 +13,15 @@
 
 #include <fmt/format.h>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/core/state_hash.hpp"
-#include "carrom/parallel/communicator.hpp"
-#include "carrom/parallel/exchange.hpp"
-#include "carrom/scene/lattice.hpp"
-#include "carrom/core/random_numbers.hpp"
-#include "carrom/scene/read_scene.hpp"
-#include "carrom/scene/velocities.hpp"
-#include "carrom/simulation/initial_state.hpp"
+#include "core/errors.hpp"
+#include "core/state_hash.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/exchange.hpp"
+#include "scene/lattice.hpp"
+#include "core/random_numbers.hpp"
+#include "scene/read_scene.hpp"
+#include "scene/velocities.hpp"
+#include "initial_state/initial_state.hpp"
 
 using namespace carrom;
 
@@ -128,8 +128,8 @@ Discs inserted_by_the_rule(const Scene& scene) {
     return discs;
 }
 
-/// The ancestor's generator, as one would write it in C: plain `rand`, all earlier discs compared.
-Discs ancestor_by_hand(std::uint64_t n, double box, double r) {
+/// The legacy generator, as one would write it in C: plain `rand`, all earlier discs compared.
+Discs legacy_by_hand(std::uint64_t n, double box, double r) {
     std::srand(3210);
     const auto uniform = [](double low, double high) { return low + (high - low) * (std::rand() / static_cast<double>(RAND_MAX)); };
     Discs discs;
@@ -211,7 +211,7 @@ TEST_CASE("A lattice is its sites, shaken") {
     check_arrangement(discs, scene);
 }
 
-TEST_CASE("The ancestor's generator gives the ancestor's discs") {
+TEST_CASE("The legacy generator gives the course program's discs") {
     struct Case {
         std::uint64_t n;
         double box;
@@ -219,17 +219,17 @@ TEST_CASE("The ancestor's generator gives the ancestor's discs") {
     for (const auto& [n, box] : {Case{1000, 20000}, Case{300, 48.5}, Case{1, 2}, Case{1500, 100}}) {
         CAPTURE(n, box);
         const Scene scene = read_scene(fmt::format("{}\n{}\n1\n10\nperf\n", n, box), "t.in");
-        check_same(initial_state(scene, nullptr, ranks()), ancestor_by_hand(n, box, 1));
+        check_same(initial_state(scene, nullptr, ranks()), legacy_by_hand(n, box, 1));
     }
 }
 
-TEST_CASE("A box too full for the ancestor's generator is refused on every rank") {
+TEST_CASE("A box too full for the legacy generator is refused on every rank") {
     const Scene scene = read_scene("100\n20\n1\n10\nperf\n", "t.in");
     CHECK_THROWS_AS(initial_state(scene, nullptr, ranks()), InputError);
 }
 
 TEST_CASE("Streams reach generated discs of every kind") {
-    for (const char* generator : {"random", "lattice", "ancestor"}) {
+    for (const char* generator : {"random", "lattice", "legacy"}) {
         CAPTURE(generator);
         const Texts settings = {"discs.packing=0.2", fmt::format("discs.generator={}", generator)};
         Texts with_stream = settings;

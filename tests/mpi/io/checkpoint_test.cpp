@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checkpoints on 1 to 7 ranks: what is read is what was written, to the bit; the file does not show who wrote it; a
 // damaged one is noticed by all ranks.
-#include "carrom/io/checkpoint.hpp"
+#include "io/checkpoint.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -19,10 +19,10 @@
 
 #include "catch.hpp"
 
-#include "carrom/core/errors.hpp"
-#include "carrom/core/state_hash.hpp"
-#include "carrom/parallel/slabs.hpp"
-#include "seal.hpp"
+#include "core/errors.hpp"
+#include "core/state_hash.hpp"
+#include "parallel/slabs.hpp"
+#include "io/seal.hpp"
 
 using namespace carrom;
 
@@ -73,14 +73,14 @@ std::vector<double> spins_of(const std::vector<Disc>& discs) {
 }
 
 /// The discs 0 .. n-1 on ranks by a rule that leaves some with none, in no order.
-std::vector<Disc> share(std::uint64_t n, const Communicator& world, unsigned rule) {
+std::vector<Disc> share(std::uint64_t n, const Communicator& world, unsigned method) {
     std::vector<Disc> mine;
     const auto size = static_cast<std::uint64_t>(world.size());
     for (DiscId id = 0; id < n; ++id) {
-        const std::uint64_t owner = rule == 0 ? (id * 7919) % size : rule == 1 ? size - 1 : std::min(id / 2, size - 1);
+        const std::uint64_t owner = method == 0 ? (id * 7919) % size : method == 1 ? size - 1 : std::min(id / 2, size - 1);
         if (owner == static_cast<std::uint64_t>(world.rank())) mine.push_back(odd_disc(id));
     }
-    std::mt19937 random(rule);
+    std::mt19937 random(method);
     std::shuffle(mine.begin(), mine.end(), random);
     return mine;
 }
@@ -131,9 +131,9 @@ TEST_CASE("a checkpoint is read as it was written") {
     const Communicator world = Communicator::world();
     const TestFolder folder(world);
     for (const std::uint64_t n : {1u, 2u, 5u, 1000u, 20011u}) {
-        for (unsigned rule = 0; rule < 3; ++rule) {
+        for (unsigned method = 0; method < 3; ++method) {
             const std::string path = folder.file("checkpoint.h5");
-            const std::vector<Disc> mine = share(n, world, rule);
+            const std::vector<Disc> mine = share(n, world, method);
             write_checkpoint(path, some_header(), mine, world);
             const Checkpoint read = read_checkpoint(path, world);
             const DiscId first = slab_begin(world.rank(), n, world.size());
@@ -169,8 +169,8 @@ TEST_CASE("spins are read as they were written, and are part of the state hash")
         for (DiscId id = 0; id < n; ++id) hash += hash_of(odd_disc(id));
         const std::string still = to_string(hash);
         for (DiscId id = 0; id < n; ++id) hash += hash_of_spin(id, odd_spin(id));
-        for (unsigned rule = 0; rule < 3; ++rule) {
-            const std::vector<Disc> mine = share(n, world, rule);
+        for (unsigned method = 0; method < 3; ++method) {
+            const std::vector<Disc> mine = share(n, world, method);
             write_checkpoint(path, turning, mine, world, 2, {}, spins_of(mine));
             const Checkpoint read = read_checkpoint(path, world);
             CHECK(read.header.has_spins);
@@ -194,7 +194,7 @@ TEST_CASE("the header comes back whole") {
     const Communicator world = Communicator::world();
     const TestFolder folder(world);
     CheckpointHeader wanted = some_header();
-    wanted.classes = {{2, 1.5, 3}, {1, 0.5, 1}};
+    wanted.species = {{2, 1.5, 3}, {1, 0.5, 1}};
     wanted.scene_text += std::string(200000, 'x') + '\n'; // longer than HDF5's attributes may be
     write_checkpoint(folder.file("a.h5"), wanted, share(3, world, 0), world);
     for (const CheckpointHeader& header :
@@ -211,7 +211,7 @@ TEST_CASE("the header comes back whole") {
         CHECK(header.micro_steps == wanted.micro_steps);
         CHECK(header.sync_every == wanted.sync_every);
         CHECK(header.step == wanted.step);
-        CHECK(header.classes == wanted.classes);
+        CHECK(header.species == wanted.species);
         CHECK(header.micro_steps_done == wanted.micro_steps_done);
         CHECK(header.clock() == 4.0);
     }
@@ -223,8 +223,8 @@ TEST_CASE("the file does not depend on who holds which disc, and nothing else is
     for (const std::uint64_t n : {777u, 9000u}) {
         CheckpointHeader header = some_header();
         header.has_spins = n == 9000;
-        const auto write = [&](const char* name, unsigned rule, int n_threads) {
-            const std::vector<Disc> mine = share(n, world, rule);
+        const auto write = [&](const char* name, unsigned method, int n_threads) {
+            const std::vector<Disc> mine = share(n, world, method);
             write_checkpoint(folder.file(name), header, mine, world, n_threads, {}, spins_of(mine));
         };
         write("a.h5", 0, 1);
@@ -276,7 +276,7 @@ TEST_CASE("damage is told by the data set that it is in") {
     const std::string good = bytes_of(path);
     const std::vector<SealedPart> parts = sealed_parts(path);
     CHECK(parts.size() == 10);
-    const auto told = [&](std::vector<std::size_t> places) {
+    const auto reported = [&](std::vector<std::size_t> places) {
         world.barrier();
         if (world.is_root()) {
             std::string bytes = good;
@@ -288,10 +288,10 @@ TEST_CASE("damage is told by the data set that it is in") {
         return problem.substr(std::min(problem.size(), problem.rfind(": ") + 2));
     };
     for (const SealedPart& part : parts)
-        for (const std::size_t place : {part.begin, part.begin + 2500 * part.bytes_per_row, part.end() - 1}) CHECK(told({place}) == part.name);
-    CHECK(told({parts[2].begin + 100, parts[5].end() - 9}) == "/carrom/discs/x, /carrom/discs/vy");
-    CHECK(told({seal_size + 20}) == "what stands between the data sets");
-    CHECK(told({200}) == "is damaged in its first lines");
+        for (const std::size_t place : {part.begin, part.begin + 2500 * part.bytes_per_row, part.end() - 1}) CHECK(reported({place}) == part.name);
+    CHECK(reported({parts[2].begin + 100, parts[5].end() - 9}) == "/carrom/discs/x, /carrom/discs/vy");
+    CHECK(reported({seal_size + 20}) == "what stands between the data sets");
+    CHECK(reported({200}) == "is damaged in its first lines");
 }
 
 namespace {

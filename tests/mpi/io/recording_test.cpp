@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Trajectories and logs of collisions on 1 to 7 ranks: what is read is what was given, in order; going on cuts back.
-#include "carrom/io/trajectory.hpp"
+#include "io/trajectory.hpp"
 
 #include <filesystem>
 #include <numeric>
@@ -11,9 +11,9 @@
 
 #include "catch.hpp"
 
-#include "carrom/core/errors.hpp"
-#include "carrom/io/collision_log.hpp"
-#include "carrom/io/frame_file.hpp"
+#include "core/errors.hpp"
+#include "io/collision_log.hpp"
+#include "io/frame_file.hpp"
 
 using namespace carrom;
 

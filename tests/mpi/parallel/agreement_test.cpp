@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // After an agreement all ranks throw the same, or none does. How a run ends is tested with failing_program.
-#include "carrom/parallel/agreement.hpp"
+#include "parallel/agreement.hpp"
 
 #include "catch.hpp"
 

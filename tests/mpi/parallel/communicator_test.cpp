@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reductions, broadcasts and gathers against what each rank can work out alone.
-#include "carrom/parallel/communicator.hpp"
+#include "parallel/communicator.hpp"
 
 #include <cmath>
 #include <limits>
 
 #include "catch.hpp"
 
-#include "carrom/core/exact_sum.hpp"
+#include "core/exact_sum.hpp"
 
 using carrom::Communicator;
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Any-to-any exchange, the stream to rank 0 and slabs, with contents that every rank can work out alone.
-#include "carrom/parallel/exchange.hpp"
+#include "parallel/exchange.hpp"
 
 #include <algorithm>
 #include <random>
 
 #include "catch.hpp"
 
-#include "carrom/parallel/slabs.hpp"
+#include "parallel/slabs.hpp"
 
 using carrom::Communicator;
 using carrom::Received;

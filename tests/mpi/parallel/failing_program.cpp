@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "carrom/core/errors.hpp"
-#include "carrom/parallel/agreement.hpp"
-#include "carrom/parallel/mpi.hpp"
+#include "core/errors.hpp"
+#include "parallel/agreement.hpp"
+#include "parallel/mpi.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Exchanges over random symmetric graphs. What a rank sends is a function of (exchange, sender, receiver), so each
 // receiver knows what it must get without asking.
-#include "carrom/parallel/neighbour_exchange.hpp"
+#include "parallel/neighbour_exchange.hpp"
 
 #include <algorithm>
 #include <random>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pieces of ids, and records that come to them from any ranks, with contents that every rank can work out alone.
-#include "carrom/parallel/pieces.hpp"
+#include "parallel/pieces.hpp"
 
 #include <algorithm>
 #include <random>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The distributed sort against std::stable_sort of everybody's records, which each rank makes for itself.
-#include "carrom/parallel/sample_sort.hpp"
+#include "parallel/sample_sort.hpp"
 
 #include <functional>
 #include <limits>

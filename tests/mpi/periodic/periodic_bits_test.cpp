@@ -12,7 +12,7 @@
 
 #include "effect_runs.hpp"
 #include "event_driven.hpp"
-#include "one_rule.hpp"
+#include "time_stepped.hpp"
 #include "scene_tools.hpp"
 #include "shape_parts.hpp"
 
@@ -21,10 +21,10 @@ using namespace carrom::test;
 
 namespace {
 
-constexpr Side periodic{SideKind::periodic, 1, 0, 0};
-constexpr std::array<Side, 4> both{periodic, periodic, periodic, periodic}, along_x{periodic, periodic, Side{}, Side{}}, along_y{Side{}, Side{}, periodic, periodic};
+constexpr Boundary periodic{BoundaryKind::periodic, 1, 0, 0};
+constexpr std::array<Boundary, 4> both{periodic, periodic, periodic, periodic}, along_x{periodic, periodic, Boundary{}, Boundary{}}, along_y{Boundary{}, Boundary{}, periodic, periodic};
 
-const char* name_of(const std::array<Side, 4>& sides) { return sides == both ? "both" : sides == along_x ? "x" : "y"; }
+const char* name_of(const std::array<Boundary, 4>& boundaries) { return boundaries == both ? "both" : boundaries == along_x ? "x" : "y"; }
 
 /// Everything moved on, through the seams.
 TestScene moved(TestScene scene, double dx, double dy) {
@@ -37,10 +37,10 @@ TestScene moved(TestScene scene, double dx, double dy) {
 }
 
 /// Where an axis has walls, discs stay where they do not cross them.
-TestScene moved_along(const TestScene& scene, const std::array<Side, 4>& sides) {
-    TestScene result = moved(scene, sides[0] == periodic ? 0.3125 : 0, sides[2] == periodic ? 0.46875 : 0);
-    result.setting.effects.sides = sides;
-    result.name += std::string(", periodic ") + name_of(sides);
+TestScene moved_along(const TestScene& scene, const std::array<Boundary, 4>& boundaries) {
+    TestScene result = moved(scene, boundaries[0] == periodic ? 0.3125 : 0, boundaries[2] == periodic ? 0.46875 : 0);
+    result.setting.effects.boundaries = boundaries;
+    result.name += std::string(", periodic ") + name_of(boundaries);
     return result;
 }
 
@@ -49,14 +49,14 @@ struct Expected {
     std::uint64_t rejected = 0;
 };
 
-Expected expected_of(const TestScene& scene, CollisionRule rule, const Communicator& world) {
+Expected expected_of(const TestScene& scene, Method method, const Communicator& world) {
     Expected expected;
     const auto add_states_of = [&expected](const auto& reference) {
         expected.hash = hash_of(reference.discs());
         for (DiscId id = 0; id < reference.spins().size(); ++id) expected.hash += hash_of_spin(id, reference.spins()[id]);
     };
-    if (world.is_root() && rule == CollisionRule::one) {
-        reference::OneRuleReference reference(scene.setting, scene.discs);
+    if (world.is_root() && method == Method::time_stepped) {
+        reference::TimeSteppedReference reference(scene.setting, scene.discs);
         reference.run_steps(scene.steps);
         add_states_of(reference);
         expected.rejected = reference.counters().rejected_candidates;
@@ -69,25 +69,25 @@ Expected expected_of(const TestScene& scene, CollisionRule rule, const Communica
     return expected;
 }
 
-void check_bits(const TestScene& scene, CollisionRule rule) {
+void check_bits(const TestScene& scene, Method method) {
     const Communicator world = Communicator::world();
     static std::size_t n_runs = 0;
     if (is_left_to_others(n_runs++, n_sharing(world.size() * omp_get_max_threads()))) return;
-    const Expected expected = expected_of(scene, rule, world);
-    INFO(scene.name << (rule == CollisionRule::one ? ", rule one" : ", rule all"));
+    const Expected expected = expected_of(scene, method, world);
+    INFO(scene.name << (method == Method::time_stepped ? ", rule one" : ", rule all"));
     for (const std::optional<double>& window : {std::optional<double>{}, {0.3}, {2.7}}) {
         Tuning tuning;
         tuning.window = window;
         tuning.rebalance_above = window ? 0 : 1.05;
         if (window) tuning.cell_width = 0.7;
-        const Totals totals = run(scene, rule, world, tuning);
+        const Totals totals = run(scene, method, world, tuning);
         CHECK(to_string(totals.hash) == to_string(expected.hash));
         CHECK(totals.rejected_candidates == expected.rejected);
     }
-    Simulation first = simulation_of(scene, rule, world);
+    Simulation first = simulation_of(scene, method, world);
     advance_to(first, scene.steps / 2);
     Scene again = scene_of(scene);
-    again.rule = rule;
+    again.method = method;
     Simulation second(again, {{first.discs().begin(), first.discs().end()}, first.micro_steps_done(), {first.spins().begin(), first.spins().end()}}, world, {});
     advance_to(second, scene.steps);
     CHECK(to_string(second.totals().hash) == to_string(expected.hash));
@@ -140,16 +140,16 @@ TestScene fast(std::size_t n) {
 /// Left and right warm, bottom and top periodic: draws of all images of a disc are the same.
 TestScene between_warm_walls(const TestScene& base) {
     TestScene scene = moved_along(base, along_y);
-    scene.setting.effects.sides[0] = {SideKind::thermal, 1, 0.3, 0};
-    scene.setting.effects.sides[1] = {SideKind::thermal, 1, 0.1, 0};
+    scene.setting.effects.boundaries[0] = {BoundaryKind::thermal, 1, 0.3, 0};
+    scene.setting.effects.boundaries[1] = {BoundaryKind::thermal, 1, 0.1, 0};
     set_thermal_seed(scene.setting, 77);
     scene.name += ", warm walls";
     return scene;
 }
 
 /// Bodies on a corner and at the seams, which are seen from all sides; segments that end on a seam, run along one and stand near one.
-TestScene among_bodies(const TestScene& base, const std::array<Side, 4>& sides) {
-    TestScene scene = moved_along(base, sides);
+TestScene among_bodies(const TestScene& base, const std::array<Boundary, 4>& boundaries) {
+    TestScene scene = moved_along(base, boundaries);
     const double size = scene.setting.box_size;
     scene.setting.effects.obstacles = {{{0, 0, 0.08 * size}, {0.99 * size, 0.5 * size, 0.04 * size}, {0.4 * size, size, 0}},
                                        {{0, 0.3 * size, 0.2 * size, 0.35 * size}, {0.995 * size, 0.7 * size, 0.995 * size, 0.9 * size}, {0.6 * size, size, 0.7 * size, 0.85 * size}},
@@ -163,7 +163,7 @@ TestScene among_bodies(const TestScene& base, const std::array<Side, 4>& sides) 
 TestScene sinai(const char* name, double radius, double reach, double speed, double x, double y, double angle) {
     TestScene scene = empty_scene(name, 10, radius, 12);
     scene.setting.sync_every = 5;
-    scene.setting.effects.sides = both;
+    scene.setting.effects.boundaries = both;
     scene.setting.effects.obstacles.discs = {{0, 0, reach - radius}};
     add_disc(scene, x, y, 10 * speed * std::cos(angle), 10 * speed * std::sin(angle));
     return scene;
@@ -189,14 +189,14 @@ std::vector<TestScene> base_scenes() {
 }
 
 /// Large discs first, then small ones, wherever there is room for them and all images; speeds in large diameters per step.
-TestScene mixture(const std::vector<DiscClass>& classes, double box_size, double speed, std::uint64_t seed) {
-    TestScene scene = empty_scene("mixture " + std::to_string(seed), box_size, classes.front().radius, 8);
-    scene.setting.effects.classes = classes;
+TestScene mixture(const std::vector<Species>& species, double box_size, double speed, std::uint64_t seed) {
+    TestScene scene = empty_scene("mixture " + std::to_string(seed), box_size, species.front().radius, 8);
+    scene.setting.effects.species = species;
     scene.setting.sync_every = 5;
     scene.setting.micro_steps = 2;
     Random random(seed);
     const auto nearest = [box_size](double distance) { return distance - box_size * std::round(distance / box_size); };
-    for (const DiscClass& one : classes) {
+    for (const Species& one : species) {
         for (std::uint64_t k = 0; k < one.count; ++k) {
             for (bool is_free = false; !is_free;) {
                 const double x = random.uniform(0, box_size), y = random.uniform(0, box_size);
@@ -207,66 +207,66 @@ TestScene mixture(const std::vector<DiscClass>& classes, double box_size, double
             }
         }
     }
-    set_speeds(scene, 2 * classes.front().radius * speed, random);
-    scene.setting.effects.sides = both;
+    set_speeds(scene, 2 * species.front().radius * speed, random);
+    scene.setting.effects.boundaries = both;
     return scene;
 }
 
 /// Masses that are no function of radii; sizes 1 : 50 apart; more classes than are searched one by one; few discs with many images.
 std::vector<TestScene> mixtures() {
-    std::vector<DiscClass> many;
+    std::vector<Species> many;
     for (int k = 0; k < 20; ++k) many.push_back({1 + static_cast<std::uint64_t>(k % 3), 2 - 0.08 * k, 1 + 0.5 * (k % 4)});
     return {mixture({{3, 2.5, 3}, {14, 1, 1.3}, {24, 0.3, 0.2}}, 16, 0.15, 821), mixture({{2, 5, 40}, {30, 0.1, 0.1}}, 21, 0.04, 822),
             mixture(many, 22, 0.4, 823), mixture({{1, 1, 1}, {2, 0.4, 0.2}}, 4 * (1 + 2e-6), 1.5, 824), mixture({{1, 2, 7}}, 9, 3, 825)};
 }
 
 /// The scene between two walls: discs that are in their way stand aside.
-TestScene between_walls(TestScene scene, const std::array<Side, 4>& sides) {
-    scene.setting.effects.sides = sides;
+TestScene between_walls(TestScene scene, const std::array<Boundary, 4>& boundaries) {
+    scene.setting.effects.boundaries = boundaries;
     const double length = scene.setting.box_size;
     std::vector<InputDisc> discs;
     discs.swap(scene.discs);
-    std::vector<DiscClass> classes;
+    std::vector<Species> species;
     for (const InputDisc& disc : discs) {
-        const DiscClass body = scene.setting.class_of(disc.id);
-        const auto fits = [&](const Side& side, double place) { return side == periodic || (place > body.radius && place < length - body.radius); };
-        if (!fits(sides[0], disc.x) || !fits(sides[2], disc.y)) continue;
+        const Species body = scene.setting.species_of(disc.id);
+        const auto fits = [&](const Boundary& side, double place) { return side == periodic || (place > body.radius && place < length - body.radius); };
+        if (!fits(boundaries[0], disc.x) || !fits(boundaries[2], disc.y)) continue;
         add_disc(scene, disc.x, disc.y, disc.vx, disc.vy);
-        classes.push_back({1, body.radius, body.mass});
+        species.push_back({1, body.radius, body.mass});
     }
-    if (!scene.setting.effects.classes.empty()) scene.setting.effects.classes = classes;
-    scene.name += std::string(", periodic ") + name_of(sides);
+    if (!scene.setting.effects.species.empty()) scene.setting.effects.species = species;
+    scene.name += std::string(", periodic ") + name_of(boundaries);
     return scene;
 }
 
 ContactEffect rough(double restitution, double tangential, double friction) { return {ContactKind::rough, restitution, 0.002, tangential, friction, 0.5}; }
 
 /// Every other disc smaller and lighter.
-void split_into_classes(TestScene& scene) {
+void split_into_species(TestScene& scene) {
     const double radius = scene.setting.radius;
-    scene.setting.effects.classes.clear();
+    scene.setting.effects.species.clear();
     for (std::size_t k = 0; k < scene.discs.size(); ++k)
-        scene.setting.effects.classes.push_back(k % 2 == 0 ? DiscClass{1, radius, 2} : DiscClass{1, 0.6 * radius, 0.5});
+        scene.setting.effects.species.push_back(k % 2 == 0 ? Species{1, radius, 2} : Species{1, 0.6 * radius, 0.5});
 }
 
 } // namespace
 
 TEST_CASE("periodic: the rule one has the reference's bits") {
     for (const TestScene& scene : base_scenes())
-        for (const auto& sides : {both, along_x, along_y}) check_bits(moved_along(scene, sides), CollisionRule::one);
+        for (const auto& boundaries : {both, along_x, along_y}) check_bits(moved_along(scene, boundaries), Method::time_stepped);
 }
 
 TEST_CASE("periodic: beside other effects, the rule one has the reference's bits") {
     for (const TestScene& base : base_scenes()) {
         TestScene scene = moved_along(base, both);
         scene.setting.effects.contact = {ContactKind::restitution, 0.8, 0.001};
-        check_bits(scene, CollisionRule::one);
+        check_bits(scene, Method::time_stepped);
         scene.setting.effects.contact = {ContactKind::none, 1, 0.001};
-        check_bits(scene, CollisionRule::one);
+        check_bits(scene, Method::time_stepped);
         scene = moved_along(base, along_y);
         scene.setting.effects.contact = {ContactKind::restitution, 0.8, 0.001};
-        scene.setting.effects.sides[1].restitution = 0.7;
-        check_bits(scene, CollisionRule::one);
+        scene.setting.effects.boundaries[1].restitution = 0.7;
+        check_bits(scene, Method::time_stepped);
     }
 }
 
@@ -276,40 +276,40 @@ TEST_CASE("periodic: beside warm walls, both rules have the reference's bits") {
         scene.steps = 24;
         scene.setting.sync_every = 5;
         scene.setting.micro_steps = 2;
-        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) check_bits(scene, rule);
+        for (const Method method : {Method::time_stepped, Method::event_driven}) check_bits(scene, method);
     }
 }
 
 TEST_CASE("periodic: the rule all has the reference's bits") {
     for (const TestScene& scene : base_scenes())
-        for (const auto& sides : {both, along_x, along_y}) check_bits(moved_along(scene, sides), CollisionRule::all);
+        for (const auto& boundaries : {both, along_x, along_y}) check_bits(moved_along(scene, boundaries), Method::event_driven);
 }
 
 TEST_CASE("periodic: beside other effects, the rule all has the reference's bits") {
     for (const TestScene& base : base_scenes()) {
         TestScene scene = moved_along(base, both);
         scene.setting.effects.contact = {ContactKind::restitution, 0.8, 0.002};
-        check_bits(scene, CollisionRule::all);
+        check_bits(scene, Method::event_driven);
         scene.setting.effects.contact = {ContactKind::none, 1, 0.001};
-        check_bits(scene, CollisionRule::all);
+        check_bits(scene, Method::event_driven);
         scene = moved_along(base, along_x); // some end as a heap: a short contact time would make that many collisions
         scene.setting.effects.contact = {ContactKind::restitution, 0.9, 0.02};
-        scene.setting.effects.sides[2].restitution = 0.7;
-        scene.setting.effects.sides[3] = {SideKind::moving, 1, 0, -0.01};
+        scene.setting.effects.boundaries[2].restitution = 0.7;
+        scene.setting.effects.boundaries[3] = {BoundaryKind::moving, 1, 0, -0.01};
         scene.setting.effects.gravity = {0, -0.03};
-        check_bits(scene, CollisionRule::all);
+        check_bits(scene, Method::event_driven);
     }
 }
 
 TEST_CASE("periodic: among fixed bodies, both rules have the reference's bits") {
-    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
-        for (const TestScene& scene : scenes_of_one_disc()) check_bits(scene, rule);
-        for (const auto& sides : {both, along_x, along_y}) {
-            for (const TestScene& base : {base_scenes()[0], base_scenes()[1], fast(40)}) check_bits(among_bodies(base, sides), rule);
-            TestScene scene = among_bodies(base_scenes()[1], sides);
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
+        for (const TestScene& scene : scenes_of_one_disc()) check_bits(scene, method);
+        for (const auto& boundaries : {both, along_x, along_y}) {
+            for (const TestScene& base : {base_scenes()[0], base_scenes()[1], fast(40)}) check_bits(among_bodies(base, boundaries), method);
+            TestScene scene = among_bodies(base_scenes()[1], boundaries);
             for (const ContactEffect& contact : {ContactEffect{ContactKind::none, 1, 0.001}, ContactEffect{ContactKind::restitution, 0.8, 0.002}}) {
                 scene.setting.effects.contact = contact;
-                check_bits(scene, rule);
+                check_bits(scene, method);
             }
         }
     }
@@ -319,17 +319,17 @@ TEST_CASE("periodic: mixtures have the references' bits") {
     bool has_more = false;
     for (const TestScene& base : mixtures()) {
         has_more = !has_more;
-        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
-            check_bits(base, rule);
+        for (const Method method : {Method::time_stepped, Method::event_driven}) {
+            check_bits(base, method);
             TestScene scene = between_walls(base, has_more ? along_x : along_y);
             if (has_more) {
                 scene.setting.effects.contact = {ContactKind::restitution, 0.8, 0.002};
-                scene.setting.effects.sides[2] = {SideKind::thermal, 1, 0.3, 0};
-                scene.setting.effects.sides[3].restitution = 0.7;
-                if (rule == CollisionRule::all) scene.setting.effects.gravity = {0, -0.03};
+                scene.setting.effects.boundaries[2] = {BoundaryKind::thermal, 1, 0.3, 0};
+                scene.setting.effects.boundaries[3].restitution = 0.7;
+                if (method == Method::event_driven) scene.setting.effects.gravity = {0, -0.03};
                 set_thermal_seed(scene.setting, 77);
             }
-            check_bits(scene, rule);
+            check_bits(scene, method);
         }
     }
 }
@@ -337,19 +337,19 @@ TEST_CASE("periodic: mixtures have the references' bits") {
 TEST_CASE("periodic: rough discs have the references' bits") {
     std::vector<TestScene> scenes = mixtures();
     for (TestScene& scene : base_scenes()) {
-        scene.setting.effects.sides = both;
+        scene.setting.effects.boundaries = both;
         scene.steps = 8;
         scenes.push_back(scene);
     }
     for (std::size_t k = 0; k < scenes.size(); ++k) {
-        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+        for (const Method method : {Method::time_stepped, Method::event_driven}) {
             TestScene scene = scenes[k];
             scene.setting.effects.contact = k % 2 == 0 ? rough(1, 1, 1e300) : rough(0.9, 0.4, 0.3);
-            check_bits(scene, rule);
+            check_bits(scene, method);
             scene = between_walls(scene, k % 2 == 0 ? along_y : along_x);
-            if (scene.setting.effects.classes.empty()) split_into_classes(scene);
+            if (scene.setting.effects.species.empty()) split_into_species(scene);
             scene.setting.effects.contact = k % 2 == 0 ? rough(0.8, -0.5, 1) : rough(1, 0.7, 0.5);
-            check_bits(scene, rule);
+            check_bits(scene, method);
         }
     }
 }
@@ -357,21 +357,21 @@ TEST_CASE("periodic: rough discs have the references' bits") {
 TEST_CASE("periodic: discs of equal classes, and smooth ones, are equal discs to the bit") {
     const Communicator world = Communicator::world();
     for (TestScene scene : base_scenes()) {
-        scene.setting.effects.sides = both;
-        for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
-            INFO(scene.name << (rule == CollisionRule::one ? ", rule one" : ", rule all"));
+        scene.setting.effects.boundaries = both;
+        for (const Method method : {Method::time_stepped, Method::event_driven}) {
+            INFO(scene.name << (method == Method::time_stepped ? ", rule one" : ", rule all"));
             scene.setting.effects.contact = {};
-            scene.setting.effects.classes = {};
-            const Totals equal = run(scene, rule, world);
+            scene.setting.effects.species = {};
+            const Totals equal = run(scene, method, world);
             const std::uint64_t n = scene.discs.size();
             const double radius = scene.setting.radius;
-            scene.setting.effects.classes = {{1, radius, 0.3}, {n - 1, radius, 0.3}};
-            const Totals mixed = run(scene, rule, world);
+            scene.setting.effects.species = {{1, radius, 0.3}, {n - 1, radius, 0.3}};
+            const Totals mixed = run(scene, method, world);
             CHECK(to_string(mixed.hash) == to_string(equal.hash));
             CHECK(mixed.rejected_candidates == equal.rejected_candidates);
             CHECK(mixed.kinetic_energy == Approx(0.3 * equal.kinetic_energy).epsilon(1e-14));
             scene.setting.effects.contact = rough(1, -1, 0.5);
-            Simulation smooth = simulation_of(scene, rule, world);
+            Simulation smooth = simulation_of(scene, method, world);
             advance_to(smooth, scene.steps);
             StateHash hash = hash_of(smooth.discs());
             std::array<std::uint64_t, 2> sums{hash.low, hash.high};

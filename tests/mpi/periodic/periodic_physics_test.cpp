@@ -17,7 +17,7 @@ namespace {
 
 TestScene periodic_gas(std::size_t n, double packing, double speed, std::uint64_t seed) {
     TestScene scene = gas(n, packing, speed, seed);
-    for (Side& side : scene.setting.effects.sides) side.kind = SideKind::periodic;
+    for (Boundary& side : scene.setting.effects.boundaries) side.kind = BoundaryKind::periodic;
     return scene;
 }
 
@@ -25,7 +25,7 @@ TestScene periodic_gas(std::size_t n, double packing, double speed, std::uint64_
 /// freedom two are the motion of all together, and kT = (E - P^2 / 2N) / (N - 1): with that Z - 1 is 2 eta times the contact value
 /// of the pair correlation of N discs, whatever N. `n_collisions` to come to equilibrium, four times as many to measure. **Collective.**
 double compressibility(std::size_t n, double packing, double n_collisions, const Communicator& world) {
-    Simulation simulation = simulation_of(periodic_gas(n, packing, 0.5, 911), CollisionRule::all, world);
+    Simulation simulation = simulation_of(periodic_gas(n, packing, 0.5, 911), Method::event_driven, world);
     const auto run_until = [&](double wanted) {
         while (static_cast<double>(simulation.totals().pair_collisions) < wanted) advance_to(simulation, simulation.step() + 16);
     };
@@ -49,11 +49,11 @@ double compressibility(std::size_t n, double packing, double n_collisions, const
 
 TEST_CASE("periodic: momentum and energy are conserved to rounding under both rules") {
     const Communicator world = Communicator::world();
-    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
         TestScene scene = periodic_gas(200, 0.4, 0.5, 901);
         for (InputDisc& disc : scene.discs) disc.vx += 0.25;
         scene.steps = 200;
-        Simulation simulation = simulation_of(scene, rule, world);
+        Simulation simulation = simulation_of(scene, method, world);
         const Totals start = simulation.totals();
         advance_to(simulation, scene.steps);
         const Totals end = simulation.totals();
@@ -65,7 +65,7 @@ TEST_CASE("periodic: momentum and energy are conserved to rounding under both ru
         CHECK(std::fabs(end.momentum_x - start.momentum_x) < bound);
         CHECK(std::fabs(end.momentum_y - start.momentum_y) < bound);
         CHECK(std::fabs(end.kinetic_energy / start.kinetic_energy - 1) < 1e-12);
-        if (rule == CollisionRule::all) CHECK(end.overlapping_pairs == 0);
+        if (method == Method::event_driven) CHECK(end.overlapping_pairs == 0);
     }
 }
 
@@ -75,12 +75,12 @@ TEST_CASE("periodic: a mixture of perfectly rough discs keeps momentum and energ
     TestScene scene = periodic_gas(180, 0.45, 0.5, 902);
     constexpr std::array<double, 2> counts{60, 120}, masses{5, 1};
     constexpr double n = 180, mass = 60 * 5 + 120;
-    scene.setting.effects.classes = {{60, 1, masses[0]}, {120, 0.7, masses[1]}};
+    scene.setting.effects.species = {{60, 1, masses[0]}, {120, 0.7, masses[1]}};
     scene.setting.effects.contact = {ContactKind::rough, 1, 0.001, 1, std::numeric_limits<double>::infinity(), 0.5};
     double x = 0, y = 0;
     for (const InputDisc& disc : scene.discs) x += scene.setting.mass_of(disc.id) * disc.vx, y += scene.setting.mass_of(disc.id) * disc.vy;
     for (InputDisc& disc : scene.discs) disc.vx -= x / mass, disc.vy -= y / mass;
-    Simulation simulation = simulation_of(scene, CollisionRule::all, world);
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
     const Totals start = simulation.totals();
     advance_to(simulation, 120);
     constexpr int n_looks = 20;
@@ -110,11 +110,11 @@ TEST_CASE("periodic: a mixture of perfectly rough discs keeps momentum and energ
 
 TEST_CASE("periodic: a disc alone flies on, and comes in where it has left") {
     const Communicator world = Communicator::world();
-    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
         TestScene scene = empty_scene("one disc", 10, 1, 400);
         add_disc(scene, 9.5, 0.5, 1.75, -0.3);
-        for (Side& side : scene.setting.effects.sides) side.kind = SideKind::periodic;
-        Simulation simulation = simulation_of(scene, rule, world);
+        for (Boundary& side : scene.setting.effects.boundaries) side.kind = BoundaryKind::periodic;
+        Simulation simulation = simulation_of(scene, method, world);
         for (const std::int64_t step : {3, 64, 200, 400}) {
             advance_to(simulation, step);
             const auto inside = [](long double place) { return static_cast<double>(place - 10 * std::floor(place / 10)); };

@@ -6,9 +6,9 @@
 #include "catch.hpp"
 #include <omp.h>
 
-#include "block_averages.hpp"
-#include "carrom/parallel/exchange.hpp"
-#include "carrom/simulation/simulation.hpp"
+#include "statistics/block_averages.hpp"
+#include "parallel/exchange.hpp"
+#include "simulation/simulation.hpp"
 #include "scene_tools.hpp"
 
 using namespace carrom;
@@ -62,12 +62,12 @@ TEST_CASE("averages: the ratio of gamma functions") {
 
 TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sums") {
     const Communicator world = Communicator::world();
-    for (const CollisionRule rule : {CollisionRule::one, CollisionRule::all}) {
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
         test::TestScene test = test::gas(100, 0.3, 0.3, 71);
         test.setting.micro_steps = 4;
         test.setting.sync_every = 10; // a sync in every second or third step
         Scene scene = test::scene_of(test);
-        scene.rule = rule;
+        scene.method = method;
         Tuning tuning;
         tuning.threads = omp_get_max_threads();
         std::vector<InputDisc> mine;

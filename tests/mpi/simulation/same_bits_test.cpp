@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The engine against the brute-force reference, bit for bit, on every scene the tests have, for windows, cells, strips
 // and storage orders of all kinds. ctest runs this for many numbers of ranks and threads.
-#include "carrom/simulation/simulation.hpp"
+#include "simulation/simulation.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -11,7 +11,7 @@
 
 #include "catch.hpp"
 
-#include "one_rule.hpp"
+#include "time_stepped.hpp"
 #include "scenes.hpp"
 #include "shape_parts.hpp"
 
@@ -28,7 +28,7 @@ struct Expected {
 Expected expected_of(const test::TestScene& scene, const Communicator& world) {
     Expected expected;
     if (world.is_root()) {
-        reference::OneRuleReference reference(scene.setting, scene.discs);
+        reference::TimeSteppedReference reference(scene.setting, scene.discs);
         reference.run_steps(scene.steps);
         expected = {hash_of(reference.discs()), reference.counters()};
     }

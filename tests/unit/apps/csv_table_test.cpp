@@ -10,8 +10,8 @@
 
 #include <sys/resource.h>
 
-#include "carrom/core/errors.hpp"
-#include "csv_table.hpp"
+#include "core/errors.hpp"
+#include "apps/csv_table.hpp"
 
 using namespace carrom;
 

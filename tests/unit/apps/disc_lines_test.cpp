@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines are compared with what C's printf makes of the same numbers: that is what the ancestor printed with.
+// Lines are compared with what C's printf makes of the same numbers: that is what the course program printed with.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "catch.hpp"
 
-#include "disc_lines.hpp"
+#include "apps/disc_lines.hpp"
 
 namespace carrom {
 
@@ -50,7 +50,7 @@ TEST_CASE("Numbers of every size are printed as printf prints them") {
     }
 }
 
-TEST_CASE("The ancestor's look is eight decimals") {
+TEST_CASE("The course program's look is eight decimals") {
     const DiscLine line{41, 123.456789012, 0.5, -2, 1e-9, 0, 0};
     CHECK(line_text(12, line, 8, false) == printed("%d %d %10.8lf %10.8lf %10.8lf %10.8lf\n", 12, 41, line.x, line.y, line.vx, line.vy));
 }

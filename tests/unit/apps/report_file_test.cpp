@@ -7,8 +7,8 @@
 #include "catch.hpp"
 #include <unistd.h>
 
-#include "data_output.hpp"
-#include "report_file.hpp"
+#include "apps/data_output.hpp"
+#include "apps/report_file.hpp"
 
 namespace carrom {
 

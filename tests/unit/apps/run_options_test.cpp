@@ -5,8 +5,8 @@
 
 #include "catch.hpp"
 
-#include "command_line.hpp"
-#include "run_options.hpp"
+#include "apps/command_line.hpp"
+#include "apps/run_options.hpp"
 
 namespace carrom {
 

@@ -2,7 +2,7 @@
 #include "catch.hpp"
 #include <nlohmann/json.hpp>
 
-#include "summary.hpp"
+#include "apps/summary.hpp"
 
 namespace carrom {
 

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "carrom/core/errors.hpp"
+#include "core/errors.hpp"
 
 using namespace carrom;
 

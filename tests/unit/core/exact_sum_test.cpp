@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "carrom/core/exact_sum.hpp"
+#include "core/exact_sum.hpp"
 
 using namespace carrom;
 

@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "carrom/core/state_hash.hpp"
+#include "core/state_hash.hpp"
 
 using namespace carrom;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Strips against brute force: every statement is tried on sampled positions, with many equal cuts.
-#include "carrom/domain/strips.hpp"
+#include "domain/strips.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -39,7 +39,7 @@ TEST_CASE("contact times are as accurate as promised near a graze at any distanc
             Approach trial = start;
             trial.wx = by_ulps(start.wx, j % 13 - 6);
             trial.wy = by_ulps(start.wy, j / 13 - 6);
-            const ExactContact exact(trial.dx, trial.dy, trial.wx, trial.wy, trial.sigma);
+            const EventContact exact(trial.dx, trial.dy, trial.wx, trial.wy, trial.sigma);
             if (exact.discriminant <= 0 || exact.discriminant / exact.a >= smallest) continue;
             smallest = exact.discriminant / exact.a;
             nearest = trial;
@@ -104,7 +104,7 @@ TEST_CASE("denormal and tiny velocities give no contact or a true one, never a N
             continue;
         }
         hits += 1;
-        const ExactContact exact(c.dx, c.dy, c.wx, c.wy, c.sigma);
+        const EventContact exact(c.dx, c.dy, c.wx, c.wy, c.sigma);
         CHECK(exact.delay >= 0);
         // Below 1e-140 some of the products are denormal and a delay of 1e140 steps need not be accurate.
         if (speed > 1e-140) CHECK(judge(c).delay_ratio <= 1);

@@ -8,9 +8,9 @@
 #include <limits>
 
 #include "approach.hpp"
-#include "carrom/core/disc.hpp"
-#include "carrom/geometry/pair_contact.hpp"
-#include "one_rule.hpp"
+#include "core/disc.hpp"
+#include "geometry/pair_contact.hpp"
+#include "time_stepped.hpp"
 
 using namespace carrom;
 using namespace carrom::test;

@@ -11,8 +11,8 @@
 #include <cmath>
 
 #include "approach.hpp"
-#include "carrom/geometry/naive_contact.hpp"
-#include "carrom/geometry/pair_contact.hpp"
+#include "geometry/naive_contact.hpp"
+#include "geometry/pair_contact.hpp"
 #include "quad.hpp"
 
 using namespace carrom;
@@ -38,7 +38,7 @@ template <class Real> Shares missed(double distance, double eps) {
     for (int i = 0; i < n_pairs; ++i) {
         const Approach c = approaches.make(distance, eps * approaches.uniform(0.5, 1.5), 1, 1);
         const auto dx = static_cast<Real>(c.dx), dy = static_cast<Real>(c.dy), wx = static_cast<Real>(c.wx), wy = static_cast<Real>(c.wy);
-        if (!(ExactContact(dx, dy, wx, wy, 1).delay >= 0)) continue;
+        if (!(EventContact(dx, dy, wx, wy, 1).delay >= 0)) continue;
         const Real sigma = 1, deepest = static_cast<Real>(1e-6);
         shares.hits += 1.0 / n_pairs;
         const bool is_missed = NaiveContact<false>::delay(dx, dy, wx, wy, sigma, deepest) < 0;

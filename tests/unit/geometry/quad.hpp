@@ -30,11 +30,11 @@ inline Quad square_root(Quad value) {
 }
 
 /// A contact worked out in quad precision from the same doubles that the predicate gets.
-struct ExactContact {
+struct EventContact {
     Quad b, a, distance, cross, discriminant;
     Quad delay = -1; ///< negative for none; 0 for touching or overlapping and approaching
 
-    ExactContact(double dx, double dy, double wx, double wy, double sigma) {
+    EventContact(double dx, double dy, double wx, double wy, double sigma) {
         b = Quad(dx) * wx + Quad(dy) * wy;
         a = Quad(wx) * wx + Quad(wy) * wy;
         cross = Quad(dx) * wy - Quad(dy) * wx;

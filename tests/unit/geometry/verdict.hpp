@@ -12,7 +12,7 @@
 #include <cmath>
 
 #include "approach.hpp"
-#include "carrom/geometry/pair_contact.hpp"
+#include "geometry/pair_contact.hpp"
 #include "quad.hpp"
 
 namespace carrom::test {
@@ -35,7 +35,7 @@ struct Verdict {
 };
 
 inline Verdict judge(const Approach& c) {
-    const ExactContact exact(c.dx, c.dy, c.wx, c.wy, c.sigma);
+    const EventContact exact(c.dx, c.dy, c.wx, c.wy, c.sigma);
     const double delay = delay_of(c);
     const Quad reach_square = exact.a * c.sigma * c.sigma;
     Verdict verdict;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whatever is written over a file after a commit, rolling back gives the bytes of that commit, also when the journal or
 // the rolling back was cut short.
-#include "undo_journal.hpp"
+#include "io/undo_journal.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -13,7 +13,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "files.hpp"
+#include "io/files.hpp"
 
 using namespace carrom;
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "one_rule.hpp"
+#include "time_stepped.hpp"
 #include "scenes.hpp"
 
 using namespace carrom;
@@ -36,7 +36,7 @@ TEST_CASE("scenes have distinct names and legal discs") {
 TEST_CASE("no contact on a boundary in time is lost") {
     for (const TestScene& scene : boundary_contacts()) {
         INFO(scene.name);
-        reference::OneRuleReference run(scene.setting, scene.discs);
+        reference::TimeSteppedReference run(scene.setting, scene.discs);
         run.run_steps(scene.steps);
         CHECK(run.counters().pair_collisions == *scene.expected_pair_collisions);
     }
@@ -47,7 +47,7 @@ TEST_CASE("the small scenes meet all that the rule has to decide") {
     std::size_t corners = 0, stops = 0, at_end = 0, ties = 0;
     for (const TestScene& scene : small_scenes()) {
         INFO(scene.name);
-        reference::OneRuleReference run(scene.setting, scene.discs);
+        reference::TimeSteppedReference run(scene.setting, scene.discs);
         for (std::int64_t n = 0; n < scene.steps * scene.setting.micro_steps; ++n) {
             const std::vector<Disc> before(run.discs().begin(), run.discs().end());
             run.run_micro_steps(1);
@@ -90,12 +90,12 @@ TEST_CASE("a transposed scene gives transposed bits, a scaled one scaled bits") 
     }
     for (const TestScene& scene : scenes) {
         INFO(scene.name);
-        reference::OneRuleReference plain(scene.setting, scene.discs);
+        reference::TimeSteppedReference plain(scene.setting, scene.discs);
         plain.run_steps(scene.steps);
         const TestScene across = transposed(scene), larger = scaled(scene, 180), smaller = scaled(scene, -180);
-        reference::OneRuleReference turned(across.setting, across.discs);
-        reference::OneRuleReference grown(larger.setting, larger.discs), shrunk(smaller.setting, smaller.discs);
-        for (reference::OneRuleReference* run : {&turned, &grown, &shrunk}) run->run_steps(scene.steps);
+        reference::TimeSteppedReference turned(across.setting, across.discs);
+        reference::TimeSteppedReference grown(larger.setting, larger.discs), shrunk(smaller.setting, smaller.discs);
+        for (reference::TimeSteppedReference* run : {&turned, &grown, &shrunk}) run->run_steps(scene.steps);
         CHECK(turned.log() == plain.log());
         CHECK(grown.log() == plain.log());
         CHECK(shrunk.log() == plain.log());

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A restart may change how long a run goes on and what it writes, and nothing that has a say in the bits.
-#include "carrom/scene/compare.hpp"
+#include "scene/compare.hpp"
 
 #include "catch.hpp"
 
-#include "carrom/scene/read_scene.hpp"
+#include "scene/read_scene.hpp"
 
 using namespace carrom;
 
@@ -26,7 +26,7 @@ TEST_CASE("What has no say in the bits is no difference") {
 
 TEST_CASE("Everything else is, and is named") {
     for (const char* override : {"box.size=101", "discs.count=11", "discs.radius=1.5", "discs.generator=lattice", "discs.speed=2",
-                                 "discs.velocities=uniform", "discs.seed=1", "time.collisions=all", "time.micro_steps=2",
+                                 "discs.velocities=uniform", "discs.seed=1", "time.method=event-driven", "time.micro_steps=2",
                                  "time.sync_every=63", "time.precision=single", "time.arithmetic=naive", "discs.packing=0.01"}) {
         const std::string key = std::string(override).substr(0, std::string(override).find('='));
         const auto found = differences({override});

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "carrom/scene/compare.hpp"
-#include "carrom/scene/disc_columns.hpp"
-#include "carrom/scene/disc_reader.hpp"
-#include "carrom/scene/read_scene.hpp"
+#include "scene/compare.hpp"
+#include "scene/disc_columns.hpp"
+#include "scene/disc_reader.hpp"
+#include "scene/read_scene.hpp"
 #include "problems_of.hpp"
 
 using namespace carrom;
@@ -50,7 +50,7 @@ const std::string four_lines = "2 50 50 0 1 3 7\n\n0 10 10 1 0 2 5\n3 80 80 0 0 
 
 TEST_CASE("Columns of a file of discs are classes in the order of ids, whatever the order of lines") {
     const Scene scene = scene_with(from_file("[\"radius\", \"mass\"]"), four_lines);
-    CHECK(scene.effects.classes == std::vector<DiscClass>{{2, 2, 5}, {1, 3, 7}, {1, 1, 1}});
+    CHECK(scene.effects.species == std::vector<Species>{{2, 2, 5}, {1, 3, 7}, {1, 1, 1}});
     CHECK(scene.radius == 3);
     CHECK(scene.packing() == Approx(3.14159265358979 * (2 * 4 + 9 + 1) / 1e4));
     std::istringstream stream(four_lines);
@@ -61,15 +61,15 @@ TEST_CASE("Columns of a file of discs are classes in the order of ids, whatever 
     CHECK(discs == std::vector<InputDisc>{{2, 50, 50, 0, 1}, {0, 10, 10, 1, 0}, {3, 80, 80, 0, 0}, {1, 20, 20, 0, 0}});
 
     const Scene other = scene_with(from_file("[\"mass\", \"radius\"]"), four_lines); // in the order that is named
-    CHECK(other.effects.classes == std::vector<DiscClass>{{2, 5, 2}, {1, 7, 3}, {1, 1, 1}});
+    CHECK(other.effects.species == std::vector<Species>{{2, 5, 2}, {1, 7, 3}, {1, 1, 1}});
     const Scene light = scene_with(from_file("[\"radius\"]", 2), "1 20 20 0 0 2\n0 10 10 1 0 4\n");
-    CHECK(light.effects.classes == std::vector<DiscClass>{{1, 4, 1}, {1, 2, 1}});
+    CHECK(light.effects.species == std::vector<Species>{{1, 4, 1}, {1, 2, 1}});
     CHECK(physical_differences(scene, other).size() == 3); // radius of the largest, classes, columns
 }
 
 TEST_CASE("Spins at the start come from a file, a list or classes") {
     const Scene file = scene_with(from_file("[\"spin\"]", 3) + "radius = 1\n" + rough, "0 10 10 1 0 0.5\n2 30 30 0 0 -2\n1 20 20 0 0 0.5\n");
-    CHECK(file.effects.classes.empty());
+    CHECK(file.effects.species.empty());
     CHECK(file.radius == 1);
     CHECK(file.spins == std::vector<SpinRun>{{2, 0.5}, {3, -2}});
     CHECK(first_spin(file, 0) == 0.5);
@@ -78,17 +78,17 @@ TEST_CASE("Spins at the start come from a file, a list or classes") {
     const Scene list = read_scene(box + "[discs]\nradius = 1\nlist = [[10, 10, 1, 0], [20, 20, 0, 0, 0.25]]\n" + rough, "s.toml");
     CHECK(list.spins == std::vector<SpinRun>{{1, 0}, {2, 0.25}});
     const Scene all = read_scene(box + "[discs]\nlist = [[10, 10, 1, 0, 2, 3, 1.5], [20, 20, 0, 0, 1, 1]]\n" + rough, "s.toml");
-    CHECK(all.effects.classes == std::vector<DiscClass>{{1, 2, 3}, {1, 1, 1}});
+    CHECK(all.effects.species == std::vector<Species>{{1, 2, 3}, {1, 1, 1}});
     CHECK(all.spins == std::vector<SpinRun>{{1, 1.5}, {2, 0}});
-    const std::string classes = "[[discs.classes]]\ncount = 3\nradius = 2\nspin = -1\n[[discs.classes]]\ncount = 40\nradius = 0.5\n";
-    const Scene kinds = read_scene(box + classes + rough, "s.toml");
+    const std::string species = "[[discs.species]]\ncount = 3\nradius = 2\nspin = -1\n[[discs.species]]\ncount = 40\nradius = 0.5\n";
+    const Scene kinds = read_scene(box + species + rough, "s.toml");
     CHECK(kinds.spins == std::vector<SpinRun>{{3, -1}, {43, 0}});
     CHECK(first_spin(kinds, 2) == -1);
     CHECK(first_spin(kinds, 3) == 0);
     CHECK(read_scene(box + "[discs]\ncount = 5\nradius = 1\n" + rough, "s.toml").spins.empty());
-    CHECK(physical_differences(kinds, read_scene(box + "[[discs.classes]]\ncount = 3\nradius = 2\n[[discs.classes]]\ncount = 40\nradius = 0.5\n" + rough, "s.toml")) ==
+    CHECK(physical_differences(kinds, read_scene(box + "[[discs.species]]\ncount = 3\nradius = 2\n[[discs.species]]\ncount = 40\nradius = 0.5\n" + rough, "s.toml")) ==
           Texts{"discs begin with other spins there"});
-    for (const std::string& text : {from_file("[\"spin\"]") + "radius = 1\n", box + classes, box + "[discs]\nradius = 1\nlist = [[10, 10, 1, 0, 0.5]]\n"})
+    for (const std::string& text : {from_file("[\"spin\"]") + "radius = 1\n", box + species, box + "[discs]\nradius = 1\nlist = [[10, 10, 1, 0, 0.5]]\n"})
         CHECK(mentions(problems_in(text), "no meaning without effects.contact.kind = \"rough\""));
     CHECK(mentions(problems_in(box + "[discs]\nradius = 1\nlist = [[10, 10, 1, 0, inf]]\n" + rough), "row 1 of 'discs.list': the spin must be finite"));
 }
@@ -102,7 +102,7 @@ TEST_CASE("Wrong columns are refused where they are named") {
     CHECK(mentions(problems_in(from_file("[\"radius\"]") + "radius = 1\n", whole), "'discs.radius' has no meaning where 'discs.columns' name radii"));
     CHECK(mentions(problems_in(box + "[discs]\ncount = 4\nradius = 1\ncolumns = [\"spin\"]\n" + rough), "has no meaning where discs.generator is \"random\""));
     CHECK(mentions(problems_in(box + "[discs]\nlist = [[10, 10, 1, 0]]\nradius = 1\ncolumns = [\"spin\"]\n" + rough), "no meaning without 'discs.file'"));
-    CHECK(mentions(problems_in(from_file("[\"radius\"]") + "[[discs.classes]]\ncount = 4\nradius = 1\n", whole), "'discs.classes' has no meaning where 'discs.columns'"));
+    CHECK(mentions(problems_in(from_file("[\"radius\"]") + "[[discs.species]]\ncount = 4\nradius = 1\n", whole), "'discs.species' has no meaning where 'discs.columns'"));
     const DiscColumns wide{{{4, 60, 1}}, {}, true};
     CHECK(mentions(problems_in(from_file("[\"radius\"]"), wide), "does not fit into a box"));
 }

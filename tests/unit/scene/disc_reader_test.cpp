@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "carrom/scene/disc_reader.hpp"
-#include "line_reader.hpp"
+#include "scene/disc_reader.hpp"
+#include "scene/line_reader.hpp"
 #include "problems_of.hpp"
 
 using namespace carrom;

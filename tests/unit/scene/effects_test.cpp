@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "carrom/scene/compare.hpp"
-#include "carrom/scene/read_scene.hpp"
+#include "scene/compare.hpp"
+#include "scene/read_scene.hpp"
 #include "problems_of.hpp"
 
 using namespace carrom;
@@ -52,25 +52,25 @@ TEST_CASE("Effects are read, parameters of others are refused by name") {
 
 TEST_CASE("Sides are read, and contradictions explained") {
     const Scene scene = read_scene(good, "s.toml", {"box.left.kind=thermal", "box.left.temperature=2", "box.right.kind=moving", "box.right.speed=-0.5",
-                                                    "box.top.restitution=0.5", "effects.thermal.seed=7", "time.collisions=all"});
-    CHECK(scene.effects.sides[0] == Side{SideKind::thermal, 1, 2, 0});
-    CHECK(scene.effects.sides[1] == Side{SideKind::moving, 1, 0, -0.5});
-    CHECK(scene.effects.sides[2] == Side{});
-    CHECK(scene.effects.sides[3] == Side{SideKind::fixed, 0.5, 0, 0});
+                                                    "box.top.restitution=0.5", "effects.thermal.seed=7", "time.method=event-driven"});
+    CHECK(scene.effects.boundaries[0] == Boundary{BoundaryKind::thermal, 1, 2, 0});
+    CHECK(scene.effects.boundaries[1] == Boundary{BoundaryKind::moving, 1, 0, -0.5});
+    CHECK(scene.effects.boundaries[2] == Boundary{});
+    CHECK(scene.effects.boundaries[3] == Boundary{BoundaryKind::fixed, 0.5, 0, 0});
     CHECK(scene.effects.thermal_seed == 7);
     CHECK(has(problems_with({"box.left.temperature=2"}), "no meaning without box.left.kind = \"thermal\""));
     CHECK(has(problems_with({"box.left.kind=thermal"}), "'box.left.temperature' is missing"));
     CHECK(has(problems_with({"box.left.kind=thermal", "box.left.temperature=1", "box.left.restitution=0.5"}), "has forgotten how it came"));
     CHECK(has(problems_with({"box.top.speed=1"}), "no meaning without box.top.kind = \"moving\""));
-    CHECK(has(problems_with({"box.top.kind=moving", "box.top.speed=1"}), "needs time.collisions = \"all\""));
-    const std::string all = "time.collisions=all";
+    CHECK(has(problems_with({"box.top.kind=moving", "box.top.speed=1"}), "needs time.method = \"all\""));
+    const std::string all = "time.method=event-driven";
     CHECK(has(problems_with({"box.right.kind=moving", "box.right.speed=-9.9", all}), "too small for its discs"));
     CHECK(has(problems_with({"box.right.kind=moving", "box.right.speed=11", all}), "more than twice as long"));
     CHECK(has(problems_with({"box.left.kind=moving", "box.left.speed=-0.1", all}), "let the right one move out"));
     CHECK(has(problems_with({"effects.thermal.seed=1"}), "no meaning without a side of kind = \"thermal\""));
     CHECK(has(problems_with({"effects.contact.contact_time=0.1"}), "no meaning without discs, walls or obstacles of restitution, or gravity"));
     CHECK(has(problems_with({"box.middle.kind=wall"}), "no such key"));
-    CHECK(read_scene(good, "s.toml", {"box.left.kind=open"}).effects.sides[0] == Side{SideKind::open, 1, 0, 0});
+    CHECK(read_scene(good, "s.toml", {"box.left.kind=open"}).effects.boundaries[0] == Boundary{BoundaryKind::open, 1, 0, 0});
     CHECK(has(problems_with({"box.left.kind=open", "box.left.restitution=0.5"}), "nothing comes back from an open side"));
     CHECK(has(problems_with({"box.left.kind=open", "box.top.kind=moving", "box.top.speed=1", all}), "no open sides together with moving walls"));
 }
@@ -88,22 +88,22 @@ TEST_CASE("Obstacles are read, each wrong one is named") {
     CHECK(has(problems_with({"effects.obstacles.segments=[[10, 20, 10, 20]]"}), "a point is a fixed disc of radius 0"));
     CHECK(has(problems_with({"effects.obstacles.restitution=0.5"}), "no meaning without 'effects.obstacles.discs' or 'effects.obstacles.segments'"));
     CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1]]", "discs.generator=lattice"}), "know nothing of obstacles"));
-    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1]]", "box.top.kind=moving", "box.top.speed=1", "time.collisions=all"}), "together with obstacles"));
+    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1]]", "box.top.kind=moving", "box.top.speed=1", "time.method=event-driven"}), "together with obstacles"));
     const Scene other = read_scene(good, "s.toml", {"effects.obstacles.discs=[[10, 20, 4], [40, 50, 0]]", "effects.obstacles.segments=[[0, 0, 30, 40]]"});
     CHECK(physical_differences(scene, other).size() == 2);
 }
 
 TEST_CASE("Gravity is read, and refused where the falling frame would leave the box") {
-    CHECK(read_scene(good, "s.toml", {"effects.gravity.y=-0.02", "time.collisions=all"}).effects.gravity == Gravity{0, -0.02});
-    CHECK(has(problems_with({"effects.gravity.y=-0.02"}), "gravity needs time.collisions = \"all\""));
-    CHECK(has(problems_with({"effects.gravity.x=1", "time.collisions=all"}), "time.sync_every = 10 or less will do"));
-    CHECK(problems_with({"effects.gravity.x=1", "time.collisions=all", "time.sync_every=10"}).empty());
+    CHECK(read_scene(good, "s.toml", {"effects.gravity.y=-0.02", "time.method=event-driven"}).effects.gravity == Gravity{0, -0.02});
+    CHECK(has(problems_with({"effects.gravity.y=-0.02"}), "gravity needs time.method = \"all\""));
+    CHECK(has(problems_with({"effects.gravity.x=1", "time.method=event-driven"}), "time.sync_every = 10 or less will do"));
+    CHECK(problems_with({"effects.gravity.x=1", "time.method=event-driven", "time.sync_every=10"}).empty());
 }
 
 TEST_CASE("Drag is read, and refused beside what it does not go with yet") {
-    const std::string all = "time.collisions=all";
+    const std::string all = "time.method=event-driven";
     CHECK(read_scene(good, "s.toml", {"effects.drag.rate=0.02", all}).effects.drag == 0.02);
-    CHECK(has(problems_with({"effects.drag.rate=0.02"}), "drag needs time.collisions = \"all\""));
+    CHECK(has(problems_with({"effects.drag.rate=0.02"}), "drag needs time.method = \"all\""));
     CHECK(has(problems_with({"effects.drag.rate=-1", all}), "must not be negative"));
     CHECK(has(problems_with({"effects.drag.rate=0.1", all}), "a smaller time.sync_every"));
     CHECK(problems_with({"effects.drag.rate=0.02", "effects.gravity.y=-0.01", all}).empty());
@@ -126,7 +126,7 @@ TEST_CASE("Rough discs are read, and refused beside what does not go with them y
     CHECK(has(problems_with({"effects.contact.friction=0.3"}), "no meaning without effects.contact.kind = \"rough\""));
     CHECK(has(problems_with({"effects.contact.kind=rough"}), "'effects.contact.tangential_restitution' is missing"));
     CHECK(has(problems_with(with({"effects.contact.tangential_restitution=1.5"})), "from -1 to 1, not 1.5"));
-    CHECK(has(problems_with(with({"effects.drag.rate=0.01", "time.collisions=all"})), "no drag together with rough discs"));
+    CHECK(has(problems_with(with({"effects.drag.rate=0.01", "time.method=event-driven"})), "no drag together with rough discs"));
     CHECK(problems_with(with({"output.checkpoint.folder=kept"})).empty());
 
     const std::string file = "output.trajectory.file=t.h5", fields = "output.trajectory.fields=[\"position\", \"angular_velocity\"]";
@@ -139,16 +139,16 @@ TEST_CASE("Rough discs are read, and refused beside what does not go with them y
 
 TEST_CASE("Classes of discs are read, by table and by list") {
     const std::string box = "[box]\nsize = 100\n[time]\nsteps = 10\n";
-    const std::string two = "[[discs.classes]]\ncount = 3\nradius = 2\nmass = 7\n[[discs.classes]]\ncount = 40\nradius = 0.5\n";
+    const std::string two = "[[discs.species]]\ncount = 3\nradius = 2\nmass = 7\n[[discs.species]]\ncount = 40\nradius = 0.5\n";
     const Scene scene = read_scene(box + two, "s.toml");
-    CHECK(scene.effects.classes == std::vector<DiscClass>{{3, 2, 7}, {40, 0.5, 1}});
+    CHECK(scene.effects.species == std::vector<Species>{{3, 2, 7}, {40, 0.5, 1}});
     CHECK(scene.n_discs == 43);
     CHECK(scene.radius == 2);
     CHECK(scene.packing() == Approx(3.14159265358979 * (3 * 4 + 40 * 0.25) / 1e4));
     CHECK(description(scene.effects) == "3 discs of radius 2 and mass 7, 40 discs of radius 0.5 and mass 1");
 
     const Scene listed = read_scene(box + "[discs]\nlist = [[10, 10, 0, 0, 2, 3], [20, 20, 1, 0, 2, 3], [0.5, 50, 0, 0, 0.5, 1]]\n", "s.toml");
-    CHECK(listed.effects.classes == std::vector<DiscClass>{{2, 2, 3}, {1, 0.5, 1}});
+    CHECK(listed.effects.species == std::vector<Species>{{2, 2, 3}, {1, 0.5, 1}});
     CHECK(listed.listed_discs[1] == InputDisc{1, 20, 20, 1, 0});
 
     const auto problems = [&](const std::string& text, const Texts& overrides = {}) {
@@ -156,20 +156,20 @@ TEST_CASE("Classes of discs are read, by table and by list") {
         for (const Problem& problem : problems_of([&] { read_scene(box + text, "s.toml", overrides); })) all += problem.text + '\n';
         return all;
     };
-    CHECK(has(problems(two, {"discs.radius=1"}), "'discs.radius' has no meaning where 'discs.classes' name radii"));
-    CHECK(has(problems(two, {"discs.count=44"}), "'discs.classes' have 43 discs, but 'discs.count' is 44"));
+    CHECK(has(problems(two, {"discs.radius=1"}), "'discs.radius' has no meaning where 'discs.species' name radii"));
+    CHECK(has(problems(two, {"discs.count=44"}), "'discs.species' have 43 discs, but 'discs.count' is 44"));
     CHECK(has(problems(two, {"effects.contact.kind=none"}), "pass through each other"));
     CHECK(has(problems(two, {"time.precision=single"}), "for scenes without effects"));
-    CHECK(has(problems(two, {"discs.generator=ancestor"}), "has no meaning") == false); // the override takes the classes away
-    CHECK(has(problems("[[discs.classes]]\ncount = 3\nradius = -2\n"), "class 1: the radius must be"));
-    CHECK(has(problems("[[discs.classes]]\ncount = 3.5\nradius = 2\n"), "class 1: its count must be a whole number"));
-    CHECK(has(problems("[[discs.classes]]\ncount = 3\nradius = 2\nmas = 1\n"), "class 1: a class has no"));
-    CHECK(has(problems("[[discs.classes]]\ncount = 3\n"), "class 1: it needs count"));
-    CHECK(has(problems("[[discs.classes]]\ncount = 3\nradius = 60\n"), "does not fit into a box"));
+    CHECK(has(problems(two, {"discs.generator=legacy"}), "has no meaning") == false); // the override takes the classes away
+    CHECK(has(problems("[[discs.species]]\ncount = 3\nradius = -2\n"), "class 1: the radius must be"));
+    CHECK(has(problems("[[discs.species]]\ncount = 3.5\nradius = 2\n"), "class 1: its count must be a whole number"));
+    CHECK(has(problems("[[discs.species]]\ncount = 3\nradius = 2\nmas = 1\n"), "class 1: a class has no"));
+    CHECK(has(problems("[[discs.species]]\ncount = 3\n"), "class 1: it needs count"));
+    CHECK(has(problems("[[discs.species]]\ncount = 3\nradius = 60\n"), "does not fit into a box"));
     CHECK(has(problems("[discs]\nlist = [[10, 10, 0, 0, 2, 3], [20, 20, 1, 0]]\n"), "other rows have six numbers"));
     CHECK(has(problems("[discs]\nlist = [[10, 10, 0, 0, 2, 0]]\n"), "row 1 of 'discs.list': the mass must be"));
     CHECK(has(problems("[discs]\nlist = [[1, 10, 0, 0, 2, 3]]\n"), "is not inside the box"));
-    CHECK(physical_differences(scene, read_scene(box + two + "[[discs.classes]]\ncount = 1\nradius = 1\n", "s.toml")).size() == 2);
+    CHECK(physical_differences(scene, read_scene(box + two + "[[discs.species]]\ncount = 1\nradius = 1\n", "s.toml")).size() == 2);
 }
 
 TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
@@ -187,13 +187,13 @@ TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
     CHECK(has(with({"box.top.restitution=0.5"}), "no meaning without a wall"));
     CHECK(has(with({"box.top.temperature=1"}), "no meaning without box.top.kind = \"thermal\""));
     CHECK(has(with({"box.top.speed=1"}), "no meaning without box.top.kind = \"moving\""));
-    CHECK(has(with({"effects.gravity.y=-0.01", "time.collisions=all"}), "would fall for ever"));
-    CHECK_FALSE(has(with({"effects.gravity.x=-0.01", "time.collisions=all"}), "would fall for ever"));
+    CHECK(has(with({"effects.gravity.y=-0.01", "time.method=event-driven"}), "would fall for ever"));
+    CHECK_FALSE(has(with({"effects.gravity.x=-0.01", "time.method=event-driven"}), "would fall for ever"));
     CHECK(with({"effects.obstacles.discs=[[0,100,40]]"}).empty());
     CHECK(has(with({"effects.obstacles.discs=[[50,50,5], [50,50,99]]"}), "row 2 of 'effects.obstacles.discs': the radius must be at most 98, not 99"));
     CHECK(has(with({"box.left.kind=open"}), "no periodic sides together with open sides"));
     CHECK(with({"effects.contact.kind=rough", "effects.contact.restitution=0.9", "effects.contact.tangential_restitution=0.5"}).empty());
-    CHECK_FALSE(has(with({"effects.drag.rate=0.02", "time.collisions=all"}), "drag"));
+    CHECK_FALSE(has(with({"effects.drag.rate=0.02", "time.method=event-driven"}), "drag"));
     const auto measuring = [&](const char* quantities, bool is_around) {
         Texts texts = is_around ? Texts{"box.left.kind=periodic", "box.right.kind=periodic"} : Texts{};
         texts.insert(texts.end(), along_y.begin(), along_y.end());
@@ -203,7 +203,7 @@ TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
     CHECK(has(measuring("[\"wall_pressure\"]", true), "a box without walls"));
     CHECK_FALSE(has(measuring("[\"wall_pressure\"]", false), "without walls"));
     CHECK_FALSE(has(measuring("[\"displacement\"]", true), "periodic"));
-    const std::string two = "[[discs.classes]]\ncount = 1\nradius = 2\nmass = 7\n[[discs.classes]]\ncount = 4\nradius = 0.5\n";
+    const std::string two = "[[discs.species]]\ncount = 1\nradius = 2\nmass = 7\n[[discs.species]]\ncount = 4\nradius = 0.5\n";
     const auto mixed_in = [&](const std::string& size) {
         return problems_of([&] { read_scene("[box]\nsize = " + size + "\n[time]\nsteps = 10\n" + two, "s.toml", along_y); });
     };
@@ -224,8 +224,8 @@ TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
 }
 
 TEST_CASE("A restart cannot change effects") {
-    const Texts there{"effects.gravity.y=-0.02", "time.collisions=all", "box.top.restitution=0.5"};
-    const Texts here{"effects.gravity.y=-0.01", "time.collisions=all", "box.top.kind=thermal", "box.top.temperature=1"};
+    const Texts there{"effects.gravity.y=-0.02", "time.method=event-driven", "box.top.restitution=0.5"};
+    const Texts here{"effects.gravity.y=-0.01", "time.method=event-driven", "box.top.kind=thermal", "box.top.temperature=1"};
     const std::vector<std::string> differences = physical_differences(read_scene(good, "s.toml", there), read_scene(good, "s.toml", here));
     CHECK(differences.size() == 4); // gravity, and the side's kind, restitution and temperature
     CHECK(physical_differences(read_scene(good, "s.toml", there), read_scene(good, "s.toml", there)).empty());

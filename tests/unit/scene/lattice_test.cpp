@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "carrom/core/disc.hpp"
-#include "carrom/core/state_hash.hpp"
-#include "carrom/scene/lattice.hpp"
+#include "core/disc.hpp"
+#include "core/state_hash.hpp"
+#include "scene/lattice.hpp"
 
 using namespace carrom;
 

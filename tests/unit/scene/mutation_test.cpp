@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "carrom/scene/disc_reader.hpp"
-#include "carrom/scene/read_scene.hpp"
+#include "scene/disc_reader.hpp"
+#include "scene/read_scene.hpp"
 #include "problems_of.hpp"
 
 using namespace carrom;
@@ -65,10 +65,10 @@ bool is_refused(const std::string& text, const std::string& name, const std::vec
 
 const std::string toml = "[box]\nsize = 100.5\n[discs]\ncount = 50\nradius = 1\ngenerator = \"lattice\"\nspeed = 0.5\n"
                          "velocities = 'uniform'\nseed = 5\n[[discs.streams]]\nregion = [0, 0, 1, 1]\nvelocity = [1, 0]\n"
-                         "[time]\nsteps = 10\nmicro_steps = 2\nsync_every = 16\ncollisions = \"one\"\n[output]\ntext = \"ends\"\n";
+                         "[time]\nsteps = 10\nmicro_steps = 2\nsync_every = 16\nmethod = \"time-stepped\"\n[output]\ntext = \"ends\"\n";
 const std::string listed = "[box]\nsize = 1e1\n[discs]\nradius = 1.0\nlist = [[2, 2, 0, 1.5], [5.5, 5, -1, 0],\n  [8, 8, 0, 0]]\n"
                            "[time]\nsteps = 10\n";
-const std::string ancestor = "4\n10\n0.5\n40\nprint\n2 9 1 0 0.25\n0 2 5 0.25 0\n\n3 2 8 0 0\n1 8 5 -0.25 0\n";
+const std::string legacy = "4\n10\n0.5\n40\nprint\n2 9 1 0 0.25\n0 2 5 0.25 0\n\n3 2 8 0 0\n1 8 5 -0.25 0\n";
 
 } // namespace
 
@@ -83,11 +83,11 @@ TEST_CASE("Damaged TOML scenes give a scene or problems") {
     }
 }
 
-TEST_CASE("Damaged ancestor texts give a scene or problems") {
-    REQUIRE_FALSE(is_refused(ancestor, "t.in"));
+TEST_CASE("Damaged legacy texts give a scene or problems") {
+    REQUIRE_FALSE(is_refused(legacy, "t.in"));
     Damage damage(19);
     int n_refused = 0;
-    for (int i = 0; i < 2000; ++i) n_refused += is_refused(damage(ancestor), "t.in");
+    for (int i = 0; i < 2000; ++i) n_refused += is_refused(damage(legacy), "t.in");
     CHECK(n_refused > 1000);
     CHECK(n_refused < 2000);
 }
@@ -95,9 +95,9 @@ TEST_CASE("Damaged ancestor texts give a scene or problems") {
 TEST_CASE("Damaged overrides give a scene or problems") {
     Damage damage(23);
     int n_refused = 0;
-    const std::vector<std::string> good = {"box.size=50", "discs.list=[[1,2,3,4]]", "time.collisions=one", "discs.streams=[]",
+    const std::vector<std::string> good = {"box.size=50", "discs.list=[[1,2,3,4]]", "time.method=time-stepped", "discs.streams=[]",
                                            "discs.file='d'", "time.steps=5"};
     for (int i = 0; i < 2000; ++i)
-        n_refused += is_refused(i % 2 == 0 ? toml : ancestor, i % 2 == 0 ? "s.toml" : "t.in", {damage(good[static_cast<std::size_t>(i) % 6])});
+        n_refused += is_refused(i % 2 == 0 ? toml : legacy, i % 2 == 0 ? "s.toml" : "t.in", {damage(good[static_cast<std::size_t>(i) % 6])});
     CHECK(n_refused > 500);
 }

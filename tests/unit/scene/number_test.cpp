@@ -7,9 +7,9 @@
 #include <random>
 #include <string>
 
-#include "carrom/scene/read_scene.hpp"
-#include "keys.hpp"
-#include "number.hpp"
+#include "scene/read_scene.hpp"
+#include "scene/keys.hpp"
+#include "scene/number.hpp"
 
 using namespace carrom;
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "carrom/core/errors.hpp"
+#include "core/errors.hpp"
 
 namespace carrom::test {
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "carrom/core/random_numbers.hpp"
+#include "core/random_numbers.hpp"
 #include "statistics.hpp"
 
 using namespace carrom;

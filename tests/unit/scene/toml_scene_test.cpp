@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "carrom/scene/read_scene.hpp"
+#include "scene/read_scene.hpp"
 #include "problems_of.hpp"
 
 using namespace carrom;
@@ -52,7 +52,7 @@ TEST_CASE("A scene has what its text says and the defaults for the rest") {
     CHECK(scene.steps == 10);
     CHECK(scene.generator == Generator::random);
     CHECK(scene.seed == 3210);
-    CHECK(scene.rule == CollisionRule::one);
+    CHECK(scene.method == Method::time_stepped);
     CHECK(scene.micro_steps == 1);
     CHECK(scene.sync_every == 64);
     CHECK(scene.text_output == TextOutput::none);
@@ -66,7 +66,7 @@ TEST_CASE("Every key of a scene is taken over") {
                                    "speed = 0.5\nvelocities = \"uniform\"\nseed = 0x10\n"
                                    "[[discs.streams]]\nregion = [0, 1, 2.5, 3]\nvelocity = [-1, 0.5]\n"
                                    "[[discs.streams]]\nregion = [4, 5, 6, 7]\nvelocity = [0, 1]\n"
-                                   "[time]\nsteps = 0\ncollisions = 'one'\nmicro_steps = 8\nsync_every = 32\n"
+                                   "[time]\nsteps = 0\nmethod = 'time-stepped'\nmicro_steps = 8\nsync_every = 32\n"
                                    "[output]\ntext = 'every_step'\n[effects]\n",
                                    "s.toml");
     CHECK(scene.n_discs == 100);
@@ -88,9 +88,9 @@ TEST_CASE("Every key of a scene is taken over") {
 TEST_CASE("An accuracy stands in for the settings that it chooses, and the command line wins over the scene") {
     const std::string asks = "[box]\nsize = 100\n[discs]\ncount = 50\nradius = 1\n[time]\nsteps = 5\naccuracy = 0.1\n";
     CHECK(read_scene(asks, "s.toml").accuracy == 0.1);
-    const Scene chosen = read_scene(asks, "s.toml", {"time.collisions=all", "time.micro_steps=4"});
+    const Scene chosen = read_scene(asks, "s.toml", {"time.method=event-driven", "time.micro_steps=4"});
     CHECK_FALSE(chosen.accuracy);
-    CHECK((chosen.rule == CollisionRule::all && chosen.micro_steps == 4));
+    CHECK((chosen.method == Method::event_driven && chosen.micro_steps == 4));
     const Scene asked = read_scene(good, "s.toml", {"time.accuracy=0.5"});
     CHECK(asked.accuracy == 0.5);
     CHECK_THROWS_AS(read_scene(asks + "micro_steps = 2\n", "s.toml"), InputError);
@@ -101,9 +101,9 @@ TEST_CASE("Precision and arithmetic are knobs of both rules") {
     CHECK((plain.precision == Precision::double_ && plain.arithmetic == Arithmetic::stable && !plain.contraction));
     const Scene other = read_scene(good, "s.toml", {"time.precision=single", "time.arithmetic=naive", "time.contraction=true"});
     CHECK((other.precision == Precision::single && other.arithmetic == Arithmetic::naive && other.contraction));
-    const Scene exact = read_scene(good, "s.toml", {"time.collisions=all", "time.precision=single", "time.arithmetic=naive"});
-    CHECK((exact.rule == CollisionRule::all && exact.precision == Precision::single && exact.arithmetic == Arithmetic::naive));
-    CHECK_THROWS_AS(read_scene(good, "s.toml", {"time.collisions=all", "time.precision=single", "time.sync_every=5000"}), InputError);
+    const Scene exact = read_scene(good, "s.toml", {"time.method=event-driven", "time.precision=single", "time.arithmetic=naive"});
+    CHECK((exact.method == Method::event_driven && exact.precision == Precision::single && exact.arithmetic == Arithmetic::naive));
+    CHECK_THROWS_AS(read_scene(good, "s.toml", {"time.method=event-driven", "time.precision=single", "time.sync_every=5000"}), InputError);
     CHECK_THROWS_AS(read_scene(good, "s.toml", {"time.precision=single", "time.sync_every=5000"}), InputError);
     CHECK_THROWS_AS(read_scene(good, "s.toml", {"time.precision=single", "box.size=1e20", "discs.radius=1e19"}), InputError);
 }
@@ -131,8 +131,8 @@ TEST_CASE("Overrides replace what the text says, and what excludes them there") 
     CHECK(scene.steps == 6);
     CHECK(scene.velocities == VelocityKind::uniform);
 
-    const Scene regenerated = read_scene(good, "s.toml", {"discs.generator=ancestor"});
-    CHECK(regenerated.generator == Generator::ancestor);
+    const Scene regenerated = read_scene(good, "s.toml", {"discs.generator=legacy"});
+    CHECK(regenerated.generator == Generator::legacy);
     const std::string listed = "[box]\nsize = 10\n[discs]\nradius = 1\ncount = 1\nlist = [[5, 5, 1, -1]]\n[time]\nsteps = 1\n";
     CHECK(read_scene(listed, "s.toml", {"discs.generator=random"}).listed_discs.empty());
     CHECK(read_scene(listed, "s.toml", {"discs.list=[[2,3,4,5]]"}).listed_discs == std::vector<InputDisc>{{0, 2, 3, 4, 5}});
@@ -178,7 +178,7 @@ TEST_CASE("One wrong further value is one problem at its line") {
         "[discs]\nspeed = nan", "[discs]\nspeed = -1", "[discs]\nspeed = 1e100", "[discs]\nvelocities = 'maxwel'", "[discs]\nseed = -1",
         "[discs]\ngenerator = 'latice'", "[discs]\ngenerator = 'file'", "[discs]\nfile = 3", "[discs]\nfile = ''",
         "[discs]\nlist = 3", "[discs]\nlist = [[1, 2, 3, 4]]", "[discs]\nradios = 1", "[time]\ncollisions = 'two'", "[time]\ncollisions = 1",
-        "[time]\naccuracy = 0", "[time]\ncollisions = 'one'\naccuracy = 0.1", "[time]\nmicro_steps = 0", "[time]\nprecision = 'half'", "[time]\narithmetic = 'exact'",
+        "[time]\naccuracy = 0", "[time]\nmethod = 'time-stepped'\naccuracy = 0.1", "[time]\nmicro_steps = 0", "[time]\nprecision = 'half'", "[time]\narithmetic = 'exact'",
         "[time]\ncontraction = 1", "[time]\ncontraction = true",
         "[time]\nsync_every = 0", "[time]\nsync_every = 1e12", "[output]\ntext = 'all'", "[output]\ntrajectory = 'x'",
         "[effects]\ngravity = 1", "[speed]\n", "\nspeed = 1"};
@@ -301,8 +301,8 @@ TEST_CASE("Where no known key is near none is guessed: those that there are get 
     CHECK(mentions(problems_in(good, {"foo=1"}), "the tables [box], [discs], [time], [effects] and [output]"));
     CHECK(mentions(problems_in(good, {"box.sidelength=1"}), "[box] has size"));
     CHECK(mentions(problems_in(good, {"output.trajectory.colour=1"}), "[output.trajectory] has file, every_steps, fields"));
-    CHECK_FALSE(mentions(problems_in(good, {"time.collisions=everything"}), "did you mean"));
-    CHECK(mentions(problems_in(good, {"time.collisions=al"}), "did you mean \"all\"?"));
+    CHECK_FALSE(mentions(problems_in(good, {"time.method=everything"}), "did you mean"));
+    CHECK(mentions(problems_in(good, {"time.method=al"}), "did you mean \"all\"?"));
 }
 
 TEST_CASE("An override without a key is shown as it was written") {
@@ -320,14 +320,14 @@ TEST_CASE("A mark of the byte order at the start of a file is no part of it") {
 TEST_CASE("A packing or a radius that cannot be says what the bound is") {
     CHECK(mentions(problems_in(with_line(5, "packing = 0.95")), "at most 0.9069, not 0.95: equal discs cover no more of the plane"));
     CHECK(mentions(problems_in(with_line(5, "radius = 1e-9")), "discs of radius 1e-09 in a box of side 100"));
-    const Scene all = read_scene(with_line(5, "radius = 1e-9"), "s.toml", {"time.collisions=all"});
+    const Scene all = read_scene(with_line(5, "radius = 1e-9"), "s.toml", {"time.method=event-driven"});
     REQUIRE(all.warnings.size() == 1);
     CHECK(all.warnings[0].find("discs of radius 1e-09 in a box of side 100") == 0);
 }
 
 TEST_CASE("Keys that have no say in the discs are refused") {
     CHECK(problems_in(with_line(5, "radius = 1\nfile = 'd'\nspeed = 1\nseed = 1")).size() == 2);
-    CHECK(problems_in(with_line(5, "radius = 1\ngenerator = 'ancestor'\nvelocities = 'uniform'")).size() == 1);
+    CHECK(problems_in(with_line(5, "radius = 1\ngenerator = 'legacy'\nvelocities = 'uniform'")).size() == 1);
     CHECK(problems_in(with_line(5, "radius = 1\ngenerator = 'lattice'\nfile = 'd'")).size() == 1);
     CHECK(problems_in(with_line(5, "radius = 1\npacking = 0.1")).size() == 1);
     CHECK(problems_in(with_line(4, "file = 'd'\nlist = [[1, 1, 1, 1]]")).size() == 1);

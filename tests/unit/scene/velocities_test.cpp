@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "carrom/core/state_hash.hpp"
-#include "carrom/scene/velocities.hpp"
+#include "core/state_hash.hpp"
+#include "scene/velocities.hpp"
 #include "statistics.hpp"
 
 using namespace carrom;

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A rank's discs, its own and its halo's, as searches and measurements see them.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "core/disc.hpp"
+
+namespace carrom {
+
+/// A rank's discs: its own first, then the halo's. Pairs of halo discs are somebody else's business.
+struct Population {
+    std::span<const Disc> discs;
+    std::size_t n_own = 0;
+};
+
+} // namespace carrom

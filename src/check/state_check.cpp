@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check/state_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "dynamics/drag.hpp"
+#include "dynamics/plain_dynamics.hpp"
+#include "parallel/exchange.hpp"
+#include "parallel/slabs.hpp"
+#include "engine/near_pairs.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr double motion_bound = 1e-13; // of speeds, by falling and by slowing down, from sync to sync
+
+/// One disc's part in a collision, for the rank that keeps its record.
+struct Part {
+    DiscId disc = 0;
+    std::int64_t end_of_micro_step = 0;
+    std::uint64_t is_wall = 0;
+};
+
+bool is_finite(const Disc& disc) {
+    return std::isfinite(disc.x) && std::isfinite(disc.y) && std::isfinite(disc.vx) && std::isfinite(disc.vy) && std::isfinite(disc.tau);
+}
+
+double squared_speed(const Disc& disc) { return disc.vx * disc.vx + disc.vy * disc.vy; }
+
+/// The bits as they are stored where the box's coordinates are the discs' own.
+Disc as_seen(const Disc& disc, const Frame& frame, double time, double micro_steps_since_sync) {
+    if (!frame.is_moving) return disc;
+    Disc seen = frame.in_box(disc, time);
+    seen.tau = micro_steps_since_sync;
+    if (frame.period_x != 0 || frame.period_y != 0) set_image(seen, {});
+    return seen;
+}
+
+double beyond(double low, double place, double high) { return std::max(low - place, place - high); }
+
+} // namespace
+
+StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64_t micro_steps_done, const Communicator& communicator,
+                       const Frame& frame, double time, std::span<const double> spins)
+    : scene_(scene), effects_(per_micro_step(scene.effects, static_cast<double>(scene.micro_steps))), species_(scene.effects.species, scene.radius), communicator_(communicator), first_id_(slab_begin(communicator.rank(), scene.n_discs, communicator.size())),
+      micro_steps_done_(micro_steps_done), micro_steps_before_(micro_steps_done),
+      tolerance_(PlainDynamics(scene.box_size, scene.radius).tolerance()) {
+    may_lose_energy_ = may_lose_in_contacts() || effects_.obstacles.restitution < 1 || (effects_.gravity.is_any() && effects_.drag != 0);
+    for (const Boundary& side : effects_.boundaries) {
+        may_lose_energy_ = may_lose_energy_ || side.restitution < 1;
+        walls_give_energy_ = walls_give_energy_ || side.kind == BoundaryKind::thermal || side.speed != 0;
+    }
+    if (effects_.obstacles.are_any()) obstacles_.emplace(scene.box_size, scene.radius, effects_);
+    known_.resize(slab_begin(communicator.rank() + 1, scene.n_discs, communicator.size()) - first_id_);
+    for (Known& known : known_) known.free_from = micro_steps_done;
+    total_mass_ = effects_.species.empty() ? static_cast<double>(scene.n_discs) : 0;
+    for (const Species& one : effects_.species) {
+        total_mass_ += static_cast<double>(one.count) * one.mass;
+        smallest_mass_ = std::min(smallest_mass_, one.mass);
+    }
+    fail_if_found(first_not_finite(own, spins), {});
+    fail_if_found(take_records(own, spins, frame, time), {});
+    before_ = known_;
+    double square = 0;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const double turning = spins.empty() ? 0 : species_.of(own[i].id).radius * spins[i];
+        square = std::max(square, mass_of(own[i].id) / smallest_mass_ * (squared_speed(own[i]) + effects_.contact.inertia * turning * turning));
+    }
+    fastest_ = std::sqrt(communicator_.max(square)) * std::sqrt(static_cast<double>(scene.n_discs));
+    energy_ = energy_of(own);
+}
+
+void StateCheck::look(const LocalView& now, std::int64_t micro_steps_done, Log log, std::span<const double> spins) {
+    before_ = known_;
+    micro_steps_before_ = std::exchange(micro_steps_done_, micro_steps_done);
+    const std::span<const Disc> own = now.population.discs.first(now.population.n_own);
+    fail_if_found(first_not_finite(own, spins), log);
+    fail_if_found(take_records(own, spins, now.frame, now.time), log);
+    note_speeds();
+    take_log(log);
+    fail_if_found(first_out_of_place(now), log);
+    fail_if_found(first_in_obstacle(now), log);
+    fail_if_found(first_wrong_count(), log);
+    fail_if_found(first_other_motion(), log);
+    fail_if_found(first_overlap(now), log);
+    fail_if_found(first_other_energy(own, log), log);
+}
+
+StateCheck::Finding StateCheck::first_not_finite(std::span<const Disc> own, std::span<const double> spins) const {
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        if (!is_finite(own[i]) || !std::isfinite(spins.empty() ? 0 : spins[i])) return {Invariant::finite, communicator_.rank(), 1, own[i].id};
+    }
+    return {};
+}
+
+/// Brings every disc to the rank that keeps its record. `value` of a finding: how many ranks, or places, own the disc.
+StateCheck::Finding StateCheck::take_records(std::span<const Disc> own, std::span<const double> spins, const Frame& frame, double time) {
+    std::vector<std::vector<Disc>> out(static_cast<std::size_t>(communicator_.size()));
+    std::vector<std::vector<double>> spins_out(out.size());
+    Finding finding;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const Disc& disc = own[i];
+        if (disc.id >= scene_.n_discs) {
+            finding = {Invariant::owned_once, communicator_.rank(), 1, disc.id, 0, 1, 0};
+            continue;
+        }
+        const auto keeper = static_cast<std::size_t>(slab_of_disc(disc.id));
+        out[keeper].push_back(disc);
+        if (!spins.empty()) spins_out[keeper].push_back(spins[i]);
+    }
+    const Received<Disc> in = send_to_owners(communicator_, out);
+    if (effects_.contact.kind == ContactKind::rough) {
+        const Received<double> spins_in = send_to_owners(communicator_, spins_out);
+        for (std::size_t i = 0; i < spins_in.items.size(); ++i) known_[in.items[i].id - first_id_].spin = spins_in.items[i];
+    }
+    std::vector<int> n_owners(known_.size(), 0);
+    for (Known& known : known_) known.walls = known.pairs = 0;
+    for (std::size_t k = 0; k < in.n_senders(); ++k) {
+        for (const Disc& disc : in.from(k)) {
+            const std::size_t i = disc.id - first_id_;
+            ++n_owners[i];
+            known_[i].disc = as_seen(disc, frame, time, static_cast<double>(micro_steps_done_ % scene_.sync_every));
+            known_[i].owner = static_cast<int>(k);
+        }
+    }
+    for (std::size_t i = 0; i < known_.size() && finding.is_found == 0; ++i) {
+        if (n_owners[i] != 1) finding = {Invariant::owned_once, known_[i].owner, 1, first_id_ + i, 0, static_cast<double>(n_owners[i]), 1};
+    }
+    return finding;
+}
+
+void StateCheck::take_log(Log log) {
+    std::vector<std::vector<Part>> out(static_cast<std::size_t>(communicator_.size()));
+    std::uint64_t n_pairs = 0;
+    for (const Collision& collision : log) {
+        const bool is_wall = collision.q == Collision::wall;
+        n_pairs += is_wall ? 0 : 1;
+        for (const DiscId id : {collision.p, is_wall ? collision.p : collision.q}) {
+            ensure(id < scene_.n_discs, "the log of collisions names a disc that does not exist");
+            out[static_cast<std::size_t>(slab_of_disc(id))].push_back({id, collision.micro_step + 1, is_wall ? 1u : 0u});
+            if (is_wall) break;
+        }
+    }
+    for (const Part& part : send_to_owners(communicator_, out).items) {
+        Known& known = known_[part.disc - first_id_];
+        ++(part.is_wall == 1 ? known.walls : known.pairs);
+        known.free_from = std::max(known.free_from, part.end_of_micro_step);
+    }
+    n_pair_collisions_ += communicator_.sum(n_pairs);
+}
+
+StateCheck::Finding StateCheck::first_out_of_place(const LocalView& now) const {
+    const GridFrame& frame = now.grid->frame();
+    const double allowed = scene_.effects.are_any() ? blur(64) : blur(4);
+    const Extent box = extent_at(effects_, scene_.box_size, static_cast<double>(micro_steps_done_));
+    std::optional<Finding> first;
+    const auto add = [&](Invariant invariant, DiscId id, double value, double bound) {
+        if (!first || invariant < first->invariant) first = Finding{invariant, communicator_.rank(), 1, id, 0, value, bound};
+    };
+    const bool is_filed = now.grid->is_valid(now.population.discs.size());
+    for (std::size_t i = 0; i < now.population.n_own; ++i) {
+        const Disc& disc = now.population.discs[i];
+        const double x = now.periods.x_of(disc, now.time), y = now.periods.y_of(disc, now.time);
+        const Disc seen = now.frame.in_box(disc, now.time);
+        const double radius = species_.of(disc.id).radius;
+        // Between periodic sides it is the image's centre that is in the box.
+        const double outside = std::max(now.periods.x != 0 ? beyond(0, x, now.periods.x) : radius + beyond(box.x_low, seen.x, box.x_high),
+                                        now.periods.y != 0 ? beyond(0, y, now.periods.y) : radius + beyond(box.y_low, seen.y, box.y_high));
+        if (outside > allowed) add(Invariant::in_box, disc.id, outside, allowed);
+        if (now.strips->owner(x) != communicator_.rank()) add(Invariant::in_strip, disc.id, now.strips->owner(x), 0);
+        const auto index = static_cast<LocalIndex>(i);
+        const CellGrid::Cell cell = is_filed ? now.grid->cell_of(index) : CellGrid::Cell{-1, -1};
+        if (cell.column != frame.column_of(x) || cell.row != frame.row_of(y))
+            add(Invariant::in_cell, disc.id, 0, 0);
+    }
+    return first.value_or(Finding{});
+}
+
+/// Under both rules: what would run into an obstacle within a micro-step stops there. `partner` says which one it is.
+StateCheck::Finding StateCheck::first_in_obstacle(const LocalView& now) const {
+    if (!obstacles_) return {};
+    const double bound = 2 * tolerance_ + blur(64);
+    for (const Disc& disc : now.population.discs.first(now.population.n_own)) {
+        const Disc seen = now.frame.in_box(disc, now.time);
+        const auto overlap = obstacles_->deepest_overlap(seen.x, seen.y, species_.of(disc.id).radius, bound);
+        if (overlap.body != ObstacleContact::no_body) return {Invariant::clear, communicator_.rank(), 1, disc.id, overlap.body, overlap.depth, bound};
+    }
+    return {};
+}
+
+StateCheck::Finding StateCheck::first_wrong_count() const {
+    for (std::size_t i = 0; i < known_.size(); ++i) {
+        const Known &now = known_[i], &then = before_[i];
+        const auto walls = static_cast<double>(now.disc.wall_collisions - then.disc.wall_collisions);
+        const auto pairs = static_cast<double>(now.disc.pair_collisions - then.disc.pair_collisions);
+        // `partner` says which of the two counters it is.
+        if (walls != static_cast<double>(now.walls))
+            return {Invariant::counters, now.owner, 1, first_id_ + i, 0, walls, static_cast<double>(now.walls)};
+        if (pairs != static_cast<double>(now.pairs))
+            return {Invariant::counters, now.owner, 1, first_id_ + i, 1, pairs, static_cast<double>(now.pairs)};
+    }
+    return {};
+}
+
+StateCheck::Finding StateCheck::first_other_motion() const {
+    const bool is_free = !effects_.gravity.is_any() && effects_.drag == 0; // velocities are rewritten by nothing then
+    const double left = slowing(), time = effects_.drag == 0 ? stretch() : drag_clock(effects_.drag, stretch());
+    const double gained = std::hypot(effects_.gravity.x, effects_.gravity.y) * (time + static_cast<double>(scene_.sync_every));
+    for (std::size_t i = 0; i < known_.size(); ++i) {
+        const Known& now = known_[i];
+        const Disc &disc = now.disc, &then = before_[i].disc;
+        if (now.pairs == 0 && now.spin != before_[i].spin) // `partner` says that it is the spin
+            return {Invariant::motion, now.owner, 1, first_id_ + i, 1, std::fabs(now.spin - before_[i].spin), 0};
+        if (now.walls + now.pairs > 0) continue;
+        const double wx = disc.vx - (then.vx * left + effects_.gravity.x * time), wy = disc.vy - (then.vy * left + effects_.gravity.y * time);
+        const double bound = is_free ? 0 : motion_bound * (1 + n_syncs_since(micro_steps_before_)) * (std::sqrt(squared_speed(then)) + gained);
+        if (!(std::fabs(wx) <= bound && std::fabs(wy) <= bound))
+            return {Invariant::motion, now.owner, 1, first_id_ + i, 0, std::hypot(wx, wy), bound};
+    }
+    return {};
+}
+
+StateCheck::Finding StateCheck::first_overlap(const LocalView& now) const {
+    if (effects_.contact.kind == ContactKind::none) return {}; // they pass through each other
+    const bool is_one = scene_.method == Method::time_stepped;
+    const double bound = (is_one ? 1 : 2) * tolerance_ + blur(64);
+    std::vector<Suspect> suspects;
+    visit_near_pairs(*now.grid, [&](LocalIndex a, LocalIndex b) {
+        if (now.population.discs[b].id < now.population.discs[a].id) std::swap(a, b);
+        if (a >= now.population.n_own) return; // the rank of the lower id judges the pair
+        Disc p = now.population.discs[a], q = now.population.discs[b];
+        if (now.periods.are_any()) q.x += now.periods.x_between(p, q), q.y += now.periods.y_between(p, q);
+        for (Disc* disc : {&p, &q}) PlainDynamics::advance(*disc, now.time);
+        const double depth = diameter_of(p, q) - std::hypot(q.x - p.x, q.y - p.y);
+        if (depth > bound) suspects.push_back({p, q, depth, bound, 0, communicator_.rank()});
+    });
+    if (is_one) return first_unexplained(std::move(suspects));
+    Finding first;
+    for (const Suspect& s : suspects) {
+        const Finding next{Invariant::overlap, s.owner, 1, s.p.id, s.q.id, s.depth, bound};
+        if (first.is_found == 0 || std::pair(next.disc, next.partner) < std::pair(first.disc, first.partner)) first = next;
+    }
+    return first;
+}
+
+/// The ranks that keep the records of both discs are asked, one after the other, when the disc last had a collision.
+StateCheck::Finding StateCheck::first_unexplained(std::vector<Suspect> suspects) const {
+    for (const bool is_first : {true, false}) {
+        std::vector<std::vector<Suspect>> out(static_cast<std::size_t>(communicator_.size()));
+        for (const Suspect& suspect : suspects)
+            out[static_cast<std::size_t>(slab_of_disc((is_first ? suspect.p : suspect.q).id))].push_back(suspect);
+        suspects = std::move(send_to_owners(communicator_, out).items);
+        for (Suspect& suspect : suspects) {
+            const std::int64_t free_from = known_[(is_first ? suspect.p : suspect.q).id - first_id_].free_from;
+            suspect.free_from = is_first ? free_from : std::max(free_from, suspect.free_from);
+        }
+    }
+    Finding first;
+    for (const Suspect& s : suspects) {
+        const auto back = static_cast<double>(s.free_from - micro_steps_done_);
+        const double dx = (s.q.x - s.p.x) + (s.q.vx - s.p.vx) * back, dy = (s.q.y - s.p.y) + (s.q.vy - s.p.vy) * back;
+        const double gap = std::hypot(dx, dy) - diameter_of(s.p, s.q);
+        if (gap <= blur(8 * (1 + n_syncs_since(s.free_from)))) continue; // they were not apart yet, or their contact falls on that time
+        const Finding next{Invariant::overlap, s.owner, 1, s.p.id, s.q.id, s.depth, s.bound};
+        if (first.is_found == 0 || std::pair(next.disc, next.partner) < std::pair(first.disc, first.partner)) first = next;
+    }
+    return first;
+}
+
+double StateCheck::slowing() const { return effects_.drag == 0 ? 1 : std::exp(-effects_.drag * stretch()); }
+
+double StateCheck::n_syncs_since(std::int64_t micro_step) const {
+    return static_cast<double>(micro_steps_done_ / scene_.sync_every - micro_step / scene_.sync_every);
+}
+
+/// Where effects make discs faster, what is known of the fastest grows with them. **Collective.**
+void StateCheck::note_speeds() {
+    if (!scene_.effects.are_any()) return;
+    double square = 0;
+    for (const Known& known : known_) square = std::max(square, squared_speed(known.disc));
+    fastest_ = std::max(fastest_, std::sqrt(communicator_.max(square)));
+}
+
+int StateCheck::slab_of_disc(DiscId id) const { return slab_of(id, scene_.n_discs, communicator_.size()); }
+
+double StateCheck::blur(double n_ulps) const {
+    constexpr double ulp = std::numeric_limits<double>::epsilon();
+    const double time = ulp * static_cast<double>(scene_.sync_every); // the rounding of a time just before a sync
+    return n_ulps * ulp * scene_.box_size + 2 * fastest_ * time;
+}
+
+} // namespace carrom

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a scene asks for beyond free flight, elastic pairs and four elastic walls. Plain numbers: what they do is said where
+// it is done (effect_law.hpp and its policies).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "dynamics/species.hpp"
+#include "core/image.hpp"
+
+namespace carrom {
+
+/// What two discs that touch do to each other.
+enum class ContactKind { elastic, none, restitution, rough };
+
+struct ContactEffect {
+    ContactKind kind = ContactKind::elastic;
+    double restitution = 1;      ///< what is left of the normal relative velocity, 0 to 1
+    double contact_time = 0.001; ///< a disc that has collided within this time collides elastically; event-driven method only
+    // Of rough discs:
+    double tangential_restitution = -1; ///< minus what is left of the surfaces' relative velocity where they stick, -1 (smooth) to 1
+    double friction = std::numeric_limits<double>::infinity(); ///< Coulomb's: the tangential impulse is at most this times the normal one
+    double inertia = 0.5;               ///< moment of inertia in m r^2; that of a uniform disc
+
+    friend bool operator==(const ContactEffect&, const ContactEffect&) = default;
+};
+
+/// What a side of the box is.
+enum class BoundaryKind { fixed, thermal, moving, open, periodic };
+
+struct Boundary {
+    BoundaryKind kind = BoundaryKind::fixed;
+    double restitution = 1; ///< of walls, moving ones as well
+    double temperature = 0; ///< of thermal ones: kT, a velocity squared, for masses of 1
+    double speed = 0;       ///< of moving ones, along +x or +y
+
+    bool is_plain() const { return kind == BoundaryKind::fixed && restitution == 1; }
+    friend bool operator==(const Boundary&, const Boundary&) = default;
+};
+
+/// The order of Effects::sides: the low and the high side of x, then of y.
+inline constexpr std::array<const char*, 4> boundary_names = {"left", "right", "bottom", "top"};
+
+/// Uniform gravity: an acceleration.
+struct Gravity {
+    double x = 0, y = 0;
+
+    bool is_any() const { return x != 0 || y != 0; }
+    friend bool operator==(const Gravity&, const Gravity&) = default;
+};
+
+/// Bodies that stand fixed in the box and reflect discs (obstacles.hpp).
+struct FixedDisc {
+    double x = 0, y = 0, radius = 0;
+
+    friend bool operator==(const FixedDisc&, const FixedDisc&) = default;
+};
+
+struct Segment {
+    double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+    friend bool operator==(const Segment&, const Segment&) = default;
+};
+
+struct ObstacleList {
+    std::vector<FixedDisc> discs;
+    std::vector<Segment> segments;
+    double restitution = 1;
+
+    bool are_any() const { return !discs.empty() || !segments.empty(); }
+    friend bool operator==(const ObstacleList&, const ObstacleList&) = default;
+};
+
+/// Times in steps in a scene, in micro-steps in a law.
+struct Effects {
+    ContactEffect contact;
+    std::array<Boundary, 4> boundaries;
+    Gravity gravity;
+    double drag = 0; ///< the rate at which discs lose their velocity, dv/dt = -drag v
+    std::uint64_t thermal_seed = 3210;
+    ObstacleList obstacles{};
+    std::vector<Species> species{}; ///< in the order of ids; empty where all discs are of one radius and mass 1
+
+    bool have_plain_boundaries() const;
+    bool have_open_boundaries() const;
+    /// The reader of scenes makes opposite sides periodic together.
+    bool is_periodic_x() const { return boundaries[0].kind == BoundaryKind::periodic; }
+    bool is_periodic_y() const { return boundaries[2].kind == BoundaryKind::periodic; }
+    bool are_periodic() const { return is_periodic_x() || is_periodic_y(); }
+    Periods periods(double box_size) const { return {is_periodic_x() ? box_size : 0, is_periodic_y() ? box_size : 0}; }
+    bool are_any() const {
+        return contact.kind != ContactKind::elastic || !have_plain_boundaries() || gravity.is_any() || drag != 0 || obstacles.are_any() ||
+               !species.empty();
+    }
+    friend bool operator==(const Effects&, const Effects&) = default;
+};
+
+/// The same effects with the micro-step, 1/K of a step, as the unit of time.
+Effects per_micro_step(const Effects& effects, double micro_steps);
+
+/// One line for a summary, as in "restitution 0.9 of pairs; gravity (0, -0.001)"; empty where there are none.
+std::string description(const Effects& effects);
+
+/// Where the walls are at `time` since the scene's start, in a box that was [0, size]^2 then.
+struct Extent {
+    double x_low = 0, x_high = 0, y_low = 0, y_high = 0;
+};
+Extent extent_at(const Effects& effects, double box_size, double time);
+
+} // namespace carrom

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/strip_discs.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+
+#include "core/errors.hpp"
+#include "parallel/exchange.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A disc's new state and its place among the discs that went to this neighbour's halo.
+struct News {
+    Disc disc;
+    std::uint64_t place;
+};
+
+Strips equal_strips(double box_size, int n_ranks) {
+    std::vector<double> cuts;
+    for (int k = 1; k < n_ranks; ++k) cuts.push_back(box_size * k / n_ranks);
+    return Strips(cuts);
+}
+
+} // namespace
+
+StripDiscs::StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs, const Periods& periods, bool has_spins,
+                       std::vector<double> spins)
+    : communicator_(communicator), box_size_(box_size), periods_(periods), strips_(equal_strips(box_size, communicator.size())),
+      redistributed_strips_(strips_), exchange_(communicator) {
+    has_spins_ = has_spins;
+    if (has_spins) spins.resize(discs.size(), 0); // discs begin without spin
+    if (communicator.size() == 1) {
+        discs_ = std::move(discs);
+        spins_ = std::move(spins);
+    } else {
+        std::vector<std::vector<Disc>> to_owner(static_cast<std::size_t>(communicator.size()));
+        for (const Disc& disc : discs) to_owner[static_cast<std::size_t>(strips_.owner(wrapped(disc.x, periods.x)))].push_back(disc);
+        if (has_spins) {
+            std::vector<std::vector<double>> spins_to_owner(to_owner.size());
+            for (std::size_t i = 0; i < discs.size(); ++i)
+                spins_to_owner[static_cast<std::size_t>(strips_.owner(wrapped(discs[i].x, periods.x)))].push_back(spins[i]);
+            spins_ = send_to_owners(communicator, spins_to_owner).items;
+        }
+        discs = {};
+        discs_ = send_to_owners(communicator, to_owner).items;
+    }
+    n_own_ = discs_.size();
+    n_total_ = n_with_departed_ = communicator.sum(std::uint64_t{n_own_});
+}
+
+void StripDiscs::set_departed_aside() {
+    forget_halo();
+    // Not std::stable_partition: its buffer is aligned for less than a disc.
+    const auto has_departed = [](const Disc& disc) { return disc.has_departed(); };
+    std::copy_if(discs_.begin(), discs_.end(), std::back_inserter(departed_), has_departed);
+    if (has_spins_) {
+        std::size_t n_left = 0;
+        for (std::size_t i = 0; i < discs_.size(); ++i)
+            if (!has_departed(discs_[i])) spins_[n_left++] = spins_[i];
+        spins_.resize(n_left);
+    }
+    if (std::erase_if(discs_, has_departed) > 0) is_sorted_ = false;
+    n_own_ = discs_.size();
+    n_total_ = communicator_.sum(std::uint64_t{n_own_});
+}
+
+void StripDiscs::migrate(double time, double farthest, std::vector<Disc>* companion) {
+    forget_halo();
+    if (companion) companion->resize(n_own_);
+    if (periods_.are_any()) set_home_images(time, companion);
+    if (communicator_.size() > 1) {
+        const TransferPlan plan = migration_plan(time, farthest);
+        Received<Disc> arrived;
+        for (std::vector<Disc>* values : {&discs_, companion}) {
+            if (!values) continue;
+            transfer(exchange_, plan, std::span<const Disc>(*values), arrived);
+            remove_leaving(plan, *values);
+            values->insert(values->end(), arrived.items.begin(), arrived.items.end());
+        }
+        if (has_spins_) {
+            Received<double> spins;
+            transfer(exchange_, plan, std::span<const double>(spins_), spins);
+            remove_leaving(plan, spins_);
+            spins_.insert(spins_.end(), spins.items.begin(), spins.items.end());
+        }
+        n_own_ = discs_.size();
+    }
+    is_sorted_ = false;
+    redistributed_strips_ = strips_;
+}
+
+/// Discs far from both ends of the strip when they were sorted cannot have left it.
+TransferPlan StripDiscs::migration_plan(double time, double farthest) const {
+    const int rank = communicator_.rank();
+    if (periods_.are_any()) return plan_periodic_migration(redistributed_strips_, strips_, rank, own(), time, farthest, periods_);
+    const std::vector<PlaceRange> looked_at =
+        places_outside({strips_.low(rank) + farthest, strips_.high(rank) - farthest, -infinity, infinity});
+    return plan_migration(redistributed_strips_, strips_, rank, own(), looked_at, time, farthest);
+}
+
+/// Own discs, ascending, with all that were not within `inner` when they were sorted.
+std::vector<PlaceRange> StripDiscs::places_outside(const Inside& inner) const {
+    if (!is_sorted_) return {{0, n_own_}};
+    std::vector<PlaceRange> places;
+    for (const SlotRange range : grid_.outside(inner)) places.push_back({range.begin, range.end});
+    return places;
+}
+
+Companions StripDiscs::companions(std::vector<Disc>* states) {
+    forget_halo();
+    Companions with;
+    if (states) with.states = std::span(*states).first(n_own_);
+    if (has_spins_) with.spins = spins_;
+    return with;
+}
+
+void StripDiscs::sort(const GridFrame& frame, double anchor, double time, double duration, int n_threads, std::vector<Disc>* companion) {
+    const Companions with = companions(companion);
+    grid_.sort(own(), frame, anchor, time, duration, n_threads, periods_, with);
+    is_sorted_ = true;
+}
+
+void StripDiscs::sort_cells(const GridFrame& frame, double time, int n_threads) {
+    const Companions with = companions(nullptr);
+    grid_.sort_cells(own(), frame, time, n_threads, periods_, with);
+    is_sorted_ = true;
+}
+
+void StripDiscs::drop_grid() {
+    grid_ = {};
+    is_sorted_ = false;
+}
+
+/// The companion of a disc stands for the same image, wherever its own state takes it.
+void StripDiscs::set_home_images(double time, std::vector<Disc>* companion) {
+    const Inside inside = periods_.inside();
+    for (std::size_t i = 0; i < n_own_; ++i) {
+        Disc& disc = discs_[i];
+        const bool is_at_home = is_unshifted(disc) && inside.holds(disc.x_at(time), disc.y_at(time)); // nearly all
+        if (is_at_home && !companion) continue;
+        const Image home = is_at_home ? Image{} : periods_.home(disc, time);
+        if (!is_at_home) set_image(disc, home);
+        if (companion) set_image((*companion)[i], home);
+    }
+}
+
+Extent StripDiscs::extent_seen(const Extent& box, double reach) const {
+    Extent seen = box;
+    const double low = strips_.low(communicator_.rank()), high = strips_.high(communicator_.rank());
+    if (periods_.x == 0) {
+        seen.x_low = std::max(box.x_low, low - reach);
+        seen.x_high = std::min(box.x_high, high + reach);
+    } else {
+        seen.x_low = std::max(0.0, low) - reach;
+        seen.x_high = std::min(periods_.x, high) + reach;
+    }
+    if (periods_.y != 0) seen.y_low = -reach, seen.y_high = periods_.y + reach;
+    return seen;
+}
+
+void StripDiscs::forget_images() {
+    if (!periods_.are_any()) return;
+    for (Disc& disc : own()) set_image(disc, {});
+}
+
+void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* companion) {
+    if (has_no_halo()) return;
+    for (const std::vector<LocalIndex>& shown : halo_plan_.leaving) {
+        for (const LocalIndex index : shown) is_shown_[index] = 0;
+    }
+    if (periods_.are_any()) {
+        const std::vector<PlaceRange> looked_at = places_outside(interior(strips_, communicator_.rank(), reach, periods_));
+        halo_plan_ = plan_periodic_halo(strips_, communicator_.rank(), own(), looked_at, time, reach, periods_);
+        other_partners_ = halo_plan_.partners;
+        std::erase(other_partners_, communicator_.rank());
+    } else {
+        const int rank = communicator_.rank();
+        const std::vector<PlaceRange> looked_at = places_outside({strips_.low(rank) + reach, strips_.high(rank) - reach, -infinity, infinity});
+        halo_plan_ = plan_halo(strips_, rank, own(), looked_at, time, reach);
+    }
+    Received<Disc> halo;
+    halo.offsets = {0};
+    for (std::vector<Disc>* values : {&discs_, companion}) {
+        if (!values) continue;
+        if (communicator_.size() == 1) {
+            append_images(halo_plan_, *values);
+            halo.offsets = {0, values->size() - n_own_};
+            continue;
+        }
+        if (periods_.are_any()) transfer_images(exchange_, halo_plan_, std::span<const Disc>(*values), halo);
+        else transfer(exchange_, halo_plan_, std::span<const Disc>(*values), halo);
+        values->insert(values->end(), halo.items.begin(), halo.items.end());
+    }
+    if (has_spins_) show(spins_);
+    halo_offsets_.clear();
+    for (const std::size_t offset : halo.offsets) halo_offsets_.push_back(n_own_ + offset);
+    is_shown_.resize(n_own_, 0);
+    for (const std::vector<LocalIndex>& shown : halo_plan_.leaving) {
+        for (const LocalIndex index : shown) is_shown_[index] = 1;
+    }
+    grid_.add_halo(std::span<const Disc>(discs_).subspan(n_own_));
+}
+
+void StripDiscs::send_updates(std::span<const LocalIndex> changed, std::vector<LocalIndex>& updates) {
+    if (has_no_halo()) return;
+    std::vector<std::vector<News>> out(halo_plan_.partners.size());
+    std::vector<std::vector<double>> spins_out(has_spins_ ? out.size() : 0);
+    for (const LocalIndex index : changed) {
+        if (index >= n_own_ || is_shown_[index] == 0) continue;
+        for (std::size_t k = 0; k < out.size(); ++k) {
+            const std::vector<LocalIndex>& shown = halo_plan_.leaving[k];
+            for (auto place = std::lower_bound(shown.begin(), shown.end(), index); place != shown.end() && *place == index; ++place) {
+                out[k].push_back({discs_[index], static_cast<std::uint64_t>(place - shown.begin())});
+                if (has_spins_) spins_out[k].push_back(spins_[index]);
+            }
+        }
+    }
+    Received<News> in;
+    exchange_.exchange(std::span<const int>(halo_plan_.partners), out, in);
+    Received<double> spins;
+    if (has_spins_) exchange_.exchange(std::span<const int>(halo_plan_.partners), spins_out, spins);
+    std::size_t n_received = 0;
+    for (std::size_t k = 0; k < in.n_senders(); ++k) {
+        for (const News& item : in.from(k)) {
+            const auto index = static_cast<LocalIndex>(halo_offsets_[k] + item.place);
+            if (has_spins_) spins_[index] = spins.items[n_received++];
+            ensure(discs_[index].id == item.disc.id, "a neighbour's news is about another disc than the halo has there");
+            const Image image = periods_.are_any() ? image_of(discs_[index]) : Image{};
+            discs_[index] = item.disc;
+            if (periods_.are_any()) set_image(discs_[index], image);
+            updates.push_back(index);
+        }
+    }
+}
+
+void StripDiscs::name_to_owners(std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& named) {
+    if (has_no_halo()) return;
+    std::vector<std::vector<std::uint64_t>> out(halo_plan_.partners.size());
+    for (const LocalIndex index : of_halo) {
+        const auto behind = std::upper_bound(halo_offsets_.begin(), halo_offsets_.end(), std::size_t{index});
+        const auto k = static_cast<std::size_t>(behind - halo_offsets_.begin()) - 1;
+        out[k].push_back(index - halo_offsets_[k]);
+    }
+    Received<std::uint64_t> in;
+    exchange_.exchange(std::span<const int>(halo_plan_.partners), out, in);
+    for (std::size_t k = 0; k < in.n_senders(); ++k) {
+        for (const std::uint64_t place : in.from(k)) named.push_back(halo_plan_.leaving[k][place]);
+    }
+}
+
+void StripDiscs::rebalance(double time, double above) {
+    const auto n_ranks = static_cast<std::uint64_t>(communicator_.size());
+    if (n_ranks == 1) return;
+    const auto largest_share = static_cast<double>(communicator_.max(std::uint64_t{n_own_}) * n_ranks);
+    if (largest_share <= above * static_cast<double>(n_total_)) return;
+    std::vector<std::uint64_t> weights(std::clamp<std::size_t>(256 * n_ranks, 4096, 65536), 0);
+    const auto n_bins = static_cast<double>(weights.size());
+    for (const Disc& disc : own()) {
+        const double bin = wrapped(disc.x_at(time), periods_.x) / box_size_ * n_bins;
+        weights[static_cast<std::size_t>(std::clamp(bin, 0.0, n_bins - 1))] += 1;
+    }
+    communicator_.sum(weights);
+    strips_ = Strips(balanced_cuts(weights, box_size_, communicator_.size()));
+}
+
+bool StripDiscs::is_valid(double time) const {
+    std::uint64_t sums[] = {n_own_ + departed_.size(), 0, 0};
+    bool in_strip = true;
+    for (const Disc& disc : departed_) {
+        sums[1] += disc.id;
+        sums[2] += disc.id * disc.id;
+    }
+    for (const Disc& disc : own()) {
+        sums[1] += disc.id;
+        sums[2] += disc.id * disc.id;
+        in_strip = in_strip && redistributed_strips_.owner(wrapped(disc.x_at(time), periods_.x)) == communicator_.rank();
+    }
+    communicator_.sum(sums);
+    std::uint64_t id_sum = 0, square_sum = 0; // modulo 2^64, as the sums
+    for (std::uint64_t id = 0; id < n_with_departed_; ++id) {
+        id_sum += id;
+        square_sum += id * id;
+    }
+    return communicator_.all(in_strip) && sums[0] == n_with_departed_ && sums[1] == id_sum && sums[2] == square_sum;
+}
+
+} // namespace carrom

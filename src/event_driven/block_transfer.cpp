@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a block takes over from its rank before a replay, and what it gives back afterwards.
+#include <algorithm>
+#include <cmath>
+
+#include "event_driven/block_scratch.hpp"
+#include "core/errors.hpp"
+
+namespace carrom {
+
+/// Copies the block's and its halo's discs, column by column, into slots of our own.
+template <class Dynamics>
+void BlockRun<Dynamics>::Scratch::gather(const BlockGround& of_rank, const CellBlock& own, int halo) {
+    ground = of_rank;
+    const CellGrid& grid = *ground.grid;
+    const GridFrame& frame = grid.frame();
+    cells.first_column = std::max(0, own.first_column - halo);
+    cells.end_column = std::min(frame.n_columns, own.end_column + halo);
+    cells.first_row = std::max(0, own.first_row - halo);
+    cells.end_row = std::min(frame.n_rows, own.end_row + halo);
+    cell_rows = static_cast<std::size_t>(cells.end_row - cells.first_row) + 1;
+    cell_starts.clear();
+    indices.clear();
+    for (int column = cells.first_column; column < cells.end_column; ++column) {
+        cell_starts.push_back(static_cast<std::uint32_t>(indices.size()));
+        const bool has_halo = grid.has_halo_in(column);
+        for (int row = cells.first_row; row < cells.end_row; ++row) {
+            const SlotRange run = grid.run(column, row, row), of_halo = has_halo ? grid.halo_run(column, row, row) : SlotRange{};
+            for (LocalIndex index = run.begin; index < run.end; ++index) indices.push_back(index);
+            for (std::uint32_t slot = of_halo.begin; slot < of_halo.end; ++slot) indices.push_back(grid.halo_index(slot));
+            cell_starts.push_back(static_cast<std::uint32_t>(indices.size()));
+        }
+    }
+    const std::size_t n = indices.size();
+    runs.resize(static_cast<std::size_t>(cells.end_column - cells.first_column) + 1);
+    column_limit = static_cast<float>(cells.end_column - cells.first_column - 1);
+    row_limit = static_cast<float>(cells.end_row - cells.first_row - 1);
+    discs.resize(n);
+    past_events_of.assign(n, EventHistory{});
+    if constexpr (Dynamics::has_spin) {
+        spins.resize(n);
+        for (std::size_t slot = 0; slot < n; ++slot) spins[slot] = ground.spins[indices[slot]];
+    }
+    for (std::vector<float>* lane : {&x, &y, &vx, &vy}) {
+        if (lane->size() < n + filter_padding) lane->resize(2 * n + filter_padding);
+    }
+    lanes = {x.data(), y.data(), vx.data(), vy.data()};
+
+    const BlockWindow& window = ground.window;
+    x_corner = frame.x_low + cells.first_column * frame.cell_width;
+    y_corner = frame.y_low + cells.first_row * frame.cell_width;
+    cells_per_length = 1 / frame.cell_width;
+    cells_per_speed = window.duration() / frame.cell_width;
+    windows_per_time = 1 / window.duration();
+    const double sigma = dynamics.search_diameter() * cells_per_length;
+    const double extent = std::max(cells.end_column - cells.first_column, cells.end_row - cells.first_row) + 8.0;
+    const double reach = block_reach(window, dynamics.search_diameter(), dynamics.box_size()) * cells_per_length;
+    // Positions carry an error of 2^-23 of the block's size; the rounding of the filter's other terms acts like a longer
+    // diameter by 2^-20 d^2 / diameter, d being the largest distance that is looked at.
+    const double looked_at = 3 * reach + 3;
+    const double touching = sigma * (1 + 0x1p-18) + 0x1p-20 * extent + 0x1p-20 * looked_at * looked_at / sigma;
+    touching_squared = static_cast<float>(touching * touching);
+    farthest = static_cast<float>((reach + sigma) / 2 + 0x1p-18 * extent + 1e-6);
+    const double inner = dynamics.radius() + dynamics.slack() + 1e-3 * frame.cell_width + 0x1p-18 * extent * frame.cell_width;
+    const Extent walls = dynamics.walls_between(window.begin, window.end);
+    x_inner_low = static_cast<float>((walls.x_low + inner - x_corner) * cells_per_length);
+    y_inner_low = static_cast<float>((walls.y_low + inner - y_corner) * cells_per_length);
+    x_inner_high = static_cast<float>((walls.x_high - inner - x_corner) * cells_per_length);
+    y_inner_high = static_cast<float>((walls.y_high - inner - y_corner) * cells_per_length);
+    for (std::size_t slot = 0; slot < n; ++slot) {
+        if (slot + 16 < n) __builtin_prefetch(&ground.discs[indices[slot + 16]]);
+        discs[slot] = ground.discs[indices[slot]];
+        place(static_cast<std::uint32_t>(slot), window.begin);
+    }
+}
+
+template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own(const CellBlock& own) {
+    is_own.assign(indices.size(), 0);
+    bound_squared = ground.window.speed_bound * ground.window.speed_bound;
+    const double bound_lane = ground.window.speed_bound * cells_per_speed * (1 - 1e-6);
+    bound_lane_squared = static_cast<float>(bound_lane * bound_lane);
+    too_fast = 0;
+    cascade_begin = -1;
+    cascade = 0;
+    const int first_row = own.first_row == ground.first_own_row ? cells.first_row : own.first_row;
+    const int end_row = own.end_row == ground.end_own_row ? cells.end_row : own.end_row;
+    for (int column = cells.first_column; column < cells.end_column; ++column) {
+        const int owner = owning_column(column);
+        if (owner < own.first_column || owner >= own.end_column) continue;
+        const SlotRange run = grid_run(column, first_row, end_row - 1);
+        for (std::uint32_t slot = run.begin; slot < run.end; ++slot) {
+            if (indices[slot] >= ground.n_own) continue;
+            is_own[slot] = 1;
+        }
+    }
+}
+
+/// Writes down what has become of the block's own discs, and what has been seen of those of its ring.
+template <class Dynamics>
+void BlockRun<Dynamics>::Scratch::report(const CellBlock& own, std::span<std::uint64_t> histories) {
+    outcome->too_fast = too_fast;
+    double end_squared = 0;
+    // Memory for what a block has, not for twice as much: all blocks keep theirs until the window is validated.
+    std::size_t n_hit = 0;
+    for (std::size_t slot = 0; slot < past_events_of.size(); ++slot) n_hit += is_own[slot] != 0 && past_events_of[slot].history != 0;
+    outcome->hit.resize(n_hit);
+    outcome->states.resize(n_hit);
+    if constexpr (Dynamics::has_spin) outcome->spins.resize(n_hit);
+    std::size_t next = 0;
+    const int ring = ground.grid->frame().n_reach;
+    const int first_column = std::max(cells.first_column, own.first_column - ring);
+    const int end_column = std::min(cells.end_column, own.end_column + ring);
+    for (int column = first_column; column < end_column; ++column) {
+        const SlotRange run = grid_run(column, std::max(cells.first_row, own.first_row - ring),
+                                        std::min(cells.end_row, own.end_row + ring) - 1);
+        for (std::uint32_t slot = run.begin; slot < run.end; ++slot) {
+            const EventHistory& past_events = past_events_of[slot];
+            if (is_own[slot] == 0) {
+                outcome->ring.push_back({indices[slot], past_events.history});
+                continue;
+            }
+            histories[indices[slot]] = past_events.history;
+            end_squared = std::max(end_squared, speed_squared(discs[slot]));
+            if (past_events.history == 0) continue;
+            outcome->hit[next] = indices[slot];
+            outcome->states[next] = NewState(discs[slot]);
+            if constexpr (Dynamics::has_spin) outcome->spins[next] = spins[slot];
+            ++next;
+        }
+    }
+    ensure(next == n_hit, "a block's own discs lie in its own cells or next to them");
+    outcome->largest_speed_at_end = std::sqrt(end_squared) * (1 + 0x1p-50);
+}
+
+#define CARROM_DEFINE(Dynamics) \
+    template void BlockRun<Dynamics>::Scratch::gather(const BlockGround&, const CellBlock&, int); \
+    template void BlockRun<Dynamics>::Scratch::mark_own(const CellBlock&); \
+    template void BlockRun<Dynamics>::Scratch::report(const CellBlock&, std::span<std::uint64_t>);
+CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
+#undef CARROM_DEFINE
+
+} // namespace carrom

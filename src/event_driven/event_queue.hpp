@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Predicted collisions of one replay in their total order: time, generation, id of P, wall before pair, id of Q.
+//
+// Predictions are not taken back: one whose discs have collided since is known by their versions and passed over. Where
+// discs without room collide millions of times in a window such predictions pile up, so they are swept out whenever
+// there are twice as many as there were good ones.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/disc.hpp"
+
+namespace carrom {
+
+/// Stand for what is fixed in the place of a second disc: obstacles by their numbers, then the walls, x before y.
+inline constexpr std::uint32_t first_obstacle = 0x80000000, x_wall = 0xfffffffe, y_wall = 0xffffffff;
+inline bool is_wall(std::uint32_t partner) { return partner >= first_obstacle; }
+inline bool is_obstacle(std::uint32_t partner) { return partner >= first_obstacle && partner < x_wall; }
+
+struct Event {
+    double time = 0;
+    std::uint32_t generation = 0;
+    std::uint32_t p = 0, q = x_wall;              ///< slots; p has the lower id
+    std::uint32_t p_version = 0, q_version = 0;   ///< the states it was predicted from
+    std::uint32_t next = 0;                       ///< for the queue
+};
+static_assert(sizeof(Event) == 32);
+
+class EventOrder {
+public:
+    explicit EventOrder(std::span<const Disc> discs) : discs_(discs) {}
+
+    bool operator()(const Event& a, const Event& b) const {
+        if (a.time != b.time) [[likely]] return a.time < b.time;
+        return before_at_one_time(a, b);
+    }
+
+private:
+    bool before_at_one_time(const Event& a, const Event& b) const {
+        if (a.generation != b.generation) return a.generation < b.generation;
+        if (a.p != b.p && discs_[a.p].id != discs_[b.p].id) return discs_[a.p].id < discs_[b.p].id; // or two images of one
+        if (is_wall(a.q) || is_wall(b.q)) return is_wall(a.q) && (!is_wall(b.q) || a.q < b.q);
+        return discs_[a.q].id < discs_[b.q].id;
+    }
+
+    std::span<const Disc> discs_;
+};
+
+/// The same order backwards, for heaps with the first event on top.
+inline auto after(const EventOrder& before) {
+    return [&before](const Event& a, const Event& b) { return before(b, a); };
+}
+
+/// Buckets of equal length in time, some one event to a bucket: nearly all of a queue's work is to append to a list. The
+/// bucket that is being emptied is a heap, so that thousands of events at one time cost no more than the logarithm.
+class EventQueue {
+public:
+    /// Forgets all events; those to come lie in [begin, end], about `n_expected` of them at a time.
+    void restart(double begin, double end, std::size_t n_expected) {
+        pool_.clear();
+        first_free_ = none;
+        heads_.assign(std::max<std::size_t>(n_expected, 1), none);
+        begin_ = begin;
+        buckets_per_time_ = static_cast<double>(heads_.size()) / (end - begin);
+        current_ = 0;
+        now_.clear();
+        most_waiting_ = most_now_ = std::max<std::size_t>(least_to_sweep, 16 * n_expected);
+    }
+
+    void push(const Event& event, const EventOrder& before) {
+        const double place = (event.time - begin_) * buckets_per_time_;
+        const std::size_t bucket = std::min(static_cast<std::size_t>(place), heads_.size() - 1);
+        if (bucket <= current_) return push_now(event, before);
+        std::uint32_t entry = first_free_;
+        if (entry == none) {
+            entry = static_cast<std::uint32_t>(pool_.size());
+            pool_.emplace_back();
+        } else {
+            first_free_ = pool_[entry].next;
+        }
+        pool_[entry] = event;
+        pool_[entry].next = heads_[bucket];
+        heads_[bucket] = entry;
+    }
+
+    /// Takes out the first event for which `is_current(event)` holds and forgets those before it; false if there is none.
+    template <class IsCurrent> bool pop(Event& first, const EventOrder& before, const IsCurrent& is_current) {
+        if (is_crowded()) [[unlikely]] sweep(before, is_current);
+        for (;;) {
+            while (!now_.empty()) {
+                if (now_.size() > 1) std::pop_heap(now_.begin(), now_.end(), after(before));
+                first = now_.back();
+                now_.pop_back();
+                if (is_current(first)) return true;
+            }
+            if (++current_ >= heads_.size()) {
+                current_ = heads_.size() - 1;
+                return false;
+            }
+            empty_bucket(before, is_current);
+        }
+    }
+
+    std::size_t bytes() const {
+        return pool_.capacity() * sizeof(Event) + heads_.capacity() * sizeof(std::uint32_t) + now_.capacity() * sizeof(Event);
+    }
+
+private:
+    static constexpr std::uint32_t none = 0xffffffff;
+    static constexpr std::size_t least_to_sweep = 4096;
+
+    bool is_crowded() const { return now_.size() > most_now_ || (first_free_ == none && pool_.size() > most_waiting_); }
+
+    /// Forgets all events that are not current. Costs a look at each, for at least as many pushes before the next sweep.
+    template <class IsCurrent> void sweep(const EventOrder& before, const IsCurrent& is_current) {
+        std::erase_if(now_, [&is_current](const Event& event) { return !is_current(event); });
+        std::make_heap(now_.begin(), now_.end(), after(before));
+        most_now_ = std::max(most_now_, 2 * now_.size());
+        std::size_t n_kept = 0;
+        for (std::size_t bucket = current_ + 1; bucket < heads_.size(); ++bucket) {
+            std::uint32_t entry = heads_[bucket];
+            heads_[bucket] = none;
+            while (entry != none) {
+                Event& event = pool_[entry];
+                const bool is_kept = is_current(event);
+                std::uint32_t& head = is_kept ? heads_[bucket] : first_free_;
+                n_kept += is_kept;
+                entry = std::exchange(event.next, std::exchange(head, entry));
+            }
+        }
+        most_waiting_ = std::max(most_waiting_, 2 * n_kept);
+    }
+
+    void push_now(const Event& event, const EventOrder& before) {
+        now_.push_back(event);
+        if (now_.size() > 1) std::push_heap(now_.begin(), now_.end(), after(before));
+    }
+    template <class IsCurrent> void empty_bucket(const EventOrder& before, const IsCurrent& is_current) {
+        std::uint32_t entry = heads_[current_];
+        while (entry != none) {
+            const Event& taken = pool_[entry];
+            if (is_current(taken)) push_now(taken, before);
+            const std::uint32_t next = taken.next;
+            pool_[entry].next = first_free_;
+            first_free_ = entry;
+            entry = next;
+        }
+    }
+
+    double begin_ = 0, buckets_per_time_ = 1;
+    std::size_t current_ = 0; ///< the bucket in `now_`
+    std::vector<Event> now_;
+    std::vector<std::uint32_t> heads_;
+    std::vector<Event> pool_;
+    std::uint32_t first_free_ = none;
+    std::size_t most_now_ = least_to_sweep, most_waiting_ = least_to_sweep; ///< sizes of `now_` and `pool_` that ask for a sweep
+};
+
+} // namespace carrom

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "event_driven/initial_overlaps.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
+#include "engine/near_pairs.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr std::size_t n_named = 5;
+
+struct Overlap {
+    DiscId p = ~DiscId{0}, q = ~DiscId{0};
+    double depth = 0;
+
+    friend bool operator<(const Overlap& a, const Overlap& b) { return a.p != b.p ? a.p < b.p : a.q < b.q; }
+};
+
+/// The first pairs of a rank, or of all; the number counts those that are left out too.
+struct FirstOverlaps {
+    std::uint64_t number = 0;
+    std::array<Overlap, n_named> pairs; ///< ascending, empty places last
+
+    void add(const Overlap& overlap) {
+        ++number;
+        if (!(overlap < pairs.back())) return;
+        pairs.back() = overlap;
+        std::sort(pairs.begin(), pairs.end());
+    }
+};
+
+} // namespace
+
+void refuse_overlaps(const Population& population, const CellGrid& grid, double time, const Touching& touching,
+                     const Communicator& communicator, const std::string& scene_name) {
+    FirstOverlaps mine;
+    visit_near_pairs(grid, [&](LocalIndex a, LocalIndex b) {
+        if (population.discs[b].id < population.discs[a].id) std::swap(a, b);
+        if (a >= population.n_own) return; // the rank of the lower id counts the pair
+        const Disc& p = population.discs[a];
+        const Disc& q = population.discs[b];
+        const double dx = (q.x_at(time) - p.x_at(time)) + touching.periods.x_between(p, q);
+        const double dy = (q.y_at(time) - p.y_at(time)) + touching.periods.y_between(p, q);
+        const double depth = touching.diameter_of(p, q) - std::sqrt(dx * dx + dy * dy);
+        if (depth > 2 * touching.tolerance) mine.add({p.id, q.id, depth});
+    });
+    FirstOverlaps all;
+    std::uint64_t number = 0;
+    for (const FirstOverlaps& part : communicator.all_gather(mine)) {
+        number += part.number;
+        for (const Overlap& overlap : part.pairs) {
+            if (overlap.depth > 0) all.add(overlap);
+        }
+    }
+    if (number == 0) return;
+    std::string pairs;
+    for (const Overlap& overlap : all.pairs) {
+        if (overlap.depth > 0) pairs += fmt::format("{}{} and {} (by {:.3g})", pairs.empty() ? "" : ", ", overlap.p, overlap.q, overlap.depth);
+    }
+    throw InputError({{scene_name, 0,
+                       fmt::format("{} of discs overlap: {}{}; method = \"event-driven\" needs discs that do not",
+                                   number == 1 ? "1 pair" : fmt::format("{} pairs", number), pairs,
+                                   number > n_named ? ", ..." : "")}});
+}
+
+} // namespace carrom

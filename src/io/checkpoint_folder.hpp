@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The checkpoints of a run in their folder: how they are named, which is the newest, which ones go.
+//
+// These are calls of one rank, on a folder that all ranks see.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/write_problem.hpp"
+
+namespace carrom {
+
+/// "folder/checkpoint-000000001000.h5"
+std::string checkpoint_path(const std::string& folder, std::int64_t step);
+
+struct FoundFile {
+    std::string path;
+    std::int64_t step = 0;
+    bool is_finished = true; ///< false for what a killed run has left beside its place
+};
+
+/// Files named like checkpoints, those of the latest step first. A folder that is not there has none.
+std::vector<FoundFile> find_checkpoints(const std::string& folder);
+
+/// Makes the folder where there is none. Returns what keeps files from being written there, if anything does.
+Obstacle obstacle_to_folder(const std::string& folder);
+
+/// Removes a file if it is there.
+void remove_file(const std::string& path);
+
+} // namespace carrom

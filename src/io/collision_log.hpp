@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every collision of a run in one HDF5 file, in the total order over all ranks.
+//
+// Columns of /carrom/collisions: step (the one it happens in, from 1), time (in steps, from the start), p, q (-1: a
+// wall), impulse. Rank 0 writes what the ranks send in their order; see Trajectory for why, and for errors.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "io/checkpoint.hpp"
+#include "parallel/communicator.hpp"
+
+namespace carrom {
+
+struct LoggedCollision {
+    std::int64_t step = 0;
+    double time = 0;
+    std::int64_t p = 0, q = 0;
+    double impulse = 0;
+};
+
+class CollisionLog {
+public:
+    /// `communicator` must outlive this. `run`: of which run it is, scene and classes. No text: the file will not say.
+    CollisionLog(const std::string& path, const std::string& program_version, const Communicator& communicator, CheckpointHeader run = {});
+    ~CollisionLog();
+
+    /// As for Trajectory. `go_on` returns, on every rank, whether there was a file. **Collective.**
+    void begin();
+    bool go_on(std::int64_t step, const DifferenceFrom& difference_from = {});
+    void commit();
+
+    /// Adds the collisions of all ranks, those of rank 0 first. Later than all before. **Collective.**
+    void append(std::span<const LoggedCollision> mine);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_; ///< rank 0's
+    std::string path_, program_version_;
+    CheckpointHeader run_;
+    const Communicator& communicator_;
+};
+
+} // namespace carrom

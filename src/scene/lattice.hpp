@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A lattice of N discs between the walls with the widest gaps, and a random shake that closes none of them.
+//
+// Tried are a square lattice and two hexagonal ones (rows of n and n, rows of n and n-1 sites), stretched to fill the
+// box, over every number of rows; the one whose discs may move farthest wins. Sites keep the same distance s to the
+// walls as half of what they keep from each other, so each disc may be moved by up to s in any direction: no overlap,
+// none outside. Sites in excess of N stay empty, spread evenly. Finding it costs O(sqrt N), a site O(1).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/disc.hpp"
+
+namespace carrom {
+
+struct Lattice {
+    std::uint64_t n_discs = 0;
+    std::uint64_t rows = 0, columns = 0; ///< columns: sites of an even row
+    bool is_staggered = false;           ///< odd rows are shifted by half a spacing
+    bool odd_rows_are_shorter = false;   ///< by one site
+    double x0 = 0, y0 = 0;               ///< the first site
+    double dx = 0, dy = 0;               ///< spacings along and between rows
+    double free_radius = 0;              ///< s: how far each disc may move
+
+    std::uint64_t n_sites() const { return rows * columns - (odd_rows_are_shorter ? rows / 2 : 0); }
+};
+
+/// Nothing where even the widest lattice has overlaps. Needs n_discs > 0, box_size >= 2 radius > 0.
+std::optional<Lattice> widest_lattice(std::uint64_t n_discs, double box_size, double radius);
+
+struct Point {
+    double x = 0, y = 0;
+
+    friend bool operator==(const Point&, const Point&) = default;
+};
+
+/// The site of disc `id`.
+Point lattice_site(const Lattice& lattice, DiscId id);
+
+/// The site, shaken: moved to a random place within `free_radius`.
+Point shaken_site(const Lattice& lattice, DiscId id, std::uint64_t seed);
+
+} // namespace carrom

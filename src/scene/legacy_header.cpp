@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/legacy_header.hpp"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "scene/number.hpp"
+
+namespace carrom {
+
+namespace {
+
+struct Entry {
+    std::string_view key;
+    std::string_view meaning;
+    bool is_integer;
+};
+
+constexpr std::array<Entry, legacy_header_lines> entries = {{{"discs.count", "N, the number of discs", true},
+                                                               {"box.size", "L, the side of the box", false},
+                                                               {"discs.radius", "r, the radius of a disc", false},
+                                                               {"time.steps", "S, the number of steps", true},
+                                                               {"output.text", "'print' or 'perf'", false}}};
+
+void add_entry(Settings& settings, Problems& problems, const Entry& entry, std::string_view word, const Place& place) {
+    Setting setting{std::string(entry.key), place, {}};
+    if (entry.key == "output.text") {
+        if (word == "print" || word == "perf") setting.value = std::string(word == "print" ? "every_step" : "ends");
+        else return add_problem(problems, place, fmt::format("expected {}, not {}", entry.meaning, quoted(word)));
+    } else if (const auto integer = parse_integer(word); entry.is_integer && integer) {
+        setting.value = *integer;
+    } else if (const auto number = parse_double(word)) {
+        setting.value = *number;
+    } else {
+        return add_problem(problems, place, fmt::format("expected {}, not {}", entry.meaning, quoted(word)));
+    }
+    settings.set(std::move(setting));
+}
+
+} // namespace
+
+void add_legacy_header(Settings& settings, Problems& problems, std::string_view text, const std::string& name,
+                         bool discs_follow) {
+    for (const Entry& entry : entries) settings.mention(entry.key);
+    Place place{name, 0};
+    std::size_t found = 0;
+    while (!text.empty() && found < entries.size()) {
+        const std::size_t end = text.find('\n');
+        const std::string_view line = trimmed(text.substr(0, end));
+        text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
+        place.line += 1;
+        if (line.empty()) continue;
+        const Entry& entry = entries[found++];
+        const std::string_view word = line.substr(0, line.find_first_of(" \t\r"));
+        add_entry(settings, problems, entry, word, place);
+        if (word.size() < line.size())
+            add_problem(problems, place, fmt::format("{} after {}", quoted(trimmed(line.substr(word.size()))), entry.meaning));
+    }
+    if (found == 0)
+        add_problem(problems, {name, 0}, "the input is empty; expected N, L, r, S and 'print' or 'perf', one per line");
+    else if (found < entries.size())
+        add_problem(problems, place, fmt::format("the input ends before {}", entries[found].meaning));
+    settings.set({"discs.generator", place, std::string(discs_follow ? "file" : "legacy")});
+}
+
+} // namespace carrom

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A collision that may happen, and the total order that says which of two comes first.
+//
+// A candidate names its discs by their places in this rank's arrays; their ids are looked up only to break ties.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "time_stepped/window.hpp"
+#include "core/disc.hpp"
+
+namespace carrom {
+
+/// Stands for the wall where a candidate has no second disc.
+inline constexpr LocalIndex wall = std::numeric_limits<LocalIndex>::max();
+
+struct Candidate {
+    double time = 0;             ///< in-step time of its micro-step, in [0, 1]
+    LocalIndex p = 0, q = wall;  ///< p has the lower id
+
+    bool is_wall() const { return q == wall; }
+};
+static_assert(sizeof(Candidate) == 16);
+
+/// Time, then id of P, then wall before pair, then id of Q: exactly, never with a tolerance.
+class TotalOrder {
+public:
+    explicit TotalOrder(std::span<const Disc> discs) : discs_(discs) {}
+
+    bool operator()(const Candidate& a, const Candidate& b) const {
+        if (a.time != b.time) return a.time < b.time;
+        if (a.p != b.p && discs_[a.p].id != discs_[b.p].id) return discs_[a.p].id < discs_[b.p].id; // or two images of one
+        if (a.is_wall() || b.is_wall()) return a.is_wall() && !b.is_wall();
+        return discs_[a.q].id < discs_[b.q].id;
+    }
+
+private:
+    std::span<const Disc> discs_;
+};
+
+/// Whether neither disc has been hit since the prediction, before which the last state of any was `seen`; `states` by disc.
+inline bool is_current(const Candidate& candidate, WindowState seen, std::span<const WindowState> states) {
+    return states[candidate.p] <= seen && (candidate.is_wall() || states[candidate.q] <= seen);
+}
+
+} // namespace carrom

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "time_stepped/local_resolution.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+
+#include <omp.h>
+
+namespace carrom {
+
+namespace {
+
+// Marks beside candidate numbers.
+constexpr std::uint32_t free_disc = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t taken_disc = free_disc - 1;
+constexpr std::uint32_t blocked_disc = free_disc - 2;
+
+bool has_halo_disc(const Candidate& candidate, std::size_t n_own) {
+    return candidate.p >= n_own || (!candidate.is_wall() && candidate.q >= n_own);
+}
+
+std::uint32_t read(std::uint32_t& mark) { return std::atomic_ref<std::uint32_t>(mark).load(std::memory_order_relaxed); }
+void write(std::uint32_t& mark, std::uint32_t value) {
+    std::atomic_ref<std::uint32_t>(mark).store(value, std::memory_order_relaxed);
+}
+
+/// Puts candidate `number` into `mark` if it comes before the one that is there. Where threads do so at once one of them may be lost.
+void offer(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate> live, const TotalOrder& before) {
+    const std::uint32_t seen = read(mark);
+    if (seen == free_disc || before(live[number], live[seen])) write(mark, number);
+}
+
+/// The same when all have offered, for what was lost then: hardly any.
+void insist(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate> live, const TotalOrder& before) {
+    std::atomic_ref<std::uint32_t> place(mark);
+    std::uint32_t seen = place.load(std::memory_order_relaxed);
+    while (seen != number && (seen == free_disc || before(live[number], live[seen]))) {
+        if (place.compare_exchange_weak(seen, number, std::memory_order_relaxed)) return;
+    }
+}
+
+} // namespace
+
+void LocalResolution::resolve(const Population& population, std::vector<Candidate>& live, Verdicts& verdicts) {
+    verdicts.kept.clear();
+    verdicts.undecided.clear();
+    verdicts.n_rounds = 0;
+    if (first_.size() < population.discs.size()) first_.resize(population.discs.size(), free_disc);
+    kept_by_thread_.resize(static_cast<std::size_t>(n_threads_));
+    live_by_thread_.resize(static_cast<std::size_t>(n_threads_));
+    places_.resize(static_cast<std::size_t>(n_threads_));
+    verdicts.kept.reserve(live.size());
+    while (!live.empty()) {
+        if (verdicts.n_rounds >= rounds_before_walk) return walk(population, live, verdicts);
+        ++verdicts.n_rounds;
+        const bool concurrent = n_threads_ > 1 && live.size() > 512;
+        const std::size_t n_kept = concurrent ? round_together(population, live, verdicts) : round_alone(population, live, verdicts);
+        if (n_kept == 0) {
+            std::swap(verdicts.undecided, live);
+            return;
+        }
+    }
+}
+
+std::size_t LocalResolution::round_alone(const Population& population, std::vector<Candidate>& live, Verdicts& verdicts) {
+    const TotalOrder before(population.discs);
+    const std::size_t old_kept = verdicts.kept.size();
+    for (std::size_t k = 0; k < live.size(); ++k) {
+        for (const LocalIndex index : {live[k].p, live[k].q})
+            if (index != wall && (first_[index] == free_disc || before(live[k], live[first_[index]]))) first_[index] = static_cast<std::uint32_t>(k);
+    }
+    for (std::size_t k = 0; k < live.size(); ++k) {
+        const Candidate& candidate = live[k];
+        if (first_[candidate.p] != k || (!candidate.is_wall() && first_[candidate.q] != k) || has_halo_disc(candidate, population.n_own)) continue;
+        verdicts.kept.push_back(candidate);
+        first_[candidate.p] = taken_disc;
+        if (!candidate.is_wall()) first_[candidate.q] = taken_disc;
+    }
+    // Every rival of what was kept is struck: the discs' marks are no longer needed.
+    const auto is_struck = [&](const Candidate& candidate) {
+        const bool p_taken = first_[candidate.p] == taken_disc, q_taken = !candidate.is_wall() && first_[candidate.q] == taken_disc;
+        if (!p_taken) first_[candidate.p] = free_disc;
+        if (!candidate.is_wall() && !q_taken) first_[candidate.q] = free_disc;
+        return p_taken || q_taken;
+    };
+    std::erase_if(live, is_struck);
+    for (std::size_t k = old_kept; k < verdicts.kept.size(); ++k) {
+        for (const LocalIndex index : {verdicts.kept[k].p, verdicts.kept[k].q})
+            if (index != wall) first_[index] = free_disc;
+    }
+    return verdicts.kept.size() - old_kept;
+}
+
+std::size_t LocalResolution::round_together(const Population& population, std::vector<Candidate>& live, Verdicts& verdicts) {
+    const TotalOrder before(population.discs);
+    const std::size_t old_kept = verdicts.kept.size();
+    const auto n_live = static_cast<std::int64_t>(live.size());
+    const std::size_t n_lists = kept_by_thread_.size();
+#pragma omp parallel num_threads(n_threads_)
+    {
+        std::vector<Candidate>& kept = kept_by_thread_[static_cast<std::size_t>(omp_get_thread_num())];
+        std::vector<Candidate>& rest = live_by_thread_[static_cast<std::size_t>(omp_get_thread_num())];
+        kept.clear();
+        rest.clear();
+#pragma omp for schedule(static)
+        for (std::int64_t k = 0; k < n_live; ++k) {
+            const Candidate& candidate = live[static_cast<std::size_t>(k)];
+            const auto number = static_cast<std::uint32_t>(k);
+            offer(first_[candidate.p], number, live, before);
+            if (!candidate.is_wall()) offer(first_[candidate.q], number, live, before);
+        }
+        // An exchange that compares costs as much as all else that is done for a candidate.
+#pragma omp for schedule(static)
+        for (std::int64_t k = 0; k < n_live; ++k) {
+            const Candidate& candidate = live[static_cast<std::size_t>(k)];
+            const auto number = static_cast<std::uint32_t>(k);
+            insist(first_[candidate.p], number, live, before);
+            if (!candidate.is_wall()) insist(first_[candidate.q], number, live, before);
+        }
+#pragma omp for schedule(static)
+        for (std::int64_t k = 0; k < n_live; ++k) {
+            const Candidate& candidate = live[static_cast<std::size_t>(k)];
+            const auto number = static_cast<std::uint32_t>(k);
+            const bool is_first = read(first_[candidate.p]) == number &&
+                                  (candidate.is_wall() || read(first_[candidate.q]) == number);
+            if (!is_first || has_halo_disc(candidate, population.n_own)) continue;
+            kept.push_back(candidate);
+            write(first_[candidate.p], taken_disc);
+            if (!candidate.is_wall()) write(first_[candidate.q], taken_disc);
+        }
+#pragma omp for schedule(static)
+        for (std::int64_t k = 0; k < n_live; ++k) {
+            const Candidate& candidate = live[static_cast<std::size_t>(k)];
+            const bool p_taken = read(first_[candidate.p]) == taken_disc;
+            const bool q_taken = !candidate.is_wall() && read(first_[candidate.q]) == taken_disc;
+            if (!p_taken) write(first_[candidate.p], free_disc);
+            if (!candidate.is_wall() && !q_taken) write(first_[candidate.q], free_disc);
+            if (!p_taken && !q_taken) rest.push_back(candidate);
+        }
+        // Every rival of what was kept is struck: the discs' marks are no longer needed.
+        for (const Candidate& candidate : kept) {
+            write(first_[candidate.p], free_disc);
+            if (!candidate.is_wall()) write(first_[candidate.q], free_disc);
+        }
+#pragma omp single
+        {
+            std::size_t n_kept = 0, n_rest = 0;
+            for (std::size_t thread = 0; thread < n_lists; ++thread) {
+                places_[thread] = {old_kept + n_kept, n_rest};
+                n_kept += kept_by_thread_[thread].size();
+                n_rest += live_by_thread_[thread].size();
+            }
+            verdicts.kept.resize(old_kept + n_kept);
+            live.resize(n_rest);
+        }
+        const auto [kept_place, rest_place] = places_[static_cast<std::size_t>(omp_get_thread_num())];
+        std::copy(kept.begin(), kept.end(), verdicts.kept.begin() + static_cast<std::ptrdiff_t>(kept_place));
+        std::copy(rest.begin(), rest.end(), live.begin() + static_cast<std::ptrdiff_t>(rest_place));
+    }
+    return verdicts.kept.size() - old_kept;
+}
+
+void LocalResolution::walk(const Population& population, std::vector<Candidate>& live, Verdicts& verdicts) {
+    std::sort(live.begin(), live.end(), TotalOrder(population.discs));
+    touched_.clear();
+    const auto mark_both = [&](const Candidate& candidate, std::uint32_t mark) {
+        for (const LocalIndex index : {candidate.p, candidate.q}) {
+            if (index == wall || first_[index] == taken_disc) continue;
+            first_[index] = mark;
+            touched_.push_back(index);
+        }
+    };
+    for (const Candidate& candidate : live) {
+        const std::uint32_t p_mark = first_[candidate.p];
+        const std::uint32_t q_mark = candidate.is_wall() ? free_disc : first_[candidate.q];
+        if (p_mark == taken_disc || q_mark == taken_disc) continue;
+        if (p_mark == blocked_disc || q_mark == blocked_disc || has_halo_disc(candidate, population.n_own)) {
+            verdicts.undecided.push_back(candidate);
+            mark_both(candidate, blocked_disc);
+        } else {
+            verdicts.kept.push_back(candidate);
+            mark_both(candidate, taken_disc);
+        }
+    }
+    for (const LocalIndex index : touched_) first_[index] = free_disc;
+    live.clear();
+}
+
+} // namespace carrom

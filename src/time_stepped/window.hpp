@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A slice of time that is searched at once: several whole micro-steps, or a part of one when discs are fast.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "geometry/pair_contact.hpp"
+
+namespace carrom {
+
+/// Which of its states a disc is in: 0 for the one that it came into the window with, n + 1 for the one that the window's
+/// micro-step n (from 0) gave it. One byte a disc to look at instead of a cache line.
+using WindowState = std::uint8_t;
+inline constexpr int longest_window = 254; ///< micro-steps
+
+/// Micro-steps are counted from the last sync. A part's ends are in-step times; both sides of a cut use the same number.
+struct Window {
+    int first_micro = 0;
+    int n_micro = 1;
+    double part_begin = 0; ///< 0 unless the micro-step is cut
+    double part_end = 1;   ///< the last part of a micro-step includes its end
+
+    bool is_last_part() const { return part_end == 1; }
+    bool is_part() const { return part_begin > 0 || part_end < 1; }
+    int end_micro() const { return first_micro + n_micro; }
+    WindowState state_after(int m) const { return static_cast<WindowState>(m - first_micro + 1); }
+    double begin() const { return first_micro + part_begin; }
+    double duration() const { return n_micro > 1 ? n_micro : part_end - part_begin; }
+    /// The time whose places say in which strip and cell a disc is. From the middle no disc gets further away than half
+    /// the window takes it; discs that fly on after a collision could, so a window of several micro-steps uses its start.
+    double anchor() const { return n_micro > 1 ? first_micro : first_micro + (part_begin + part_end) / 2; }
+    bool holds(double in_step_time) const {
+        return in_step_time >= part_begin && (in_step_time < part_end || is_last_part());
+    }
+};
+
+/// In-step time of a contact as micro-step m sees it.
+template <class Real> Real in_step_time(const PairContact<Real>& contact, int m) {
+    return (contact.base - static_cast<Real>(m)) + contact.delay;
+}
+
+/// The first micro-step of [from, to) that has this contact as a candidate (0 <= t <= 1), or `to`.
+template <class Real> int first_micro_step(const PairContact<Real>& contact, int from, int to) {
+    const double time = contact.base + contact.delay;
+    if (!(time < to + 1.0)) return to;
+    const int guess = static_cast<int>(time);
+    for (int m = std::max(from, guess - 1); m <= guess + 1 && m < to; ++m) {
+        const Real t = in_step_time(contact, m);
+        if (t >= 0 && t <= 1) return m;
+    }
+    return to;
+}
+
+} // namespace carrom

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Discs sorted by several threads, against the cell of each disc, looked up alone: in order, nearly so, and in none.
+#include "cell_list/cell_grid.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <random>
+#include <span>
+#include <vector>
+
+#include "catch.hpp"
+
+using carrom::CellGrid;
+using carrom::Disc;
+using carrom::GridFrame;
+using carrom::LocalIndex;
+
+namespace {
+
+constexpr double box = 200;
+
+std::vector<Disc> gas(std::mt19937& random, std::size_t n) {
+    std::uniform_real_distribution<double> place(-1, box + 1), velocity(-1, 1); // some outside: they belong to border cells
+    std::vector<Disc> discs(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        discs[i].x = place(random);
+        discs[i].y = place(random);
+        discs[i].vx = velocity(random);
+        discs[i].vy = velocity(random);
+        discs[i].id = i;
+    }
+    return discs;
+}
+
+/// Each disc is in the run of the cell in which it is, once; `before` as they came, for none may be lost or changed.
+void check_cells(const CellGrid& grid, const std::vector<Disc>& discs, double time, const std::vector<Disc>& before) {
+    const GridFrame& frame = grid.frame();
+    REQUIRE(grid.is_valid(discs.size()));
+    std::vector<bool> is_placed(discs.size(), false), is_there(discs.size(), false);
+    const auto check = [&](LocalIndex index, int column, int row) {
+        REQUIRE_FALSE(is_placed[index]);
+        is_placed[index] = true;
+        REQUIRE(frame.column_of(discs[index].x_at(time)) == column);
+        REQUIRE(frame.row_of(discs[index].y_at(time)) == row);
+    };
+    for (int column = 0; column < frame.n_columns; ++column) {
+        for (int row = 0; row < frame.n_rows; ++row) {
+            const carrom::SlotRange cell = grid.run(column, row, row), of_halo = grid.halo_run(column, row, row);
+            REQUIRE(cell.begin <= cell.end);
+            for (LocalIndex index = cell.begin; index < cell.end; ++index) {
+                check(index, column, row);
+                REQUIRE(grid.cell_of(index).column == column);
+                REQUIRE(grid.cell_of(index).row == row);
+            }
+            for (std::uint32_t slot = of_halo.begin; slot < of_halo.end; ++slot) {
+                check(grid.halo_index(slot), column, row);
+                REQUIRE(grid.halo_slot(grid.halo_index(slot)) == slot);
+            }
+        }
+    }
+    REQUIRE(std::count(is_placed.begin(), is_placed.end(), true) == static_cast<std::ptrdiff_t>(discs.size()));
+    for (const Disc& disc : discs) {
+        REQUIRE_FALSE(is_there[disc.id]);
+        is_there[disc.id] = true;
+        REQUIRE((disc.x == before[disc.id].x && disc.y == before[disc.id].y && disc.vx == before[disc.id].vx && disc.vy == before[disc.id].vy));
+    }
+}
+
+void check_flight(const GridFrame& frame, const carrom::FlightLanes& lanes, std::uint32_t slot, const Disc& disc, double time, double duration) {
+    CHECK(lanes.x[slot] == Approx((disc.x_at(time) - frame.x_low) / frame.cell_width).epsilon(1e-5).margin(1e-5));
+    CHECK(lanes.y[slot] == Approx((disc.y_at(time) - frame.y_low) / frame.cell_width).epsilon(1e-5).margin(1e-5));
+    CHECK(lanes.vx[slot] == Approx(disc.vx * duration / frame.cell_width).epsilon(1e-5).margin(1e-5));
+    CHECK(lanes.vy[slot] == Approx(disc.vy * duration / frame.cell_width).epsilon(1e-5).margin(1e-5));
+}
+
+void check_flights(const CellGrid& grid, const std::vector<Disc>& discs, double time, double duration) {
+    for (LocalIndex index = 0; index < discs.size(); ++index) {
+        if (index < grid.n_own()) check_flight(grid.frame(), grid.lanes(), index, discs[index], time, duration);
+        else check_flight(grid.frame(), grid.halo_lanes(), grid.halo_slot(index), discs[index], time, duration);
+    }
+}
+
+} // namespace
+
+TEST_CASE("threads bring discs into the order of the cells in which they are") {
+    std::mt19937 random(11);
+    const double time = 0.7, duration = 3;
+    for (const std::size_t n : {0, 1, 3, 500, 4000, 20000}) {
+        for (const double reach : {2.0, 9.0, 150.0, 400.0}) {
+            for (const int n_threads : {1, 2, 3, 5, 16}) {
+                std::vector<Disc> discs = gas(random, n);
+                std::vector<Disc> before = discs;
+                const GridFrame frame = carrom::make_frame(0, box, 0, box, reach, n, 0);
+                CellGrid grid;
+                grid.sort(discs, frame, time, time, duration, n_threads); // in no order
+                check_cells(grid, discs, time, before);
+                check_flights(grid, discs, time, duration);
+                for (Disc& disc : discs) disc.x += 5 * disc.vx;
+                const std::vector<Disc> arrived = gas(random, n / 10);
+                for (const Disc& disc : arrived) {
+                    discs.push_back(disc);
+                    discs.back().id = discs.size() - 1;
+                }
+                before.resize(discs.size());
+                for (const Disc& disc : discs) before[disc.id] = disc;
+                std::vector<Disc> twins = discs; // what runs along goes where the discs go
+                std::vector<double> spins;
+                for (const Disc& disc : discs) spins.push_back(static_cast<double>(disc.id));
+                grid.sort(discs, frame, time, time, duration, n_threads, {}, {twins, spins}); // nearly in order, and some of anywhere behind
+                check_cells(grid, discs, time, before);
+                check_flights(grid, discs, time, duration);
+                for (std::size_t i = 0; i < discs.size(); ++i) REQUIRE((twins[i].id == discs[i].id && spins[i] == static_cast<double>(discs[i].id)));
+                grid.sort_cells(discs, frame, time, n_threads); // in order
+                check_cells(grid, discs, time, before);
+            }
+        }
+    }
+}
+
+TEST_CASE("a halo's discs have cells of their own where there are any, and flights that can be changed") {
+    std::mt19937 random(12);
+    const double time = 2, duration = 4;
+    for (const std::size_t n : {0, 1, 40, 2000}) {
+        for (const double reach : {2.0, 30.0}) {
+            std::vector<Disc> discs = gas(random, 1000);
+            const std::vector<Disc> halo = gas(random, n);
+            const GridFrame frame = carrom::make_frame(0, box, 0, box, reach, discs.size(), 0);
+            CellGrid grid;
+            grid.sort(discs, frame, time, time, duration, 1);
+            for (const Disc& disc : halo) {
+                discs.push_back(disc);
+                discs.back().x *= 0.3; // most columns have none
+                discs.back().id = discs.size() - 1;
+            }
+            grid.add_halo(std::span<const Disc>(discs).subspan(1000));
+            std::vector<Disc> before(discs.size());
+            for (const Disc& disc : discs) before[disc.id] = disc;
+            check_cells(grid, discs, time, before);
+            for (LocalIndex index = 0; index < discs.size(); index += 7) {
+                discs[index].vx = -discs[index].vy;
+                grid.update_flight(index, discs[index]);
+            }
+            check_flights(grid, discs, time, duration);
+        }
+    }
+}
+
+TEST_CASE("no disc outside of an inner part is left out of those that are listed for it") {
+    std::mt19937 random(13);
+    std::uniform_real_distribution<double> edge(-20, box + 20);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const double reach : {1.0, 7.0, 90.0, 500.0}) {
+        std::vector<Disc> discs = gas(random, 3000);
+        CellGrid grid;
+        grid.sort(discs, carrom::make_frame(0, box, 0, box, reach, discs.size(), 0), 1, 1, 1, 1);
+        for (int k = 0; k < 200; ++k) {
+            carrom::Inside inner{edge(random), edge(random), edge(random), edge(random)};
+            if (k % 3 == 0) inner.y_low = -infinity, inner.y_high = infinity;
+            if (k % 5 == 0) inner.x_low = -infinity;
+            if (k % 7 == 0) inner.x_high = infinity;
+            std::vector<bool> is_listed(discs.size(), false);
+            std::uint32_t last = 0;
+            for (const carrom::SlotRange range : grid.outside(inner)) {
+                REQUIRE(range.begin >= last);
+                REQUIRE(range.begin < range.end);
+                last = range.end;
+                for (std::uint32_t i = range.begin; i < range.end; ++i) is_listed[i] = true;
+            }
+            for (std::size_t i = 0; i < discs.size(); ++i)
+                if (!inner.holds(discs[i].x_at(1), discs[i].y_at(1))) REQUIRE(is_listed[i]);
+        }
+    }
+    std::vector<Disc> discs = gas(random, 100'000);
+    CellGrid grid;
+    grid.sort(discs, carrom::make_frame(0, box, 0, box, 2, discs.size(), 0), 0, 0, 1, 1);
+    std::size_t n_listed = 0;
+    for (const carrom::SlotRange range : grid.outside({20, 180, -infinity, infinity})) n_listed += range.end - range.begin;
+    CHECK(n_listed < 25'000); // those of a fifth of the box, and of the columns at its edge
+}
