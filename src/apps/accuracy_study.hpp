@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two studies of `carrom accuracy`: what settings make of collision rates and pressures, and at what cost; and how far
-// their discs get from those of the exact run, along time. Both run every setting from the same starts.
+// The two studies of `carrom accuracy`: what settings make of collision rates and pressures, and at
+// what cost; and how far their discs get from those of the exact run, along time. Both run every
+// setting from the same starts.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,11 @@
 
 namespace carrom {
 
-enum class Formulas { usual, stable, all }; ///< double and stable; both precisions; and the naive formulas too
+enum class Formulas {
+    usual,
+    stable,
+    all
+}; ///< double and stable; both precisions; and the naive formulas too
 
 struct StudyOptions {
     std::string table = "accuracy.csv";
@@ -23,10 +28,14 @@ struct StudyOptions {
     bool quiet = false;
 };
 
-/// Costs and errors of K = 1, 2, 4, ... under both rules; repetitions take turns. Throws InputError. On one rank.
-void study_costs(const Scene& scene, const std::vector<InputDisc>& discs, const StudyOptions& options, const Communicator& ranks);
+/// Costs and errors of K = 1, 2, 4, ... under both rules; repetitions take turns. Throws
+/// InputError. On one rank.
+void study_costs(const Scene& scene, const std::vector<InputDisc>& discs,
+                 const StudyOptions& options, const Communicator& ranks);
 
-/// Distances to the exact run after about each collision of a disc, for K = 1, 16, 256. Throws InputError. On one rank.
-void study_distances(const Scene& scene, const std::vector<InputDisc>& discs, const StudyOptions& options, const Communicator& ranks);
+/// Distances to the exact run after about each collision of a disc, for K = 1, 16, 256. Throws
+/// InputError. On one rank.
+void study_distances(const Scene& scene, const std::vector<InputDisc>& discs,
+                     const StudyOptions& options, const Communicator& ranks);
 
 } // namespace carrom

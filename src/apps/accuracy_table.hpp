@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tables that `carrom accuracy` writes: a line for each trial, or, of distances along time, one for each look.
+// The tables that `carrom accuracy` writes: a line for each trial, or, of distances along time, one
+// for each look.
 #pragma once
 
 #include <string>
@@ -30,13 +31,15 @@ public:
 
     bool has(const Scene& scene, const TrialStart& start, const TrialKey& key) const;
     /// Adds a line; `distance` is that to the exact run at the early step. Throws where that fails.
-    void add(const Scene& scene, const TrialStart& start, const TrialKey& key, const Trial& trial, const Distance& distance,
-             int threads);
+    void add(const Scene& scene, const TrialStart& start, const TrialKey& key, const Trial& trial,
+             const Distance& distance, int threads);
     /// A trial that could not be run: the line holds the reason, and no numbers.
-    void add_failure(const Scene& scene, const TrialStart& start, const TrialKey& key, const std::string& reason, int threads);
+    void add_failure(const Scene& scene, const TrialStart& start, const TrialKey& key,
+                     const std::string& reason, int threads);
 
 private:
-    void append(const std::string& key, const std::vector<std::string>& fields, const std::string& failure, int threads);
+    void append(const std::string& key, const std::vector<std::string>& fields,
+                const std::string& failure, int threads);
 
     CsvTable table_;
 };
@@ -48,9 +51,11 @@ public:
     explicit DistanceTable(const std::string& path);
 
     /// Whether a trial has its line at that step; the last one says that it is done.
-    bool has(const Scene& scene, const TrialStart& start, const TrialKey& key, std::int64_t step) const;
+    bool has(const Scene& scene, const TrialStart& start, const TrialKey& key,
+             std::int64_t step) const;
     /// `collisions` are those that a disc has had with others in the exact run until then.
-    void add(const Scene& scene, const TrialStart& start, const TrialKey& key, std::int64_t step, double collisions, const Distance& distance);
+    void add(const Scene& scene, const TrialStart& start, const TrialKey& key, std::int64_t step,
+             double collisions, const Distance& distance);
 
 private:
     CsvTable table_;

@@ -49,7 +49,8 @@ Action printed(std::string text) {
 } // namespace
 
 Action parse_command_line(int argc, char** argv) {
-    CLI::App app("Carrom: hard discs in a square box, the same bits on every machine shape", "carrom");
+    CLI::App app("Carrom: hard discs in a square box, the same bits on every machine shape",
+                 "carrom");
     app.set_version_flag("--version", "carrom " + version());
     app.set_help_flag("-h,--help", "Print this help and exit");
     app.footer(examples);
@@ -66,8 +67,10 @@ Action parse_command_line(int argc, char** argv) {
         return printed("carrom " + version());
     } catch (const CLI::ParseError& error) {
         std::string reason = error.what();
-        if (argc < 2) reason = "say what to do, as in carrom run SCENE.toml";
-        else if (app.get_subcommands().empty()) reason = fmt::format("'{}' is no subcommand", argv[1]);
+        if (argc < 2)
+            reason = "say what to do, as in carrom run SCENE.toml";
+        else if (app.get_subcommands().empty())
+            reason = fmt::format("'{}' is no subcommand", argv[1]);
         throw InputError({{"command line", 0, reason + " (see carrom --help)"}});
     }
     return action;

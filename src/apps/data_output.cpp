@@ -12,7 +12,8 @@
 namespace carrom {
 
 DataOutput::DataOutput(const std::string& path)
-    : name_(path.empty() ? "standard output" : path), file_(STDOUT_FILENO), is_ours_(!path.empty()) {
+    : name_(path.empty() ? "standard output" : path), file_(STDOUT_FILENO),
+      is_ours_(!path.empty()) {
     std::signal(SIGPIPE, SIG_IGN);
     if (!is_ours_) return;
     file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
@@ -37,7 +38,8 @@ void DataOutput::flush() {
         if (written >= 0) {
             next += written;
             left -= static_cast<std::size_t>(written);
-        } else if (errno == EAGAIN) { // someone made the pipe non-blocking: wait until there is room
+        } else if (errno ==
+                   EAGAIN) { // someone made the pipe non-blocking: wait until there is room
             pollfd room{file_, POLLOUT, 0};
             ::poll(&room, 1, -1);
         } else if (errno != EINTR) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the data of a run goes, standard output or a file: large writes, and a failure that is remembered instead of
-// ending the process.
+// Where the data of a run goes, standard output or a file: large writes, and a failure that is
+// remembered instead of ending the process.
 //
-// Works on a file descriptor: a closed pipe or a full disk is then an errno at a known place. The caller tells the
-// other ranks of a failure. Under mpirun standard output is a pipe to mpirun, which keeps a full disk to itself; a file
-// is written by the program.
+// Works on a file descriptor: a closed pipe or a full disk is then an errno at a known place. The
+// caller tells the other ranks of a failure. Under mpirun standard output is a pipe to mpirun,
+// which keeps a full disk to itself; a file is written by the program.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,8 @@ namespace carrom {
 
 class DataOutput {
 public:
-    /// Opens the file, emptying it; standard output where `path` is empty. From here on a closed pipe is an error of
-    /// `flush`, not the end of the process.
+    /// Opens the file, emptying it; standard output where `path` is empty. From here on a closed
+    /// pipe is an error of `flush`, not the end of the process.
     explicit DataOutput(const std::string& path);
     ~DataOutput();
     DataOutput(const DataOutput&) = delete;
@@ -31,7 +31,8 @@ public:
     void flush_if_full();
     void flush();
 
-    /// Some file systems tell of a full disk only when a file is closed. Nothing may be written after this.
+    /// Some file systems tell of a full disk only when a file is closed. Nothing may be written
+    /// after this.
     void close();
 
     /// What went wrong first, empty while all is well. After a failure nothing more is written.
@@ -49,7 +50,8 @@ private:
     std::string failure_;
 };
 
-/// What would keep a DataOutput from opening `path`, if anything is known to. Leaves the file as it is.
+/// What would keep a DataOutput from opening `path`, if anything is known to. Leaves the file as it
+/// is.
 Obstacle obstacle_to_opening(const std::string& path);
 
 } // namespace carrom

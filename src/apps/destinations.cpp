@@ -23,12 +23,14 @@ bool is_same_file(const std::string& a, const std::string& b) {
 bool is_special(const std::string& path) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
-    return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) && !std::filesystem::is_directory(status);
+    return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+           !std::filesystem::is_directory(status);
 }
 
 } // namespace
 
-std::vector<Problem> problems_with(const std::vector<NamedFile>& destinations, const std::vector<NamedFile>& sources) {
+std::vector<Problem> problems_with(const std::vector<NamedFile>& destinations,
+                                   const std::vector<NamedFile>& sources) {
     std::vector<Problem> problems;
     for (std::size_t k = 0; k < destinations.size(); ++k) {
         const NamedFile& target = destinations[k];
@@ -40,10 +42,12 @@ std::vector<Problem> problems_with(const std::vector<NamedFile>& destinations, c
             continue;
         }
         for (const NamedFile& source : sources)
-            if (is_same_file(target.path, source.path)) refuse(fmt::format("is {} itself", source.name));
+            if (is_same_file(target.path, source.path))
+                refuse(fmt::format("is {} itself", source.name));
         for (std::size_t other = 0; other < k; ++other)
             if (is_same_file(target.path, destinations[other].path))
-                refuse(fmt::format("is the same file as {}; each needs its own", destinations[other].name));
+                refuse(fmt::format("is the same file as {}; each needs its own",
+                                   destinations[other].name));
     }
     return problems;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that a run writes must not be files that it reads, nor each other, nor devices: found out before anything is
-// opened for writing, so that nothing is lost.
+// Files that a run writes must not be files that it reads, nor each other, nor devices: found out
+// before anything is opened for writing, so that nothing is lost.
 #pragma once
 
 #include <string>
@@ -18,6 +18,7 @@ struct NamedFile {
 };
 
 /// What is wrong with these destinations; `sources` are files that are read.
-std::vector<Problem> problems_with(const std::vector<NamedFile>& destinations, const std::vector<NamedFile>& sources);
+std::vector<Problem> problems_with(const std::vector<NamedFile>& destinations,
+                                   const std::vector<NamedFile>& sources);
 
 } // namespace carrom

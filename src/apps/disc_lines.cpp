@@ -7,10 +7,10 @@
 #include <numeric>
 #include <span>
 
+#include "apps/run_options.hpp"
 #include "core/errors.hpp"
 #include "parallel/agreement.hpp"
 #include "parallel/exchange.hpp"
-#include "apps/run_options.hpp"
 
 namespace carrom {
 
@@ -19,7 +19,8 @@ namespace {
 std::vector<LocalIndex> order_by_id(std::span<const Disc> discs) {
     std::vector<LocalIndex> order(discs.size());
     std::iota(order.begin(), order.end(), LocalIndex{0});
-    std::sort(order.begin(), order.end(), [discs](LocalIndex a, LocalIndex b) { return discs[a].id < discs[b].id; });
+    std::sort(order.begin(), order.end(),
+              [discs](LocalIndex a, LocalIndex b) { return discs[a].id < discs[b].id; });
     return order;
 }
 
@@ -37,8 +38,10 @@ DiscLine line_of(const Disc& disc, double clock, double velocity_unit) {
 /// std::to_chars gives what printf does, eight times as fast.
 void append_number(fmt::memory_buffer& text, double number, int digits) {
     std::array<char, 352> word; // holds any double with 16 decimals
-    const auto style = digits == RunOptions::round_trip_digits ? std::chars_format::general : std::chars_format::fixed;
-    const auto end = std::to_chars(word.data(), word.data() + word.size(), number, style, digits).ptr;
+    const auto style = digits == RunOptions::round_trip_digits ? std::chars_format::general
+                                                               : std::chars_format::fixed;
+    const auto end =
+        std::to_chars(word.data(), word.data() + word.size(), number, style, digits).ptr;
     text.push_back(' ');
     text.append(word.data(), end);
 }
@@ -50,11 +53,13 @@ template <class Integer> void append_count(fmt::memory_buffer& text, Integer cou
 
 } // namespace
 
-void append_line(fmt::memory_buffer& text, std::int64_t step, const DiscLine& line, int digits, bool with_counters) {
+void append_line(fmt::memory_buffer& text, std::int64_t step, const DiscLine& line, int digits,
+                 bool with_counters) {
     append_count(text, step);
     text.push_back(' ');
     append_count(text, line.id);
-    for (const double number : {line.x, line.y, line.vx, line.vy}) append_number(text, number, digits);
+    for (const double number : {line.x, line.y, line.vx, line.vy})
+        append_number(text, number, digits);
     if (with_counters)
         for (const std::uint64_t count : {line.pair_collisions, line.wall_collisions}) {
             text.push_back(' ');
@@ -63,10 +68,10 @@ void append_line(fmt::memory_buffer& text, std::int64_t step, const DiscLine& li
     text.push_back('\n');
 }
 
-DiscLines::DiscLines(const Scene& scene, const std::string& path, int digits, const Communicator& ranks,
-                     std::uint64_t slab)
-    : ranks_(ranks), wanted_(scene.text_output), last_step_(scene.steps), n_discs_(scene.n_discs), digits_(digits),
-      slab_(slab), output_(ranks.is_root() ? path : std::string()) {
+DiscLines::DiscLines(const Scene& scene, const std::string& path, int digits,
+                     const Communicator& ranks, std::uint64_t slab)
+    : ranks_(ranks), wanted_(scene.text_output), last_step_(scene.steps), n_discs_(scene.n_discs),
+      digits_(digits), slab_(slab), output_(ranks.is_root() ? path : std::string()) {
     agree_on_failure();
 }
 
@@ -103,7 +108,8 @@ void DiscLines::write(const Simulation& simulation) {
     }
 }
 
-void DiscLines::write_slab(std::uint64_t begin, std::uint64_t end, std::int64_t step, const std::vector<DiscLine>& mine) {
+void DiscLines::write_slab(std::uint64_t begin, std::uint64_t end, std::int64_t step,
+                           const std::vector<DiscLine>& mine) {
     std::vector<DiscLine> slab(ranks_.is_root() ? end - begin : 0);
     std::uint64_t n_placed = 0;
     const auto place = [&](std::span<const DiscLine> lines) {
@@ -111,7 +117,8 @@ void DiscLines::write_slab(std::uint64_t begin, std::uint64_t end, std::int64_t 
         n_placed += lines.size();
     };
     stream_to_root(ranks_, mine, place, slab_);
-    ensure(!ranks_.is_root() || n_placed == end - begin, "a disc is missing from the output, or is there twice");
+    ensure(!ranks_.is_root() || n_placed == end - begin,
+           "a disc is missing from the output, or is there twice");
     const bool with_counters = step == last_step_ && step > 0;
     for (const DiscLine& line : slab) {
         append_line(output_.buffer(), step, line, digits_, with_counters);

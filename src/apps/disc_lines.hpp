@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discs of a step as lines of text, in id order: `step id x y vx vy`, with ` p_c w_c` on the last step.
+// The discs of a step as lines of text, in id order: `step id x y vx vy`, with ` p_c w_c` on the
+// last step.
 //
-// Each rank sorts its own discs by id; then slab after slab of ids travels to rank 0, which never holds more than one.
-// Price: a sort of indices (4 bytes per disc), every disc sent once, some 0.8 us per line on rank 0.
+// Each rank sorts its own discs by id; then slab after slab of ids travels to rank 0, which never
+// holds more than one. Price: a sort of indices (4 bytes per disc), every disc sent once, some 0.8
+// us per line on rank 0.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "apps/data_output.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
 #include "simulation/simulation.hpp"
-#include "apps/data_output.hpp"
 
 namespace carrom {
 
@@ -23,8 +25,10 @@ struct DiscLine {
     std::uint64_t pair_collisions = 0, wall_collisions = 0;
 };
 
-/// Appends one line. 17 digits are significant ones, which read back as the same bits; fewer are decimals.
-void append_line(fmt::memory_buffer& text, std::int64_t step, const DiscLine& line, int digits, bool with_counters);
+/// Appends one line. 17 digits are significant ones, which read back as the same bits; fewer are
+/// decimals.
+void append_line(fmt::memory_buffer& text, std::int64_t step, const DiscLine& line, int digits,
+                 bool with_counters);
 
 class DiscLines {
 public:
@@ -42,12 +46,14 @@ public:
     /// Writes the present step. If that fails every rank throws. **Collective.**
     void write(const Simulation& simulation);
 
-    /// After the last step: makes sure that all of it has been taken. If not every rank throws. **Collective.**
+    /// After the last step: makes sure that all of it has been taken. If not every rank throws.
+    /// **Collective.**
     void close();
 
 private:
     void agree_on_failure() const;
-    void write_slab(std::uint64_t begin, std::uint64_t end, std::int64_t step, const std::vector<DiscLine>& mine);
+    void write_slab(std::uint64_t begin, std::uint64_t end, std::int64_t step,
+                    const std::vector<DiscLine>& mine);
 
     const Communicator& ranks_;
     TextOutput wanted_;

@@ -4,21 +4,26 @@
 
 #include <string>
 
+#include "check/check_failure.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
-#include "check/check_failure.hpp"
 #include "simulation/simulation.hpp"
 
 namespace carrom {
 
-/// Writes check_step_S_disc_D.toml and .discs to `folder` ("" for where the program runs): one step, from the failed
-/// step's begin. Returns a sentence that says what was written, or why nothing was. One rank calls this.
-std::string write_failure_scene(const std::string& folder, const Scene& scene, const CheckFailure& failure);
+/// Writes check_step_S_disc_D.toml and .discs to `folder` ("" for where the program runs): one
+/// step, from the failed step's begin. Returns a sentence that says what was written, or why
+/// nothing was. One rank calls this.
+std::string write_failure_scene(const std::string& folder, const Scene& scene,
+                                const CheckFailure& failure);
 
-/// Lets rank 0 write the neighbourhood to where the program runs; what to throw on every rank: code 70. **Collective.**
-CollectiveError reported(const CheckFailure& failure, const Scene& scene, const Communicator& ranks);
+/// Lets rank 0 write the neighbourhood to where the program runs; what to throw on every rank:
+/// code 70. **Collective.**
+CollectiveError reported(const CheckFailure& failure, const Scene& scene,
+                         const Communicator& ranks);
 
 /// Simulation::advance_towards; a failed check is told. **Collective.**
-void advance_or_report(Simulation& simulation, std::int64_t last_step, const Scene& scene, const Communicator& ranks);
+void advance_or_report(Simulation& simulation, std::int64_t last_step, const Scene& scene,
+                       const Communicator& ranks);
 
 } // namespace carrom

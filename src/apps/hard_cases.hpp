@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Warnings for scenes that are legal but lose digits, and the end of those that would lose discs (docs/stability.md).
+// Warnings for scenes that are legal but lose digits, and the end of those that would lose discs
+// (docs/stability.md).
 #pragma once
 
 #include "parallel/communicator.hpp"
@@ -8,12 +9,15 @@
 
 namespace carrom {
 
-/// Rank 0 warns if discs go noticeably far in the rounding of a time. Throws InputError on every rank if they go through a box
-/// with periodic sides more often than can be counted. **Collective.**
-void look_for_hard_cases(const Scene& scene, const Simulation& simulation, const Communicator& ranks);
+/// Rank 0 warns if discs go noticeably far in the rounding of a time. Throws InputError on every
+/// rank if they go through a box with periodic sides more often than can be counted.
+/// **Collective.**
+void look_for_hard_cases(const Scene& scene, const Simulation& simulation,
+                         const Communicator& ranks);
 
-/// The same for what rounding or the order of ids decides as the scene starts: discs that overlap (in the time-stepped method), that
-/// touch several others, that slide along each other. One rank calls this.
+/// The same for what rounding or the order of ids decides as the scene starts: discs that overlap
+/// (in the time-stepped method), that touch several others, that slide along each other. One rank
+/// calls this.
 void warn_of_close_pairs(const Scene& scene, const Totals& start);
 
 } // namespace carrom

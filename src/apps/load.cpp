@@ -7,10 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "parallel/agreement.hpp"
-#include "scene/disc_reader.hpp"
-#include "scene/read_scene.hpp"
-#include "initial_state/initial_state.hpp"
 #include "apps/data_output.hpp"
 #include "apps/destinations.hpp"
 #include "apps/machine.hpp"
@@ -18,6 +14,10 @@
 #include "apps/report_file.hpp"
 #include "apps/restart.hpp"
 #include "apps/standard_streams.hpp"
+#include "initial_state/initial_state.hpp"
+#include "parallel/agreement.hpp"
+#include "scene/disc_reader.hpp"
+#include "scene/read_scene.hpp"
 
 namespace carrom {
 
@@ -25,10 +25,13 @@ namespace {
 
 using Problems = std::vector<Problem>;
 
-void append(Problems& problems, const Problems& more) { problems.insert(problems.end(), more.begin(), more.end()); }
+void append(Problems& problems, const Problems& more) {
+    problems.insert(problems.end(), more.begin(), more.end());
+}
 
-/// Runs `read` and adds the problems of an InputError to `problems`; true if there was none. One rank may find problems
-/// that the others do not know of yet, so they must not fly as an exception before all ranks have agreed.
+/// Runs `read` and adds the problems of an InputError to `problems`; true if there was none. One
+/// rank may find problems that the others do not know of yet, so they must not fly as an exception
+/// before all ranks have agreed.
 template <class Read> bool collect(Problems& problems, const Read& read) {
     try {
         read();
@@ -63,7 +66,8 @@ void broadcast(DiscColumns& columns, const Communicator& ranks) {
     columns.is_whole = is_whole == 1;
 }
 
-/// What the options alone name: a run must not end in a file that cannot be written, nor empty its own input.
+/// What the options alone name: a run must not end in a file that cannot be written, nor empty its
+/// own input.
 std::vector<NamedFile> named_by(const RunOptions& options) {
     std::vector<NamedFile> destinations;
     if (!options.output.empty()) destinations.push_back({"--output", options.output, true});
@@ -73,23 +77,28 @@ std::vector<NamedFile> named_by(const RunOptions& options) {
 
 std::vector<NamedFile> read_by(const RunOptions& options) {
     std::vector<NamedFile> sources;
-    if (!options.input.empty() && options.input != "-") sources.push_back({"the input", options.input});
+    if (!options.input.empty() && options.input != "-")
+        sources.push_back({"the input", options.input});
     if (!options.restart.empty()) sources.push_back({"the checkpoint", options.restart});
     return sources;
 }
 
 void check_destinations(const RunOptions& options, Problems& problems) {
-    const auto check = [&problems](const char* option, const std::string& path, const std::string& obstacle) {
-        if (!path.empty() && !obstacle.empty()) problems.push_back({fmt::format("{} {}", option, path), 0, obstacle});
+    const auto check = [&problems](const char* option, const std::string& path,
+                                   const std::string& obstacle) {
+        if (!path.empty() && !obstacle.empty())
+            problems.push_back({fmt::format("{} {}", option, path), 0, obstacle});
     };
-    if (!options.output.empty()) check("--output", options.output, obstacle_to_opening(options.output).text);
+    if (!options.output.empty())
+        check("--output", options.output, obstacle_to_opening(options.output).text);
     Problems found = problems_with(named_by(options), read_by(options));
-    if (!options.report.empty() && found.empty()) check("--report", options.report, obstacle_to_writing(options.report));
+    if (!options.report.empty() && found.empty())
+        check("--report", options.report, obstacle_to_writing(options.report));
     append(problems, found);
 }
 
-/// What is wrong with the lines of discs of a run that will not begin, so that all is told at once. They follow a header
-/// in `stream`, or have a file of their own.
+/// What is wrong with the lines of discs of a run that will not begin, so that all is told at once.
+/// They follow a header in `stream`, or have a file of their own.
 Problems problems_of_disc_lines(const Scene& scene, std::istream& stream) {
     Problems problems;
     collect(problems, [&] {
@@ -110,20 +119,21 @@ std::vector<NamedFile> read_for(const RunOptions& options, const Scene& scene) {
     return sources;
 }
 
-/// What the file of discs has beyond places and velocities; not whole where it cannot be read, for which the reader of its lines
-/// has the words. **Collective.**
+/// What the file of discs has beyond places and velocities; not whole where it cannot be read, for
+/// which the reader of its lines has the words. **Collective.**
 DiscColumns load_columns(const Scene& scene, const Communicator& ranks) {
     DiscColumns columns;
     columns.is_whole = false;
     Problems ignored;
-    if (ranks.is_root()) collect(ignored, [&] { columns = read_disc_columns(*open(discs_path(scene)), scene); });
+    if (ranks.is_root())
+        collect(ignored, [&] { columns = read_disc_columns(*open(discs_path(scene)), scene); });
     broadcast(columns, ranks);
     return columns;
 }
 
 /// The scene; `stream`, on rank 0, is left at the first line of discs. **Collective.**
-Scene load_scene(const RunOptions& options, const Problems& problems_so_far, const Communicator& ranks,
-                 std::unique_ptr<std::istream>& stream) {
+Scene load_scene(const RunOptions& options, const Problems& problems_so_far,
+                 const Communicator& ranks, std::unique_ptr<std::istream>& stream) {
     Problems problems; // of all ranks together: each problem is listed by one rank
     SceneText text;
     bool is_readable = true;
@@ -131,10 +141,12 @@ Scene load_scene(const RunOptions& options, const Problems& problems_so_far, con
         problems = problems_so_far;
         check_destinations(options, problems);
         if (options.input.empty() && options.restart.empty())
-            problems.push_back({"carrom run", 0, "no input; name a SCENE.toml, a FILE.in, or - for standard input"});
+            problems.push_back({"carrom run", 0,
+                                "no input; name a SCENE.toml, a FILE.in, or - for standard input"});
         is_readable = !options.input.empty() && collect(problems, [&] {
             stream = open(options.input);
-            text = read_scene_text(*stream, options.input == "-" ? "standard input" : options.input);
+            text = read_scene_text(*stream,
+                                   options.input == "-" ? "standard input" : options.input);
         });
     }
     Scene scene;
@@ -150,8 +162,10 @@ Scene load_scene(const RunOptions& options, const Problems& problems_so_far, con
         const bool are_lines_wrong = text.columns && !text.columns->is_whole;
         if (ranks.is_root()) append(problems, same_everywhere);
         if (ranks.is_root() && (!problems.empty() || are_lines_wrong)) {
-            if (options.restart.empty() || are_lines_wrong) append(problems, problems_of_disc_lines(scene, *stream));
-            if (problems.empty()) problems.push_back({discs_path(scene), 0, "changes while it is being read"});
+            if (options.restart.empty() || are_lines_wrong)
+                append(problems, problems_of_disc_lines(scene, *stream));
+            if (problems.empty())
+                problems.push_back({discs_path(scene), 0, "changes while it is being read"});
             append(problems, problems_of_outputs(scene, read_for(options, scene)));
         }
     }
@@ -160,7 +174,8 @@ Scene load_scene(const RunOptions& options, const Problems& problems_so_far, con
 }
 
 /// A restart without a scene has fewer things to go wrong. **Collective.**
-void check_without_scene(const RunOptions& options, const Problems& problems_so_far, const Communicator& ranks) {
+void check_without_scene(const RunOptions& options, const Problems& problems_so_far,
+                         const Communicator& ranks) {
     Problems problems;
     if (ranks.is_root()) {
         problems = problems_so_far;
@@ -171,17 +186,24 @@ void check_without_scene(const RunOptions& options, const Problems& problems_so_
 
 /// A mistake in the number of discs would end in the middle, without a word of why. **Collective.**
 void check_memory(const Scene& scene, const Communicator& ranks) {
-    constexpr double bytes_per_disc_time_stepped = 94, bytes_per_disc_event_driven = 120; // at least (docs/performance.md)
-    const double bytes_per_disc = scene.method == Method::event_driven ? bytes_per_disc_event_driven : bytes_per_disc_time_stepped;
+    constexpr double bytes_per_disc_time_stepped = 94,
+                     bytes_per_disc_event_driven = 120; // at least (docs/performance.md)
+    const double bytes_per_disc = scene.method == Method::event_driven
+                                      ? bytes_per_disc_event_driven
+                                      : bytes_per_disc_time_stepped;
     const double needed = static_cast<double>(scene.n_discs) * bytes_per_disc / ranks.size();
     const auto available = static_cast<double>(ranks.min(memory_per_rank(ranks)));
     if (needed <= available) return;
-    throw InputError({{scene.name, 0, fmt::format("discs.count = {} needs at least {:.3g} GB of memory on each of {} ranks, and one has only {:.3g} GB; take "
-                                                  "fewer discs, or ranks on more nodes", scene.n_discs, needed / 1e9, ranks.size(), available / 1e9)}});
+    throw InputError({{scene.name, 0,
+                       fmt::format("discs.count = {} needs at least {:.3g} GB of memory on each of "
+                                   "{} ranks, and one has only {:.3g} GB; take "
+                                   "fewer discs, or ranks on more nodes",
+                                   scene.n_discs, needed / 1e9, ranks.size(), available / 1e9)}});
 }
 
 /// The discs that a scene starts with. **Collective.**
-std::vector<InputDisc> load_discs(const Scene& scene, std::unique_ptr<std::istream>& stream, const Communicator& ranks) {
+std::vector<InputDisc> load_discs(const Scene& scene, std::unique_ptr<std::istream>& stream,
+                                  const Communicator& ranks) {
     if (scene.reads_disc_lines() && !scene.discs_file.empty()) {
         Problems unreadable;
         if (ranks.is_root()) collect(unreadable, [&] { stream = open(discs_path(scene)); });
@@ -195,8 +217,10 @@ std::vector<InputDisc> load_discs(const Scene& scene, std::unique_ptr<std::istre
 Loaded load(const RunOptions& options, const Problems& problems, const Communicator& ranks) {
     std::unique_ptr<std::istream> stream;
     Loaded loaded;
-    if (options.restart.empty() || !options.input.empty()) loaded.scene = load_scene(options, problems, ranks, stream);
-    else check_without_scene(options, problems, ranks);
+    if (options.restart.empty() || !options.input.empty())
+        loaded.scene = load_scene(options, problems, ranks, stream);
+    else
+        check_without_scene(options, problems, ranks);
     std::vector<std::string> found;
     if (!options.restart.empty()) {
         found = restart_candidates(options, loaded.scene, ranks);
@@ -208,11 +232,13 @@ Loaded load(const RunOptions& options, const Problems& problems, const Communica
         loaded.locks = claim_outputs(scene, read_for(options, scene), named_by(options), ranks);
         // The last ranks of a run that was killed may have stored more before they ended.
         if (!options.restart.empty() && restart_candidates(options, scene, ranks) != found) {
-            if (ranks.is_root() && !options.quiet) print_message("another checkpoint has come meanwhile\n");
+            if (ranks.is_root() && !options.quiet)
+                print_message("another checkpoint has come meanwhile\n");
             loaded.stored.reset(); // its memory is needed
             load_restart(options, loaded, ranks);
         }
-        check_older_checkpoints(scene, loaded.stored ? loaded.stored->micro_steps_done / scene.micro_steps : -1, ranks);
+        check_older_checkpoints(
+            scene, loaded.stored ? loaded.stored->micro_steps_done / scene.micro_steps : -1, ranks);
     } catch (const InputError& error) { // on every rank
         Problems all;
         if (ranks.is_root()) all = error.problems();
@@ -221,7 +247,8 @@ Loaded load(const RunOptions& options, const Problems& problems, const Communica
     }
     if (!loaded.stored) loaded.discs = load_discs(scene, stream, ranks);
     if (ranks.is_root())
-        for (const std::string& warning : scene.warnings) print_message("{}: warning: {}\n", scene.name, warning);
+        for (const std::string& warning : scene.warnings)
+            print_message("{}: warning: {}\n", scene.name, warning);
     return loaded;
 }
 

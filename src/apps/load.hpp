@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From the options of a run to its scene and first discs: the part that can find an input wrong.
 //
-// Rank 0 opens files and reads; the others get its bytes and come to the same scene or the same problems. Nothing of
-// the run has been written when a problem is told.
+// Rank 0 opens files and reads; the others get its bytes and come to the same scene or the same
+// problems. Nothing of the run has been written when a problem is told.
 #pragma once
 
 #include <optional>
 #include <vector>
 
+#include "apps/run_options.hpp"
 #include "core/errors.hpp"
 #include "core/stored_samples.hpp"
 #include "io/write_lock.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
 #include "simulation/simulation.hpp"
-#include "apps/run_options.hpp"
 
 namespace carrom {
 
@@ -27,9 +27,11 @@ struct Loaded {
     std::vector<WriteLock> locks;      ///< rank 0's, on what is written to
 };
 
-/// Throws InputError on every rank: with `problems` (found so far, the same on all ranks), those of the report's path
-/// and those of the scene; if there are none, with those of the outputs' places, of the lines of discs, or of the checkpoint
-/// to go on from. Rank 0 prints the scene's warnings. **Collective.**
-Loaded load(const RunOptions& options, const std::vector<Problem>& problems, const Communicator& ranks);
+/// Throws InputError on every rank: with `problems` (found so far, the same on all ranks), those of
+/// the report's path and those of the scene; if there are none, with those of the outputs' places,
+/// of the lines of discs, or of the checkpoint to go on from. Rank 0 prints the scene's warnings.
+/// **Collective.**
+Loaded load(const RunOptions& options, const std::vector<Problem>& problems,
+            const Communicator& ranks);
 
 } // namespace carrom

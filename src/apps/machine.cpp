@@ -28,7 +28,8 @@ std::string thread_variable() {
     return text == nullptr ? "" : text;
 }
 
-/// OMP_NUM_THREADS may be a list for nested regions; the first number is for the outermost. 0 where it is none.
+/// OMP_NUM_THREADS may be a list for nested regions; the first number is for the outermost. 0 where
+/// it is none.
 int threads_from_environment() {
     const std::string text = thread_variable();
     int threads = 0;
@@ -59,16 +60,19 @@ std::uint64_t memory_of_node() {
     std::ifstream facts("/proc/meminfo");
     std::uint64_t sum = 0;
     for (std::string line; std::getline(facts, line);)
-        if (line.starts_with("MemTotal:") || line.starts_with("SwapTotal:")) sum += std::strtoull(line.c_str() + line.find(':') + 1, nullptr, 10) * 1024;
+        if (line.starts_with("MemTotal:") || line.starts_with("SwapTotal:"))
+            sum += std::strtoull(line.c_str() + line.find(':') + 1, nullptr, 10) * 1024;
     return sum > 0 ? sum : without_limit;
 }
 
-/// The least limit of this process's control group (version 2, or `memory` of version 1) and those around it.
+/// The least limit of this process's control group (version 2, or `memory` of version 1) and those
+/// around it.
 std::uint64_t memory_of_control_group() {
     std::uint64_t least = without_limit;
     const auto look = [&least](const std::filesystem::path& path) {
         std::ifstream file(path);
-        if (std::uint64_t bytes = 0; file >> bytes) least = std::min(least, bytes); // "max" is no number
+        if (std::uint64_t bytes = 0; file >> bytes)
+            least = std::min(least, bytes); // "max" is no number
     };
     std::ifstream groups("/proc/self/cgroup");
     for (std::string line; std::getline(groups, line);) {
@@ -77,7 +81,8 @@ std::uint64_t memory_of_control_group() {
         const std::filesystem::path root = is_second ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
         std::filesystem::path group = line.substr(line.rfind(':') + 1);
         for (;; group = group.parent_path()) {
-            look(root / group.relative_path() / (is_second ? "memory.max" : "memory.limit_in_bytes"));
+            look(root / group.relative_path() /
+                 (is_second ? "memory.max" : "memory.limit_in_bytes"));
             if (!group.has_relative_path()) break;
         }
     }
@@ -86,13 +91,15 @@ std::uint64_t memory_of_control_group() {
 
 struct AllowedCores {
     int count = 1;
-    std::uint64_t key = 0; ///< equal on two ranks that may use the very same cores of the very same node
+    std::uint64_t key =
+        0; ///< equal on two ranks that may use the very same cores of the very same node
 };
 
 AllowedCores allowed_cores() {
     std::array<cpu_set_t, 8> mask{}; // room for 8192 cores
     AllowedCores cores;
-    if (sched_getaffinity(0, sizeof mask, mask.data()) == 0) cores.count = std::max(1, CPU_COUNT_S(sizeof mask, mask.data()));
+    if (sched_getaffinity(0, sizeof mask, mask.data()) == 0)
+        cores.count = std::max(1, CPU_COUNT_S(sizeof mask, mask.data()));
     std::string identity = host_name();
     identity.append(reinterpret_cast<const char*>(mask.data()), sizeof mask);
     cores.key = std::hash<std::string>{}(identity);
@@ -109,7 +116,8 @@ std::string processor_name() {
     std::ifstream facts("/proc/cpuinfo");
     for (std::string line; std::getline(facts, line);) {
         const std::size_t colon = line.find(": ");
-        if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
+        if (line.starts_with("model name") && colon != std::string::npos)
+            return line.substr(colon + 2);
     }
     return {};
 }
@@ -124,14 +132,17 @@ int default_threads(const Communicator& ranks) {
 std::string thread_warning() {
     const std::string text = thread_variable();
     if (text.empty() || threads_from_environment() > 0) return {};
-    return "OMP_NUM_THREADS = '" + text + "' is not a number of threads from 1 to " + std::to_string(most_threads) + " and is not heeded";
+    return "OMP_NUM_THREADS = '" + text + "' is not a number of threads from 1 to " +
+           std::to_string(most_threads) + " and is not heeded";
 }
 
 std::uint64_t memory_per_rank(const Communicator& ranks) {
-    const auto sharers = static_cast<std::uint64_t>(sharers_of(std::hash<std::string>{}(host_name()), ranks));
+    const auto sharers = static_cast<std::uint64_t>(
+        sharers_of(std::hash<std::string>{}(host_name()), ranks));
     rlimit limit{};
     const bool is_limited = getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
-    return std::min(std::min(memory_of_node(), memory_of_control_group()) / sharers, is_limited ? std::uint64_t{limit.rlim_cur} : without_limit);
+    return std::min(std::min(memory_of_node(), memory_of_control_group()) / sharers,
+                    is_limited ? std::uint64_t{limit.rlim_cur} : without_limit);
 }
 
 std::uint64_t peak_resident_bytes() {
@@ -139,7 +150,8 @@ std::uint64_t peak_resident_bytes() {
     std::ifstream status("/proc/self/status");
     constexpr std::string_view label = "VmHWM:";
     for (std::string line; std::getline(status, line);)
-        if (line.starts_with(label)) return std::strtoull(line.c_str() + label.size(), nullptr, 10) * 1024;
+        if (line.starts_with(label))
+            return std::strtoull(line.c_str() + label.size(), nullptr, 10) * 1024;
     return 0;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run has to know of the machine it is on: cores to use, memory used, and the version of the program.
+// What a run has to know of the machine it is on: cores to use, memory used, and the version of the
+// program.
 #pragma once
 
 #include <cstdint>
@@ -22,15 +23,17 @@ BuildFacts build_facts();
 /// The processor's name; empty where the system does not tell.
 std::string processor_name();
 
-/// Threads for this rank when nobody chose: OMP_NUM_THREADS, else the cores it may use, shared out among the ranks of
-/// its node that may use the same ones; at least 1. **Collective.**
+/// Threads for this rank when nobody chose: OMP_NUM_THREADS, else the cores it may use, shared out
+/// among the ranks of its node that may use the same ones; at least 1. **Collective.**
 int default_threads(const Communicator& ranks);
 
-/// What to say where OMP_NUM_THREADS is set to something that is no number of threads; empty where all is well.
+/// What to say where OMP_NUM_THREADS is set to something that is no number of threads; empty where
+/// all is well.
 std::string thread_warning();
 
-/// The memory this rank may take, in bytes: what its node has, or its control group or limits allow, shared out among the
-/// ranks of the node; the largest number where the system does not tell. **Collective.**
+/// The memory this rank may take, in bytes: what its node has, or its control group or limits
+/// allow, shared out among the ranks of the node; the largest number where the system does not
+/// tell. **Collective.**
 std::uint64_t memory_per_rank(const Communicator& ranks);
 
 /// The most memory this process has held at any time, in bytes; 0 where the system does not tell.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a run is, on standard error: one line rewritten on a terminal, a line now and then in a batch log.
+// How far a run is, on standard error: one line rewritten on a terminal, a line now and then in a
+// batch log.
 //
-// Lines in a log come at growing intervals, so a week-long run leaves some hundred of them. Under mpirun standard error
-// is a pipe even at a terminal, so there it is lines too.
+// Lines in a log come at growing intervals, so a week-long run leaves some hundred of them. Under
+// mpirun standard error is a pipe even at a terminal, so there it is lines too.
 #pragma once
 
 #include <chrono>
@@ -35,6 +36,7 @@ private:
 };
 
 /// "step 120 of 1000 (12.0 %), 345 steps/s, 0:02:33 left"
-std::string progress_text(std::int64_t step, std::int64_t first_step, std::int64_t last_step, double seconds);
+std::string progress_text(std::int64_t step, std::int64_t first_step, std::int64_t last_step,
+                          double seconds);
 
 } // namespace carrom

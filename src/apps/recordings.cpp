@@ -7,12 +7,12 @@
 #include <tuple>
 #include <utility>
 
-#include "parallel/sample_sort.hpp"
-#include "scene/compare.hpp"
 #include "apps/machine.hpp"
 #include "apps/measured_files.hpp"
 #include "apps/restart.hpp"
 #include "apps/standard_streams.hpp"
+#include "parallel/sample_sort.hpp"
+#include "scene/compare.hpp"
 
 namespace carrom {
 
@@ -29,7 +29,8 @@ CheckpointHeader run_of(const Scene& scene) {
 /// Of a recorded run from that of the scene.
 std::string first_difference(const CheckpointHeader& there, const Scene& scene) {
     try {
-        const std::vector<std::string> differences = physical_differences(scene_of(there, {}), scene);
+        const std::vector<std::string> differences = physical_differences(scene_of(there, {}),
+                                                                          scene);
         return differences.empty() ? "" : differences.front();
     } catch (const InputError&) {
         return "its scene cannot be read here";
@@ -51,7 +52,8 @@ TrajectoryLayout layout_of(const Scene& scene) {
     }
     layout.is_periodic_x = scene.effects.is_periodic_x();
     layout.is_periodic_y = scene.effects.is_periodic_y();
-    for (std::size_t side = 0; side < layout.open_boundaries.size(); ++side) layout.open_boundaries[side] = scene.effects.boundaries[side].kind == BoundaryKind::open;
+    for (std::size_t side = 0; side < layout.open_boundaries.size(); ++side)
+        layout.open_boundaries[side] = scene.effects.boundaries[side].kind == BoundaryKind::open;
     layout.velocity_unit = static_cast<double>(scene.micro_steps);
     layout.has_position = wanted.has_position;
     layout.has_velocity = wanted.has_velocity;
@@ -64,7 +66,9 @@ TrajectoryLayout layout_of(const Scene& scene) {
 
 /// The total order; q + 1 puts the wall, the largest number there is, before every disc.
 bool comes_before(const Collision& a, const Collision& b) {
-    const auto key = [](const Collision& c) { return std::tuple(c.micro_step, c.time, c.generation, c.p, c.q + 1); };
+    const auto key = [](const Collision& c) {
+        return std::tuple(c.micro_step, c.time, c.generation, c.p, c.q + 1);
+    };
     return key(a) < key(b);
 }
 
@@ -72,30 +76,39 @@ bool comes_before(const Collision& a, const Collision& b) {
 
 LoggedCollision logged(const Collision& collision, std::int64_t micro_steps) {
     // A collision at the end of a step belongs to it; one at the very start of the run to step 1.
-    const auto n_micro = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(collision.time)));
+    const auto n_micro = std::max<std::int64_t>(
+        1, static_cast<std::int64_t>(std::ceil(collision.time)));
     LoggedCollision entry;
     entry.step = (collision.micro_step + n_micro - 1) / micro_steps + 1;
-    entry.time = (static_cast<double>(collision.micro_step) + collision.time) / static_cast<double>(micro_steps);
+    entry.time = (static_cast<double>(collision.micro_step) + collision.time) /
+                 static_cast<double>(micro_steps);
     entry.p = static_cast<std::int64_t>(collision.p);
     entry.q = collision.q == Collision::wall ? -1 : static_cast<std::int64_t>(collision.q);
     entry.impulse = collision.impulse;
     return entry;
 }
 
-Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_restart, StoredSamples samples, const Communicator& ranks)
+Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_restart,
+                       StoredSamples samples, const Communicator& ranks)
     : scene_(scene), ranks_(ranks) {
     const std::int64_t step = simulation.step();
-    const auto difference_from = [this](const CheckpointHeader& there) { return first_difference(there, scene_); };
+    const auto difference_from = [this](const CheckpointHeader& there) {
+        return first_difference(there, scene_);
+    };
     if (scene_.trajectory) {
         trajectory_.emplace(scene_.trajectory->file, layout_of(scene_), ranks_);
-        if (is_restart) report_missing_frames(trajectory_->go_on(step, difference_from), step);
-        else trajectory_->begin();
+        if (is_restart)
+            report_missing_frames(trajectory_->go_on(step, difference_from), step);
+        else
+            trajectory_->begin();
     }
     if (scene_.collisions) {
         log_.emplace(scene_.collisions->file, version(), ranks_, run_of(scene_));
-        if (!is_restart) log_->begin();
+        if (!is_restart)
+            log_->begin();
         else if (!log_->go_on(step, difference_from) && ranks_.is_root() && step > 0)
-            print_message("{}: begins with step {}; of the steps before there is no log\n", scene_.collisions->file, step + 1);
+            print_message("{}: begins with step {}; of the steps before there is no log\n",
+                          scene_.collisions->file, step + 1);
         simulation.log_to(&collisions_);
     }
     if (scene_.measurements) {
@@ -106,17 +119,20 @@ Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_resta
     if (!is_restart) record(simulation);
 }
 
-/// What the restart of a run finds of its trajectory: a frame for each time that one was due, or not.
+/// What the restart of a run finds of its trajectory: a frame for each time that one was due, or
+/// not.
 void Recordings::report_missing_frames(std::int64_t last, std::int64_t step) const {
     const std::int64_t every = scene_.trajectory->every_steps, last_due = step / every * every;
     if (!ranks_.is_root() || last >= last_due) return;
     const std::int64_t first_missing = last < 0 ? 0 : (last / every + 1) * every;
-    print_message("{}: has no frames of steps {} to {}, and goes on with step {}\n", scene_.trajectory->file, first_missing, last_due, last_due + every);
+    print_message("{}: has no frames of steps {} to {}, and goes on with step {}\n",
+                  scene_.trajectory->file, first_missing, last_due, last_due + every);
 }
 
 std::int64_t Recordings::next_due(std::int64_t step) const {
     std::int64_t next = std::numeric_limits<std::int64_t>::max();
-    if (scene_.trajectory) next = (step / scene_.trajectory->every_steps + 1) * scene_.trajectory->every_steps;
+    if (scene_.trajectory)
+        next = (step / scene_.trajectory->every_steps + 1) * scene_.trajectory->every_steps;
     if (sampler_) next = std::min(next, sampler_->next_due(step));
     return next;
 }
@@ -139,10 +155,12 @@ void Recordings::commit_now_and_then() {
 }
 
 void Recordings::record_collisions() {
-    const std::vector<Collision> sorted = sample_sort(ranks_, std::exchange(collisions_, {}), comes_before, ranks_.size());
+    const std::vector<Collision> sorted = sample_sort(ranks_, std::exchange(collisions_, {}),
+                                                      comes_before, ranks_.size());
     std::vector<LoggedCollision> entries;
     entries.reserve(sorted.size());
-    for (const Collision& collision : sorted) entries.push_back(logged(collision, scene_.micro_steps));
+    for (const Collision& collision : sorted)
+        entries.push_back(logged(collision, scene_.micro_steps));
     log_->append(entries);
 }
 

@@ -1,37 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run records as it goes on, if its scene asks for it: a trajectory, the collisions in their total order, and
-// measurements, whose tables are written with each checkpoint and at the end.
+// What a run records as it goes on, if its scene asks for it: a trajectory, the collisions in their
+// total order, and measurements, whose tables are written with each checkpoint and at the end.
 //
-// Where checkpoints are stored, recordings are committed before each; without checkpoints, after each addition.
+// Where checkpoints are stored, recordings are committed before each; without checkpoints, after
+// each addition.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "apps/stopwatch.hpp"
 #include "io/collision_log.hpp"
 #include "io/trajectory.hpp"
+#include "measure/sampler.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
-#include "measure/sampler.hpp"
 #include "simulation/simulation.hpp"
-#include "apps/stopwatch.hpp"
 
 namespace carrom {
 
-/// A collision as the log shows it: the step it is made in, and its time since the scene's start, in steps.
+/// A collision as the log shows it: the step it is made in, and its time since the scene's start,
+/// in steps.
 LoggedCollision logged(const Collision& collision, std::int64_t micro_steps);
 
 class Recordings {
 public:
-    /// Opens the files; cut back to the present step in a restart, else new ones with the present step as a first frame.
-    /// From then on the simulation logs its collisions here: this must outlive its stepping. **Collective.**
-    Recordings(const Scene& scene, Simulation& simulation, bool is_restart, StoredSamples samples, const Communicator& ranks);
+    /// Opens the files; cut back to the present step in a restart, else new ones with the present
+    /// step as a first frame. From then on the simulation logs its collisions here: this must
+    /// outlive its stepping. **Collective.**
+    Recordings(const Scene& scene, Simulation& simulation, bool is_restart, StoredSamples samples,
+               const Communicator& ranks);
 
     /// The next step after `step` that is to be recorded.
     std::int64_t next_due(std::int64_t step) const;
 
-    /// To be called after each stretch of steps. If recording fails every rank throws. **Collective.**
+    /// To be called after each stretch of steps. If recording fails every rank throws.
+    /// **Collective.**
     void record(const Simulation& simulation);
 
     /// What is recorded so far is to stay. **Collective.**
@@ -42,7 +47,9 @@ public:
 
     /// What a checkpoint has to keep of the measurements. **Collective.**
     StoredSamples samples() const { return sampler_ ? sampler_->stored() : StoredSamples{}; }
-    std::vector<MeasuredTable> tables() const { return sampler_ ? sampler_->tables() : std::vector<MeasuredTable>{}; }
+    std::vector<MeasuredTable> tables() const {
+        return sampler_ ? sampler_->tables() : std::vector<MeasuredTable>{};
+    }
 
 private:
     void report_missing_frames(std::int64_t last, std::int64_t step) const;

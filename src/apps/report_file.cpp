@@ -15,16 +15,22 @@ namespace {
 
 std::string partial(const std::string& path) { return path + ".partial"; }
 
-int create(const std::string& path) { return ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666); }
+int create(const std::string& path) {
+    return ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+}
 
-std::string error_text(const std::string& what, int error) { return what + ": " + std::strerror(error); }
+std::string error_text(const std::string& what, int error) {
+    return what + ": " + std::strerror(error);
+}
 
 /// 0 or an errno.
 int write_all(int file, const std::string& text) {
     for (std::size_t begin = 0; begin < text.size();) {
         const ssize_t written = ::write(file, text.data() + begin, text.size() - begin);
-        if (written >= 0) begin += static_cast<std::size_t>(written);
-        else if (errno != EINTR) return errno;
+        if (written >= 0)
+            begin += static_cast<std::size_t>(written);
+        else if (errno != EINTR)
+            return errno;
     }
     return 0;
 }
@@ -36,7 +42,8 @@ std::string obstacle_to_writing(const std::string& path) {
     const auto status = std::filesystem::status(path, error);
     if (std::filesystem::is_directory(status)) return "is a directory; name a file";
     // A rename would put a plain file in the place of a device or a pipe.
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return "is not a plain file";
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+        return "is not a plain file";
     const int file = create(partial(path));
     if (file < 0) return error_text("cannot be written", errno);
     ::close(file);

@@ -8,7 +8,8 @@
 
 namespace carrom {
 
-/// What would keep `write_whole_file` from writing to `path`, empty if nothing is known to. Leaves nothing behind.
+/// What would keep `write_whole_file` from writing to `path`, empty if nothing is known to. Leaves
+/// nothing behind.
 std::string obstacle_to_writing(const std::string& path);
 
 /// Replaces `path` by a file with this text. Returns what went wrong, empty if nothing did.

@@ -7,29 +7,35 @@
 
 #include <fmt/format.h>
 
-#include "io/checkpoint_folder.hpp"
-#include "scene/compare.hpp"
-#include "scene/read_scene.hpp"
 #include "apps/machine.hpp"
 #include "apps/setting_choice.hpp"
 #include "apps/standard_streams.hpp"
+#include "io/checkpoint_folder.hpp"
+#include "scene/compare.hpp"
+#include "scene/read_scene.hpp"
 
 namespace carrom {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& path, const std::string& text) { throw InputError({{"--restart " + path, 0, text}}); }
+[[noreturn]] void refuse(const std::string& path, const std::string& text) {
+    throw InputError({{"--restart " + path, 0, text}});
+}
 
 /// The folder to look in; empty where a file was named. **Collective.**
-std::string folder_to_search(const RunOptions& options, const Scene& scene, const Communicator& ranks) {
+std::string folder_to_search(const RunOptions& options, const Scene& scene,
+                             const Communicator& ranks) {
     if (options.restart == "latest") {
-        if (options.input.empty()) refuse("latest", "name the scene too, or the folder instead of `latest`");
-        if (!scene.checkpoint) refuse("latest", "the scene has no output.checkpoint.folder to look in");
+        if (options.input.empty())
+            refuse("latest", "name the scene too, or the folder instead of `latest`");
+        if (!scene.checkpoint)
+            refuse("latest", "the scene has no output.checkpoint.folder to look in");
         return scene.checkpoint->folder;
     }
     std::uint64_t is_folder = 0;
     std::error_code ignored;
-    if (ranks.is_root()) is_folder = std::filesystem::is_directory(options.restart, ignored) ? 1 : 0;
+    if (ranks.is_root())
+        is_folder = std::filesystem::is_directory(options.restart, ignored) ? 1 : 0;
     ranks.broadcast(is_folder);
     return is_folder == 1 ? options.restart : "";
 }
@@ -51,25 +57,33 @@ std::vector<std::string> candidates_in(const std::string& folder, const Communic
 
 void report_unfinished(const std::string& folder) {
     for (const FoundFile& found : find_checkpoints(folder))
-        if (!found.is_finished) print_message("passing over {}: it was never finished\n", found.path);
+        if (!found.is_finished)
+            print_message("passing over {}: it was never finished\n", found.path);
 }
 
-/// Reads the checkpoint and fills in the scene if there is none yet; throws where it is not of that scene's run.
-Checkpoint read_matching(const std::string& path, const RunOptions& options, Scene& scene, const Communicator& ranks) {
+/// Reads the checkpoint and fills in the scene if there is none yet; throws where it is not of that
+/// scene's run.
+Checkpoint read_matching(const std::string& path, const RunOptions& options, Scene& scene,
+                         const Communicator& ranks) {
     Checkpoint checkpoint = read_checkpoint(path, ranks);
     const Scene there = scene_of(checkpoint.header, {});
     std::vector<std::string> overrides = options.overrides;
-    const bool asks_again = std::erase_if(overrides, [](const std::string& text) { return text.starts_with("time.accuracy="); }) > 0;
+    const bool asks_again = std::erase_if(overrides, [](const std::string& text) {
+                                return text.starts_with("time.accuracy=");
+                            }) > 0;
     Scene here = options.input.empty() ? scene_of(checkpoint.header, overrides) : scene;
     if (here.accuracy || asks_again) {
         if (here.accuracy) decide_on(here, {there.method, there.micro_steps});
-        if (ranks.is_root() && !options.quiet) print_message("time.accuracy chooses at a run's start: going on with the checkpoint's setting\n");
+        if (ranks.is_root() && !options.quiet)
+            print_message(
+                "time.accuracy chooses at a run's start: going on with the checkpoint's setting\n");
     }
     std::vector<Problem> problems;
     for (const std::string& difference : physical_differences(there, here))
         problems.push_back({"--restart " + path, 0, difference + "; a restart cannot change it"});
     if (checkpoint.header.has_spins != (there.effects.contact.kind == ContactKind::rough))
-        problems.push_back({"--restart " + path, 0, "its scene and its columns do not agree on whether discs turn"});
+        problems.push_back({"--restart " + path, 0,
+                            "its scene and its columns do not agree on whether discs turn"});
     if (!problems.empty()) throw InputError(std::move(problems));
     scene = here;
     return checkpoint;
@@ -78,12 +92,14 @@ Checkpoint read_matching(const std::string& path, const RunOptions& options, Sce
 /// Its problems on one line, without the places: there is one.
 std::string reasons(const InputError& error) {
     std::string text;
-    for (const Problem& problem : error.problems()) text += (text.empty() ? "" : "; ") + problem.text;
+    for (const Problem& problem : error.problems())
+        text += (text.empty() ? "" : "; ") + problem.text;
     return text;
 }
 
 /// The newest of the candidates that is whole and of this run. **Collective.**
-std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths, const RunOptions& options, Scene& scene,
+std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths,
+                                      const RunOptions& options, Scene& scene,
                                       const Communicator& ranks) {
     const auto pass_over = [&ranks](const std::string& path, const std::string& reason) {
         const std::size_t named = reason.starts_with(path + ": ") ? path.size() + 2 : 0;
@@ -104,12 +120,14 @@ std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths, con
 
 } // namespace
 
-std::vector<std::string> earlier_checkpoints(const Scene& scene, std::int64_t step, const Communicator& ranks) {
+std::vector<std::string> earlier_checkpoints(const Scene& scene, std::int64_t step,
+                                             const Communicator& ranks) {
     std::vector<std::string> paths;
     for (const std::string& path : candidates_in(scene.checkpoint->folder, ranks)) {
         try {
             const CheckpointHeader header = read_checkpoint_header(path, ranks);
-            if (header.step < step && physical_differences(scene_of(header, {}), scene).empty()) paths.push_back(path);
+            if (header.step < step && physical_differences(scene_of(header, {}), scene).empty())
+                paths.push_back(path);
         } catch (const CollectiveError&) {
         } catch (const InputError&) {
         }
@@ -118,7 +136,8 @@ std::vector<std::string> earlier_checkpoints(const Scene& scene, std::int64_t st
     return paths;
 }
 
-OlderCheckpoints older_checkpoints(const Scene& scene, std::int64_t first, std::int64_t last, const Communicator& ranks) {
+OlderCheckpoints older_checkpoints(const Scene& scene, std::int64_t first, std::int64_t last,
+                                   const Communicator& ranks) {
     OlderCheckpoints older;
     for (const std::string& path : candidates_in(scene.checkpoint->folder, ranks)) {
         try {
@@ -129,8 +148,11 @@ OlderCheckpoints older_checkpoints(const Scene& scene, std::int64_t first, std::
             Scene here = scene;
             if (here.accuracy) decide_on(here, {there.method, there.micro_steps});
             const std::vector<std::string> differences = physical_differences(there, here);
-            if (!differences.empty()) (is_later ? older.later_others : older.of_others).emplace_back(path, differences.front());
-            else if (!is_later) older.last_own = std::max(older.last_own, header.step);
+            if (!differences.empty())
+                (is_later ? older.later_others : older.of_others)
+                    .emplace_back(path, differences.front());
+            else if (!is_later)
+                older.last_own = std::max(older.last_own, header.step);
         } catch (const CollectiveError&) { // damaged: nobody's loss
         } catch (const InputError&) {
             older.of_others.emplace_back(path, "its scene cannot be read here");
@@ -161,15 +183,21 @@ Scene scene_of(const CheckpointHeader& header, const std::vector<std::string>& m
     std::istringstream lines(header.scene_overrides);
     for (std::string line; std::getline(lines, line);) overrides.push_back(line);
     overrides.insert(overrides.end(), more_overrides.begin(), more_overrides.end());
-    SceneText text{header.scene_name, header.scene_text, header.scene_lines_before_discs, header.scene_discs_follow != 0, {}};
+    SceneText text{header.scene_name,
+                   header.scene_text,
+                   header.scene_lines_before_discs,
+                   header.scene_discs_follow != 0,
+                   {}};
     if (!header.species.empty()) text.columns = DiscColumns{header.species, {}, true};
     Scene scene = read_scene(text, overrides);
     if (has_column(scene, DiscColumn::radius) && !text.columns)
-        throw InputError({{header.scene_name, 0, "'discs.columns' names radii, and the checkpoint has none of them"}});
+        throw InputError({{header.scene_name, 0,
+                           "'discs.columns' names radii, and the checkpoint has none of them"}});
     return scene;
 }
 
-std::vector<std::string> restart_candidates(const RunOptions& options, const Scene& scene, const Communicator& ranks) {
+std::vector<std::string> restart_candidates(const RunOptions& options, const Scene& scene,
+                                            const Communicator& ranks) {
     const std::string folder = folder_to_search(options, scene, ranks);
     return folder.empty() ? std::vector<std::string>{} : candidates_in(folder, ranks);
 }
@@ -183,17 +211,23 @@ void load_restart(const RunOptions& options, Loaded& loaded, const Communicator&
         if (ranks.is_root()) report_unfinished(folder);
         const std::vector<std::string> paths = restart_candidates(options, loaded.scene, ranks);
         checkpoint = read_newest(paths, options, loaded.scene, ranks);
-        if (!checkpoint && !paths.empty()) refuse(folder, "no checkpoint there can be gone on from");
-        if (!checkpoint && options.input.empty()) refuse(folder, "there is no checkpoint, and no scene to begin with");
-        if (!checkpoint && ranks.is_root()) print_message("no checkpoint in {}: beginning at step 0\n", folder);
+        if (!checkpoint && !paths.empty())
+            refuse(folder, "no checkpoint there can be gone on from");
+        if (!checkpoint && options.input.empty())
+            refuse(folder, "there is no checkpoint, and no scene to begin with");
+        if (!checkpoint && ranks.is_root())
+            print_message("no checkpoint in {}: beginning at step 0\n", folder);
     }
     if (!checkpoint) return;
     const CheckpointHeader& header = checkpoint->header;
     if (loaded.scene.steps < header.step)
-        refuse(options.restart, fmt::format("the checkpoint is of step {}, and the run is to end at step {}", header.step, loaded.scene.steps));
+        refuse(options.restart,
+               fmt::format("the checkpoint is of step {}, and the run is to end at step {}",
+                           header.step, loaded.scene.steps));
     if (ranks.is_root() && !options.quiet) print_message("going on from step {}\n", header.step);
     loaded.samples = std::move(checkpoint->samples);
-    loaded.stored = StoredState{std::move(checkpoint->discs), header.micro_steps_done, std::move(checkpoint->spins)};
+    loaded.stored = StoredState{std::move(checkpoint->discs), header.micro_steps_done,
+                                std::move(checkpoint->spins)};
 }
 
 } // namespace carrom

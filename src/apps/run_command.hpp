@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `carrom run`: from a scene to its last step, with its lines on standard output and a summary at the end.
+// `carrom run`: from a scene to its last step, with its lines on standard output and a summary at
+// the end.
 #pragma once
 
 #include <CLI/CLI.hpp>

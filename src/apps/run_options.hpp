@@ -16,16 +16,17 @@ namespace carrom {
 struct RunOptions {
     static constexpr int round_trip_digits = 17;
 
-    std::string input;                  ///< a file's name, or "-" for standard input
-    std::string restart;                ///< a checkpoint, a folder of them, or "latest"; empty for a run from its start
+    std::string input; ///< a file's name, or "-" for standard input
+    std::string
+        restart; ///< a checkpoint, a folder of them, or "latest"; empty for a run from its start
     std::vector<std::string> overrides; ///< key=value, over what the input says
     int digits = round_trip_digits;
-    std::string output;                 ///< a file for the lines of text; empty for standard output
-    std::string report;                 ///< empty for none
+    std::string output; ///< a file for the lines of text; empty for standard output
+    std::string report; ///< empty for none
     bool quiet = false;
-    bool check = false;                 ///< hold every step to its invariants
+    bool check = false; ///< hold every step to its invariants
     std::optional<int> threads;
-    Tuning tuning;                      ///< but for `threads`, which needs to know the machine
+    Tuning tuning; ///< but for `threads`, which needs to know the machine
 };
 
 /// The words of the command line as they stand.
@@ -36,8 +37,10 @@ struct RunWords {
     bool quiet = false, check = false;
 };
 
-/// A flag that takes no value: `NAME=no` would else be read as its opposite, and any other value as none.
-CLI::Option* add_switch(CLI::App& command, const std::string& name, bool& is_on, const std::string& what_it_does);
+/// A flag that takes no value: `NAME=no` would else be read as its opposite, and any other value as
+/// none.
+CLI::Option* add_switch(CLI::App& command, const std::string& name, bool& is_on,
+                        const std::string& what_it_does);
 
 /// Declares the options on `command`. `words` must live until it has parsed.
 void declare_run_options(CLI::App& command, RunWords& words);

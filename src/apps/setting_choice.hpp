@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `time.accuracy = x`: the cheapest setting whose collision rate and pressure are within a share x of the truth.
+// `time.accuracy = x`: the cheapest setting whose collision rate and pressure are within a share x
+// of the truth.
 //
-// A pilot brings the scene's discs to equilibrium, runs them under the event-driven method, and then in the time-stepped method with
-// K = 1, 2, 4, ... micro-steps, until one is good enough or two in succession are as dear as the event-driven method. Cost grows with
-// K but for small ups and downs, so the first good one is the cheapest. Good enough is what is so after 100 collisions of a
-// disc, and does not become worse: in dense gases discs that overlap stay together, and errors grow for as long as a run
-// goes on. Single precision and the naive formula are not tried: they save next to no time (docs/accuracy.md).
+// A pilot brings the scene's discs to equilibrium, runs them under the event-driven method, and
+// then in the time-stepped method with K = 1, 2, 4, ... micro-steps, until one is good enough or
+// two in succession are as dear as the event-driven method. Cost grows with K but for small ups and
+// downs, so the first good one is the cheapest. Good enough is what is so after 100 collisions of a
+// disc, and does not become worse: in dense gases discs that overlap stay together, and errors grow
+// for as long as a run goes on. Single precision and the naive formula are not tried: they save
+// next to no time (docs/accuracy.md).
 #pragma once
 
 #include <vector>
@@ -14,11 +17,12 @@
 
 namespace carrom {
 
-/// Chooses the scene's rule and micro-steps, says so on rank 0's standard error unless `quiet`, and writes them over
-/// `time.accuracy`, so that checkpoints hold the choice. It rests on measured times: on another machine it may be another
-/// one. Throws InputError where discs overlap or hardly meet. **Collective.**
-void choose_setting(Scene& scene, const std::vector<InputDisc>& discs, bool quiet, const Communicator& communicator,
-                    const Tuning& tuning);
+/// Chooses the scene's rule and micro-steps, says so on rank 0's standard error unless `quiet`, and
+/// writes them over `time.accuracy`, so that checkpoints hold the choice. It rests on measured
+/// times: on another machine it may be another one. Throws InputError where discs overlap or hardly
+/// meet. **Collective.**
+void choose_setting(Scene& scene, const std::vector<InputDisc>& discs, bool quiet,
+                    const Communicator& communicator, const Tuning& tuning);
 
 /// Gives the scene that setting in the place of `time.accuracy`.
 void decide_on(Scene& scene, const RunSetting& setting);

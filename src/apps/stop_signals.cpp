@@ -18,25 +18,29 @@ void note_signal(int number) {
     signal_that_has_come = number;
     if (is_answer_due == 0) return;
     is_answer_due = 0;
-    constexpr std::string_view text = "\ntold to stop: the steps under way are finished first, two seconds' worth of them or one\n";
-    constexpr std::string_view text_of_interrupt = "\ntold to stop: the steps under way are finished first, two seconds' worth of them or one; once more ends the run at once\n";
+    constexpr std::string_view text = "\ntold to stop: the steps under way are finished first, two "
+                                      "seconds' worth of them or one\n";
+    constexpr std::string_view text_of_interrupt =
+        "\ntold to stop: the steps under way are finished first, two seconds' worth of them or "
+        "one; once more ends the run at once\n";
     const std::string_view answer = number == SIGINT ? text_of_interrupt : text;
     const int number_of_error = errno;
-    [[maybe_unused]] const ssize_t n_written = write(STDERR_FILENO, answer.data(), answer.size()); // nobody to tell if it fails
+    [[maybe_unused]] const ssize_t n_written = write(STDERR_FILENO, answer.data(),
+                                                     answer.size()); // nobody to tell if it fails
     errno = number_of_error;
 }
 
 void handle(void (*handler)(int)) {
-    struct sigaction action {};
+    struct sigaction action{};
     action.sa_handler = handler;
     action.sa_flags = SA_RESTART; // reads and writes under way go on
     sigemptyset(&action.sa_mask);
     sigaction(SIGUSR1, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
-    struct sigaction present {};
+    struct sigaction present{};
     sigaction(SIGINT, nullptr, &present);
     if (present.sa_handler == SIG_IGN) return; // as shells have it for what runs in the background
-    action.sa_flags |= SA_RESETHAND; // whoever asks again does not want to wait
+    action.sa_flags |= SA_RESETHAND;           // whoever asks again does not want to wait
     sigaction(SIGINT, &action, nullptr);
 }
 

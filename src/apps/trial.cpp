@@ -6,8 +6,8 @@
 
 #include <time.h>
 
-#include "core/errors.hpp"
 #include "apps/stopwatch.hpp"
+#include "core/errors.hpp"
 
 namespace carrom {
 
@@ -37,8 +37,10 @@ std::vector<InputDisc> discs_now(const Simulation& simulation) {
     std::vector<InputDisc> discs;
     const double clock = simulation.clock(), unit = simulation.velocity_unit();
     for (const Disc& disc : simulation.discs())
-        discs.push_back({disc.id, disc.x_at(clock), disc.y_at(clock), disc.vx * unit, disc.vy * unit});
-    std::sort(discs.begin(), discs.end(), [](const InputDisc& a, const InputDisc& b) { return a.id < b.id; });
+        discs.push_back(
+            {disc.id, disc.x_at(clock), disc.y_at(clock), disc.vx * unit, disc.vy * unit});
+    std::sort(discs.begin(), discs.end(),
+              [](const InputDisc& a, const InputDisc& b) { return a.id < b.id; });
     return discs;
 }
 
@@ -52,16 +54,19 @@ Scene with_setting(Scene scene, const RunSetting& setting) {
     return scene;
 }
 
-TrialStart bring_to_equilibrium(const Scene& scene, std::vector<InputDisc> discs, double wanted, const Communicator& communicator,
-                                const Tuning& tuning) {
+TrialStart bring_to_equilibrium(const Scene& scene, std::vector<InputDisc> discs, double wanted,
+                                const Communicator& communicator, const Tuning& tuning) {
     Scene exact = with_setting(scene, {Method::event_driven});
     exact.steps = unlimited_steps;
     Simulation simulation(exact, std::move(discs), communicator, tuning);
     double done = 0, before = 0;
     std::int64_t from = 0;
-    for (std::int64_t step = 1; done < wanted; step *= 2) { // the last half or more of the way gives the frequency
+    for (std::int64_t step = 1; done < wanted;
+         step *= 2) { // the last half or more of the way gives the frequency
         if (step > longest_approach)
-            throw InputError({{scene.name, 0, "its discs meet too seldom for errors of collision rates to mean anything"}});
+            throw InputError(
+                {{scene.name, 0,
+                  "its discs meet too seldom for errors of collision rates to mean anything"}});
         before = done;
         from = simulation.step();
         advance_to(simulation, step);
@@ -74,13 +79,14 @@ TrialStart bring_to_equilibrium(const Scene& scene, std::vector<InputDisc> discs
     return start;
 }
 
-Trial run_trial(const Scene& scene, const RunSetting& setting, const TrialStart& start, const TrialLength& length,
-                const Communicator& communicator, const Tuning& tuning) {
+Trial run_trial(const Scene& scene, const RunSetting& setting, const TrialStart& start,
+                const TrialLength& length, const Communicator& communicator, const Tuning& tuning) {
     Scene here = with_setting(scene, setting);
     here.steps = length.steps;
     Simulation simulation(here, start.discs, communicator, tuning);
     std::set<std::int64_t> looks{length.steps};
-    for (int k = 1; k < length.n_looks; ++k) looks.insert(std::max<std::int64_t>(1, length.steps * k / length.n_looks));
+    for (int k = 1; k < length.n_looks; ++k)
+        looks.insert(std::max<std::int64_t>(1, length.steps * k / length.n_looks));
     std::set<std::int64_t> stops = looks;
     if (length.early_step > 0) stops.insert(length.early_step);
 
@@ -95,9 +101,12 @@ Trial run_trial(const Scene& scene, const RunSetting& setting, const TrialStart&
         if (stop == length.early_step) trial.early = discs_now(simulation);
         if (!looks.contains(stop)) continue;
         trial.totals = simulation.totals();
-        trial.overlapping_pairs_per_disc += 2 * static_cast<double>(trial.totals.overlapping_pairs) /
-                                            static_cast<double>(trial.totals.n_discs * looks.size());
-        trial.deepest_overlap = std::max(trial.deepest_overlap, trial.totals.deepest_overlap / (2 * scene.radius));
+        trial.overlapping_pairs_per_disc += 2 *
+                                            static_cast<double>(trial.totals.overlapping_pairs) /
+                                            static_cast<double>(trial.totals.n_discs *
+                                                                looks.size());
+        trial.deepest_overlap = std::max(trial.deepest_overlap,
+                                         trial.totals.deepest_overlap / (2 * scene.radius));
     }
     trial.averages = simulation.averages();
     trial.wall_seconds = communicator.max(trial.wall_seconds);

@@ -12,7 +12,8 @@ namespace carrom {
 
 namespace {
 
-/// Cells are no narrower than so many mean distances of discs: smaller ones save no time, and each takes 4 bytes.
+/// Cells are no narrower than so many mean distances of discs: smaller ones save no time, and each
+/// takes 4 bytes.
 constexpr double least_spacings = 1.15;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -23,14 +24,17 @@ int cells_along(double length, double width) {
 
 } // namespace
 
-GridFrame make_frame(double x_low, double x_high, double y_low, double y_high, double reach, std::size_t n_discs,
-                     double cell_width) {
+GridFrame make_frame(double x_low, double x_high, double y_low, double y_high, double reach,
+                     std::size_t n_discs, double cell_width) {
     const double width = std::max(x_high - x_low, 0.0), height = std::max(y_high - y_low, 0.0);
-    const double sparse_width = std::sqrt(width / static_cast<double>(n_discs + 16)) * std::sqrt(height);
-    // Two cells to the reach save a third of the pairs where cells of one reach would hold many discs.
+    const double sparse_width = std::sqrt(width / static_cast<double>(n_discs + 16)) *
+                                std::sqrt(height);
+    // Two cells to the reach save a third of the pairs where cells of one reach would hold many
+    // discs.
     const double crowding = reach / std::max(sparse_width, reach * 1e-3);
     // Cells much smaller than that would be more to the reach of fast discs than an int counts.
-    const double wanted = cell_width > 0 ? std::max(cell_width, 1e-6) * reach : (crowding > 2.4 ? reach / 2 : reach);
+    const double wanted = cell_width > 0 ? std::max(cell_width, 1e-6) * reach
+                                         : (crowding > 2.4 ? reach / 2 : reach);
     GridFrame frame;
     frame.x_low = x_low;
     frame.y_low = y_low;
@@ -41,15 +45,18 @@ GridFrame make_frame(double x_low, double x_high, double y_low, double y_high, d
     return frame;
 }
 
-GridFrame make_sparse_frame(double x_low, double x_high, double y_low, double y_high, double reach, std::size_t n_discs) {
+GridFrame make_sparse_frame(double x_low, double x_high, double y_low, double y_high, double reach,
+                            std::size_t n_discs) {
     const double area = std::max(x_high - x_low, 0.0) * std::max(y_high - y_low, 0.0);
     const double width = std::sqrt(2 * area / static_cast<double>(n_discs + 16)) / reach;
     return make_frame(x_low, x_high, y_low, y_high, reach, n_discs, width > 1 ? width : 0);
 }
 
 void CellGrid::add_halo(std::span<const Disc> halo) {
-    if (periods_.are_any()) add_halo(periods_, halo);
-    else add_halo(StoredPlaces{}, halo);
+    if (periods_.are_any())
+        add_halo(periods_, halo);
+    else
+        add_halo(StoredPlaces{}, halo);
 }
 
 /// A counting sort over the cells of those columns that hold any of them.
@@ -85,21 +92,30 @@ template <class Places> void CellGrid::add_halo(const Places& places, std::span<
     }
 }
 
-template <class Places> void CellGrid::update(const Places& places, LocalIndex index, const Disc& disc) {
-    if (index < n_own_) place(places, lanes_.data() + index, lane_length_, disc);
-    else place(places, halo_lanes_.data() + halo_slot(index), halo_order_.size() + filter_padding, disc);
+template <class Places>
+void CellGrid::update(const Places& places, LocalIndex index, const Disc& disc) {
+    if (index < n_own_)
+        place(places, lanes_.data() + index, lane_length_, disc);
+    else
+        place(places, halo_lanes_.data() + halo_slot(index), halo_order_.size() + filter_padding,
+              disc);
 }
 
-void CellGrid::update_flight(LocalIndex index, const Disc& disc) { update(StoredPlaces{}, index, disc); }
+void CellGrid::update_flight(LocalIndex index, const Disc& disc) {
+    update(StoredPlaces{}, index, disc);
+}
 
-void CellGrid::update_flight_of_image(LocalIndex index, const Disc& disc) { update(periods_, index, disc); }
+void CellGrid::update_flight_of_image(LocalIndex index, const Disc& disc) {
+    update(periods_, index, disc);
+}
 
 void CellGrid::set_apart(double speed) {
     const double flight = speed * duration_ * frame_.cells_per_length();
     const auto longest = static_cast<float>(flight * flight);
     std::vector<float> kept; // four numbers a disc
     float longest_squared = 0;
-    const auto look_through = [&](std::vector<float>& lanes, std::size_t length, std::size_t n_slots, const auto& index_of) {
+    const auto look_through = [&](std::vector<float>& lanes, std::size_t length,
+                                  std::size_t n_slots, const auto& index_of) {
         if (n_slots == 0) return;
         float *x = lanes.data(), *y = x + length, *vx = y + length, *vy = vx + length;
         for (std::size_t slot = 0; slot < n_slots; ++slot) {
@@ -108,18 +124,21 @@ void CellGrid::set_apart(double speed) {
             longest_squared = std::max(longest_squared, squared);
             apart_.push_back(index_of(static_cast<std::uint32_t>(slot)));
             kept.insert(kept.end(), {x[slot], y[slot], vx[slot], vy[slot]});
-            // Far from everybody and from each other, and flying away: the filter keeps pairs without relative velocity.
+            // Far from everybody and from each other, and flying away: the filter keeps pairs
+            // without relative velocity.
             x[slot] = y[slot] = 1e6f * static_cast<float>(apart_.size());
             vx[slot] = vy[slot] = 1e3f * static_cast<float>(apart_.size());
         }
     };
     look_through(lanes_, lane_length_, n_own_, [](std::uint32_t slot) { return LocalIndex{slot}; });
-    look_through(halo_lanes_, halo_order_.size() + filter_padding, halo_order_.size(), [this](std::uint32_t slot) { return halo_index(slot); });
+    look_through(halo_lanes_, halo_order_.size() + filter_padding, halo_order_.size(),
+                 [this](std::uint32_t slot) { return halo_index(slot); });
     longest_flight_ = std::sqrt(static_cast<double>(longest_squared));
     const std::size_t apart_length = apart_.size() + filter_padding;
     apart_lanes_.assign(4 * apart_length, 0.0f);
     for (std::size_t k = 0; k < apart_.size(); ++k) {
-        for (std::size_t lane = 0; lane < 4; ++lane) apart_lanes_[lane * apart_length + k] = kept[4 * k + lane];
+        for (std::size_t lane = 0; lane < 4; ++lane)
+            apart_lanes_[lane * apart_length + k] = kept[4 * k + lane];
     }
 }
 
@@ -131,16 +150,22 @@ CellGrid::Cell CellGrid::cell_of(LocalIndex own_index) const {
 
 std::vector<SlotRange> CellGrid::outside(const Inside& inner) const {
     constexpr double margin = 1e-6; // where a cell ends is rounded
-    // Cells first .. end - 1 of n from `origin` on lie within low .. high; those at the ends hold what is beyond them, too.
+    // Cells first .. end - 1 of n from `origin` on lie within low .. high; those at the ends hold
+    // what is beyond them, too.
     const auto cells_within = [this](double low, double high, double origin, int n) {
-        const double from = (low - origin) / frame_.cell_width + margin, to = (high - origin) / frame_.cell_width - margin;
+        const double from = (low - origin) / frame_.cell_width + margin,
+                     to = (high - origin) / frame_.cell_width - margin;
         SlotRange cells;
-        cells.begin = static_cast<std::uint32_t>(low == -infinity ? 0 : std::clamp(std::floor(from) + 1, 1.0, static_cast<double>(n)));
-        cells.end = static_cast<std::uint32_t>(high == infinity ? n : std::clamp(std::floor(to), 0.0, n - 1.0));
+        cells.begin = static_cast<std::uint32_t>(
+            low == -infinity ? 0 : std::clamp(std::floor(from) + 1, 1.0, static_cast<double>(n)));
+        cells.end = static_cast<std::uint32_t>(
+            high == infinity ? n : std::clamp(std::floor(to), 0.0, n - 1.0));
         return cells;
     };
-    const SlotRange columns = cells_within(inner.x_low, inner.x_high, frame_.x_low, frame_.n_columns);
-    const SlotRange inner_rows = cells_within(inner.y_low, inner.y_high, frame_.y_low, frame_.n_rows);
+    const SlotRange columns = cells_within(inner.x_low, inner.x_high, frame_.x_low,
+                                           frame_.n_columns);
+    const SlotRange inner_rows = cells_within(inner.y_low, inner.y_high, frame_.y_low,
+                                              frame_.n_rows);
     const auto n_own = static_cast<std::uint32_t>(n_own_);
     if (columns.begin >= columns.end || inner_rows.begin >= inner_rows.end) return {{0, n_own}};
     std::vector<SlotRange> ranges;
@@ -158,8 +183,11 @@ std::vector<std::int64_t> CellGrid::column_shares(int n_shares) const {
     std::vector<std::int64_t> bounds;
     int column = 0;
     for (int k = 0; k < n_shares; ++k) {
-        const std::size_t before = share(n_own_, static_cast<std::size_t>(k), static_cast<std::size_t>(n_shares));
-        while (column < frame_.n_columns && cell_start_[static_cast<std::size_t>(column) * rows()] < before) ++column;
+        const std::size_t before = share(n_own_, static_cast<std::size_t>(k),
+                                         static_cast<std::size_t>(n_shares));
+        while (column < frame_.n_columns &&
+               cell_start_[static_cast<std::size_t>(column) * rows()] < before)
+            ++column;
         bounds.push_back(column);
     }
     bounds.push_back(frame_.n_columns);
@@ -167,21 +195,25 @@ std::vector<std::int64_t> CellGrid::column_shares(int n_shares) const {
 }
 
 float CellGrid::touching_squared(double diameter) const {
-    // Positions and velocities carry an error of 2^-24 of the frame's size; the filter allows for its own rounding.
-    const double extent = std::max(frame_.n_columns, frame_.n_rows) + 4.0 * std::max<double>(frame_.n_reach, longest_flight_);
+    // Positions and velocities carry an error of 2^-24 of the frame's size; the filter allows for
+    // its own rounding.
+    const double extent = std::max(frame_.n_columns, frame_.n_rows) +
+                          4.0 * std::max<double>(frame_.n_reach, longest_flight_);
     const double touching = diameter / frame_.cell_width * (1 + 0x1p-18) + 0x1p-21 * extent;
     return static_cast<float>(touching * touching);
 }
 
 float CellGrid::cells_of(double length) const {
-    return static_cast<float>(length / frame_.cell_width * (1 + 0x1p-18) + 0x1p-20 * (std::max(frame_.n_columns, frame_.n_rows) + 8));
+    return static_cast<float>(length / frame_.cell_width * (1 + 0x1p-18) +
+                              0x1p-20 * (std::max(frame_.n_columns, frame_.n_rows) + 8));
 }
 
 bool CellGrid::is_valid(std::size_t n_discs) const {
     if (cell_start_.back() != n_own_ || n_own_ + halo_order_.size() != n_discs) return false;
     for (std::size_t slot = 0; slot < halo_order_.size(); ++slot)
         if (halo_slot_[halo_order_[slot]] != slot) return false;
-    return std::is_sorted(cell_start_.begin(), cell_start_.end()) && (!has_halo() || std::is_sorted(halo_start_.begin(), halo_start_.end()));
+    return std::is_sorted(cell_start_.begin(), cell_start_.end()) &&
+           (!has_halo() || std::is_sorted(halo_start_.begin(), halo_start_.end()));
 }
 
 } // namespace carrom

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs sorted into square cells by where they are at a window's anchor, x-major: the cells of a column that lie within
-// reach of a disc are one contiguous run of slots, to be read 16 lanes at a time.
+// Discs sorted into square cells by where they are at a window's anchor, x-major: the cells of a
+// column that lie within reach of a disc are one contiguous run of slots, to be read 16 lanes at a
+// time.
 //
-// Own discs are brought into that order themselves: their slots are their places, and neighbours in space are neighbours in
-// memory. Discs of the halo stay where messages have put them; they have slots of their own, in the columns where there are any.
-// For each slot the grid holds the disc's free flight in single precision, in units of cells and windows, so that nothing
-// can overflow. It serves to reject; the double predicate decides. Price: 16 bytes a disc and 4 a cell.
+// Own discs are brought into that order themselves: their slots are their places, and neighbours in
+// space are neighbours in memory. Discs of the halo stay where messages have put them; they have
+// slots of their own, in the columns where there are any. For each slot the grid holds the disc's
+// free flight in single precision, in units of cells and windows, so that nothing can overflow. It
+// serves to reject; the double predicate decides. Price: 16 bytes a disc and 4 a cell.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +19,8 @@
 
 namespace carrom {
 
-/// Where the cells lie. Discs outside the frame are put into its border cells, which brings no two discs further apart.
+/// Where the cells lie. Discs outside the frame are put into its border cells, which brings no two
+/// discs further apart.
 struct GridFrame {
     double x_low = 0, y_low = 0;
     double cell_width = 1; ///< see set_cell_width
@@ -34,22 +37,26 @@ struct GridFrame {
     }
 
 private:
-    double cells_per_length_ = 1; ///< a division a disc costs as much as all else that finds its cell
+    double cells_per_length_ =
+        1; ///< a division a disc costs as much as all else that finds its cell
     static int clamp_cell(double cell, int n) {
         if (!(cell > 0)) return 0;
         return cell < n ? static_cast<int>(cell) : n - 1;
     }
 };
 
-/// A frame of cells over [x_low, x_high] x [y_low, y_high] for partners within `reach`, not many more than `n_discs` cells.
-/// `cell_width` in units of reach, 0 for a choice by density.
-GridFrame make_frame(double x_low, double x_high, double y_low, double y_high, double reach, std::size_t n_discs,
-                     double cell_width);
+/// A frame of cells over [x_low, x_high] x [y_low, y_high] for partners within `reach`, not many
+/// more than `n_discs` cells. `cell_width` in units of reach, 0 for a choice by density.
+GridFrame make_frame(double x_low, double x_high, double y_low, double y_high, double reach,
+                     std::size_t n_discs, double cell_width);
 
-/// The same for a look now and then, with no more than half as many cells as discs: less memory, more pairs.
-GridFrame make_sparse_frame(double x_low, double x_high, double y_low, double y_high, double reach, std::size_t n_discs);
+/// The same for a look now and then, with no more than half as many cells as discs: less memory,
+/// more pairs.
+GridFrame make_sparse_frame(double x_low, double x_high, double y_low, double y_high, double reach,
+                            std::size_t n_discs);
 
-/// Free flights in slot order: position in cells from the frame's corner at the window's start, cells per window.
+/// Free flights in slot order: position in cells from the frame's corner at the window's start,
+/// cells per window.
 struct FlightLanes {
     const float* x = nullptr;
     const float* y = nullptr;
@@ -76,21 +83,27 @@ struct Companions {
 
 class CellGrid {
 public:
-    /// Brings `own` into the order of their cells at `anchor`; flights begin at `time` and last for `duration`. Where there are
-    /// periods discs are where their images are. There is no halo until one is added.
-    void sort(std::span<Disc> own, const GridFrame& frame, double anchor, double time, double duration, int n_threads,
-              const Periods& periods = {}, const Companions& companions = {});
-    /// The same for cells alone, by where discs are at `time`: `lanes()` and what is found by them say nothing.
-    void sort_cells(std::span<Disc> own, const GridFrame& frame, double time, int n_threads, const Periods& periods = {},
-                    const Companions& companions = {});
+    /// Brings `own` into the order of their cells at `anchor`; flights begin at `time` and last for
+    /// `duration`. Where there are periods discs are where their images are. There is no halo until
+    /// one is added.
+    void sort(std::span<Disc> own, const GridFrame& frame, double anchor, double time,
+              double duration, int n_threads, const Periods& periods = {},
+              const Companions& companions = {});
+    /// The same for cells alone, by where discs are at `time`: `lanes()` and what is found by them
+    /// say nothing.
+    void sort_cells(std::span<Disc> own, const GridFrame& frame, double time, int n_threads,
+                    const Periods& periods = {}, const Companions& companions = {});
     /// Puts discs that lie behind the own ones, in this order, into cells of theirs.
     void add_halo(std::span<const Disc> halo);
 
-    /// Takes the flights of discs that are faster than `speed`, in lengths per unit of time, out of the lanes: no disc that
-    /// looks at their slots will find them there. They are listed in `apart()` until discs are sorted again.
+    /// Takes the flights of discs that are faster than `speed`, in lengths per unit of time, out of
+    /// the lanes: no disc that looks at their slots will find them there. They are listed in
+    /// `apart()` until discs are sorted again.
     void set_apart(double speed);
     std::span<const LocalIndex> apart() const { return apart_; }
-    FlightLanes apart_lanes() const { return lanes_of(apart_lanes_, apart_.size() + filter_padding); }
+    FlightLanes apart_lanes() const {
+        return lanes_of(apart_lanes_, apart_.size() + filter_padding);
+    }
 
     /// Takes over a disc's new free flight. Its cell stays what it was.
     void update_flight(LocalIndex index, const Disc& disc);
@@ -102,24 +115,40 @@ public:
 
     /// By own disc, and by slot of the halo.
     FlightLanes lanes() const { return lanes_of(lanes_, lane_length_); }
-    FlightLanes halo_lanes() const { return lanes_of(halo_lanes_, halo_order_.size() + filter_padding); }
-    LocalIndex halo_index(std::uint32_t slot) const { return static_cast<LocalIndex>(n_own_) + halo_order_[slot]; }
+    FlightLanes halo_lanes() const {
+        return lanes_of(halo_lanes_, halo_order_.size() + filter_padding);
+    }
+    LocalIndex halo_index(std::uint32_t slot) const {
+        return static_cast<LocalIndex>(n_own_) + halo_order_[slot];
+    }
     std::uint32_t halo_slot(LocalIndex index) const { return halo_slot_[index - n_own_]; }
 
     /// The column or row of a position in cells.
-    int clamped_column(float x) const { return x > 0 ? (x < static_cast<float>(frame_.n_columns) ? static_cast<int>(x) : frame_.n_columns - 1) : 0; }
-    int clamped_row(float y) const { return y > 0 ? (y < static_cast<float>(frame_.n_rows) ? static_cast<int>(y) : frame_.n_rows - 1) : 0; }
+    int clamped_column(float x) const {
+        return x > 0 ? (x < static_cast<float>(frame_.n_columns) ? static_cast<int>(x)
+                                                                 : frame_.n_columns - 1)
+                     : 0;
+    }
+    int clamped_row(float y) const {
+        return y > 0 ? (y < static_cast<float>(frame_.n_rows) ? static_cast<int>(y)
+                                                              : frame_.n_rows - 1)
+                     : 0;
+    }
 
     /// Own discs of the cells (column, first_row .. last_row); rows are cut at the frame's ends.
     SlotRange run(int column, int first_row, int last_row) const {
-        return run_from(cell_start_, static_cast<std::size_t>(column) * rows(), first_row, last_row);
+        return run_from(cell_start_, static_cast<std::size_t>(column) * rows(), first_row,
+                        last_row);
     }
     /// Slots of the halo's discs there.
     SlotRange halo_run(int column, int first_row, int last_row) const {
         if (!has_halo_in(column)) return {};
-        return run_from(halo_start_, halo_column_[static_cast<std::size_t>(column)], first_row, last_row);
+        return run_from(halo_start_, halo_column_[static_cast<std::size_t>(column)], first_row,
+                        last_row);
     }
-    bool has_halo_in(int column) const { return has_halo() && halo_column_[static_cast<std::size_t>(column)] != no_halo; }
+    bool has_halo_in(int column) const {
+        return has_halo() && halo_column_[static_cast<std::size_t>(column)] != no_halo;
+    }
 
     /// Where an own disc is filed: a search. In a loop over discs, go over their cells instead.
     struct Cell {
@@ -130,27 +159,32 @@ public:
     /// Own discs, ascending, with all that were not within `inner` at the anchor; many others, too.
     std::vector<SlotRange> outside(const Inside& inner) const;
 
-    /// First columns of `n_shares` shares with about as many own discs each, and the number of columns.
+    /// First columns of `n_shares` shares with about as many own discs each, and the number of
+    /// columns.
     std::vector<std::int64_t> column_shares(int n_shares) const;
 
-    /// Ask for what a look around an own disc will need: its flight, some time later where the cells around it begin, and then the
-    /// flights in them.
+    /// Ask for what a look around an own disc will need: its flight, some time later where the
+    /// cells around it begin, and then the flights in them.
     void prefetch_flight(LocalIndex index) const {
         if (index >= n_own_) return;
         const float* flight = lanes_.data() + index;
-        for (std::size_t lane = 0; lane < 4; ++lane) __builtin_prefetch(flight + lane * lane_length_, 1);
+        for (std::size_t lane = 0; lane < 4; ++lane)
+            __builtin_prefetch(flight + lane * lane_length_, 1);
     }
     void prefetch_cells(LocalIndex index) const {
-        for_each_place_around(index, [this](std::size_t place) { __builtin_prefetch(&cell_start_[place]); });
+        for_each_place_around(
+            index, [this](std::size_t place) { __builtin_prefetch(&cell_start_[place]); });
     }
     void prefetch_flights(LocalIndex index) const {
         for_each_place_around(index, [this](std::size_t place) {
             const float* flight = lanes_.data() + cell_start_[place > 0 ? place - 1 : 0];
-            for (std::size_t lane = 0; lane < 4; ++lane) __builtin_prefetch(flight + lane * lane_length_);
+            for (std::size_t lane = 0; lane < 4; ++lane)
+                __builtin_prefetch(flight + lane * lane_length_);
         });
     }
 
-    /// Squared distance in cells, with a margin for single precision, beyond which flights cannot touch.
+    /// Squared distance in cells, with a margin for single precision, beyond which flights cannot
+    /// touch.
     float touching_squared(double diameter) const;
     /// `length` in cells, with a margin for single precision.
     float cells_of(double length) const;
@@ -160,7 +194,8 @@ public:
 private:
     static constexpr std::uint32_t no_halo = ~std::uint32_t{0};
 
-    /// A share of the discs, which lie in the cells first .. end, and where the counts of those begin.
+    /// A share of the discs, which lie in the cells first .. end, and where the counts of those
+    /// begin.
     struct Sorter {
         std::size_t first_disc = 0, end_disc = 0;
         std::uint32_t first_cell = 0, end_cell = 0;
@@ -168,8 +203,10 @@ private:
     };
     /// What a thread keeps while it brings its share of the places into order.
     struct Carrier {
-        std::vector<Disc> passed;         ///< discs that were at the places before the present one, in a ring
-        std::vector<Disc> travellers;     ///< discs from so far away that they were set aside beforehand
+        std::vector<Disc>
+            passed; ///< discs that were at the places before the present one, in a ring
+        std::vector<Disc>
+            travellers; ///< discs from so far away that they were set aside beforehand
         std::vector<LocalIndex> arrivals; ///< their new places, ascending, and one that is none
         std::vector<LocalIndex> sent;     ///< new places of such discs of this share, in no order
     };
@@ -178,10 +215,12 @@ private:
         const float* x = lanes.data();
         return {x, x + length, x + 2 * length, x + 3 * length};
     }
-    SlotRange run_from(const std::vector<std::uint32_t>& starts, std::size_t base, int first_row, int last_row) const {
+    SlotRange run_from(const std::vector<std::uint32_t>& starts, std::size_t base, int first_row,
+                       int last_row) const {
         const int low = first_row < 0 ? 0 : first_row;
         const int high = last_row >= frame_.n_rows ? frame_.n_rows - 1 : last_row;
-        return {starts[base + static_cast<std::size_t>(low)], starts[base + static_cast<std::size_t>(high) + 1]};
+        return {starts[base + static_cast<std::size_t>(low)],
+                starts[base + static_cast<std::size_t>(high) + 1]};
     }
     /// Its cell and those to the left and right, where its flight says that it is.
     template <class Visit> void for_each_place_around(LocalIndex index, const Visit& visit) const {
@@ -189,29 +228,37 @@ private:
         const int column = clamped_column(lanes_[index]);
         const auto row = static_cast<std::size_t>(clamped_row(lanes_[index + lane_length_]));
         for (int other = column - 1; other <= column + 1; ++other)
-            if (other >= 0 && other < frame_.n_columns) visit(static_cast<std::size_t>(other) * rows() + row);
+            if (other >= 0 && other < frame_.n_columns)
+                visit(static_cast<std::size_t>(other) * rows() + row);
     }
     std::uint32_t rows() const { return static_cast<std::uint32_t>(frame_.n_rows); }
 
     // `Places` says where discs are: their states, or their images.
     void sort(std::span<Disc> own, int n_threads, const Companions& companions);
-    template <class Places> void sort(const Places& places, std::span<Disc> own, int n_threads, const Companions& companions);
+    template <class Places>
+    void sort(const Places& places, std::span<Disc> own, int n_threads,
+              const Companions& companions);
     template <class Places> std::uint32_t column_at(const Places& places, const Disc& disc) const;
     template <class Places> std::uint32_t row_at(const Places& places, const Disc& disc) const;
     template <class Places> std::uint32_t cell_at(const Places& places, const Disc& disc) const;
     template <class Places> void order_alone(const Places& places, std::span<const Disc> own);
-    template <class Places> void order_together(const Places& places, std::span<const Disc> own, int n_threads);
+    template <class Places>
+    void order_together(const Places& places, std::span<const Disc> own, int n_threads);
     void share_out(std::size_t n_discs, int n_sorters);
     bool make_room_for_counts(std::size_t n_cells);
-    template <class Visit> void for_each_count(std::size_t begin, std::size_t end, const Visit& visit) const;
+    template <class Visit>
+    void for_each_count(std::size_t begin, std::size_t end, const Visit& visit) const;
     void begin_order(int n_threads);
     void note_traveller(Carrier& carrier, std::uint32_t place);
     bool share_out_travellers();
     void set_travellers_aside(std::span<const Disc> discs, int n_threads);
     template <class Placed> void carry(std::span<Disc> discs, int n_threads, const Placed& placed);
-    template <class Places> void rearrange(const Places& places, std::span<Disc> own, int n_threads, std::span<Disc> companion);
+    template <class Places>
+    void rearrange(const Places& places, std::span<Disc> own, int n_threads,
+                   std::span<Disc> companion);
     template <class Places> void add_halo(const Places& places, std::span<const Disc> halo);
-    template <class Places> void place(const Places& places, float* flight, std::size_t length, const Disc& disc) const;
+    template <class Places>
+    void place(const Places& places, float* flight, std::size_t length, const Disc& disc) const;
     template <class Places> void update(const Places& places, LocalIndex index, const Disc& disc);
 
     GridFrame frame_;
@@ -219,24 +266,26 @@ private:
     double anchor_ = 0, time_ = 0, duration_ = 1;
     bool has_flights_ = false;
     std::size_t n_own_ = 0;
-    std::vector<std::uint32_t> cell_start_;  ///< by cell, and one more
-    std::size_t lane_length_ = 0;            ///< own discs and padding for whole vectors
-    std::vector<float> lanes_;               ///< x, y, vx, vy by own disc, one after the other; before that what sorts discs
-    std::vector<Sorter> sorters_;            ///< scratch for several threads
-    std::vector<Carrier> carriers_;          ///< by thread
-    std::size_t n_passed_ = 1;               ///< how many of them are kept, a power of two
-    std::size_t most_travellers_ = 0;        ///< of a share
-    bool are_in_disorder_ = false;           ///< whether too many discs come from afar
+    std::vector<std::uint32_t> cell_start_; ///< by cell, and one more
+    std::size_t lane_length_ = 0;           ///< own discs and padding for whole vectors
+    std::vector<float>
+        lanes_; ///< x, y, vx, vy by own disc, one after the other; before that what sorts discs
+    std::vector<Sorter> sorters_;     ///< scratch for several threads
+    std::vector<Carrier> carriers_;   ///< by thread
+    std::size_t n_passed_ = 1;        ///< how many of them are kept, a power of two
+    std::size_t most_travellers_ = 0; ///< of a share
+    bool are_in_disorder_ = false;    ///< whether too many discs come from afar
 
-    std::vector<std::uint32_t> halo_column_; ///< by column: where its cells begin in the next, or no_halo
-    std::vector<std::uint32_t> halo_start_;  ///< by cell of the columns that have any, and one more
-    std::vector<LocalIndex> halo_order_;     ///< by slot: places in the halo
-    std::vector<std::uint32_t> halo_slot_;   ///< by place in the halo
-    std::vector<float> halo_lanes_;          ///< x, y, vx, vy by slot
+    std::vector<std::uint32_t>
+        halo_column_; ///< by column: where its cells begin in the next, or no_halo
+    std::vector<std::uint32_t> halo_start_; ///< by cell of the columns that have any, and one more
+    std::vector<LocalIndex> halo_order_;    ///< by slot: places in the halo
+    std::vector<std::uint32_t> halo_slot_;  ///< by place in the halo
+    std::vector<float> halo_lanes_;         ///< x, y, vx, vy by slot
 
     std::vector<LocalIndex> apart_;
-    std::vector<float> apart_lanes_;         ///< the same by place in `apart_`
-    double longest_flight_ = 0;              ///< of those, in cells
+    std::vector<float> apart_lanes_; ///< the same by place in `apart_`
+    double longest_flight_ = 0;      ///< of those, in cells
 };
 
 } // namespace carrom

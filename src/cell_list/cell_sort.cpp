@@ -5,15 +5,16 @@
 #include <cstring>
 #include <limits>
 
-#include "core/errors.hpp"
 #include "cell_list/cell_places.hpp"
+#include "core/errors.hpp"
 
 namespace carrom {
 
 namespace {
 
-/// Windows of many lengths have cells of many sizes: memory of the smallest ones is not kept for all, and a few more cells than
-/// last time do not take twice the memory. What was in `numbers` may be gone.
+/// Windows of many lengths have cells of many sizes: memory of the smallest ones is not kept for
+/// all, and a few more cells than last time do not take twice the memory. What was in `numbers` may
+/// be gone.
 template <class T> void resize_close(std::vector<T>& numbers, std::size_t size) {
     if (numbers.capacity() < size || numbers.capacity() > size + size / 2) {
         std::vector<T>().swap(numbers);
@@ -40,8 +41,9 @@ private:
 
 } // namespace
 
-void CellGrid::sort(std::span<Disc> own, const GridFrame& frame, double anchor, double time, double duration, int n_threads,
-                    const Periods& periods, const Companions& companions) {
+void CellGrid::sort(std::span<Disc> own, const GridFrame& frame, double anchor, double time,
+                    double duration, int n_threads, const Periods& periods,
+                    const Companions& companions) {
     frame_ = frame;
     periods_ = periods;
     anchor_ = anchor;
@@ -50,12 +52,14 @@ void CellGrid::sort(std::span<Disc> own, const GridFrame& frame, double anchor, 
     has_flights_ = true;
     sort(own, n_threads, companions);
     for (std::size_t lane = 1; lane <= 4; ++lane) {
-        std::fill_n(lanes_.begin() + static_cast<std::ptrdiff_t>(lane * lane_length_ - filter_padding), filter_padding, 0.0f);
+        std::fill_n(lanes_.begin() +
+                        static_cast<std::ptrdiff_t>(lane * lane_length_ - filter_padding),
+                    filter_padding, 0.0f);
     }
 }
 
-void CellGrid::sort_cells(std::span<Disc> own, const GridFrame& frame, double time, int n_threads, const Periods& periods,
-                          const Companions& companions) {
+void CellGrid::sort_cells(std::span<Disc> own, const GridFrame& frame, double time, int n_threads,
+                          const Periods& periods, const Companions& companions) {
     frame_ = frame;
     periods_ = periods;
     anchor_ = time;
@@ -64,8 +68,10 @@ void CellGrid::sort_cells(std::span<Disc> own, const GridFrame& frame, double ti
 }
 
 void CellGrid::sort(std::span<Disc> own, int n_threads, const Companions& companions) {
-    ensure(companions.states.empty() || companions.states.size() == own.size(), "what goes with the own discs is as many");
-    ensure(companions.spins.empty() || companions.spins.size() == own.size(), "there are as many spins as own discs");
+    ensure(companions.states.empty() || companions.states.size() == own.size(),
+           "what goes with the own discs is as many");
+    ensure(companions.spins.empty() || companions.spins.size() == own.size(),
+           "there are as many spins as own discs");
     apart_.clear();
     longest_flight_ = 0;
     halo_order_.clear();
@@ -73,16 +79,22 @@ void CellGrid::sort(std::span<Disc> own, int n_threads, const Companions& compan
     lane_length_ = n_own_ + filter_padding;
     resize_close(lanes_, (has_flights_ ? 4 : 2) * lane_length_);
     resize_close(cell_start_, static_cast<std::size_t>(frame_.n_columns) * rows() + 1);
-    if (periods_.are_any()) sort(periods_, own, n_threads, companions);
-    else sort(StoredPlaces{}, own, n_threads, companions);
+    if (periods_.are_any())
+        sort(periods_, own, n_threads, companions);
+    else
+        sort(StoredPlaces{}, own, n_threads, companions);
 }
 
-/// First which disc goes where, in the second of the lanes; then they go. Nearly all come from near by: a pass over the discs.
+/// First which disc goes where, in the second of the lanes; then they go. Nearly all come from near
+/// by: a pass over the discs.
 template <class Places>
-void CellGrid::sort(const Places& places, std::span<Disc> own, int n_threads, const Companions& companions) {
+void CellGrid::sort(const Places& places, std::span<Disc> own, int n_threads,
+                    const Companions& companions) {
     begin_order(n_threads);
-    if (n_threads == 1) order_alone(places, own);
-    else order_together(places, own, n_threads);
+    if (n_threads == 1)
+        order_alone(places, own);
+    else
+        order_together(places, own, n_threads);
     if (!companions.spins.empty()) {
         const Lent order(lanes_.data() + lane_length_);
         const std::vector<double> before(companions.spins.begin(), companions.spins.end());
@@ -90,7 +102,9 @@ void CellGrid::sort(const Places& places, std::span<Disc> own, int n_threads, co
     }
     if (!share_out_travellers()) return rearrange(places, own, n_threads, companions.states);
     const auto place_flight = [&](std::size_t i) {
-        if (has_flights_) place(places, lanes_.data() + i, lane_length_, own[i]); // the order up to here has been used
+        if (has_flights_)
+            place(places, lanes_.data() + i, lane_length_,
+                  own[i]); // the order up to here has been used
     };
     if (!companions.states.empty()) {
         set_travellers_aside(companions.states, n_threads);
@@ -102,7 +116,8 @@ void CellGrid::sort(const Places& places, std::span<Disc> own, int n_threads, co
 
 void CellGrid::begin_order(int n_threads) {
     constexpr std::size_t least_passed = 256, most_passed = 32768, columns_passed = 4;
-    const std::size_t in_columns = columns_passed * n_own_ / static_cast<std::size_t>(frame_.n_columns);
+    const std::size_t in_columns = columns_passed * n_own_ /
+                                   static_cast<std::size_t>(frame_.n_columns);
     n_passed_ = std::bit_ceil(std::clamp(in_columns, least_passed, most_passed));
     most_travellers_ = 4096 + n_own_ / (64 * static_cast<std::size_t>(n_threads));
     are_in_disorder_ = false;
@@ -110,16 +125,19 @@ void CellGrid::begin_order(int n_threads) {
     for (Carrier& carrier : carriers_) carrier.sent.clear();
 }
 
-/// A disc whose place another thread sees to, or that will have been passed so long ago that it is not at hand any more.
+/// A disc whose place another thread sees to, or that will have been passed so long ago that it is
+/// not at hand any more.
 void CellGrid::note_traveller(Carrier& carrier, std::uint32_t place) {
     if (carrier.sent.size() <= most_travellers_) carrier.sent.push_back(place);
 }
 
 // One counting sort: states are read in the order in which they lie.
-template <class Places> void CellGrid::order_alone(const Places& places, std::span<const Disc> own) {
+template <class Places>
+void CellGrid::order_alone(const Places& places, std::span<const Disc> own) {
     Lent cell_of(lanes_.data()), order(lanes_.data() + lane_length_);
     std::fill(cell_start_.begin(), cell_start_.end(), 0u);
-    std::uint32_t* next = cell_start_.data() + 1; // by cell: how many discs, then the place of the next one
+    std::uint32_t* next = cell_start_.data() +
+                          1; // by cell: how many discs, then the place of the next one
     for (std::size_t i = 0; i < own.size(); ++i) {
         const std::uint32_t cell = cell_at(places, own[i]);
         cell_of.set(i, cell);
@@ -138,9 +156,11 @@ template <class Places> void CellGrid::order_alone(const Places& places, std::sp
     }
 }
 
-// The same by several threads: each sorter counts only between the first and the last cell of its share of the discs. Those lie
-// nearly in the order of their cells, so all counts together are not many more than there are cells.
-template <class Places> void CellGrid::order_together(const Places& places, std::span<const Disc> own, int n_threads) {
+// The same by several threads: each sorter counts only between the first and the last cell of its
+// share of the discs. Those lie nearly in the order of their cells, so all counts together are not
+// many more than there are cells.
+template <class Places>
+void CellGrid::order_together(const Places& places, std::span<const Disc> own, int n_threads) {
     Lent cell_of(lanes_.data());
     const std::size_t n_cells = cell_start_.size() - 1;
     share_out(own.size(), n_threads);
@@ -168,7 +188,8 @@ template <class Places> void CellGrid::order_together(const Places& places, std:
         for (std::size_t k = 0; k < sorters_.size(); ++k) {
             const Sorter& sorter = sorters_[k];
             Lent counts = all_counts.from(sorter.counts);
-            for (std::uint32_t cell = sorter.first_cell; cell < sorter.end_cell; ++cell) counts.set(cell - sorter.first_cell, 0);
+            for (std::uint32_t cell = sorter.first_cell; cell < sorter.end_cell; ++cell)
+                counts.set(cell - sorter.first_cell, 0);
             for (std::size_t i = sorter.first_disc; i < sorter.end_disc; ++i) {
                 const std::uint32_t place = cell_of[i] - sorter.first_cell;
                 counts.set(place, counts[place] + 1);
@@ -185,8 +206,10 @@ template <class Places> void CellGrid::order_together(const Places& places, std:
         for (std::size_t k = 0; k < n_shares; ++k) starts[k + 1] += starts[k];
 #pragma omp for schedule(static, 1)
         for (std::size_t k = 0; k < n_shares; ++k) {
-            std::uint32_t start = starts[k]; // each count becomes the place of the sorter's next disc there
-            const std::size_t begin = share(n_cells, k, n_shares), end = share(n_cells, k + 1, n_shares);
+            std::uint32_t start =
+                starts[k]; // each count becomes the place of the sorter's next disc there
+            const std::size_t begin = share(n_cells, k, n_shares),
+                              end = share(n_cells, k + 1, n_shares);
             std::size_t next = begin;
             for_each_count(begin, end, [&](std::size_t cell, std::size_t count) {
                 while (next <= cell) cell_start_[next++] = start;
@@ -204,7 +227,8 @@ template <class Places> void CellGrid::order_together(const Places& places, std:
                 const std::uint32_t cell = cell_of[i] - sorter.first_cell, place = next[cell];
                 next.set(cell, place + 1);
                 order.set(place, static_cast<std::uint32_t>(i));
-                const bool is_near = place >= sorter.first_disc && place < sorter.end_disc && place < i + n_passed_;
+                const bool is_near = place >= sorter.first_disc && place < sorter.end_disc &&
+                                     place < i + n_passed_;
                 if (!is_near && !are_in_disorder_) note_traveller(carriers_[k], place);
             }
         }
@@ -221,7 +245,8 @@ void CellGrid::share_out(std::size_t n_discs, int n_sorters) {
     }
 }
 
-/// Discs in no order have all sorters count in all cells: then only a few of them work, and it returns false.
+/// Discs in no order have all sorters count in all cells: then only a few of them work, and it
+/// returns false.
 bool CellGrid::make_room_for_counts(std::size_t n_cells) {
     constexpr std::size_t most_counting_all = 4;
     const auto lay_out = [this] {
@@ -246,34 +271,45 @@ bool CellGrid::make_room_for_counts(std::size_t n_cells) {
     return !are_too_many;
 }
 
-/// Calls visit(cell, place of the count) for all sorters' counts of the cells begin .. end, cell by cell.
-template <class Visit> void CellGrid::for_each_count(std::size_t begin, std::size_t end, const Visit& visit) const {
+/// Calls visit(cell, place of the count) for all sorters' counts of the cells begin .. end, cell by
+/// cell.
+template <class Visit>
+void CellGrid::for_each_count(std::size_t begin, std::size_t end, const Visit& visit) const {
     std::vector<Sorter> here;
     for (const Sorter& sorter : sorters_)
         if (sorter.first_cell < end && sorter.end_cell > begin) here.push_back(sorter);
-    const auto counts_in = [](const Sorter& sorter, std::size_t cell) { return sorter.first_cell <= cell && cell < sorter.end_cell; };
-    for (std::size_t cell = begin; cell < end;) { // up to where another sorter begins or ends, mostly one counts
+    const auto counts_in = [](const Sorter& sorter, std::size_t cell) {
+        return sorter.first_cell <= cell && cell < sorter.end_cell;
+    };
+    for (std::size_t cell = begin;
+         cell < end;) { // up to where another sorter begins or ends, mostly one counts
         std::size_t stretch_end = end;
         const Sorter* one = nullptr;
         std::size_t n_here = 0;
         for (const Sorter& sorter : here) {
-            if (sorter.first_cell > cell) stretch_end = std::min<std::size_t>(stretch_end, sorter.first_cell);
-            if (sorter.end_cell > cell) stretch_end = std::min<std::size_t>(stretch_end, sorter.end_cell);
+            if (sorter.first_cell > cell)
+                stretch_end = std::min<std::size_t>(stretch_end, sorter.first_cell);
+            if (sorter.end_cell > cell)
+                stretch_end = std::min<std::size_t>(stretch_end, sorter.end_cell);
             if (!counts_in(sorter, cell)) continue;
             one = &sorter;
             ++n_here;
         }
         if (n_here == 1) {
-            for (std::size_t count = one->counts + (cell - one->first_cell); cell < stretch_end; ++cell, ++count) visit(cell, count);
+            for (std::size_t count = one->counts + (cell - one->first_cell); cell < stretch_end;
+                 ++cell, ++count)
+                visit(cell, count);
         }
         for (; cell < stretch_end; ++cell) {
             for (const Sorter& sorter : here)
-                if (counts_in(sorter, cell)) visit(cell, sorter.counts + (cell - sorter.first_cell));
+                if (counts_in(sorter, cell))
+                    visit(cell, sorter.counts + (cell - sorter.first_cell));
         }
     }
 }
 
-/// Tells each share which of its places are travellers'. False if they are many: these discs are in no order yet.
+/// Tells each share which of its places are travellers'. False if they are many: these discs are in
+/// no order yet.
 bool CellGrid::share_out_travellers() {
     std::vector<LocalIndex> all;
     for (const Carrier& carrier : carriers_) {
@@ -300,13 +336,15 @@ void CellGrid::set_travellers_aside(std::span<const Disc> discs, int n_threads) 
         carrier.passed.resize(n_passed_);
         carrier.travellers.clear();
         carrier.travellers.reserve(carrier.arrivals.size());
-        for (std::size_t j = 0; j + 1 < carrier.arrivals.size(); ++j) carrier.travellers.push_back(discs[order[carrier.arrivals[j]]]);
+        for (std::size_t j = 0; j + 1 < carrier.arrivals.size(); ++j)
+            carrier.travellers.push_back(discs[order[carrier.arrivals[j]]]);
     }
 }
 
-/// Brings discs to their places, ascending: each comes from further on, from those passed lately, or has been set aside. Calls
-/// placed(i) when the disc of place i is there.
-template <class Placed> void CellGrid::carry(std::span<Disc> discs, int n_threads, const Placed& placed) {
+/// Brings discs to their places, ascending: each comes from further on, from those passed lately,
+/// or has been set aside. Calls placed(i) when the disc of place i is there.
+template <class Placed>
+void CellGrid::carry(std::span<Disc> discs, int n_threads, const Placed& placed) {
     constexpr std::size_t ahead = 16;
     const Lent order(lanes_.data() + lane_length_);
     const std::size_t n_shares = carriers_.size(), mask = n_passed_ - 1;
@@ -336,10 +374,12 @@ template <class Placed> void CellGrid::carry(std::span<Disc> discs, int n_thread
 
 /// The same for discs in no order.
 template <class Places>
-void CellGrid::rearrange(const Places& places, std::span<Disc> own, int n_threads, std::span<Disc> companion) {
+void CellGrid::rearrange(const Places& places, std::span<Disc> own, int n_threads,
+                         std::span<Disc> companion) {
     std::vector<std::uint32_t> order(n_own_);
     std::memcpy(order.data(), lanes_.data() + lane_length_, n_own_ * sizeof(std::uint32_t));
-    // A quarter of each state at a time goes through the lanes, so that no second array of states is needed.
+    // A quarter of each state at a time goes through the lanes, so that no second array of states
+    // is needed.
     constexpr std::size_t quarter = sizeof(Disc) / 4;
     static_assert(quarter == 4 * sizeof(float));
     resize_close(lanes_, 4 * lane_length_);
@@ -353,12 +393,14 @@ void CellGrid::rearrange(const Places& places, std::span<Disc> own, int n_thread
 #pragma omp for schedule(static)
             for (std::int64_t k = 0; k < n; ++k) {
                 const auto slot = static_cast<std::size_t>(k);
-                std::memcpy(lent + slot * quarter, states + order[slot] * sizeof(Disc) + part * quarter, quarter);
+                std::memcpy(lent + slot * quarter,
+                            states + order[slot] * sizeof(Disc) + part * quarter, quarter);
             }
 #pragma omp for schedule(static)
             for (std::int64_t k = 0; k < n; ++k) {
                 const auto slot = static_cast<std::size_t>(k);
-                std::memcpy(states + slot * sizeof(Disc) + part * quarter, lent + slot * quarter, quarter);
+                std::memcpy(states + slot * sizeof(Disc) + part * quarter, lent + slot * quarter,
+                            quarter);
             }
         }
     }

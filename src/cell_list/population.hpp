@@ -9,7 +9,8 @@
 
 namespace carrom {
 
-/// A rank's discs: its own first, then the halo's. Pairs of halo discs are somebody else's business.
+/// A rank's discs: its own first, then the halo's. Pairs of halo discs are somebody else's
+/// business.
 struct Population {
     std::span<const Disc> discs;
     std::size_t n_own = 0;

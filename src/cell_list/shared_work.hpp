@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chunks of a loop for several threads: each takes those of its own share first, in order, then what others have left.
+// Chunks of a loop for several threads: each takes those of its own share first, in order, then
+// what others have left.
 //
-// Shares are the same from one window to the next where the work is, so that what a thread needs is in its own cache; and
-// no thread waits while there is work.
+// Shares are the same from one window to the next where the work is, so that what a thread needs is
+// in its own cache; and no thread waits while there is work.
 #pragma once
 
 #include <atomic>
@@ -17,18 +18,22 @@ class SharedWork {
 public:
     /// Thread k's share is `bounds[k]` .. `bounds[k + 1]` - 1; chunks are of `chunk` items at most.
     SharedWork(std::vector<std::int64_t> bounds, std::int64_t chunk)
-        : bounds_(std::move(bounds)), chunk_(chunk), n_shares_(bounds_.size() - 1), next_(std::make_unique<Next[]>(n_shares_)) {
+        : bounds_(std::move(bounds)), chunk_(chunk), n_shares_(bounds_.size() - 1),
+          next_(std::make_unique<Next[]>(n_shares_)) {
         for (std::size_t k = 0; k < n_shares_; ++k) next_[k].item = bounds_[k];
     }
 
-    /// Calls work(item) for items of thread `thread` and of others, until none is left. By all threads at once.
+    /// Calls work(item) for items of thread `thread` and of others, until none is left. By all
+    /// threads at once.
     template <class Work> void run(int thread, const Work& work) {
         for (std::size_t k = 0; k < n_shares_; ++k) {
             const std::size_t share = (static_cast<std::size_t>(thread) + k) % n_shares_;
             const std::int64_t end = bounds_[share + 1];
             while (next_[share].item.load(std::memory_order_relaxed) < end) {
-                const std::int64_t first = next_[share].item.fetch_add(chunk_, std::memory_order_relaxed);
-                for (std::int64_t item = first; item < first + chunk_ && item < end; ++item) work(item);
+                const std::int64_t first = next_[share].item.fetch_add(chunk_,
+                                                                       std::memory_order_relaxed);
+                for (std::int64_t item = first; item < first + chunk_ && item < end; ++item)
+                    work(item);
             }
         }
     }

@@ -14,7 +14,9 @@ namespace {
 /// Sets of numbers that are joined two at a time; a set goes by its lowest number.
 class Clusters {
 public:
-    explicit Clusters(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+    explicit Clusters(std::size_t n) : parent_(n) {
+        std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    }
 
     std::size_t of(std::size_t i) {
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
@@ -36,12 +38,19 @@ struct Sums {
 
 } // namespace
 
-std::optional<EnergyChange> worst_energy_change(std::span<const SharedEnergy> discs, std::span<const std::pair<DiscId, DiscId>> pairs, bool may_fall) {
+std::optional<EnergyChange> worst_energy_change(std::span<const SharedEnergy> discs,
+                                                std::span<const std::pair<DiscId, DiscId>> pairs,
+                                                bool may_fall) {
     std::vector<SharedEnergy> sorted(discs.begin(), discs.end());
-    std::sort(sorted.begin(), sorted.end(), [](const SharedEnergy& a, const SharedEnergy& b) { return a.disc < b.disc; });
+    std::sort(sorted.begin(), sorted.end(),
+              [](const SharedEnergy& a, const SharedEnergy& b) { return a.disc < b.disc; });
     const auto place_of = [&](DiscId id) {
-        const auto found = std::lower_bound(sorted.begin(), sorted.end(), id, [](const SharedEnergy& a, DiscId b) { return a.disc < b; });
-        return found != sorted.end() && found->disc == id ? static_cast<std::size_t>(found - sorted.begin()) : sorted.size();
+        const auto found = std::lower_bound(
+            sorted.begin(), sorted.end(), id,
+            [](const SharedEnergy& a, DiscId b) { return a.disc < b; });
+        return found != sorted.end() && found->disc == id
+                   ? static_cast<std::size_t>(found - sorted.begin())
+                   : sorted.size();
     };
     Clusters clusters(sorted.size());
     std::vector<double> n_collisions(sorted.size(), 0);
@@ -62,11 +71,14 @@ std::optional<EnergyChange> worst_energy_change(std::span<const SharedEnergy> di
     std::optional<EnergyChange> worst;
     for (std::size_t i = 0; i < sums.size(); ++i) {
         const double bound = 64 * 0x1p-53 * sums[i].n_roundings;
-        const auto change = static_cast<double>(may_fall ? sums[i].change : std::fabs(sums[i].change));
+        const auto change = static_cast<double>(may_fall ? sums[i].change
+                                                         : std::fabs(sums[i].change));
         const auto before = static_cast<double>(sums[i].before);
-        if (change <= bound * before + sums[i].allowance + std::numeric_limits<double>::min()) continue;
+        if (change <= bound * before + sums[i].allowance + std::numeric_limits<double>::min())
+            continue;
         const double share = change / before; // infinite where there was none
-        if (!worst || share / bound > worst->share / worst->bound) worst = EnergyChange{sorted[i].disc, share, bound};
+        if (!worst || share / bound > worst->share / worst->bound)
+            worst = EnergyChange{sorted[i].disc, share, bound};
     }
     return worst;
 }

@@ -9,15 +9,16 @@
 
 #include "dynamics/drag.hpp"
 #include "dynamics/plain_dynamics.hpp"
+#include "engine/near_pairs.hpp"
 #include "parallel/exchange.hpp"
 #include "parallel/slabs.hpp"
-#include "engine/near_pairs.hpp"
 
 namespace carrom {
 
 namespace {
 
-constexpr double motion_bound = 1e-13; // of speeds, by falling and by slowing down, from sync to sync
+constexpr double motion_bound =
+    1e-13; // of speeds, by falling and by slowing down, from sync to sync
 
 /// One disc's part in a collision, for the rank that keeps its record.
 struct Part {
@@ -27,7 +28,8 @@ struct Part {
 };
 
 bool is_finite(const Disc& disc) {
-    return std::isfinite(disc.x) && std::isfinite(disc.y) && std::isfinite(disc.vx) && std::isfinite(disc.vy) && std::isfinite(disc.tau);
+    return std::isfinite(disc.x) && std::isfinite(disc.y) && std::isfinite(disc.vx) &&
+           std::isfinite(disc.vy) && std::isfinite(disc.tau);
 }
 
 double squared_speed(const Disc& disc) { return disc.vx * disc.vx + disc.vy * disc.vy; }
@@ -45,18 +47,25 @@ double beyond(double low, double place, double high) { return std::max(low - pla
 
 } // namespace
 
-StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64_t micro_steps_done, const Communicator& communicator,
-                       const Frame& frame, double time, std::span<const double> spins)
-    : scene_(scene), effects_(per_micro_step(scene.effects, static_cast<double>(scene.micro_steps))), species_(scene.effects.species, scene.radius), communicator_(communicator), first_id_(slab_begin(communicator.rank(), scene.n_discs, communicator.size())),
+StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64_t micro_steps_done,
+                       const Communicator& communicator, const Frame& frame, double time,
+                       std::span<const double> spins)
+    : scene_(scene),
+      effects_(per_micro_step(scene.effects, static_cast<double>(scene.micro_steps))),
+      species_(scene.effects.species, scene.radius), communicator_(communicator),
+      first_id_(slab_begin(communicator.rank(), scene.n_discs, communicator.size())),
       micro_steps_done_(micro_steps_done), micro_steps_before_(micro_steps_done),
       tolerance_(PlainDynamics(scene.box_size, scene.radius).tolerance()) {
-    may_lose_energy_ = may_lose_in_contacts() || effects_.obstacles.restitution < 1 || (effects_.gravity.is_any() && effects_.drag != 0);
+    may_lose_energy_ = may_lose_in_contacts() || effects_.obstacles.restitution < 1 ||
+                       (effects_.gravity.is_any() && effects_.drag != 0);
     for (const Boundary& side : effects_.boundaries) {
         may_lose_energy_ = may_lose_energy_ || side.restitution < 1;
-        walls_give_energy_ = walls_give_energy_ || side.kind == BoundaryKind::thermal || side.speed != 0;
+        walls_give_energy_ = walls_give_energy_ || side.kind == BoundaryKind::thermal ||
+                             side.speed != 0;
     }
     if (effects_.obstacles.are_any()) obstacles_.emplace(scene.box_size, scene.radius, effects_);
-    known_.resize(slab_begin(communicator.rank() + 1, scene.n_discs, communicator.size()) - first_id_);
+    known_.resize(slab_begin(communicator.rank() + 1, scene.n_discs, communicator.size()) -
+                  first_id_);
     for (Known& known : known_) known.free_from = micro_steps_done;
     total_mass_ = effects_.species.empty() ? static_cast<double>(scene.n_discs) : 0;
     for (const Species& one : effects_.species) {
@@ -69,13 +78,16 @@ StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64
     double square = 0;
     for (std::size_t i = 0; i < own.size(); ++i) {
         const double turning = spins.empty() ? 0 : species_.of(own[i].id).radius * spins[i];
-        square = std::max(square, mass_of(own[i].id) / smallest_mass_ * (squared_speed(own[i]) + effects_.contact.inertia * turning * turning));
+        square = std::max(
+            square, mass_of(own[i].id) / smallest_mass_ *
+                        (squared_speed(own[i]) + effects_.contact.inertia * turning * turning));
     }
     fastest_ = std::sqrt(communicator_.max(square)) * std::sqrt(static_cast<double>(scene.n_discs));
     energy_ = energy_of(own);
 }
 
-void StateCheck::look(const LocalView& now, std::int64_t micro_steps_done, Log log, std::span<const double> spins) {
+void StateCheck::look(const LocalView& now, std::int64_t micro_steps_done, Log log,
+                      std::span<const double> spins) {
     before_ = known_;
     micro_steps_before_ = std::exchange(micro_steps_done_, micro_steps_done);
     const std::span<const Disc> own = now.population.discs.first(now.population.n_own);
@@ -91,15 +103,20 @@ void StateCheck::look(const LocalView& now, std::int64_t micro_steps_done, Log l
     fail_if_found(first_other_energy(own, log), log);
 }
 
-StateCheck::Finding StateCheck::first_not_finite(std::span<const Disc> own, std::span<const double> spins) const {
+StateCheck::Finding StateCheck::first_not_finite(std::span<const Disc> own,
+                                                 std::span<const double> spins) const {
     for (std::size_t i = 0; i < own.size(); ++i) {
-        if (!is_finite(own[i]) || !std::isfinite(spins.empty() ? 0 : spins[i])) return {Invariant::finite, communicator_.rank(), 1, own[i].id};
+        if (!is_finite(own[i]) || !std::isfinite(spins.empty() ? 0 : spins[i]))
+            return {Invariant::finite, communicator_.rank(), 1, own[i].id};
     }
     return {};
 }
 
-/// Brings every disc to the rank that keeps its record. `value` of a finding: how many ranks, or places, own the disc.
-StateCheck::Finding StateCheck::take_records(std::span<const Disc> own, std::span<const double> spins, const Frame& frame, double time) {
+/// Brings every disc to the rank that keeps its record. `value` of a finding: how many ranks, or
+/// places, own the disc.
+StateCheck::Finding StateCheck::take_records(std::span<const Disc> own,
+                                             std::span<const double> spins, const Frame& frame,
+                                             double time) {
     std::vector<std::vector<Disc>> out(static_cast<std::size_t>(communicator_.size()));
     std::vector<std::vector<double>> spins_out(out.size());
     Finding finding;
@@ -116,7 +133,8 @@ StateCheck::Finding StateCheck::take_records(std::span<const Disc> own, std::spa
     const Received<Disc> in = send_to_owners(communicator_, out);
     if (effects_.contact.kind == ContactKind::rough) {
         const Received<double> spins_in = send_to_owners(communicator_, spins_out);
-        for (std::size_t i = 0; i < spins_in.items.size(); ++i) known_[in.items[i].id - first_id_].spin = spins_in.items[i];
+        for (std::size_t i = 0; i < spins_in.items.size(); ++i)
+            known_[in.items[i].id - first_id_].spin = spins_in.items[i];
     }
     std::vector<int> n_owners(known_.size(), 0);
     for (Known& known : known_) known.walls = known.pairs = 0;
@@ -124,12 +142,20 @@ StateCheck::Finding StateCheck::take_records(std::span<const Disc> own, std::spa
         for (const Disc& disc : in.from(k)) {
             const std::size_t i = disc.id - first_id_;
             ++n_owners[i];
-            known_[i].disc = as_seen(disc, frame, time, static_cast<double>(micro_steps_done_ % scene_.sync_every));
+            known_[i].disc = as_seen(disc, frame, time,
+                                     static_cast<double>(micro_steps_done_ % scene_.sync_every));
             known_[i].owner = static_cast<int>(k);
         }
     }
     for (std::size_t i = 0; i < known_.size() && finding.is_found == 0; ++i) {
-        if (n_owners[i] != 1) finding = {Invariant::owned_once, known_[i].owner, 1, first_id_ + i, 0, static_cast<double>(n_owners[i]), 1};
+        if (n_owners[i] != 1)
+            finding = {Invariant::owned_once,
+                       known_[i].owner,
+                       1,
+                       first_id_ + i,
+                       0,
+                       static_cast<double>(n_owners[i]),
+                       1};
     }
     return finding;
 }
@@ -142,7 +168,8 @@ void StateCheck::take_log(Log log) {
         n_pairs += is_wall ? 0 : 1;
         for (const DiscId id : {collision.p, is_wall ? collision.p : collision.q}) {
             ensure(id < scene_.n_discs, "the log of collisions names a disc that does not exist");
-            out[static_cast<std::size_t>(slab_of_disc(id))].push_back({id, collision.micro_step + 1, is_wall ? 1u : 0u});
+            out[static_cast<std::size_t>(slab_of_disc(id))].push_back(
+                {id, collision.micro_step + 1, is_wall ? 1u : 0u});
             if (is_wall) break;
         }
     }
@@ -160,7 +187,8 @@ StateCheck::Finding StateCheck::first_out_of_place(const LocalView& now) const {
     const Extent box = extent_at(effects_, scene_.box_size, static_cast<double>(micro_steps_done_));
     std::optional<Finding> first;
     const auto add = [&](Invariant invariant, DiscId id, double value, double bound) {
-        if (!first || invariant < first->invariant) first = Finding{invariant, communicator_.rank(), 1, id, 0, value, bound};
+        if (!first || invariant < first->invariant)
+            first = Finding{invariant, communicator_.rank(), 1, id, 0, value, bound};
     };
     const bool is_filed = now.grid->is_valid(now.population.discs.size());
     for (std::size_t i = 0; i < now.population.n_own; ++i) {
@@ -169,10 +197,14 @@ StateCheck::Finding StateCheck::first_out_of_place(const LocalView& now) const {
         const Disc seen = now.frame.in_box(disc, now.time);
         const double radius = species_.of(disc.id).radius;
         // Between periodic sides it is the image's centre that is in the box.
-        const double outside = std::max(now.periods.x != 0 ? beyond(0, x, now.periods.x) : radius + beyond(box.x_low, seen.x, box.x_high),
-                                        now.periods.y != 0 ? beyond(0, y, now.periods.y) : radius + beyond(box.y_low, seen.y, box.y_high));
+        const double outside = std::max(
+            now.periods.x != 0 ? beyond(0, x, now.periods.x)
+                               : radius + beyond(box.x_low, seen.x, box.x_high),
+            now.periods.y != 0 ? beyond(0, y, now.periods.y)
+                               : radius + beyond(box.y_low, seen.y, box.y_high));
         if (outside > allowed) add(Invariant::in_box, disc.id, outside, allowed);
-        if (now.strips->owner(x) != communicator_.rank()) add(Invariant::in_strip, disc.id, now.strips->owner(x), 0);
+        if (now.strips->owner(x) != communicator_.rank())
+            add(Invariant::in_strip, disc.id, now.strips->owner(x), 0);
         const auto index = static_cast<LocalIndex>(i);
         const CellGrid::Cell cell = is_filed ? now.grid->cell_of(index) : CellGrid::Cell{-1, -1};
         if (cell.column != frame.column_of(x) || cell.row != frame.row_of(y))
@@ -181,14 +213,18 @@ StateCheck::Finding StateCheck::first_out_of_place(const LocalView& now) const {
     return first.value_or(Finding{});
 }
 
-/// Under both rules: what would run into an obstacle within a micro-step stops there. `partner` says which one it is.
+/// Under both rules: what would run into an obstacle within a micro-step stops there. `partner`
+/// says which one it is.
 StateCheck::Finding StateCheck::first_in_obstacle(const LocalView& now) const {
     if (!obstacles_) return {};
     const double bound = 2 * tolerance_ + blur(64);
     for (const Disc& disc : now.population.discs.first(now.population.n_own)) {
         const Disc seen = now.frame.in_box(disc, now.time);
-        const auto overlap = obstacles_->deepest_overlap(seen.x, seen.y, species_.of(disc.id).radius, bound);
-        if (overlap.body != ObstacleContact::no_body) return {Invariant::clear, communicator_.rank(), 1, disc.id, overlap.body, overlap.depth, bound};
+        const auto overlap = obstacles_->deepest_overlap(seen.x, seen.y,
+                                                         species_.of(disc.id).radius, bound);
+        if (overlap.body != ObstacleContact::no_body)
+            return {Invariant::clear, communicator_.rank(), 1,    disc.id,
+                    overlap.body,     overlap.depth,        bound};
     }
     return {};
 }
@@ -196,29 +232,45 @@ StateCheck::Finding StateCheck::first_in_obstacle(const LocalView& now) const {
 StateCheck::Finding StateCheck::first_wrong_count() const {
     for (std::size_t i = 0; i < known_.size(); ++i) {
         const Known &now = known_[i], &then = before_[i];
-        const auto walls = static_cast<double>(now.disc.wall_collisions - then.disc.wall_collisions);
-        const auto pairs = static_cast<double>(now.disc.pair_collisions - then.disc.pair_collisions);
+        const auto walls = static_cast<double>(now.disc.wall_collisions -
+                                               then.disc.wall_collisions);
+        const auto pairs = static_cast<double>(now.disc.pair_collisions -
+                                               then.disc.pair_collisions);
         // `partner` says which of the two counters it is.
         if (walls != static_cast<double>(now.walls))
-            return {Invariant::counters, now.owner, 1, first_id_ + i, 0, walls, static_cast<double>(now.walls)};
+            return {Invariant::counters,           now.owner, 1, first_id_ + i, 0, walls,
+                    static_cast<double>(now.walls)};
         if (pairs != static_cast<double>(now.pairs))
-            return {Invariant::counters, now.owner, 1, first_id_ + i, 1, pairs, static_cast<double>(now.pairs)};
+            return {Invariant::counters,           now.owner, 1, first_id_ + i, 1, pairs,
+                    static_cast<double>(now.pairs)};
     }
     return {};
 }
 
 StateCheck::Finding StateCheck::first_other_motion() const {
-    const bool is_free = !effects_.gravity.is_any() && effects_.drag == 0; // velocities are rewritten by nothing then
-    const double left = slowing(), time = effects_.drag == 0 ? stretch() : drag_clock(effects_.drag, stretch());
-    const double gained = std::hypot(effects_.gravity.x, effects_.gravity.y) * (time + static_cast<double>(scene_.sync_every));
+    const bool is_free = !effects_.gravity.is_any() &&
+                         effects_.drag == 0; // velocities are rewritten by nothing then
+    const double left = slowing(),
+                 time = effects_.drag == 0 ? stretch() : drag_clock(effects_.drag, stretch());
+    const double gained = std::hypot(effects_.gravity.x, effects_.gravity.y) *
+                          (time + static_cast<double>(scene_.sync_every));
     for (std::size_t i = 0; i < known_.size(); ++i) {
         const Known& now = known_[i];
         const Disc &disc = now.disc, &then = before_[i].disc;
         if (now.pairs == 0 && now.spin != before_[i].spin) // `partner` says that it is the spin
-            return {Invariant::motion, now.owner, 1, first_id_ + i, 1, std::fabs(now.spin - before_[i].spin), 0};
+            return {Invariant::motion,
+                    now.owner,
+                    1,
+                    first_id_ + i,
+                    1,
+                    std::fabs(now.spin - before_[i].spin),
+                    0};
         if (now.walls + now.pairs > 0) continue;
-        const double wx = disc.vx - (then.vx * left + effects_.gravity.x * time), wy = disc.vy - (then.vy * left + effects_.gravity.y * time);
-        const double bound = is_free ? 0 : motion_bound * (1 + n_syncs_since(micro_steps_before_)) * (std::sqrt(squared_speed(then)) + gained);
+        const double wx = disc.vx - (then.vx * left + effects_.gravity.x * time),
+                     wy = disc.vy - (then.vy * left + effects_.gravity.y * time);
+        const double bound = is_free ? 0
+                                     : motion_bound * (1 + n_syncs_since(micro_steps_before_)) *
+                                           (std::sqrt(squared_speed(then)) + gained);
         if (!(std::fabs(wx) <= bound && std::fabs(wy) <= bound))
             return {Invariant::motion, now.owner, 1, first_id_ + i, 0, std::hypot(wx, wy), bound};
     }
@@ -234,7 +286,8 @@ StateCheck::Finding StateCheck::first_overlap(const LocalView& now) const {
         if (now.population.discs[b].id < now.population.discs[a].id) std::swap(a, b);
         if (a >= now.population.n_own) return; // the rank of the lower id judges the pair
         Disc p = now.population.discs[a], q = now.population.discs[b];
-        if (now.periods.are_any()) q.x += now.periods.x_between(p, q), q.y += now.periods.y_between(p, q);
+        if (now.periods.are_any())
+            q.x += now.periods.x_between(p, q), q.y += now.periods.y_between(p, q);
         for (Disc* disc : {&p, &q}) PlainDynamics::advance(*disc, now.time);
         const double depth = diameter_of(p, q) - std::hypot(q.x - p.x, q.y - p.y);
         if (depth > bound) suspects.push_back({p, q, depth, bound, 0, communicator_.rank()});
@@ -243,39 +296,51 @@ StateCheck::Finding StateCheck::first_overlap(const LocalView& now) const {
     Finding first;
     for (const Suspect& s : suspects) {
         const Finding next{Invariant::overlap, s.owner, 1, s.p.id, s.q.id, s.depth, bound};
-        if (first.is_found == 0 || std::pair(next.disc, next.partner) < std::pair(first.disc, first.partner)) first = next;
+        if (first.is_found == 0 ||
+            std::pair(next.disc, next.partner) < std::pair(first.disc, first.partner))
+            first = next;
     }
     return first;
 }
 
-/// The ranks that keep the records of both discs are asked, one after the other, when the disc last had a collision.
+/// The ranks that keep the records of both discs are asked, one after the other, when the disc last
+/// had a collision.
 StateCheck::Finding StateCheck::first_unexplained(std::vector<Suspect> suspects) const {
     for (const bool is_first : {true, false}) {
         std::vector<std::vector<Suspect>> out(static_cast<std::size_t>(communicator_.size()));
         for (const Suspect& suspect : suspects)
-            out[static_cast<std::size_t>(slab_of_disc((is_first ? suspect.p : suspect.q).id))].push_back(suspect);
+            out[static_cast<std::size_t>(slab_of_disc((is_first ? suspect.p : suspect.q).id))]
+                .push_back(suspect);
         suspects = std::move(send_to_owners(communicator_, out).items);
         for (Suspect& suspect : suspects) {
-            const std::int64_t free_from = known_[(is_first ? suspect.p : suspect.q).id - first_id_].free_from;
+            const std::int64_t free_from =
+                known_[(is_first ? suspect.p : suspect.q).id - first_id_].free_from;
             suspect.free_from = is_first ? free_from : std::max(free_from, suspect.free_from);
         }
     }
     Finding first;
     for (const Suspect& s : suspects) {
         const auto back = static_cast<double>(s.free_from - micro_steps_done_);
-        const double dx = (s.q.x - s.p.x) + (s.q.vx - s.p.vx) * back, dy = (s.q.y - s.p.y) + (s.q.vy - s.p.vy) * back;
+        const double dx = (s.q.x - s.p.x) + (s.q.vx - s.p.vx) * back,
+                     dy = (s.q.y - s.p.y) + (s.q.vy - s.p.vy) * back;
         const double gap = std::hypot(dx, dy) - diameter_of(s.p, s.q);
-        if (gap <= blur(8 * (1 + n_syncs_since(s.free_from)))) continue; // they were not apart yet, or their contact falls on that time
+        if (gap <= blur(8 * (1 + n_syncs_since(s.free_from))))
+            continue; // they were not apart yet, or their contact falls on that time
         const Finding next{Invariant::overlap, s.owner, 1, s.p.id, s.q.id, s.depth, s.bound};
-        if (first.is_found == 0 || std::pair(next.disc, next.partner) < std::pair(first.disc, first.partner)) first = next;
+        if (first.is_found == 0 ||
+            std::pair(next.disc, next.partner) < std::pair(first.disc, first.partner))
+            first = next;
     }
     return first;
 }
 
-double StateCheck::slowing() const { return effects_.drag == 0 ? 1 : std::exp(-effects_.drag * stretch()); }
+double StateCheck::slowing() const {
+    return effects_.drag == 0 ? 1 : std::exp(-effects_.drag * stretch());
+}
 
 double StateCheck::n_syncs_since(std::int64_t micro_step) const {
-    return static_cast<double>(micro_steps_done_ / scene_.sync_every - micro_step / scene_.sync_every);
+    return static_cast<double>(micro_steps_done_ / scene_.sync_every -
+                               micro_step / scene_.sync_every);
 }
 
 /// Where effects make discs faster, what is known of the fastest grows with them. **Collective.**
@@ -286,11 +351,14 @@ void StateCheck::note_speeds() {
     fastest_ = std::max(fastest_, std::sqrt(communicator_.max(square)));
 }
 
-int StateCheck::slab_of_disc(DiscId id) const { return slab_of(id, scene_.n_discs, communicator_.size()); }
+int StateCheck::slab_of_disc(DiscId id) const {
+    return slab_of(id, scene_.n_discs, communicator_.size());
+}
 
 double StateCheck::blur(double n_ulps) const {
     constexpr double ulp = std::numeric_limits<double>::epsilon();
-    const double time = ulp * static_cast<double>(scene_.sync_every); // the rounding of a time just before a sync
+    const double time = ulp * static_cast<double>(
+                                  scene_.sync_every); // the rounding of a time just before a sync
     return n_ulps * ulp * scene_.box_size + 2 * fastest_ * time;
 }
 

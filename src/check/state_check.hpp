@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holds a run to its invariants, step by step (CheckFailure lists them; docs/stability.md has the bounds).
+// Holds a run to its invariants, step by step (CheckFailure lists them; docs/stability.md has the
+// bounds).
 //
-// It keeps a record of each disc as it was at the last look, spread over the ranks by id, so that a disc is compared with
-// itself whoever owns it, and learns from the log which discs have collided. In the time-stepped method discs may pass through
-// each other; an overlap is explained if the pair were closer than a diameter already when the last micro-step ended in
-// which one of the two had a collision, or when the check began. From then on both were free to collide, and flew
-// straight: had they been apart then, their contact was a candidate that nothing could have taken from them.
-// What effects do is allowed for: discs are looked at as the box sees them, fall and slow down as they should, may overlap
-// where they do not meet, and lose energy where collisions take some; what they have from thermal and moving walls is not known
-// beforehand, so the energy of discs that have met a wall is not held to anything there. Energies are those with masses, and of spins.
-// Price: 128 bytes a disc, every disc and collision sent once a step, collisions to rank 0.
+// It keeps a record of each disc as it was at the last look, spread over the ranks by id, so that a
+// disc is compared with itself whoever owns it, and learns from the log which discs have collided.
+// In the time-stepped method discs may pass through each other; an overlap is explained if the pair
+// were closer than a diameter already when the last micro-step ended in which one of the two had a
+// collision, or when the check began. From then on both were free to collide, and flew straight:
+// had they been apart then, their contact was a candidate that nothing could have taken from them.
+// What effects do is allowed for: discs are looked at as the box sees them, fall and slow down as
+// they should, may overlap where they do not meet, and lose energy where collisions take some; what
+// they have from thermal and moving walls is not known beforehand, so the energy of discs that have
+// met a wall is not held to anything there. Energies are those with masses, and of spins. Price:
+// 128 bytes a disc, every disc and collision sent once a step, collisions to rank 0.
 #pragma once
 
 #include <cstdint>
@@ -17,28 +20,30 @@
 #include <span>
 #include <vector>
 
+#include "check/check_failure.hpp"
+#include "check/shared_energy.hpp"
 #include "core/disc.hpp"
 #include "dynamics/obstacles.hpp"
+#include "engine/collision.hpp"
+#include "engine/engine.hpp"
+#include "engine/totals.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
-#include "check/check_failure.hpp"
-#include "engine/collision.hpp"
-#include "engine/totals.hpp"
-#include "engine/engine.hpp"
-#include "check/shared_energy.hpp"
 
 namespace carrom {
 
 class StateCheck {
 public:
-    /// Takes over what is there now as right. `scene` must outlive it; its arithmetic is the default's. **Collective.**
-    /// `spins`, per micro-step, run along the discs, of rough ones.
-    StateCheck(const Scene& scene, std::span<const Disc> own, std::int64_t micro_steps_done, const Communicator& communicator, const Frame& frame = {},
-               double time = 0, std::span<const double> spins = {});
+    /// Takes over what is there now as right. `scene` must outlive it; its arithmetic is the
+    /// default's. **Collective.** `spins`, per micro-step, run along the discs, of rough ones.
+    StateCheck(const Scene& scene, std::span<const Disc> own, std::int64_t micro_steps_done,
+               const Communicator& communicator, const Frame& frame = {}, double time = 0,
+               std::span<const double> spins = {});
 
-    /// Looks at the end of a step; `log` has this rank's share of the collisions since the last look. If an invariant is
-    /// broken every rank throws the same CheckFailure. **Collective.**
-    void look(const LocalView& now, std::int64_t micro_steps_done, std::span<const Collision> log, std::span<const double> spins = {});
+    /// Looks at the end of a step; `log` has this rank's share of the collisions since the last
+    /// look. If an invariant is broken every rank throws the same CheckFailure. **Collective.**
+    void look(const LocalView& now, std::int64_t micro_steps_done, std::span<const Collision> log,
+              std::span<const double> spins = {});
 
 private:
     struct Finding {
@@ -51,7 +56,8 @@ private:
     struct Known {
         Disc disc;
         double spin = 0;
-        std::int64_t free_from = 0; ///< the end of the last micro-step in which it had a collision, or the check's begin
+        std::int64_t free_from =
+            0; ///< the end of the last micro-step in which it had a collision, or the check's begin
         std::uint64_t walls = 0, pairs = 0; ///< collisions since the last look
         int owner = -1;
     };
@@ -63,7 +69,8 @@ private:
     };
     using Log = std::span<const Collision>;
 
-    /// The first finding of all ranks becomes a failure; nothing happens where there is none. **Collective.**
+    /// The first finding of all ranks becomes a failure; nothing happens where there is none.
+    /// **Collective.**
     void fail_if_found(const Finding& mine, Log log);
     std::string text_of(const Finding& finding) const;
     struct Around {
@@ -73,7 +80,8 @@ private:
     Around around(const Finding& finding, Log log) const;
 
     Finding first_not_finite(std::span<const Disc> own, std::span<const double> spins) const;
-    Finding take_records(std::span<const Disc> own, std::span<const double> spins, const Frame& frame, double time);
+    Finding take_records(std::span<const Disc> own, std::span<const double> spins,
+                         const Frame& frame, double time);
     void take_log(Log log);
     Finding first_out_of_place(const LocalView& now) const;
     Finding first_in_obstacle(const LocalView& now) const;
@@ -88,7 +96,9 @@ private:
     double twice_energy(const Known& known) const;
     bool may_lose_in_contacts() const;
     double mass_of(DiscId id) const { return species_.of(id).mass; }
-    double diameter_of(const Disc& p, const Disc& q) const { return species_.of(p.id).radius + species_.of(q.id).radius; }
+    double diameter_of(const Disc& p, const Disc& q) const {
+        return species_.of(p.id).radius + species_.of(q.id).radius;
+    }
     double resting_gain(const Known& known) const;
     /// What is left of a velocity after the last look's stretch of time, and how long that was.
     double slowing() const;
@@ -111,8 +121,9 @@ private:
     std::uint64_t first_id_ = 0;
     std::vector<Known> known_, before_; ///< of this rank's slab of ids: now, and at the last look
     std::int64_t micro_steps_done_ = 0, micro_steps_before_ = 0;
-    double tolerance_ = 0, fastest_ = 0, energy_ = 0; ///< plain discs cannot become faster, for want of energy
-    std::uint64_t n_pair_collisions_ = 0;             ///< logged on any rank since the check began
+    double tolerance_ = 0, fastest_ = 0,
+           energy_ = 0;                   ///< plain discs cannot become faster, for want of energy
+    std::uint64_t n_pair_collisions_ = 0; ///< logged on any rank since the check began
 };
 
 } // namespace carrom

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "parallel/exchange.hpp"
-#include "engine/state_sums.hpp"
 #include "check/shared_energy.hpp"
 #include "check/state_check.hpp"
+#include "engine/state_sums.hpp"
+#include "parallel/exchange.hpp"
 
 namespace carrom {
 
@@ -22,11 +22,13 @@ double squared_speed(const Disc& disc) { return disc.vx * disc.vx + disc.vy * di
 
 } // namespace
 
-/// What collisions of discs take, spins included: surfaces that stick and neither lose nor forget anything, or do not rub at all, take nothing.
+/// What collisions of discs take, spins included: surfaces that stick and neither lose nor forget
+/// anything, or do not rub at all, take nothing.
 bool StateCheck::may_lose_in_contacts() const {
     const ContactEffect& contact = effects_.contact;
     if (contact.kind == ContactKind::restitution) return true;
-    const bool keeps_slip = contact.tangential_restitution == -1 || (contact.tangential_restitution == 1 && std::isinf(contact.friction));
+    const bool keeps_slip = contact.tangential_restitution == -1 ||
+                            (contact.tangential_restitution == 1 && std::isinf(contact.friction));
     return contact.kind == ContactKind::rough && !(contact.restitution == 1 && keeps_slip);
 }
 
@@ -37,15 +39,24 @@ StateCheck::Finding StateCheck::first_other_energy(std::span<const Disc> own, Lo
         mine.push_back(shared_energy_of(i));
     }
     std::vector<std::pair<DiscId, DiscId>> pairs;
-    stream_to_root(communicator_, mine, [&](std::span<const SharedEnergy> some) { all.insert(all.end(), some.begin(), some.end()); }, 10000);
-    stream_to_root(communicator_, log, [&](Log some) {
-        for (const Collision& c : some) {
-            if (c.q != Collision::wall) pairs.emplace_back(c.p, c.q);
-        }
-    }, 10000);
+    stream_to_root(
+        communicator_, mine,
+        [&](std::span<const SharedEnergy> some) {
+            all.insert(all.end(), some.begin(), some.end());
+        },
+        10000);
+    stream_to_root(
+        communicator_, log,
+        [&](Log some) {
+            for (const Collision& c : some) {
+                if (c.q != Collision::wall) pairs.emplace_back(c.p, c.q);
+            }
+        },
+        10000);
     Finding finding;
     if (communicator_.is_root()) {
-        if (const auto worst = worst_energy_change(all, pairs, may_lose_energy_)) finding = {Invariant::energy, 0, 1, worst->disc, 0, worst->share, worst->bound};
+        if (const auto worst = worst_energy_change(all, pairs, may_lose_energy_))
+            finding = {Invariant::energy, 0, 1, worst->disc, 0, worst->share, worst->bound};
     }
     const Finding of_all = first_other_total(own, mine);
     if (finding.is_found == 0) finding = of_all;
@@ -53,11 +64,14 @@ StateCheck::Finding StateCheck::first_other_energy(std::span<const Disc> own, Lo
     return finding;
 }
 
-/// Of all discs together, since the check began; since the last look where effects take or give energy. **Collective.**
-StateCheck::Finding StateCheck::first_other_total(std::span<const Disc> own, const std::vector<SharedEnergy>& mine) {
+/// Of all discs together, since the check began; since the last look where effects take or give
+/// energy. **Collective.**
+StateCheck::Finding StateCheck::first_other_total(std::span<const Disc> own,
+                                                  const std::vector<SharedEnergy>& mine) {
     if (walls_give_energy_) return {};
     const double n = static_cast<double>(scene_.n_discs);
-    const double bound = energy_bound + energy_bound_per_collision * (2 * static_cast<double>(n_pair_collisions_) / n);
+    const double bound = energy_bound + energy_bound_per_collision *
+                                            (2 * static_cast<double>(n_pair_collisions_) / n);
     const double energy = energy_of(own);
     double expected = energy_, scale = energy_, allowed = bound * energy_;
     if (scene_.effects.are_any()) {
@@ -73,40 +87,60 @@ StateCheck::Finding StateCheck::first_other_total(std::span<const Disc> own, con
     const double drift = may_lose_energy_ ? energy - expected : std::fabs(energy - expected);
     if (!(scale > 0) || drift <= allowed) return {};
     // Nobody in particular: the lowest disc that collided.
-    return {Invariant::energy, 0, known_.empty() ? 0 : 1, mine.empty() ? first_id_ : mine.front().disc, 0, drift / scale, allowed / scale};
+    return {Invariant::energy,
+            0,
+            known_.empty() ? 0 : 1,
+            mine.empty() ? first_id_ : mine.front().disc,
+            0,
+            drift / scale,
+            allowed / scale};
 }
 
 /// A disc's energy before and after, with what effects explain taken out.
 SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     const Known& known = known_[i];
-    SharedEnergy energy = {first_id_ + i, twice_energy(before_[i]) * energy_left(), twice_energy(known)};
+    SharedEnergy energy = {first_id_ + i, twice_energy(before_[i]) * energy_left(),
+                           twice_energy(known)};
     energy.allowance = resting_gain(known);
     if (obstacles_) energy.n_reflections = static_cast<double>(known.walls);
     if (effects_.drag != 0) energy.allowance += energy_bound * energy.before;
-    if (walls_give_energy_ && known.walls > 0) energy.allowance = std::numeric_limits<double>::infinity();
+    if (walls_give_energy_ && known.walls > 0)
+        energy.allowance = std::numeric_limits<double>::infinity();
     return energy;
 }
 
-/// Under gravity with that of height, counted from far enough below that roundings of places are small against it.
+/// Under gravity with that of height, counted from far enough below that roundings of places are
+/// small against it.
 double StateCheck::twice_energy(const Known& known) const {
     const Disc& seen = known.disc;
     const Body& body = species_.of(seen.id);
-    const double turning = body.radius * known.spin, square = squared_speed(seen) + effects_.contact.inertia * turning * turning;
+    const double turning = body.radius * known.spin,
+                 square = squared_speed(seen) + effects_.contact.inertia * turning * turning;
     if (!effects_.gravity.is_any()) return body.mass * square;
     const double clock = seen.tau; // as it was seen
-    const auto height = [this](double place, double pull) { return (pull < 0 ? place : -place) + 2 * scene_.box_size; };
-    return body.mass * (square + 2 * (std::fabs(effects_.gravity.x) * height(seen.x_at(clock), effects_.gravity.x) +
-                                      std::fabs(effects_.gravity.y) * height(seen.y_at(clock), effects_.gravity.y)));
+    const auto height = [this](double place, double pull) {
+        return (pull < 0 ? place : -place) + 2 * scene_.box_size;
+    };
+    return body.mass *
+           (square +
+            2 * (std::fabs(effects_.gravity.x) * height(seen.x_at(clock), effects_.gravity.x) +
+                 std::fabs(effects_.gravity.y) * height(seen.y_at(clock), effects_.gravity.y)));
 }
 
-/// The guard of discs at rest: one that is pulled to a wall leaves it with half of what gravity gives in a contact time, at least.
+/// The guard of discs at rest: one that is pulled to a wall leaves it with half of what gravity
+/// gives in a contact time, at least.
 double StateCheck::resting_gain(const Known& known) const {
-    const double leaving = 0.5 * std::max(std::fabs(effects_.gravity.x), std::fabs(effects_.gravity.y)) * effects_.contact.contact_time;
+    const double leaving = 0.5 *
+                           std::max(std::fabs(effects_.gravity.x), std::fabs(effects_.gravity.y)) *
+                           effects_.contact.contact_time;
     return 1.01 * mass_of(known.disc.id) * leaving * leaving * static_cast<double>(known.walls);
 }
 
-/// Of the energy, but for what collisions take; under gravity drag takes an amount that depends on the flight, and this is at most what is left.
-double StateCheck::energy_left() const { return effects_.gravity.is_any() ? 1 : slowing() * slowing(); }
+/// Of the energy, but for what collisions take; under gravity drag takes an amount that depends on
+/// the flight, and this is at most what is left.
+double StateCheck::energy_left() const {
+    return effects_.gravity.is_any() ? 1 : slowing() * slowing();
+}
 
 /// In the scene's units; with effects as the box sees the discs, height included.
 double StateCheck::energy_of(std::span<const Disc> own) const {
@@ -124,8 +158,12 @@ double StateCheck::energy_of(std::span<const Disc> own) const {
     const SpeciesTable* const species_table = effects_.species.empty() ? nullptr : &species_;
     const auto unit = static_cast<double>(scene_.micro_steps);
     measure_motion(own, species_table, unit, communicator_, totals);
-    if (effects_.contact.kind == ContactKind::rough) measure_rotation(own, spins, species_, effects_.contact.inertia, unit, communicator_, totals);
-    if (effects_.gravity.is_any()) measure_height(own, species_table, scene_.effects.gravity, scene_.box_size, communicator_, totals);
+    if (effects_.contact.kind == ContactKind::rough)
+        measure_rotation(own, spins, species_, effects_.contact.inertia, unit, communicator_,
+                         totals);
+    if (effects_.gravity.is_any())
+        measure_height(own, species_table, scene_.effects.gravity, scene_.box_size, communicator_,
+                       totals);
     return totals.kinetic_energy + totals.rotational_energy + totals.potential_energy;
 }
 

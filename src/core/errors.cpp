@@ -18,7 +18,8 @@ std::string list_of(const std::vector<Problem>& problems) {
 }
 
 void print_and_abort(std::string_view text, const char* file, int line) {
-    std::fprintf(stderr, "carrom: internal error: %.*s (%s:%d)\n", static_cast<int>(text.size()), text.data(), file, line);
+    std::fprintf(stderr, "carrom: internal error: %.*s (%s:%d)\n", static_cast<int>(text.size()),
+                 text.data(), file, line);
     std::abort();
 }
 

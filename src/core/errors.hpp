@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kinds of failure, told apart by who knows of them (docs/architecture.md): the input is wrong and every rank
-// knows; a collective operation failed on some rank and all have agreed on it; an invariant is broken.
+// The kinds of failure, told apart by who knows of them (docs/architecture.md): the input is wrong
+// and every rank knows; a collective operation failed on some rank and all have agreed on it; an
+// invariant is broken.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,8 @@ enum class ExitCode : int {
     stopped = 75
 };
 
-/// One thing wrong with an input: where, what, and how to mend it. `line` 0 means the place has no line.
+/// One thing wrong with an input: where, what, and how to mend it. `line` 0 means the place has no
+/// line.
 struct Problem {
     std::string place;
     std::int64_t line = 0;
@@ -33,7 +35,8 @@ struct Problem {
 /// "place:line: text", or "place: text" where there is no line.
 std::string to_string(const Problem& problem);
 
-/// A wrong scene, disc list or option. Thrown on every rank with the same problems; rank 0 prints them. Exit code 2.
+/// A wrong scene, disc list or option. Thrown on every rank with the same problems; rank 0 prints
+/// them. Exit code 2.
 class InputError : public std::runtime_error {
 public:
     explicit InputError(std::vector<Problem> problems);
@@ -43,7 +46,8 @@ private:
     std::vector<Problem> problems_;
 };
 
-/// A collective operation that failed on some rank. Thrown on every rank, with the lowest failing rank's text.
+/// A collective operation that failed on some rank. Thrown on every rank, with the lowest failing
+/// rank's text.
 class CollectiveError : public std::runtime_error {
 public:
     explicit CollectiveError(const std::string& text, ExitCode code = ExitCode::collective_failure)
@@ -54,14 +58,17 @@ private:
     ExitCode code_;
 };
 
-/// Ends the program when an invariant is broken. Also in Release: a wrong number must never look like a result.
-/// The handler prints and aborts; the parallel module installs one that aborts all ranks.
+/// Ends the program when an invariant is broken. Also in Release: a wrong number must never look
+/// like a result. The handler prints and aborts; the parallel module installs one that aborts all
+/// ranks.
 [[noreturn]] void fail(std::string_view text, const char* file, int line);
 using FailureHandler = void (*)(std::string_view text, const char* file, int line);
 void set_failure_handler(FailureHandler handler);
 
-inline void ensure(bool claim, std::string_view text, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
-    if (!claim) [[unlikely]] fail(text, file, line);
+inline void ensure(bool claim, std::string_view text, const char* file = __builtin_FILE(),
+                   int line = __builtin_LINE()) {
+    if (!claim) [[unlikely]]
+        fail(text, file, line);
 }
 
 } // namespace carrom

@@ -22,7 +22,8 @@ double ExactSum::value() const { return std::ldexp(static_cast<double>(sum_), -e
 
 void ExactSum::add_words(std::uint64_t low, std::uint64_t high) {
     __extension__ using Unsigned = unsigned __int128;
-    sum_ = static_cast<Wide>(static_cast<Unsigned>(sum_) + ((static_cast<Unsigned>(high) << 64) | low));
+    sum_ = static_cast<Wide>(static_cast<Unsigned>(sum_) +
+                             ((static_cast<Unsigned>(high) << 64) | low));
 }
 
 } // namespace carrom

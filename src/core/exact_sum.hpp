@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A sum of doubles that does not depend on the order of its terms: 128-bit fixed point.
 //
-// The unit is chosen from a bound on the total, so that the sum cannot overflow and each term loses at most 2^-125 of
-// that bound. Integer addition is associative: any split over threads and ranks gives the same bits.
+// The unit is chosen from a bound on the total, so that the sum cannot overflow and each term loses
+// at most 2^-125 of that bound. Integer addition is associative: any split over threads and ranks
+// gives the same bits.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,8 @@ namespace carrom {
 
 class ExactSum {
 public:
-    /// `bound` >= the sum of the terms' magnitudes, the same number wherever parts are to be added together.
+    /// `bound` >= the sum of the terms' magnitudes, the same number wherever parts are to be added
+    /// together.
     explicit ExactSum(double bound);
 
     void add(double term);

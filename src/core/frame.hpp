@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where the coordinates are that states are stored in, as seen from the box.
 //
-// Under gravity states are stored in a frame that falls freely from each sync on, under drag in a clock that slows down
-// as discs do: there they fly straight and evenly, and what looks at pairs need not know of either. In a periodic box stored
-// states fly on where a disc leaves it. Without these the frame is the box's, and nothing is computed.
+// Under gravity states are stored in a frame that falls freely from each sync on, under drag in a
+// clock that slows down as discs do: there they fly straight and evenly, and what looks at pairs
+// need not know of either. In a periodic box stored states fly on where a disc leaves it. Without
+// these the frame is the box's, and nothing is computed.
 #pragma once
 
 #include "core/disc.hpp"
@@ -12,16 +13,18 @@
 namespace carrom {
 
 struct Frame {
-    bool is_moving = false; ///< or its clock is another one, or places are to be brought into a periodic box
-    double x = 0, y = 0;    ///< its origin in the box
-    double vx = 0, vy = 0;  ///< its velocity, per micro-step
-    double slowing = 1;     ///< how fast its clock goes
-    double clock = 0;       ///< its time
+    bool is_moving =
+        false; ///< or its clock is another one, or places are to be brought into a periodic box
+    double x = 0, y = 0;               ///< its origin in the box
+    double vx = 0, vy = 0;             ///< its velocity, per micro-step
+    double slowing = 1;                ///< how fast its clock goes
+    double clock = 0;                  ///< its time
     double period_x = 0, period_y = 0; ///< of a periodic box
 
     bool keeps_velocities() const { return vx == 0 && vy == 0 && slowing == 1; }
 
-    /// The disc at `time`, which is the frame's, as the box sees it. One that has left the box is stored so.
+    /// The disc at `time`, which is the frame's, as the box sees it. One that has left the box is
+    /// stored so.
     Disc in_box(const Disc& stored, double time) const {
         if (stored.has_departed()) return stored;
         Disc disc = stored;

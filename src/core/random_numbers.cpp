@@ -7,8 +7,8 @@
 
 namespace carrom {
 
-std::array<std::uint64_t, 4> random_words(std::uint64_t seed, Purpose purpose, DiscId id, std::uint64_t attempt,
-                                          std::uint64_t block) {
+std::array<std::uint64_t, 4> random_words(std::uint64_t seed, Purpose purpose, DiscId id,
+                                          std::uint64_t attempt, std::uint64_t block) {
     const r123::Philox4x64::ctr_type counter = {{id, attempt, block, 0}};
     const r123::Philox4x64::key_type key = {{seed, static_cast<std::uint64_t>(purpose)}};
     const r123::Philox4x64::ctr_type words = r123::Philox4x64{}(counter, key);
@@ -28,15 +28,17 @@ Direction random_direction(DiscRandom& random) {
         const double x = 2 * random.uniform() - 1;
         const double y = 2 * random.uniform() - 1;
         const double square = x * x + y * y;
-        if (square > 1 || square < 0x1p-20) continue; // very short ones would have coarse directions
+        if (square > 1 || square < 0x1p-20)
+            continue; // very short ones would have coarse directions
         const double length = std::sqrt(square);
         return {x / length, y / length};
     }
 }
 
 double random_exponential(DiscRandom& random) {
-    // A first number x is followed by numbers that fall, x >= u2 >= u3 >= ..., until one rises. That one has an even
-    // place with probability 1 - x + x^2/2! - ... = exp(-x). Each failure adds 1, so the whole is exp(-(1 + x)), ...
+    // A first number x is followed by numbers that fall, x >= u2 >= u3 >= ..., until one rises.
+    // That one has an even place with probability 1 - x + x^2/2! - ... = exp(-x). Each failure adds
+    // 1, so the whole is exp(-(1 + x)), ...
     for (double whole = 0;; whole += 1) {
         const double first = random.uniform();
         double last = first;

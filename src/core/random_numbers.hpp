@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random numbers by counter: any rank can draw any disc's numbers, in any order, and gets the same ones.
+// Random numbers by counter: any rank can draw any disc's numbers, in any order, and gets the same
+// ones.
 //
-// Philox4x64-10 (Salmon, Moraes, Dror and Shaw, SC 2011) with key (seed, purpose) and counter (id, attempt, ...), so
-// purposes never share a number. Only + - * / and sqrt follow: the same bits on every machine.
+// Philox4x64-10 (Salmon, Moraes, Dror and Shaw, SC 2011) with key (seed, purpose) and counter (id,
+// attempt, ...), so purposes never share a number. Only + - * / and sqrt follow: the same bits on
+// every machine.
 #pragma once
 
 #include <array>
@@ -12,12 +14,13 @@
 
 namespace carrom {
 
-/// What numbers are for. The values are part of the promise that a seed always gives the same discs.
+/// What numbers are for. The values are part of the promise that a seed always gives the same
+/// discs.
 enum class Purpose : std::uint64_t { position = 1, shake = 2, velocity = 3, thermal_wall = 4 };
 
 /// Four random words for this counter.
-std::array<std::uint64_t, 4> random_words(std::uint64_t seed, Purpose purpose, DiscId id, std::uint64_t attempt,
-                                          std::uint64_t block = 0);
+std::array<std::uint64_t, 4> random_words(std::uint64_t seed, Purpose purpose, DiscId id,
+                                          std::uint64_t attempt, std::uint64_t block = 0);
 
 /// The top 53 bits of a word as a number in [0, 1).
 inline double unit_number(std::uint64_t word) { return static_cast<double>(word >> 11) * 0x1p-53; }
@@ -41,14 +44,16 @@ private:
     std::array<std::uint64_t, 4> words_{};
 };
 
-/// A direction: uniform in the unit disc by rejection, then scaled to length 1 (Marsaglia 1972; no sine, no cosine).
+/// A direction: uniform in the unit disc by rejection, then scaled to length 1 (Marsaglia 1972; no
+/// sine, no cosine).
 struct Direction {
     double x = 0, y = 0;
 };
 Direction random_direction(DiscRandom& random);
 
-/// A number from the exponential distribution of mean 1, by von Neumann's comparisons (J. von Neumann, Various
-/// techniques used in connection with random digits, 1951; G. E. Forsythe, Math. Comp. 26, 1972): no logarithm.
+/// A number from the exponential distribution of mean 1, by von Neumann's comparisons (J. von
+/// Neumann, Various techniques used in connection with random digits, 1951; G. E. Forsythe, Math.
+/// Comp. 26, 1972): no logarithm.
 double random_exponential(DiscRandom& random);
 
 } // namespace carrom

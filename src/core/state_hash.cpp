@@ -39,7 +39,8 @@ StateHash hash_of_spin(DiscId id, double spin) {
 
 std::string to_string(const StateHash& hash) {
     std::array<char, 33> text{};
-    std::snprintf(text.data(), text.size(), "%016llx%016llx", static_cast<unsigned long long>(hash.high),
+    std::snprintf(text.data(), text.size(), "%016llx%016llx",
+                  static_cast<unsigned long long>(hash.high),
                   static_cast<unsigned long long>(hash.low));
     return text.data();
 }

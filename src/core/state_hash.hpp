@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A fingerprint of a whole state that does not depend on who holds which disc, or in which order.
 //
-// Each disc's record (id, position, velocity, local time, counters; -0 counts as +0) is hashed with XXH3-128 and the
-// hashes are added, so ranks and threads may add their shares in any order. Cost: some 10 ns a disc.
+// Each disc's record (id, position, velocity, local time, counters; -0 counts as +0) is hashed with
+// XXH3-128 and the hashes are added, so ranks and threads may add their shares in any order. Cost:
+// some 10 ns a disc.
 #pragma once
 
 #include <compare>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a checkpoint keeps of a run's measurements, where its scene asks for some: plain numbers, made and read by Sampler.
+// What a checkpoint keeps of a run's measurements, where its scene asks for some: plain numbers,
+// made and read by Sampler.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +14,16 @@ namespace carrom {
 struct FirstPlace {
     DiscId id = 0;
     double x = 0, y = 0;
-    double lengths_x = 0, lengths_y = 0; ///< in a periodic box: how many box lengths it has been brought back by since then
+    double lengths_x = 0, lengths_y = 0; ///< in a periodic box: how many box lengths it has been
+                                         ///< brought back by since then
 };
 
 struct StoredSamples {
     std::vector<std::int64_t> sums; ///< the same on all ranks; empty where nothing is measured
     bool have_first_places = false; ///< the same on all ranks
     bool have_lengths = false;      ///< likewise
-    /// A run of ids without gaps: to be written, of this rank's pieces (pieces.hpp); as read, of its slab (slabs.hpp).
+    /// A run of ids without gaps: to be written, of this rank's pieces (pieces.hpp); as read, of
+    /// its slab (slabs.hpp).
     std::vector<FirstPlace> first_places;
 };
 

@@ -9,7 +9,8 @@ namespace carrom {
 /// What keeps a file from being written; `text` is empty if nothing does.
 struct Obstacle {
     std::string text;
-    bool is_failure = false; ///< of the disk, or a lack of rights: the place could be right. Else it cannot be.
+    bool is_failure =
+        false; ///< of the disk, or a lack of rights: the place could be right. Else it cannot be.
 };
 
 /// The obstacle with the system's words for `error`, an errno, after `what`.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plans where sides are periodic: strips are neighbours across the seam too, and a rank is its own neighbour.
+// Plans where sides are periodic: strips are neighbours across the seam too, and a rank is its own
+// neighbour.
 #include <algorithm>
 #include <cmath>
 
@@ -17,34 +18,43 @@ constexpr double margin = 1e-9;
 struct Slab {
     double low = 0, high = 0;
 
-    Slab(const Strips& strips, int rank, double period) : low(strips.low(rank)), high(strips.high(rank)) {
+    Slab(const Strips& strips, int rank, double period)
+        : low(strips.low(rank)), high(strips.high(rank)) {
         if (period == 0) return;
         if (rank == 0) low = 0;
         if (rank + 1 == strips.size()) high = period;
     }
-    /// Whether something in the slab can be within `distance` of something in the other one, or of its images.
+    /// Whether something in the slab can be within `distance` of something in the other one, or of
+    /// its images.
     bool is_near(const Slab& other, double distance, double period) const {
         const double n_last = period == 0 ? 0 : std::ceil(distance / period) + 1;
         for (double n = -n_last; n <= n_last; ++n)
-            if (low - distance <= other.high + n * period && high + distance >= other.low + n * period) return true;
+            if (low - distance <= other.high + n * period &&
+                high + distance >= other.low + n * period)
+                return true;
         return false;
     }
 };
 
 /// In one order, so that two ranks that ask for each other get one answer.
-bool are_near(const Strips& a, int rank_a, const Strips& b, int rank_b, double distance, double period) {
+bool are_near(const Strips& a, int rank_a, const Strips& b, int rank_b, double distance,
+              double period) {
     if (a.is_empty(rank_a) || b.is_empty(rank_b)) return false;
     return Slab(a, rank_a, period).is_near(Slab(b, rank_b, period), distance, period);
 }
 
-/// Displacements by n periods that may bring `place` to within `reach` of low .. high; some that do not among them.
+/// Displacements by n periods that may bring `place` to within `reach` of low .. high; some that do
+/// not among them.
 struct Shifts {
     int first = 0, last = 0;
 
     Shifts(double place, double reach, double low, double high, double period) {
         if (period == 0) return;
-        if (place - low < (1 - margin) * period - reach && high - place < (1 - margin) * period - reach) return; // as most along one axis
-        const double lowest = low - reach - margin * period, highest = high + reach + margin * period;
+        if (place - low < (1 - margin) * period - reach &&
+            high - place < (1 - margin) * period - reach)
+            return; // as most along one axis
+        const double lowest = low - reach - margin * period,
+                     highest = high + reach + margin * period;
         while (place + first * period < lowest) ++first;
         while (place + (first - 1) * period >= lowest) --first;
         for (last = first; place + (last + 1) * period <= highest;) ++last;
@@ -53,18 +63,22 @@ struct Shifts {
 
 std::vector<std::size_t> places_of(const std::vector<int>& partners, int n_ranks) {
     std::vector<std::size_t> places(static_cast<std::size_t>(n_ranks), partners.size());
-    for (std::size_t k = 0; k < partners.size(); ++k) places[static_cast<std::size_t>(partners[k])] = k;
+    for (std::size_t k = 0; k < partners.size(); ++k)
+        places[static_cast<std::size_t>(partners[k])] = k;
     return places;
 }
 
 } // namespace
 
-TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& strips, int rank, std::span<const Disc> own,
-                                     double time, double farthest, const Periods& periods) {
+TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& strips, int rank,
+                                     std::span<const Disc> own, double time, double farthest,
+                                     const Periods& periods) {
     TransferPlan plan;
     const double period = periods.x;
     double distance = farthest;
-    if (period != 0) distance = std::min(farthest, period) + margin * period; // further than once around is anywhere
+    if (period != 0)
+        distance = std::min(farthest, period) +
+                   margin * period; // further than once around is anywhere
     for (int other = 0; other < strips.size(); ++other) {
         if (other != rank && (are_near(old_strips, rank, strips, other, distance, period) ||
                               are_near(old_strips, other, strips, rank, distance, period)))
@@ -88,12 +102,14 @@ Inside interior(const Strips& strips, int rank, double reach, const Periods& per
     return {mine.low + reach, mine.high - reach, box.y_low + reach, box.y_high - reach};
 }
 
-TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const Disc> own, std::span<const PlaceRange> looked_at,
-                                double time, double reach, const Periods& periods) {
+TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const Disc> own,
+                                std::span<const PlaceRange> looked_at, double time, double reach,
+                                const Periods& periods) {
     TransferPlan plan;
     const double longest = std::max(periods.x, periods.y);
     for (int other = 0; other < strips.size(); ++other) {
-        if (are_near(strips, std::min(rank, other), strips, std::max(rank, other), reach + margin * longest, periods.x))
+        if (are_near(strips, std::min(rank, other), strips, std::max(rank, other),
+                     reach + margin * longest, periods.x))
             plan.partners.push_back(other);
     }
     plan.leaving.resize(plan.partners.size());
@@ -137,7 +153,8 @@ void append_images(const TransferPlan& plan, std::vector<Disc>& values) {
     }
 }
 
-void transfer_images(NeighbourExchange& exchange, const TransferPlan& plan, std::span<const Disc> values, Received<Disc>& in) {
+void transfer_images(NeighbourExchange& exchange, const TransferPlan& plan,
+                     std::span<const Disc> values, Received<Disc>& in) {
     std::vector<std::vector<Disc>> out(plan.partners.size());
     for (std::size_t k = 0; k < out.size(); ++k) {
         out[k].reserve(plan.leaving[k].size());

@@ -16,30 +16,38 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Whether a disc of `sender` before can belong to `receiver` after it has moved.
-bool can_move(const Strips& before, const Strips& after, int sender, int receiver, double distance) {
+bool can_move(const Strips& before, const Strips& after, int sender, int receiver,
+              double distance) {
     if (before.is_empty(sender) || after.is_empty(receiver)) return false;
-    return before.high(sender) + distance >= after.low(receiver) && before.low(sender) - distance < after.high(receiver);
+    return before.high(sender) + distance >= after.low(receiver) &&
+           before.low(sender) - distance < after.high(receiver);
 }
 
 } // namespace
 
 Strips::Strips(std::vector<double> cuts) : cuts_(std::move(cuts)) {
-    ensure(std::is_sorted(cuts_.begin(), cuts_.end()), "the cuts between strips are not in ascending order");
+    ensure(std::is_sorted(cuts_.begin(), cuts_.end()),
+           "the cuts between strips are not in ascending order");
     ensure(std::all_of(cuts_.begin(), cuts_.end(), [](double cut) { return std::isfinite(cut); }),
            "a cut between strips is not a finite number");
 }
 
-double Strips::low(int rank) const { return rank == 0 ? -infinity : cuts_[static_cast<std::size_t>(rank) - 1]; }
+double Strips::low(int rank) const {
+    return rank == 0 ? -infinity : cuts_[static_cast<std::size_t>(rank) - 1];
+}
 
-double Strips::high(int rank) const { return rank + 1 == size() ? infinity : cuts_[static_cast<std::size_t>(rank)]; }
+double Strips::high(int rank) const {
+    return rank + 1 == size() ? infinity : cuts_[static_cast<std::size_t>(rank)];
+}
 
 int Strips::owner(double x) const {
     return static_cast<int>(std::upper_bound(cuts_.begin(), cuts_.end(), x) - cuts_.begin());
 }
 
 bool Strips::are_within(int lower, int upper, double reach) const {
-    // Rounding is monotone: x < high(lower) has x + reach, rounded, at most this sum; and where x - reach of a sender
-    // above, rounded, is less than high(lower), the sum is at least x. A difference of the two edges might miss both.
+    // Rounding is monotone: x < high(lower) has x + reach, rounded, at most this sum; and where x -
+    // reach of a sender above, rounded, is less than high(lower), the sum is at least x. A
+    // difference of the two edges might miss both.
     return high(lower) + reach >= low(upper);
 }
 
@@ -54,21 +62,26 @@ std::vector<int> Strips::neighbours_within(int rank, double reach) const {
     return neighbours;
 }
 
-std::vector<int> movers_between(const Strips& before, const Strips& after, int rank, double distance) {
+std::vector<int> movers_between(const Strips& before, const Strips& after, int rank,
+                                double distance) {
     ensure(before.size() == after.size(), "strips before and after are of different numbers");
     std::vector<int> partners;
     for (int other = 0; other < before.size(); ++other) {
         if (other == rank) continue;
-        if (can_move(before, after, rank, other, distance) || can_move(before, after, other, rank, distance))
+        if (can_move(before, after, rank, other, distance) ||
+            can_move(before, after, other, rank, distance))
             partners.push_back(other);
     }
     return partners;
 }
 
-std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double box_size, int n_ranks) {
+std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double box_size,
+                                  int n_ranks) {
     ensure(n_ranks > 0, "there are no ranks to balance");
-    const double total = static_cast<double>(std::accumulate(weights.begin(), weights.end(), std::uint64_t{0}));
-    const double bin_width = box_size / static_cast<double>(std::max<std::size_t>(1, weights.size()));
+    const double total = static_cast<double>(
+        std::accumulate(weights.begin(), weights.end(), std::uint64_t{0}));
+    const double bin_width = box_size /
+                             static_cast<double>(std::max<std::size_t>(1, weights.size()));
     std::vector<double> cuts;
     std::size_t bin = 0;
     double below = 0; // weight of the bins below `bin`: whole numbers, exact up to 2^53
@@ -79,7 +92,9 @@ std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double
             const double target = total * share;
             while (bin + 1 < weights.size() && below + static_cast<double>(weights[bin]) < target)
                 below += static_cast<double>(weights[bin++]);
-            const double in_bin = weights[bin] > 0 ? (target - below) / static_cast<double>(weights[bin]) : 0;
+            const double in_bin = weights[bin] > 0
+                                      ? (target - below) / static_cast<double>(weights[bin])
+                                      : 0;
             cut = bin_width * (static_cast<double>(bin) + std::clamp(in_bin, 0.0, 1.0));
         }
         cuts.push_back(std::clamp(cut, cuts.empty() ? 0.0 : cuts.back(), box_size));

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who owns which slab of x, and which ranks can therefore have anything to tell each other. Pure arithmetic, no MPI.
+// Who owns which slab of x, and which ranks can therefore have anything to tell each other. Pure
+// arithmetic, no MPI.
 //
-// All lists follow from numbers that every rank knows, so both sides of an exchange know of it without a message, and
-// they are symmetric: a lists b if and only if b lists a. They are complete to the last bit for senders that
-// pick receivers with `meets(x - reach, x + reach)` or `owner(x)`: the comparisons round the same way.
+// All lists follow from numbers that every rank knows, so both sides of an exchange know of it
+// without a message, and they are symmetric: a lists b if and only if b lists a. They are complete
+// to the last bit for senders that pick receivers with `meets(x - reach, x + reach)` or `owner(x)`:
+// the comparisons round the same way.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +23,8 @@ struct Strip {
     bool meets(double from, double to) const { return from < high && to >= low; }
 };
 
-/// Half-open strips [low(k), high(k)) that cover all x; the first begins at -infinity, the last ends at +infinity.
-/// Equal cuts make empty strips; those own nothing and have no neighbours.
+/// Half-open strips [low(k), high(k)) that cover all x; the first begins at -infinity, the last
+/// ends at +infinity. Equal cuts make empty strips; those own nothing and have no neighbours.
 class Strips {
 public:
     /// One strip, everything.
@@ -41,8 +43,8 @@ public:
     /// The rank whose strip holds `x`.
     int owner(double x) const;
 
-    /// The other ranks r, ascending, such that a disc in one of the strips r and `rank` can lie within `reach` >= 0 of
-    /// the other. Cost: the number of strips within reach.
+    /// The other ranks r, ascending, such that a disc in one of the strips r and `rank` can lie
+    /// within `reach` >= 0 of the other. Cost: the number of strips within reach.
     std::vector<int> neighbours_within(int rank, double reach) const;
 
     friend bool operator==(const Strips&, const Strips&) = default;
@@ -53,13 +55,16 @@ private:
     std::vector<double> cuts_;
 };
 
-/// The other ranks, ascending, that `rank` may have to send discs to or receive discs from when discs that were in
-/// their owners' `before` strips have moved by at most `distance` in x and go to their owners in `after`.
-/// Cost: the number of ranks.
-std::vector<int> movers_between(const Strips& before, const Strips& after, int rank, double distance);
+/// The other ranks, ascending, that `rank` may have to send discs to or receive discs from when
+/// discs that were in their owners' `before` strips have moved by at most `distance` in x and go to
+/// their owners in `after`. Cost: the number of ranks.
+std::vector<int> movers_between(const Strips& before, const Strips& after, int rank,
+                                double distance);
 
-/// Cuts that give `n_ranks` strips equal weight. `weights` are those of equal bins of [0, box_size]; weight is taken
-/// as spread evenly inside a bin. Ascending, within the box, and a function of the arguments alone.
-std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double box_size, int n_ranks);
+/// Cuts that give `n_ranks` strips equal weight. `weights` are those of equal bins of [0,
+/// box_size]; weight is taken as spread evenly inside a bin. Ascending, within the box, and a
+/// function of the arguments alone.
+std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double box_size,
+                                  int n_ranks);
 
 } // namespace carrom

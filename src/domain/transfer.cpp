@@ -21,7 +21,8 @@ public:
     }
     std::size_t operator[](int rank) const {
         const auto r = static_cast<std::size_t>(rank);
-        ensure(r < places_.size() && places_[r] != none, "a disc goes to a rank that does not expect it");
+        ensure(r < places_.size() && places_[r] != none,
+               "a disc goes to a rank that does not expect it");
         return places_[r];
     }
 
@@ -32,8 +33,9 @@ private:
 
 } // namespace
 
-TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int rank, std::span<const Disc> own,
-                            std::span<const PlaceRange> looked_at, double time, double farthest) {
+TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int rank,
+                            std::span<const Disc> own, std::span<const PlaceRange> looked_at,
+                            double time, double farthest) {
     TransferPlan plan;
     plan.partners = movers_between(old_strips, strips, rank, farthest);
     plan.leaving.resize(plan.partners.size());
@@ -51,8 +53,8 @@ TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int 
     return plan;
 }
 
-TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own, std::span<const PlaceRange> looked_at, double time,
-                       double reach) {
+TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own,
+                       std::span<const PlaceRange> looked_at, double time, double reach) {
     TransferPlan plan;
     plan.partners = strips.neighbours_within(rank, reach);
     plan.leaving.resize(plan.partners.size());
@@ -61,7 +63,8 @@ TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own
         for (const PlaceRange range : looked_at) {
             for (std::size_t i = range.begin; i < range.end; ++i) {
                 const double x = own[i].x_at(time);
-                if (theirs.meets(x - reach, x + reach)) plan.leaving[k].push_back(static_cast<LocalIndex>(i));
+                if (theirs.meets(x - reach, x + reach))
+                    plan.leaving[k].push_back(static_cast<LocalIndex>(i));
             }
         }
     }

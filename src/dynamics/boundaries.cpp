@@ -8,51 +8,73 @@
 
 namespace carrom {
 
-Boundaries::Boundaries(double box_size, double radius, const Effects& effects, const SpeciesTable& species_table)
-    : effects_(effects), box_size_(box_size), radius_(radius), species_(species_table), gravity_{effects.gravity.x, effects.gravity.y} {
+Boundaries::Boundaries(double box_size, double radius, const Effects& effects,
+                       const SpeciesTable& species_table)
+    : effects_(effects), box_size_(box_size), radius_(radius), species_(species_table),
+      gravity_{effects.gravity.x, effects.gravity.y} {
     effects_.obstacles = {}; // laws are copied for each thread
     effects_.species = {};
     for (std::size_t side = 0; side < 4; ++side) {
         speeds_[side] = effects.boundaries[side].speed;
-        if (effects.boundaries[side].kind == BoundaryKind::periodic) away_[side] = -sign_of(side) * never;
+        if (effects.boundaries[side].kind == BoundaryKind::periodic)
+            away_[side] = -sign_of(side) * never;
     }
     moved_ = away_;
 }
 
 void Boundaries::begin_interval(std::int64_t n) {
-    for (std::size_t side = 0; side < 4; ++side) moved_[side] = away_[side] + speeds_[side] * static_cast<double>(n);
+    for (std::size_t side = 0; side < 4; ++side)
+        moved_[side] = away_[side] + speeds_[side] * static_cast<double>(n);
 }
 
 Frame Boundaries::frame_at(double time) const {
-    return {gravity_[0] != 0 || gravity_[1] != 0 || effects_.drag != 0, fallen(gravity_[0], time), fallen(gravity_[1], time), gravity_[0] * time,
-            gravity_[1] * time, slowing_at(time), time};
+    return {gravity_[0] != 0 || gravity_[1] != 0 || effects_.drag != 0,
+            fallen(gravity_[0], time),
+            fallen(gravity_[1], time),
+            gravity_[0] * time,
+            gravity_[1] * time,
+            slowing_at(time),
+            time};
 }
 
-double Boundaries::clock_at(double micro_steps) const { return effects_.drag == 0 ? micro_steps : drag_clock(effects_.drag, micro_steps); }
+double Boundaries::clock_at(double micro_steps) const {
+    return effects_.drag == 0 ? micro_steps : drag_clock(effects_.drag, micro_steps);
+}
 
-double Boundaries::micro_steps_at(double clock) const { return time_of_drag_clock(effects_.drag, clock); }
+double Boundaries::micro_steps_at(double clock) const {
+    return time_of_drag_clock(effects_.drag, clock);
+}
 
-void Boundaries::restart_frame(Disc& disc, double time) const { disc = frame_at(time).in_box(disc, time); }
+void Boundaries::restart_frame(Disc& disc, double time) const {
+    disc = frame_at(time).in_box(disc, time);
+}
 
 Extent Boundaries::extent_at(double time) const {
-    return {wall_at(0, time, radius_) - radius_, wall_at(1, time, radius_) + radius_, wall_at(2, time, radius_) - radius_,
-            wall_at(3, time, radius_) + radius_};
+    return {wall_at(0, time, radius_) - radius_, wall_at(1, time, radius_) + radius_,
+            wall_at(2, time, radius_) - radius_, wall_at(3, time, radius_) + radius_};
 }
 
 Extent Boundaries::walls_between(double begin, double end) const {
     const Extent first = extent_at(begin), last = extent_at(end);
-    // A chord is no further from its curve than that times the largest acceleration in between, the last.
+    // A chord is no further from its curve than that times the largest acceleration in between, the
+    // last.
     const double eighth = std::pow((end - begin) / slowing_at(end), 2) / 8;
     // And a small disc departs before a large one does.
-    const auto bend = [&](std::size_t side) { return std::fabs(pull_at(side)) * eighth + (is_open(side) ? radius_ : 0); };
-    // A wall that moves in, and that all falls away from, may have hit discs that are far from it at the end, but none that is
-    // further than its first velocity would have taken it: discs are slower than the wall when it hits them.
+    const auto bend = [&](std::size_t side) {
+        return std::fabs(pull_at(side)) * eighth + (is_open(side) ? radius_ : 0);
+    };
+    // A wall that moves in, and that all falls away from, may have hit discs that are far from it
+    // at the end, but none that is further than its first velocity would have taken it: discs are
+    // slower than the wall when it hits them.
     const auto led = [&](std::size_t side) { return wall_velocity(side, begin) * (end - begin); };
-    return {std::max({first.x_low, last.x_low, first.x_low + led(0)}) + bend(0), std::min({first.x_high, last.x_high, first.x_high + led(1)}) - bend(1),
-            std::max({first.y_low, last.y_low, first.y_low + led(2)}) + bend(2), std::min({first.y_high, last.y_high, first.y_high + led(3)}) - bend(3)};
+    return {std::max({first.x_low, last.x_low, first.x_low + led(0)}) + bend(0),
+            std::min({first.x_high, last.x_high, first.x_high + led(1)}) - bend(1),
+            std::max({first.y_low, last.y_low, first.y_low + led(2)}) + bend(2),
+            std::min({first.y_high, last.y_high, first.y_high + led(3)}) - bend(3)};
 }
 
-/// With drag a frame and a clock that begin at `time` see the same flight: F(s + d) - F(s) - F'(s) d = F(d / (1 - c s)).
+/// With drag a frame and a clock that begin at `time` see the same flight: F(s + d) - F(s) - F'(s)
+/// d = F(d / (1 - c s)).
 double Boundaries::delay_of(const Approach& approach, double time) const {
     const auto& [distance, rate, pull] = approach;
     if (effects_.drag == 0 || pull == 0) return fall_delay(distance, rate, pull);
@@ -63,26 +85,32 @@ double Boundaries::delay_of(const Approach& approach, double time) const {
 Boundaries::Meeting Boundaries::meeting(const Disc& disc, Axis axis) const {
     if (disc.has_departed()) return {};
     const std::size_t low = 2 * static_cast<std::size_t>(axis);
-    const double to_low = delay_of(approach(disc, low), disc.tau), to_high = delay_of(approach(disc, low + 1), disc.tau);
+    const double to_low = delay_of(approach(disc, low), disc.tau),
+                 to_high = delay_of(approach(disc, low + 1), disc.tau);
     if (to_low <= to_high) return {disc.tau + to_low, low};
     return {disc.tau + to_high, low + 1};
 }
 
-/// Straight flight and a pull towards the wall alone: what pulls away from it is left out, to be on the safe side.
+/// Straight flight and a pull towards the wall alone: what pulls away from it is left out, to be on
+/// the safe side.
 bool Boundaries::may_meet(const Disc& disc, double time, double margin) const {
     if (disc.has_departed()) return false;
     const double rest = time - disc.tau, fallen_for = rest / slowing_at(disc.tau);
     for (std::size_t side = 0; side < 4; ++side) {
         const auto [distance, rate, pull] = approach(disc, side);
         const double towards = std::min(pull, 0.0);
-        if (!(distance + (rate * rest + fallen(towards, fallen_for)) > margin) && (rate < 0 || towards < 0)) return true;
+        if (!(distance + (rate * rest + fallen(towards, fallen_for)) > margin) &&
+            (rate < 0 || towards < 0))
+            return true;
     }
     return false;
 }
 
 void Boundaries::bounce_at(Disc& disc, Axis axis, double time) const {
     const std::size_t side = meeting(disc, axis).side;
-    const double restitution = time - disc.tau < effects_.contact.contact_time ? 1 : effects_.boundaries[side].restitution;
+    const double restitution = time - disc.tau < effects_.contact.contact_time
+                                   ? 1
+                                   : effects_.boundaries[side].restitution;
     disc.x = disc.x_at(time);
     disc.y = disc.y_at(time);
     disc.tau = time;
@@ -111,18 +139,24 @@ void Boundaries::rebound(Disc& disc, std::size_t side, double restitution, doubl
     const double sign = sign_of(side), wall = wall_velocity(side, time);
     double away = restitution * std::fabs(normal - wall);
     if (effects_.boundaries[side].kind == BoundaryKind::thermal) {
-        // What leaves a wall of temperature T: v_n with the density v_n / T exp(-v_n^2 / 2 T), the other part Maxwell's.
-        // All images of a disc draw the same.
-        const std::uint64_t n_before = effects_.are_periodic() ? count_without_image(disc) : disc.wall_collisions;
-        DiscRandom random(effects_.thermal_seed, Purpose::thermal_wall, disc.id, 4 * n_before + side);
-        const double temperature = effects_.boundaries[side].temperature / species_.of(disc.id).mass;
+        // What leaves a wall of temperature T: v_n with the density v_n / T exp(-v_n^2 / 2 T), the
+        // other part Maxwell's. All images of a disc draw the same.
+        const std::uint64_t n_before = effects_.are_periodic() ? count_without_image(disc)
+                                                               : disc.wall_collisions;
+        DiscRandom random(effects_.thermal_seed, Purpose::thermal_wall, disc.id,
+                          4 * n_before + side);
+        const double temperature = effects_.boundaries[side].temperature /
+                                   species_.of(disc.id).mass;
         away = std::sqrt(2 * temperature * random_exponential(random)) / slowing_at(time);
         const double speed = std::sqrt(2 * temperature * random_exponential(random));
-        along = (speed * random_direction(random).x) / slowing_at(time) - gravity_[1 - side / 2] * falling_time(time);
+        along = (speed * random_direction(random).x) / slowing_at(time) -
+                gravity_[1 - side / 2] * falling_time(time);
     }
-    // A disc that is pulled back stays away for the contact time at least: else one at rest would bounce without end.
+    // A disc that is pulled back stays away for the contact time at least: else one at rest would
+    // bounce without end.
     const double pull = -sign * pull_at(side);
-    if (pull > 0) away = std::max(away, 0.5 * pull * effects_.contact.contact_time / slowing_at(time));
+    if (pull > 0)
+        away = std::max(away, 0.5 * pull * effects_.contact.contact_time / slowing_at(time));
     normal = wall + sign * away;
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The four sides of a box where a scene asks for more than elastic walls at rest, or for gravity.
 //
-// Times count from the last sync, at which the falling frame (frame.hpp) is at rest in the box. In it discs fly straight and
-// a wall at w0 that moves with u is at w(t) = (w0 + u t) - (g/2 t) t with the velocity u - g t: its distance to a disc
-// is a quadratic, solved without subtracting like numbers. For g = 0 and u = 0 the plain law's formulas are left, bit for bit.
-// With drag times are those of its clock s, t = s + c F(s) (fall.hpp): the wall is at (w0 + u s) - (g - c u) F(s).
+// Times count from the last sync, at which the falling frame (frame.hpp) is at rest in the box. In
+// it discs fly straight and a wall at w0 that moves with u is at w(t) = (w0 + u t) - (g/2 t) t with
+// the velocity u - g t: its distance to a disc is a quadratic, solved without subtracting like
+// numbers. For g = 0 and u = 0 the plain law's formulas are left, bit for bit. With drag times are
+// those of its clock s, t = s + c F(s) (fall.hpp): the wall is at (w0 + u s) - (g - c u) F(s).
 // Periodic sides are walls infinitely far.
 #pragma once
 
@@ -27,8 +28,10 @@ class Boundaries {
 public:
     static constexpr double never = std::numeric_limits<double>::infinity();
 
-    /// `effects` per micro-step; `radius` is the largest one; `bodies` are those of the effects' classes.
-    Boundaries(double box_size, double radius, const Effects& effects, const SpeciesTable& species_table);
+    /// `effects` per micro-step; `radius` is the largest one; `bodies` are those of the effects'
+    /// classes.
+    Boundaries(double box_size, double radius, const Effects& effects,
+               const SpeciesTable& species_table);
 
     /// From now on times count from micro-step `n` of the scene.
     void begin_interval(std::int64_t n);
@@ -41,12 +44,15 @@ public:
     Frame frame_at(double time) const;
     /// The walls themselves in the frame's coordinates.
     Extent extent_at(double time) const;
-    /// See PlainDynamics: at both ends inside, and by as much as the walls' paths are bent in between.
+    /// See PlainDynamics: at both ends inside, and by as much as the walls' paths are bent in
+    /// between.
     Extent walls_between(double begin, double end) const;
     /// By how much the frame jumps at a sync at `time`, in x.
     double jump_at(double time) const { return std::fabs(fallen(gravity_[0], time)); }
     /// The frame's speed at most, in its own clock.
-    double speed_gained_at(double time) const { return (std::fabs(gravity_[0]) + std::fabs(gravity_[1])) * falling_time(time); }
+    double speed_gained_at(double time) const {
+        return (std::fabs(gravity_[0]) + std::fabs(gravity_[1])) * falling_time(time);
+    }
     /// exp(-c t) = 1 - c s: turns velocities in the clock into those in the box.
     double slowing_at(double time) const { return 1 - effects_.drag * time; }
 
@@ -58,15 +64,23 @@ public:
     bool may_meet(const Disc& disc, double time, double margin) const;
 
     /// The side that a velocity along `axis` leads to, not 0.
-    static std::size_t side_ahead(const Disc& disc, Axis axis) { return 2 * static_cast<std::size_t>(axis) + (velocity_of(disc, static_cast<std::size_t>(axis)) < 0 ? 0 : 1); }
-    bool is_open(std::size_t side) const { return effects_.boundaries[side].kind == BoundaryKind::open; }
+    static std::size_t side_ahead(const Disc& disc, Axis axis) {
+        return 2 * static_cast<std::size_t>(axis) +
+               (velocity_of(disc, static_cast<std::size_t>(axis)) < 0 ? 0 : 1);
+    }
+    bool is_open(std::size_t side) const {
+        return effects_.boundaries[side].kind == BoundaryKind::open;
+    }
     bool are_any_open() const { return is_open(0) || is_open(1) || is_open(2) || is_open(3); }
     /// Where the disc's centre is when it is just outside an open side, in the box.
-    double departure(const Disc& disc, std::size_t side) const { return departure_or_touch(side, species_.of(disc.id).radius); }
+    double departure(const Disc& disc, std::size_t side) const {
+        return departure_or_touch(side, species_.of(disc.id).radius);
+    }
     /// What becomes of a disc that has come there, advanced to `time`.
     void depart(Disc& disc, std::size_t side, double time) const;
 
-    /// The time-stepped method, walls at rest: reverses the velocity on `axis`, the disc being where it touches.
+    /// The time-stepped method, walls at rest: reverses the velocity on `axis`, the disc being
+    /// where it touches.
     void reverse(Disc& disc, Axis axis) const;
 
 private:
@@ -79,8 +93,12 @@ private:
         double distance, rate, pull;
     };
 
-    static double place_of(const Disc& disc, std::size_t axis) { return axis == 0 ? disc.x : disc.y; }
-    static double velocity_of(const Disc& disc, std::size_t axis) { return axis == 0 ? disc.vx : disc.vy; }
+    static double place_of(const Disc& disc, std::size_t axis) {
+        return axis == 0 ? disc.x : disc.y;
+    }
+    static double velocity_of(const Disc& disc, std::size_t axis) {
+        return axis == 0 ? disc.vx : disc.vy;
+    }
     static double sign_of(std::size_t side) { return side % 2 == 0 ? 1 : -1; }
 
     double departure_or_touch(std::size_t side, double radius) const {
@@ -92,18 +110,27 @@ private:
         const double place = departure_or_touch(side, radius) + moved_[side];
         return (place + speeds_[side] * time) - fallen(pull_at(side), time);
     }
-    /// What discs near the wall are accelerated with against it: drag brakes those that a moving wall pushes.
-    double pull_at(std::size_t side) const { return gravity_[side / 2] - effects_.drag * speeds_[side]; }
+    /// What discs near the wall are accelerated with against it: drag brakes those that a moving
+    /// wall pushes.
+    double pull_at(std::size_t side) const {
+        return gravity_[side / 2] - effects_.drag * speeds_[side];
+    }
     double fallen(double g, double time) const {
         if (effects_.drag == 0 || g == 0) return (0.5 * g * time) * time;
         return g * dragged_fall(effects_.drag, time);
     }
-    double falling_time(double time) const { return effects_.drag == 0 ? time : dragged_fall_speed(effects_.drag, time); }
-    double wall_velocity(std::size_t side, double time) const { return speeds_[side] - pull_at(side) * falling_time(time); }
+    double falling_time(double time) const {
+        return effects_.drag == 0 ? time : dragged_fall_speed(effects_.drag, time);
+    }
+    double wall_velocity(std::size_t side, double time) const {
+        return speeds_[side] - pull_at(side) * falling_time(time);
+    }
     Approach approach(const Disc& disc, std::size_t side) const {
         const double sign = sign_of(side);
-        return {sign * (place_of(disc, side / 2) - wall_at(side, disc.tau, species_.of(disc.id).radius)),
-                sign * (velocity_of(disc, side / 2) - wall_velocity(side, disc.tau)), sign * pull_at(side)};
+        return {sign * (place_of(disc, side / 2) -
+                        wall_at(side, disc.tau, species_.of(disc.id).radius)),
+                sign * (velocity_of(disc, side / 2) - wall_velocity(side, disc.tau)),
+                sign * pull_at(side)};
     }
     double delay_of(const Approach& approach, double time) const;
     Meeting meeting(const Disc& disc, Axis axis) const;
@@ -112,7 +139,7 @@ private:
     Effects effects_;
     double box_size_, radius_;
     SpeciesTable species_;
-    std::array<double, 4> away_{}; ///< infinite for periodic sides
+    std::array<double, 4> away_{};             ///< infinite for periodic sides
     std::array<double, 4> moved_{}, speeds_{}; ///< moved: from the scene's start to the last sync
     std::array<double, 2> gravity_;
 };

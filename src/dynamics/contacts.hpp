@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What two discs that touch do to each other: the policies that a law is put together from. A contact says how long the
-// impulse is, along the line of centres, in units of that of an elastic contact.
+// What two discs that touch do to each other: the policies that a law is put together from. A
+// contact says how long the impulse is, along the line of centres, in units of that of an elastic
+// contact.
 #pragma once
 
 #include <cmath>
@@ -33,10 +34,11 @@ public:
 
 /// The share `restitution` of the normal relative velocity is left.
 ///
-/// In the event-driven method a heap of such discs would come to infinitely many collisions in a finite time (inelastic
-/// collapse: McNamara and Young 1992). So dissipation takes time, as in the TC model of Luding and McNamara, Granular Matter 1,
-/// 113 (1998): if one of the two has been touched within the contact time before, they part elastically. A state's own
-/// time is that of its last collision or sync: the sync counts as a touch, so the guard holds across it.
+/// In the event-driven method a heap of such discs would come to infinitely many collisions in a
+/// finite time (inelastic collapse: McNamara and Young 1992). So dissipation takes time, as in the
+/// TC model of Luding and McNamara, Granular Matter 1, 113 (1998): if one of the two has been
+/// touched within the contact time before, they part elastically. A state's own time is that of its
+/// last collision or sync: the sync counts as a touch, so the guard holds across it.
 class InelasticContact {
 public:
     static constexpr bool has_pairs = true;
@@ -55,21 +57,28 @@ private:
     double impulse_, contact_time_;
 };
 
-/// Discs with spin: normal and tangential restitution and Coulomb's friction (Walton and Braun, J. Rheol. 30, 949 (1986);
-/// Luding, Phys. Rev. E 52, 4442 (1995)). Where the surfaces stick their relative velocity along them is
-/// multiplied by minus `tangential_restitution`; where that takes more than `friction` times the normal impulse, they slide.
+/// Discs with spin: normal and tangential restitution and Coulomb's friction (Walton and Braun, J.
+/// Rheol. 30, 949 (1986); Luding, Phys. Rev. E 52, 4442 (1995)). Where the surfaces stick their
+/// relative velocity along them is multiplied by minus `tangential_restitution`; where that takes
+/// more than `friction` times the normal impulse, they slide.
 class RoughContact {
 public:
     static constexpr bool has_pairs = true;
 
     explicit RoughContact(const ContactEffect& effect)
-        : normal_((1 + effect.restitution) / 2), tangential_((1 + effect.tangential_restitution) / 2 * (effect.inertia / (1 + effect.inertia))),
-          friction_(effect.friction), inertia_(effect.inertia), contact_time_(effect.contact_time) {}
+        : normal_((1 + effect.restitution) / 2),
+          tangential_((1 + effect.tangential_restitution) / 2 *
+                      (effect.inertia / (1 + effect.inertia))),
+          friction_(effect.friction), inertia_(effect.inertia), contact_time_(effect.contact_time) {
+    }
 
     /// Within the contact time discs part elastically, as smooth ones: see InelasticContact.
-    bool is_guarded(const Disc& p, const Disc& q, double time) const { return time - p.tau < contact_time_ || time - q.tau < contact_time_; }
+    bool is_guarded(const Disc& p, const Disc& q, double time) const {
+        return time - p.tau < contact_time_ || time - q.tau < contact_time_;
+    }
     double normal() const { return normal_; }
-    /// The tangential impulse for the surfaces' relative velocity `slip` and the normal impulse `k`, all in one unit.
+    /// The tangential impulse for the surfaces' relative velocity `slip` and the normal impulse
+    /// `k`, all in one unit.
     double tangential(double slip, double k) const {
         const double sticking = tangential_ * slip, most = friction_ * std::fabs(k);
         return std::fabs(sticking) > most ? std::copysign(most, sticking) : sticking;

@@ -30,6 +30,8 @@ double drag_clock(double rate, double time) {
     return drag_clock(rate, time / 2) * (1 + drag_slowing(rate, time / 2));
 }
 
-double time_of_drag_clock(double rate, double clock) { return rate == 0 ? clock : -std::log1p(-rate * clock) / rate; }
+double time_of_drag_clock(double rate, double clock) {
+    return rate == 0 ? clock : -std::log1p(-rate * clock) / rate;
+}
 
 } // namespace carrom

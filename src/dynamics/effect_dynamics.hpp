@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The laws of scenes that name effects, put together from policies (docs/architecture.md, "How a law is put together").
+// The laws of scenes that name effects, put together from policies (docs/architecture.md, "How a
+// law is put together").
 //
-// A law is the plain one with some of its answers replaced; what an effect does not touch is the plain law's own code, so
-// that an effect whose parameters make it none gives the plain law's bits.
+// A law is the plain one with some of its answers replaced; what an effect does not touch is the
+// plain law's own code, so that an effect whose parameters make it none gives the plain law's bits.
 #pragma once
 
 #include <memory>
 
+#include "dynamics/boundaries.hpp"
 #include "dynamics/contacts.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/obstacles.hpp"
 #include "dynamics/plain_dynamics.hpp"
-#include "dynamics/boundaries.hpp"
 
 namespace carrom {
 
-/// `is_mixed`: discs are of several radii and masses. Then the plain law's radius is the largest, and so are its bands and tolerances.
+/// `is_mixed`: discs are of several radii and masses. Then the plain law's radius is the largest,
+/// and so are its bands and tolerances.
 template <class Contact, bool is_mixed = false> class EffectDynamics : public PlainDynamics {
 public:
     static constexpr bool has_pairs = Contact::has_pairs;
@@ -27,9 +29,11 @@ public:
 
     /// `effects` per micro-step.
     EffectDynamics(double box_size, double radius, const Effects& effects)
-        : PlainDynamics(box_size, radius), contact_(effects.contact), contact_time_(effects.contact.contact_time), species_(effects.species, radius),
+        : PlainDynamics(box_size, radius), contact_(effects.contact),
+          contact_time_(effects.contact.contact_time), species_(effects.species, radius),
           boundaries_(box_size, radius, effects, species_) {
-        if (effects.obstacles.are_any()) obstacles_ = std::make_shared<const Obstacles>(box_size, radius, effects);
+        if (effects.obstacles.are_any())
+            obstacles_ = std::make_shared<const Obstacles>(box_size, radius, effects);
     }
 
     const Boundaries& boundaries() const { return boundaries_; }
@@ -46,7 +50,8 @@ public:
     }
     PairContact<double> event_contact(const Disc& p, const Disc& q) const {
         if constexpr (has_pairs) {
-            if (!p.has_departed() && !q.has_departed()) return pair_dynamics(p, q).event_contact(p, q);
+            if (!p.has_departed() && !q.has_departed())
+                return pair_dynamics(p, q).event_contact(p, q);
         }
         return {};
     }
@@ -56,7 +61,9 @@ public:
         stop(p, m, t);
         stop(q, m, t);
     }
-    void collide_at(Disc& p, Disc& q, double time) const { exchange_momentum(p, q, time, contact_.impulse_at(p, q, time)); }
+    void collide_at(Disc& p, Disc& q, double time) const {
+        exchange_momentum(p, q, time, contact_.impulse_at(p, q, time));
+    }
 
     /// As of plain discs, but for obstacles.
     MetWalls met_walls(const Disc& disc, double m, double t) const {
@@ -80,20 +87,26 @@ public:
         return has_obstacles() ? std::min(at_wall, obstacle_contact(disc, m).time - m) : at_wall;
     }
 
-    /// The plain law's times; what happens at them is the sides' business. Walls are at rest in the time-stepped method.
+    /// The plain law's times; what happens at them is the sides' business. Walls are at rest in the
+    /// time-stepped method.
     void bounce(Disc& disc, double m, double t) const {
         if (has_obstacles() && t != side_time(disc, m)) return bounce_off(disc, m, t);
         const PlainDynamics walls = wall_dynamics(disc);
         const double tx = side_time(disc, Axis::x, m), ty = side_time(disc, Axis::y, m);
         advance(disc, m + t);
-        if (tx == t && is_open(disc, Axis::x)) return boundaries_.depart(disc, Boundaries::side_ahead(disc, Axis::x), m + t);
-        if (ty == t && is_open(disc, Axis::y)) return boundaries_.depart(disc, Boundaries::side_ahead(disc, Axis::y), m + t);
-        const bool x_reverses = tx == t || (walls.touches_wall(disc.x, disc.vx) && !is_open(disc, Axis::x));
-        const bool y_reverses = ty == t || (walls.touches_wall(disc.y, disc.vy) && !is_open(disc, Axis::y));
+        if (tx == t && is_open(disc, Axis::x))
+            return boundaries_.depart(disc, Boundaries::side_ahead(disc, Axis::x), m + t);
+        if (ty == t && is_open(disc, Axis::y))
+            return boundaries_.depart(disc, Boundaries::side_ahead(disc, Axis::y), m + t);
+        const bool x_reverses = tx == t ||
+                                (walls.touches_wall(disc.x, disc.vx) && !is_open(disc, Axis::x));
+        const bool y_reverses = ty == t ||
+                                (walls.touches_wall(disc.y, disc.vy) && !is_open(disc, Axis::y));
         const bool goes_down = disc.vy < 0;
         if (x_reverses) boundaries_.reverse(disc, Axis::x);
         // A thermal wall may have turned the disc away from the other one.
-        if (y_reverses && (goes_down ? disc.vy < 0 : disc.vy > 0)) boundaries_.reverse(disc, Axis::y);
+        if (y_reverses && (goes_down ? disc.vy < 0 : disc.vy > 0))
+            boundaries_.reverse(disc, Axis::y);
         disc.wall_collisions += 1;
         stop(disc, m, t);
     }
@@ -101,15 +114,19 @@ public:
     double x_wall_time(const Disc& disc) const { return boundaries_.wall_time(disc, Axis::x); }
     double y_wall_time(const Disc& disc) const { return boundaries_.wall_time(disc, Axis::y); }
     bool may_meet_wall(const Disc& disc, double time) const {
-        const double fastest = std::max(std::fabs(disc.vx), std::fabs(disc.vy)) + boundaries_.speed_gained_at(time);
+        const double fastest = std::max(std::fabs(disc.vx), std::fabs(disc.vy)) +
+                               boundaries_.speed_gained_at(time);
         return boundaries_.may_meet(disc, time, tolerance() + time_rounding * time * fastest);
     }
-    Extent walls_between(double begin, double end) const { return boundaries_.walls_between(begin, end); }
+    Extent walls_between(double begin, double end) const {
+        return boundaries_.walls_between(begin, end);
+    }
     void bounce_x_at(Disc& disc, double time) const { boundaries_.bounce_at(disc, Axis::x, time); }
     void bounce_y_at(Disc& disc, double time) const { boundaries_.bounce_at(disc, Axis::y, time); }
     /// The first obstacle that the disc comes to.
     ObstacleContact first_obstacle(const Disc& disc, const ContactTimes& times) const {
-        return disc.has_departed() ? ObstacleContact{} : obstacles_->first_contact(disc, radius_of(disc), times);
+        return disc.has_departed() ? ObstacleContact{}
+                                   : obstacles_->first_contact(disc, radius_of(disc), times);
     }
     void bounce_off_at(Disc& disc, std::uint32_t body, double time) const {
         const bool is_touched = time - disc.tau < contact_time_;
@@ -119,9 +136,12 @@ public:
     }
 
 protected:
-    ObstacleContact obstacle_contact(const Disc& disc, double m) const { return first_obstacle(disc, {m, m + 1}); }
+    ObstacleContact obstacle_contact(const Disc& disc, double m) const {
+        return first_obstacle(disc, {m, m + 1});
+    }
 
-    /// Reflects the disc from the obstacle that it comes to in the micro-step, and returns which that is.
+    /// Reflects the disc from the obstacle that it comes to in the micro-step, and returns which
+    /// that is.
     std::uint32_t rebound_in(Disc& disc, double m) const {
         const ObstacleContact contact = obstacle_contact(disc, m);
         advance(disc, contact.time);
@@ -130,16 +150,19 @@ protected:
         return contact.body;
     }
 
-    /// As at walls: what would run into an obstacle before the micro-step ends waits there. `at_wall`: when it does so at a side; `left`
-    /// is the obstacle just left.
+    /// As at walls: what would run into an obstacle before the micro-step ends waits there.
+    /// `at_wall`: when it does so at a side; `left` is the obstacle just left.
     void stop_at(Disc& disc, double m, double at_wall, std::uint32_t left) const {
-        const ObstacleContact contact = has_obstacles() ? first_obstacle(disc, {disc.tau, m + 1, true, left}) : ObstacleContact{};
+        const ObstacleContact contact = has_obstacles()
+                                            ? first_obstacle(disc, {disc.tau, m + 1, true, left})
+                                            : ObstacleContact{};
         if (contact.time < m + 1 && contact.time - disc.tau < at_wall) {
             advance(disc, contact.time);
         } else if (at_wall != never) {
             disc.x += disc.vx * at_wall;
             disc.y += disc.vy * at_wall;
-        } else return;
+        } else
+            return;
         disc.tau = m + 1;
     }
 
@@ -149,17 +172,23 @@ private:
         return radius_;
     }
 
-    bool is_open(const Disc& disc, Axis axis) const { return boundaries_.is_open(Boundaries::side_ahead(disc, axis)); }
+    bool is_open(const Disc& disc, Axis axis) const {
+        return boundaries_.is_open(Boundaries::side_ahead(disc, axis));
+    }
 
-    /// As the plain law's, but that through an open side a disc leaves when its centre is a radius beyond it.
+    /// As the plain law's, but that through an open side a disc leaves when its centre is a radius
+    /// beyond it.
     double side_time(const Disc& disc, Axis axis, double m) const {
         const double x = axis == Axis::x ? disc.x : disc.y, v = axis == Axis::x ? disc.vx : disc.vy;
         if (v == 0 || !is_open(disc, axis)) return wall_dynamics(disc).axis_time(x, v, disc.tau, m);
-        const double line = boundaries_.departure(disc, Boundaries::side_ahead(disc, axis)), at_end = x + v * ((m + 1) - disc.tau);
+        const double line = boundaries_.departure(disc, Boundaries::side_ahead(disc, axis)),
+                     at_end = x + v * ((m + 1) - disc.tau);
         if (v < 0 ? !(at_end < line) : !(at_end > line)) return never;
         return std::clamp((disc.tau - m) + (line - x) / v, 0.0, 1.0);
     }
-    double side_time(const Disc& disc, double m) const { return std::min(side_time(disc, Axis::x, m), side_time(disc, Axis::y, m)); }
+    double side_time(const Disc& disc, double m) const {
+        return std::min(side_time(disc, Axis::x, m), side_time(disc, Axis::y, m));
+    }
     double side_stop(const Disc& disc, Axis axis, double rest) const {
         const double x = axis == Axis::x ? disc.x : disc.y, v = axis == Axis::x ? disc.vx : disc.vy;
         return v == 0 || is_open(disc, axis) ? never : wall_dynamics(disc).axis_stop(x, v, rest);
@@ -168,8 +197,10 @@ private:
     void bounce_off(Disc& disc, double m, double t) const { stop(disc, m, t, rebound_in(disc, m)); }
 
     void stop(Disc& disc, double m, double t, std::uint32_t left = ObstacleContact::no_body) const {
-        if (!has_obstacles() && !boundaries_.are_any_open()) return wall_dynamics(disc).stop_at_wall(disc, m, t);
-        stop_at(disc, m, std::min(side_stop(disc, Axis::x, 1 - t), side_stop(disc, Axis::y, 1 - t)), left);
+        if (!has_obstacles() && !boundaries_.are_any_open())
+            return wall_dynamics(disc).stop_at_wall(disc, m, t);
+        stop_at(disc, m, std::min(side_stop(disc, Axis::x, 1 - t), side_stop(disc, Axis::y, 1 - t)),
+                left);
     }
 
     [[gnu::always_inline]] PlainDynamics pair_dynamics(const Disc& p, const Disc& q) const {
@@ -177,19 +208,22 @@ private:
         return *this;
     }
 
-    [[gnu::always_inline]] void exchange_momentum(Disc& p, Disc& q, double time, double impulse) const {
+    [[gnu::always_inline]] void exchange_momentum(Disc& p, Disc& q, double time,
+                                                  double impulse) const {
         advance(p, time);
         advance(q, time);
         exchange_momentum_at(p, q, q.x - p.x, q.y - p.y, impulse);
     }
-    [[gnu::always_inline]] void exchange_spin(Disc& p, Disc& q, double time, bool is_guarded, double& p_spin, double& q_spin) const {
+    [[gnu::always_inline]] void exchange_spin(Disc& p, Disc& q, double time, bool is_guarded,
+                                              double& p_spin, double& q_spin) const {
         advance(p, time);
         advance(q, time);
         exchange_spin_at(p, q, q.x - p.x, q.y - p.y, is_guarded, p_spin, q_spin);
     }
 
 protected:
-    // What pairs and walls are told of sizes and masses, for laws of images too. Discs are advanced to where they touch, at the separation (ex, ey).
+    // What pairs and walls are told of sizes and masses, for laws of images too. Discs are advanced
+    // to where they touch, at the separation (ex, ey).
 
     /// Sums of two numbers are the same in any order.
     [[gnu::always_inline]] double pair_diameter(const Disc& p, const Disc& q) const {
@@ -202,8 +236,10 @@ protected:
         return *this;
     }
 
-    /// Of the momentum that equal discs would exchange each takes 2 m' / (m + m') as velocity, m' being the other's mass; 1 if they are equal.
-    [[gnu::always_inline]] void exchange_momentum_at(Disc& p, Disc& q, double ex, double ey, double impulse) const {
+    /// Of the momentum that equal discs would exchange each takes 2 m' / (m + m') as velocity, m'
+    /// being the other's mass; 1 if they are equal.
+    [[gnu::always_inline]] void exchange_momentum_at(Disc& p, Disc& q, double ex, double ey,
+                                                     double impulse) const {
         if constexpr (is_mixed) {
             const double p_mass = species_.of(p.id).mass, q_mass = species_.of(q.id).mass;
             const double half = (p_mass + q_mass) / 2;
@@ -213,16 +249,20 @@ protected:
         }
     }
 
-    /// As exchange_momentum_at, with an impulse s along the surfaces, which acts on both spins alike; in units of the distance of centres,
-    /// as k is. With s = 0 its bits.
-    [[gnu::always_inline]] void exchange_spin_at(Disc& p, Disc& q, double ex, double ey, bool is_guarded, double& p_spin, double& q_spin) const {
+    /// As exchange_momentum_at, with an impulse s along the surfaces, which acts on both spins
+    /// alike; in units of the distance of centres, as k is. With s = 0 its bits.
+    [[gnu::always_inline]] void exchange_spin_at(Disc& p, Disc& q, double ex, double ey,
+                                                 bool is_guarded, double& p_spin,
+                                                 double& q_spin) const {
         const Body &p_body = species_.of(p.id), &q_body = species_.of(q.id);
         const double wx = q.vx - p.vx, wy = q.vy - p.vy;
         const double square = ex * ex + ey * ey, distance = std::sqrt(square);
         const double k = (is_guarded ? 1 : contact_.normal()) * ((wx * ex + wy * ey) / square);
-        const double slip = (wy * ex - wx * ey) / square - (p_spin * p_body.radius + q_spin * q_body.radius) / distance;
+        const double slip = (wy * ex - wx * ey) / square -
+                            (p_spin * p_body.radius + q_spin * q_body.radius) / distance;
         const double s = is_guarded ? 0 : contact_.tangential(slip, k);
-        const double half = (p_body.mass + q_body.mass) / 2, p_share = q_body.mass / half, q_share = p_body.mass / half;
+        const double half = (p_body.mass + q_body.mass) / 2, p_share = q_body.mass / half,
+                     q_share = p_body.mass / half;
         p.vx = p.vx + (k * p_share * ex - s * p_share * ey);
         p.vy = p.vy + (k * p_share * ey + s * p_share * ex);
         q.vx = q.vx - (k * q_share * ex - s * q_share * ey);
@@ -240,11 +280,13 @@ private:
     double contact_time_; ///< for obstacles in the event-driven method
     SpeciesTable species_;
     Boundaries boundaries_;
-    std::shared_ptr<const Obstacles> obstacles_; ///< the same for all copies; null where there are none
+    std::shared_ptr<const Obstacles>
+        obstacles_; ///< the same for all copies; null where there are none
 };
 
 using IdealGasDynamics = EffectDynamics<NoContact>;
-using ElasticDynamics = EffectDynamics<ElasticContact>; ///< with sides or gravity that are not plain
+using ElasticDynamics =
+    EffectDynamics<ElasticContact>; ///< with sides or gravity that are not plain
 using InelasticDynamics = EffectDynamics<InelasticContact>;
 using MixedDynamics = EffectDynamics<InelasticContact, true>; ///< of any restitution, 1 included
 using RoughDynamics = EffectDynamics<RoughContact, true>;     ///< of one class or several

@@ -14,20 +14,28 @@ std::string description(const ContactEffect& contact) {
     switch (contact.kind) {
     case ContactKind::elastic: return {};
     case ContactKind::none: return "discs pass through each other";
-    case ContactKind::restitution: return fmt::format("restitution {:g} of pairs", contact.restitution);
+    case ContactKind::restitution:
+        return fmt::format("restitution {:g} of pairs", contact.restitution);
     case ContactKind::rough:
-        return fmt::format("rough discs of restitution {:g}, tangential {:g}{}", contact.restitution, contact.tangential_restitution,
-                           std::isfinite(contact.friction) ? fmt::format(", friction {:g}", contact.friction) : "");
+        return fmt::format("rough discs of restitution {:g}, tangential {:g}{}",
+                           contact.restitution, contact.tangential_restitution,
+                           std::isfinite(contact.friction)
+                               ? fmt::format(", friction {:g}", contact.friction)
+                               : "");
     }
     return {};
 }
 
 std::string description(const Boundary& side, const char* name) {
-    const std::string loss = side.restitution < 1 ? fmt::format(" of restitution {:g}", side.restitution) : "";
+    const std::string loss = side.restitution < 1
+                                 ? fmt::format(" of restitution {:g}", side.restitution)
+                                 : "";
     switch (side.kind) {
     case BoundaryKind::fixed: return fmt::format("{} wall{}", name, loss);
-    case BoundaryKind::thermal: return fmt::format("{} wall of temperature {:g}", name, side.temperature);
-    case BoundaryKind::moving: return fmt::format("{} wall{} moving at {:g}", name, loss, side.speed);
+    case BoundaryKind::thermal:
+        return fmt::format("{} wall of temperature {:g}", name, side.temperature);
+    case BoundaryKind::moving:
+        return fmt::format("{} wall{} moving at {:g}", name, loss, side.speed);
     case BoundaryKind::open: return fmt::format("{} side open", name);
     case BoundaryKind::periodic: return fmt::format("{} side periodic", name);
     }
@@ -35,10 +43,14 @@ std::string description(const Boundary& side, const char* name) {
 }
 
 std::string description(const ObstacleList& obstacles) {
-    const auto counted = [](std::size_t n, const char* what) { return n == 0 ? std::string() : fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
-    const std::string discs = counted(obstacles.discs.size(), "fixed disc"), segments = counted(obstacles.segments.size(), "segment");
+    const auto counted = [](std::size_t n, const char* what) {
+        return n == 0 ? std::string() : fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+    };
+    const std::string discs = counted(obstacles.discs.size(), "fixed disc"),
+                      segments = counted(obstacles.segments.size(), "segment");
     return discs + (discs.empty() || segments.empty() ? "" : " and ") + segments +
-           (obstacles.restitution < 1 ? fmt::format(" of restitution {:g}", obstacles.restitution) : "");
+           (obstacles.restitution < 1 ? fmt::format(" of restitution {:g}", obstacles.restitution)
+                                      : "");
 }
 
 std::string description(const std::vector<Species>& species) {
@@ -49,22 +61,26 @@ std::string description(const std::vector<Species>& species) {
             least = {0, std::min(least.radius, one.radius), std::min(least.mass, one.mass)};
             most = {0, std::max(most.radius, one.radius), std::max(most.mass, one.mass)};
         }
-        return fmt::format("discs of {} classes, radii {:g} to {:g}, masses {:g} to {:g}", species.size(), least.radius, most.radius, least.mass, most.mass);
+        return fmt::format("discs of {} classes, radii {:g} to {:g}, masses {:g} to {:g}",
+                           species.size(), least.radius, most.radius, least.mass, most.mass);
     }
     std::string text;
     for (const Species& one : species)
-        text += fmt::format("{}{} disc{} of radius {:g} and mass {:g}", text.empty() ? "" : ", ", one.count, one.count == 1 ? "" : "s", one.radius, one.mass);
+        text += fmt::format("{}{} disc{} of radius {:g} and mass {:g}", text.empty() ? "" : ", ",
+                            one.count, one.count == 1 ? "" : "s", one.radius, one.mass);
     return text;
 }
 
 } // namespace
 
 bool Effects::have_plain_boundaries() const {
-    return std::all_of(boundaries.begin(), boundaries.end(), [](const Boundary& side) { return side.is_plain(); });
+    return std::all_of(boundaries.begin(), boundaries.end(),
+                       [](const Boundary& side) { return side.is_plain(); });
 }
 
 bool Effects::have_open_boundaries() const {
-    return std::any_of(boundaries.begin(), boundaries.end(), [](const Boundary& side) { return side.kind == BoundaryKind::open; });
+    return std::any_of(boundaries.begin(), boundaries.end(),
+                       [](const Boundary& side) { return side.kind == BoundaryKind::open; });
 }
 
 Effects per_micro_step(const Effects& effects, double micro_steps) {
@@ -82,11 +98,15 @@ Effects per_micro_step(const Effects& effects, double micro_steps) {
 
 std::string description(const Effects& effects) {
     std::string text = description(effects.contact);
-    const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
+    const auto add = [&text](const std::string& more) {
+        text += (text.empty() ? "" : "; ") + more;
+    };
     if (!effects.species.empty()) add(description(effects.species));
     for (std::size_t k = 0; k < effects.boundaries.size(); ++k)
-        if (!effects.boundaries[k].is_plain()) add(description(effects.boundaries[k], boundary_names[k]));
-    if (effects.gravity.is_any()) add(fmt::format("gravity ({:g}, {:g})", effects.gravity.x, effects.gravity.y));
+        if (!effects.boundaries[k].is_plain())
+            add(description(effects.boundaries[k], boundary_names[k]));
+    if (effects.gravity.is_any())
+        add(fmt::format("gravity ({:g}, {:g})", effects.gravity.x, effects.gravity.y));
     if (effects.drag != 0) add(fmt::format("drag {:g}", effects.drag));
     if (effects.obstacles.are_any()) add(description(effects.obstacles));
     return text;
@@ -94,7 +114,8 @@ std::string description(const Effects& effects) {
 
 Extent extent_at(const Effects& effects, double box_size, double time) {
     const auto& boundaries = effects.boundaries;
-    return {boundaries[0].speed * time, box_size + boundaries[1].speed * time, boundaries[2].speed * time, box_size + boundaries[3].speed * time};
+    return {boundaries[0].speed * time, box_size + boundaries[1].speed * time,
+            boundaries[2].speed * time, box_size + boundaries[3].speed * time};
 }
 
 } // namespace carrom

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene asks for beyond free flight, elastic pairs and four elastic walls. Plain numbers: what they do is said where
-// it is done (effect_law.hpp and its policies).
+// What a scene asks for beyond free flight, elastic pairs and four elastic walls. Plain numbers:
+// what they do is said where it is done (effect_law.hpp and its policies).
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/species.hpp"
 #include "core/image.hpp"
+#include "dynamics/species.hpp"
 
 namespace carrom {
 
@@ -21,11 +21,15 @@ enum class ContactKind { elastic, none, restitution, rough };
 struct ContactEffect {
     ContactKind kind = ContactKind::elastic;
     double restitution = 1;      ///< what is left of the normal relative velocity, 0 to 1
-    double contact_time = 0.001; ///< a disc that has collided within this time collides elastically; event-driven method only
+    double contact_time = 0.001; ///< a disc that has collided within this time collides
+                                 ///< elastically; event-driven method only
     // Of rough discs:
-    double tangential_restitution = -1; ///< minus what is left of the surfaces' relative velocity where they stick, -1 (smooth) to 1
-    double friction = std::numeric_limits<double>::infinity(); ///< Coulomb's: the tangential impulse is at most this times the normal one
-    double inertia = 0.5;               ///< moment of inertia in m r^2; that of a uniform disc
+    double tangential_restitution = -1; ///< minus what is left of the surfaces' relative velocity
+                                        ///< where they stick, -1 (smooth) to 1
+    double friction =
+        std::numeric_limits<double>::infinity(); ///< Coulomb's: the tangential impulse is at most
+                                                 ///< this times the normal one
+    double inertia = 0.5; ///< moment of inertia in m r^2; that of a uniform disc
 
     friend bool operator==(const ContactEffect&, const ContactEffect&) = default;
 };
@@ -84,7 +88,8 @@ struct Effects {
     double drag = 0; ///< the rate at which discs lose their velocity, dv/dt = -drag v
     std::uint64_t thermal_seed = 3210;
     ObstacleList obstacles{};
-    std::vector<Species> species{}; ///< in the order of ids; empty where all discs are of one radius and mass 1
+    std::vector<Species>
+        species{}; ///< in the order of ids; empty where all discs are of one radius and mass 1
 
     bool have_plain_boundaries() const;
     bool have_open_boundaries() const;
@@ -92,10 +97,12 @@ struct Effects {
     bool is_periodic_x() const { return boundaries[0].kind == BoundaryKind::periodic; }
     bool is_periodic_y() const { return boundaries[2].kind == BoundaryKind::periodic; }
     bool are_periodic() const { return is_periodic_x() || is_periodic_y(); }
-    Periods periods(double box_size) const { return {is_periodic_x() ? box_size : 0, is_periodic_y() ? box_size : 0}; }
+    Periods periods(double box_size) const {
+        return {is_periodic_x() ? box_size : 0, is_periodic_y() ? box_size : 0};
+    }
     bool are_any() const {
-        return contact.kind != ContactKind::elastic || !have_plain_boundaries() || gravity.is_any() || drag != 0 || obstacles.are_any() ||
-               !species.empty();
+        return contact.kind != ContactKind::elastic || !have_plain_boundaries() ||
+               gravity.is_any() || drag != 0 || obstacles.are_any() || !species.empty();
     }
     friend bool operator==(const Effects&, const Effects&) = default;
 };
@@ -103,7 +110,8 @@ struct Effects {
 /// The same effects with the micro-step, 1/K of a step, as the unit of time.
 Effects per_micro_step(const Effects& effects, double micro_steps);
 
-/// One line for a summary, as in "restitution 0.9 of pairs; gravity (0, -0.001)"; empty where there are none.
+/// One line for a summary, as in "restitution 0.9 of pairs; gravity (0, -0.001)"; empty where there
+/// are none.
 std::string description(const Effects& effects);
 
 /// Where the walls are at `time` since the scene's start, in a box that was [0, size]^2 then.

@@ -11,7 +11,8 @@ constexpr double least_slowing = 0.01;
 /// Newton's rule takes four to twelve.
 constexpr int most_steps = 100;
 
-/// -log(1 - q) - q over q^2, q at most a quarter: with z = q / (2 - q) it is (1 + 2 z (1/3 + z^2/5 + z^4/7 + ...) / (2 - q)) / (2 - q).
+/// -log(1 - q) - q over q^2, q at most a quarter: with z = q / (2 - q) it is (1 + 2 z (1/3 + z^2/5
+/// + z^4/7 + ...) / (2 - q)) / (2 - q).
 double short_fall(double q) {
     const double part = 1 / (2 - q), z = q * part, square = z * z;
     double sum = 0;
@@ -24,19 +25,24 @@ double short_fall(double q) {
 double dragged_fall(double rate, double clock) {
     const double q = rate * clock;
     if (!(q > 0.25)) return clock * clock * short_fall(q);
-    // Half the time is what the clock takes to 1 - c s' = sqrt(1 - c s): F(s) = 2 F(s') + s'^2, a sum of positive terms.
+    // Half the time is what the clock takes to 1 - c s' = sqrt(1 - c s): F(s) = 2 F(s') + s'^2, a
+    // sum of positive terms.
     const double half = clock / (1 + std::sqrt(1 - q));
     return 2 * dragged_fall(rate, half) + half * half;
 }
 
 double dragged_fall_delay(double distance, double velocity, double pull, double rate) {
-    // F(s) >= s^2 / 2: the parabola is late where the disc is pulled to the wall, and early where it is pulled away.
+    // F(s) >= s^2 / 2: the parabola is late where the disc is pulled to the wall, and early where
+    // it is pulled away.
     double s = fall_delay(distance, velocity, pull);
     if (pull == 0 || s == 0) return s;
     const double latest = (1 - least_slowing) / rate;
-    const auto height = [=](double at) { return (distance + velocity * at) + pull * dragged_fall(rate, at); };
+    const auto height = [=](double at) {
+        return (distance + velocity * at) + pull * dragged_fall(rate, at);
+    };
     // Where the distance is largest or least: velocity + pull F'(s) = 0.
-    const double turn = std::min(std::fabs(velocity) / (std::fabs(pull) + rate * std::fabs(velocity)), latest);
+    const double turn = std::min(
+        std::fabs(velocity) / (std::fabs(pull) + rate * std::fabs(velocity)), latest);
     const bool is_pulled_on = pull < 0;
     if (is_pulled_on) {
         if (velocity >= 0 && !(height(turn) > 0)) return turn;
@@ -47,7 +53,8 @@ double dragged_fall_delay(double distance, double velocity, double pull, double 
     }
     for (int k = 0; k < most_steps; ++k) {
         const double next = s - height(s) / (velocity + pull * dragged_fall_speed(rate, s));
-        const bool is_step = is_pulled_on ? next < s && next > (velocity < 0 ? 0 : turn) : next > s && next < turn;
+        const bool is_step = is_pulled_on ? next < s && next > (velocity < 0 ? 0 : turn)
+                                          : next > s && next < turn;
         if (!is_step) break;
         s = next;
     }

@@ -11,7 +11,8 @@ namespace carrom {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-/// Newton's rule takes some ten steps, and halving alone brings a bracket to its last bit in hardly more than these.
+/// Newton's rule takes some ten steps, and halving alone brings a bracket to its last bit in hardly
+/// more than these.
 constexpr int most_steps = 100;
 
 struct Value {
@@ -19,7 +20,8 @@ struct Value {
 };
 
 /// A root of a function that has different signs at the ends, by its value and slope at a time.
-template <class Function> double root_between(double low, double high, bool rises, const Function& function) {
+template <class Function>
+double root_between(double low, double high, bool rises, const Function& function) {
     double s = low + (high - low) / 2;
     for (int k = 0; k < most_steps; ++k) {
         const auto [value, slope] = function(s);
@@ -47,7 +49,8 @@ struct Parabola {
     }
     /// Where the rate itself turns round, ascending; both infinite if it never does.
     std::array<double, 2> bends() const {
-        const double a = 1.5 * (gx * gx + gy * gy), b = 3 * (wx * gx + wy * gy), c = (wx * wx + wy * wy) + (dx * gx + dy * gy);
+        const double a = 1.5 * (gx * gx + gy * gy), b = 3 * (wx * gx + wy * gy),
+                     c = (wx * wx + wy * wy) + (dx * gx + dy * gy);
         const double square = b * b - 4 * a * c;
         if (!(square > 0)) return {never, never};
         const double sum = -(b + std::copysign(std::sqrt(square), b)) / 2;
@@ -58,24 +61,27 @@ struct Parabola {
     /// A time after `s` at which the distance grows for good.
     double late(double s) const {
         const double g = std::sqrt(gx * gx + gy * gy);
-        double step = std::sqrt(wx * wx + wy * wy) / g + std::sqrt(std::sqrt(dx * dx + dy * dy) / g);
+        double step = std::sqrt(wx * wx + wy * wy) / g +
+                      std::sqrt(std::sqrt(dx * dx + dy * dy) / g);
         while (rate(s + step).value < 0) step *= 2;
         return s + step;
     }
 
 private:
     std::array<double, 4> at(double s) const {
-        return {(dx + wx * s) + (0.5 * gx * s) * s, (dy + wy * s) + (0.5 * gy * s) * s, wx + gx * s, wy + gy * s};
+        return {(dx + wx * s) + (0.5 * gx * s) * s, (dy + wy * s) + (0.5 * gy * s) * s, wx + gx * s,
+                wy + gy * s};
     }
 };
 
 } // namespace
 
-double falling_contact(double dx, double dy, double wx, double wy, double gx, double gy, double reach) {
+double falling_contact(double dx, double dy, double wx, double wy, double gx, double gy,
+                       double reach) {
     const Parabola flight{dx, dy, wx, wy, gx, gy, reach};
     const auto rate = [&flight](double s) { return flight.rate(s); };
-    double start = 0;             // of the present piece
-    double fall = 0;              // since when the distance falls, if it does
+    double start = 0; // of the present piece
+    double fall = 0;  // since when the distance falls, if it does
     bool falls = flight.rate(0).value < 0;
     const auto [first, second] = flight.bends();
     for (const double bend : {first, second, never}) {
@@ -87,7 +93,9 @@ double falling_contact(double dx, double dy, double wx, double wy, double gx, do
             const double turn = root_between(start, end, falls, rate);
             if (falls) {
                 if (flight.gap(fall).value <= 0) return fall;
-                if (flight.gap(turn).value < 0) return root_between(fall, turn, false, [&flight](double s) { return flight.gap(s); });
+                if (flight.gap(turn).value < 0)
+                    return root_between(fall, turn, false,
+                                        [&flight](double s) { return flight.gap(s); });
             }
             fall = turn;
             falls = falls_at_end;

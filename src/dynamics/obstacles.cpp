@@ -17,8 +17,9 @@ constexpr double never = std::numeric_limits<double>::infinity();
 /// Those of a body that a disc in the box may touch: the body's own and eight around.
 constexpr std::uint32_t n_images = 9;
 
-/// The first time at which a distance that begins with `rate` and is pulled at comes down to 0. On the body's own `side` one that
-/// is not above 0 counts from where it turns round; from elsewhere it has to come up first.
+/// The first time at which a distance that begins with `rate` and is pulled at comes down to 0. On
+/// the body's own `side` one that is not above 0 counts from where it turns round; from elsewhere
+/// it has to come up first.
 double fall_delay(double distance, double rate, double pull, bool is_on_side) {
     if (rate < 0) {
         if (!(distance > 0)) return is_on_side ? 0 : never;
@@ -36,11 +37,14 @@ double fall_delay(double distance, double rate, double pull, bool is_on_side) {
 
 Obstacles::Obstacles(double box_size, double largest_radius, const Effects& effects)
     : restitution_(effects.obstacles.restitution), contact_time_(effects.contact.contact_time),
-      gravity_{effects.gravity.x, effects.gravity.y}, n_fixed_discs_(effects.obstacles.discs.size()), periods_(effects.periods(box_size)),
+      gravity_{effects.gravity.x, effects.gravity.y},
+      n_fixed_discs_(effects.obstacles.discs.size()), periods_(effects.periods(box_size)),
       largest_radius_(largest_radius) {
-    for (const FixedDisc& disc : effects.obstacles.discs) species_.push_back({disc.x, disc.y, disc.radius});
+    for (const FixedDisc& disc : effects.obstacles.discs)
+        species_.push_back({disc.x, disc.y, disc.radius});
     for (const Segment& segment : effects.obstacles.segments) {
-        const double dx = segment.x1 - segment.x0, dy = segment.y1 - segment.y0, length = std::sqrt(dx * dx + dy * dy);
+        const double dx = segment.x1 - segment.x0, dy = segment.y1 - segment.y0,
+                     length = std::sqrt(dx * dx + dy * dy);
         species_.push_back({segment.x0, segment.y0, 0, dx / length, dy / length, length});
         species_.push_back({segment.x0, segment.y0, 0});
         species_.push_back({segment.x1, segment.y1, 0});
@@ -54,7 +58,8 @@ Obstacles::Obstacles(double box_size, double largest_radius, const Effects& effe
 
 std::int64_t Obstacles::cell_of(double place, double period) const {
     const double cell = place / cell_width_;
-    return static_cast<std::int64_t>(period != 0 ? std::floor(cell) : std::clamp(cell, 0.0, static_cast<double>(n_rows_ - 1)));
+    return static_cast<std::int64_t>(
+        period != 0 ? std::floor(cell) : std::clamp(cell, 0.0, static_cast<double>(n_rows_ - 1)));
 }
 
 /// How many boxes away from the first one a column or row is.
@@ -64,22 +69,25 @@ std::int64_t Obstacles::box_of(std::int64_t cell, double period) const {
 }
 
 Obstacles::Cells Obstacles::cells_of(const Box& box) const {
-    return {cell_of(box.x_low - margin_, periods_.x), cell_of(box.x_high + margin_, periods_.x), cell_of(box.y_low - margin_, periods_.y),
-            cell_of(box.y_high + margin_, periods_.y)};
+    return {cell_of(box.x_low - margin_, periods_.x), cell_of(box.x_high + margin_, periods_.x),
+            cell_of(box.y_low - margin_, periods_.y), cell_of(box.y_high + margin_, periods_.y)};
 }
 
 /// Where the centres of discs that touch its image lie.
 Obstacles::Box Obstacles::extent_of(const Body& body, double radius, Shift shift) const {
     const double reach = body.radius + radius, x = body.x + shift.x, y = body.y + shift.y;
     const double x_end = x + body.length * body.ux, y_end = y + body.length * body.uy;
-    return {std::min(x, x_end) - reach, std::max(x, x_end) + reach, std::min(y, y_end) - reach, std::max(y, y_end) + reach};
+    return {std::min(x, x_end) - reach, std::max(x, x_end) + reach, std::min(y, y_end) - reach,
+            std::max(y, y_end) + reach};
 }
 
-/// False for cells that an oblique line keeps clear of. Those at the border also stand for what lies beyond.
+/// False for cells that an oblique line keeps clear of. Those at the border also stand for what
+/// lies beyond.
 bool Obstacles::may_hold(const Body& body, std::int64_t column, std::int64_t row) const {
     const bool is_at_border = std::min(column, row) == 0 || std::max(column, row) + 1 == n_rows_;
     if (!body.is_line() || is_at_border) return true;
-    const double dx = (static_cast<double>(column) + 0.5) * cell_width_ - body.x, dy = (static_cast<double>(row) + 0.5) * cell_width_ - body.y;
+    const double dx = (static_cast<double>(column) + 0.5) * cell_width_ - body.x,
+                 dy = (static_cast<double>(row) + 0.5) * cell_width_ - body.y;
     return std::fabs(body.ux * dy - body.uy * dx) <= largest_radius_ + cell_width_ + margin_;
 }
 
@@ -92,13 +100,16 @@ void Obstacles::sort_into_cells() {
                 for (std::int64_t row = cells.first_row; row <= cells.last_row; ++row) {
                     if (!may_hold(species_[k], column, row)) continue;
                     const std::int64_t x = box_of(column, periods_.x), y = box_of(row, periods_.y);
-                    const auto cell = static_cast<std::size_t>((column - x * n_rows_) * n_rows_ + (row - y * n_rows_));
-                    what(cell, Entry{static_cast<std::uint32_t>(k), static_cast<std::int16_t>(-x), static_cast<std::int16_t>(-y)});
+                    const auto cell = static_cast<std::size_t>((column - x * n_rows_) * n_rows_ +
+                                                               (row - y * n_rows_));
+                    what(cell, Entry{static_cast<std::uint32_t>(k), static_cast<std::int16_t>(-x),
+                                     static_cast<std::int16_t>(-y)});
                 }
         }
     };
     visit([this](std::size_t cell, const Entry&) { ++cell_starts_[cell + 1]; });
-    for (std::size_t cell = 1; cell < cell_starts_.size(); ++cell) cell_starts_[cell] += cell_starts_[cell - 1];
+    for (std::size_t cell = 1; cell < cell_starts_.size(); ++cell)
+        cell_starts_[cell] += cell_starts_[cell - 1];
     in_cells_.resize(cell_starts_.back());
     std::vector<std::uint32_t> ends = cell_starts_;
     visit([this, &ends](std::size_t cell, const Entry& entry) { in_cells_[ends[cell]++] = entry; });
@@ -123,8 +134,9 @@ template <class What> void Obstacles::visit_cells(const Cells& cells, const What
     }
 }
 
-/// The body's number; in a periodic box one for each of nine images, told by the box in which the disc's centre is that touches,
-/// at (x, y): it is a function of the disc's state then, wherever that is stored.
+/// The body's number; in a periodic box one for each of nine images, told by the box in which the
+/// disc's centre is that touches, at (x, y): it is a function of the disc's state then, wherever
+/// that is stored.
 std::uint32_t Obstacles::code_of(const Entry& image, double x, double y) const {
     if (!periods_.are_any()) return image.body;
     const int dx = periods_.x == 0 ? 0 : image.x - static_cast<int>(std::floor(x / periods_.x));
@@ -136,29 +148,39 @@ std::uint32_t Obstacles::code_of(const Entry& image, double x, double y) const {
 Obstacles::Entry Obstacles::image_of(std::uint32_t code, const Disc& disc) const {
     if (!periods_.are_any()) return {code, 0, 0};
     const auto image = static_cast<int>(code % n_images);
-    const int x = periods_.x == 0 ? 0 : image / 3 - 1 + static_cast<int>(std::floor(disc.x / periods_.x));
-    const int y = periods_.y == 0 ? 0 : image % 3 - 1 + static_cast<int>(std::floor(disc.y / periods_.y));
+    const int x = periods_.x == 0
+                      ? 0
+                      : image / 3 - 1 + static_cast<int>(std::floor(disc.x / periods_.x));
+    const int y = periods_.y == 0
+                      ? 0
+                      : image % 3 - 1 + static_cast<int>(std::floor(disc.y / periods_.y));
     return {code / n_images, static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
 }
 
 /// `dx`, `dy` from the line's beginning, `wx`, `wy` in the box.
-double Obstacles::line_delay(const Body& line, double radius, double dx, double dy, double wx, double wy) const {
+double Obstacles::line_delay(const Body& line, double radius, double dx, double dy, double wx,
+                             double wy) const {
     const auto [gx, gy] = gravity_;
-    const double place = line.ux * dy - line.uy * dx, rate = line.ux * wy - line.uy * wx, pull = line.ux * gy - line.uy * gx;
+    const double place = line.ux * dy - line.uy * dx, rate = line.ux * wy - line.uy * wx,
+                 pull = line.ux * gy - line.uy * gx;
     double first = never;
     for (const double side : {1.0, -1.0}) {
-        const double s = fall_delay(side * place - radius, side * rate, side * pull, side * place >= 0);
+        const double s = fall_delay(side * place - radius, side * rate, side * pull,
+                                    side * place >= 0);
         if (!(s < first)) continue;
-        const double along = (line.ux * dx + line.uy * dy) + (line.ux * wx + line.uy * wy) * s + (0.5 * (line.ux * gx + line.uy * gy) * s) * s;
+        const double along = (line.ux * dx + line.uy * dy) + (line.ux * wx + line.uy * wy) * s +
+                             (0.5 * (line.ux * gx + line.uy * gy) * s) * s;
         if (along >= 0 && along <= line.length) first = s;
     }
     return first;
 }
 
 /// From the state alone: the first time at which the distance is not positive and falls.
-double Obstacles::contact_time(const Disc& disc, const Body& body, double radius, Shift shift) const {
+double Obstacles::contact_time(const Disc& disc, const Body& body, double radius,
+                               Shift shift) const {
     const bool falls = gravity_[0] != 0 || gravity_[1] != 0;
-    const double dx = ((disc.x + fallen(0, disc.tau)) - body.x) - shift.x, dy = ((disc.y + fallen(1, disc.tau)) - body.y) - shift.y;
+    const double dx = ((disc.x + fallen(0, disc.tau)) - body.x) - shift.x,
+                 dy = ((disc.y + fallen(1, disc.tau)) - body.y) - shift.y;
     const double wx = disc.vx + gravity_[0] * disc.tau, wy = disc.vy + gravity_[1] * disc.tau;
     if (body.is_line()) return disc.tau + line_delay(body, radius, dx, dy, wx, wy);
     const double reach = body.radius + radius;
@@ -173,7 +195,8 @@ Obstacles::Box Obstacles::path_of(const Disc& disc, double begin, double end) co
     const double y0 = disc.y_at(begin) + fallen(1, begin), y1 = disc.y_at(end) + fallen(1, end);
     const double eighth = (end - begin) * (end - begin) / 8;
     const double x_bend = std::fabs(gravity_[0]) * eighth, y_bend = std::fabs(gravity_[1]) * eighth;
-    return {std::min(x0, x1) - x_bend, std::max(x0, x1) + x_bend, std::min(y0, y1) - y_bend, std::max(y0, y1) + y_bend};
+    return {std::min(x0, x1) - x_bend, std::max(x0, x1) + x_bend, std::min(y0, y1) - y_bend,
+            std::max(y0, y1) + y_bend};
 }
 
 /// Parts of a flight in which it goes no further than a cell or so.
@@ -185,7 +208,8 @@ double Obstacles::slices_of(const Disc& disc, double begin, double end) const {
     return std::clamp(std::ceil(way / cell_width_), 1.0, 1e6);
 }
 
-ObstacleContact Obstacles::first_contact(const Disc& disc, double radius, const ContactTimes& times) const {
+ObstacleContact Obstacles::first_contact(const Disc& disc, double radius,
+                                         const ContactTimes& times) const {
     const double begin = std::max(times.from, disc.tau);
     ObstacleContact best;
     if (!(begin <= times.to)) return best;
@@ -198,11 +222,13 @@ ObstacleContact Obstacles::first_contact(const Disc& disc, double radius, const 
             const Body& body = species_[image.body];
             const Shift shift = shift_of(image);
             const Box extent = extent_of(body, radius, shift);
-            if (extent.x_low > path.x_high + margin_ || extent.x_high < path.x_low - margin_ || extent.y_low > path.y_high + margin_ ||
-                extent.y_high < path.y_low - margin_)
+            if (extent.x_low > path.x_high + margin_ || extent.x_high < path.x_low - margin_ ||
+                extent.y_low > path.y_high + margin_ || extent.y_high < path.y_low - margin_)
                 return;
             const double time = contact_time(disc, body, radius, shift);
-            if (!(time <= times.to) || time < times.from || (time == times.from && !times.hold_from) || time > best.time) return;
+            if (!(time <= times.to) || time < times.from ||
+                (time == times.from && !times.hold_from) || time > best.time)
+                return;
             const std::uint32_t code = code_of(image, disc.x_at(time), disc.y_at(time));
             if (code == times.except && time == disc.tau) return;
             if (time < best.time || code < best.body) best = {time, code};
@@ -217,7 +243,8 @@ void Obstacles::rebound(Disc& disc, std::uint32_t code, double time, bool is_tou
     const Entry image = image_of(code, disc);
     const Body& at = species_[image.body];
     const Shift shift = shift_of(image);
-    const double dx = ((disc.x + fallen(0, time)) - at.x) - shift.x, dy = ((disc.y + fallen(1, time)) - at.y) - shift.y;
+    const double dx = ((disc.x + fallen(0, time)) - at.x) - shift.x,
+                 dy = ((disc.y + fallen(1, time)) - at.y) - shift.y;
     double nx, ny; // away from the body
     if (at.is_line()) {
         const double side = at.ux * dy - at.uy * dx < 0 ? -1 : 1;
@@ -237,15 +264,18 @@ void Obstacles::rebound(Disc& disc, std::uint32_t code, double time, bool is_tou
     disc.vy += (away - normal) * ny;
 }
 
-Obstacles::Overlap Obstacles::deepest_overlap(double x, double y, double radius, double least) const {
+Obstacles::Overlap Obstacles::deepest_overlap(double x, double y, double radius,
+                                              double least) const {
     Overlap deepest;
     double most = least;
     visit_cells(cells_of({x, x, y, y}), [&](const Entry& image) {
         const Body& body = species_[image.body];
         const Shift shift = shift_of(image);
         const double from_x = x - shift.x, from_y = y - shift.y;
-        const double along = std::clamp(body.ux * (from_x - body.x) + body.uy * (from_y - body.y), 0.0, body.length);
-        const double dx = from_x - (body.x + along * body.ux), dy = from_y - (body.y + along * body.uy);
+        const double along = std::clamp(body.ux * (from_x - body.x) + body.uy * (from_y - body.y),
+                                        0.0, body.length);
+        const double dx = from_x - (body.x + along * body.ux),
+                     dy = from_y - (body.y + along * body.uy);
         const double overlap = (body.radius + radius) - std::sqrt(dx * dx + dy * dy);
         if (!(overlap > most)) return;
         most = overlap;

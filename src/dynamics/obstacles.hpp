@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies that stand fixed in a box: discs, and straight segments with a disc of radius 0 at either end. A disc that comes to
-// one is reflected from it, as from a wall.
+// Bodies that stand fixed in a box: discs, and straight segments with a disc of radius 0 at either
+// end. A disc that comes to one is reflected from it, as from a wall.
 //
-// A disc of radius r touches a fixed one of radius R where their centres are r + R apart (the predicate of pairs; a quartic
-// under gravity: falling_contact.hpp) and a segment where it is r from its line (a quadratic). The contact is a function of the
-// stored state alone. The bodies lie in a grid of cells for good; a flight looks at the cells on its way, to its first contact.
-// In a periodic box the grid repeats itself, and a body is seen from the cells that its images reach into as well. A stored
-// state may be many boxes away: bodies come to it, by whole box lengths.
+// A disc of radius r touches a fixed one of radius R where their centres are r + R apart (the
+// predicate of pairs; a quartic under gravity: falling_contact.hpp) and a segment where it is r
+// from its line (a quadratic). The contact is a function of the stored state alone. The bodies lie
+// in a grid of cells for good; a flight looks at the cells on its way, to its first contact. In a
+// periodic box the grid repeats itself, and a body is seen from the cells that its images reach
+// into as well. A stored state may be many boxes away: bodies come to it, by whole box lengths.
 #pragma once
 
 #include <array>
@@ -26,7 +27,8 @@ struct ObstacleContact {
     static constexpr std::uint32_t no_body = 0xffffffff;
 
     double time = std::numeric_limits<double>::infinity();
-    std::uint32_t body = no_body; ///< a number for each body, or for each of its nearest images; see Obstacles::code_of
+    std::uint32_t body = no_body; ///< a number for each body, or for each of its nearest images;
+                                  ///< see Obstacles::code_of
 
     bool exists() const { return body != no_body; }
 };
@@ -34,8 +36,9 @@ struct ObstacleContact {
 /// Times that count, those since the last sync.
 struct ContactTimes {
     double from = 0, to = 0;
-    bool hold_from = true;                                 ///< whether `from` itself counts
-    std::uint32_t except = ObstacleContact::no_body;       ///< does not count at the disc's own time: it has just been left
+    bool hold_from = true; ///< whether `from` itself counts
+    std::uint32_t except =
+        ObstacleContact::no_body; ///< does not count at the disc's own time: it has just been left
 };
 
 class Obstacles {
@@ -45,26 +48,29 @@ public:
 
     bool are_none() const { return species_.empty(); }
 
-    /// The first body that the disc of that radius comes to at such a time; the one of the lower number where two are met at once.
+    /// The first body that the disc of that radius comes to at such a time; the one of the lower
+    /// number where two are met at once.
     ObstacleContact first_contact(const Disc& disc, double radius, const ContactTimes& times) const;
 
-    /// Turns round the velocity of a disc that has come to the body of a contact's number `code` at `time`, its own now; `is_touched` says whether it has been
-    /// touched within the contact time before.
+    /// Turns round the velocity of a disc that has come to the body of a contact's number `code` at
+    /// `time`, its own now; `is_touched` says whether it has been touched within the contact time
+    /// before.
     void rebound(Disc& disc, std::uint32_t code, double time, bool is_touched) const;
 
     struct Overlap {
         double depth = 0;
         std::uint32_t body = ObstacleContact::no_body; ///< whatever the image
     };
-    /// The body that a disc of that radius at (x, y) in the box overlaps deepest, by more than `least`, or `no_body`.
+    /// The body that a disc of that radius at (x, y) in the box overlaps deepest, by more than
+    /// `least`, or `no_body`.
     Overlap deepest_overlap(double x, double y, double radius, double least) const;
     /// "fixed disc 3" or "segment 1", by their rows in the scene's lists.
     std::string name_of(std::uint32_t body) const;
 
 private:
     struct Body {
-        double x, y;        ///< its centre, or one end of a line
-        double radius;      ///< 0 of a line
+        double x, y;                       ///< its centre, or one end of a line
+        double radius;                     ///< 0 of a line
         double ux = 0, uy = 0, length = 0; ///< of a line: direction and length
         bool is_line() const { return length > 0; }
     };
@@ -86,7 +92,8 @@ private:
     };
 
     double contact_time(const Disc& disc, const Body& body, double radius, Shift shift) const;
-    double line_delay(const Body& line, double radius, double dx, double dy, double wx, double wy) const;
+    double line_delay(const Body& line, double radius, double dx, double dy, double wx,
+                      double wy) const;
     Box extent_of(const Body& body, double radius, Shift shift) const;
     Box path_of(const Disc& disc, double begin, double end) const;
     double slices_of(const Disc& disc, double begin, double end) const;
@@ -98,17 +105,21 @@ private:
     template <class What> void visit_cells(const Cells& cells, const What& what) const;
     std::uint32_t code_of(const Entry& image, double x, double y) const;
     Entry image_of(std::uint32_t code, const Disc& disc) const;
-    Shift shift_of(const Entry& image) const { return {image.x * periods_.x, image.y * periods_.y}; }
-    double fallen(std::size_t axis, double time) const { return (0.5 * gravity_[axis] * time) * time; }
+    Shift shift_of(const Entry& image) const {
+        return {image.x * periods_.x, image.y * periods_.y};
+    }
+    double fallen(std::size_t axis, double time) const {
+        return (0.5 * gravity_[axis] * time) * time;
+    }
 
     double restitution_, contact_time_;
     std::array<double, 2> gravity_;
     std::size_t n_fixed_discs_;
     Periods periods_;
-    double largest_radius_;    ///< of discs
+    double largest_radius_;     ///< of discs
     std::vector<Body> species_; ///< fixed discs, then a line and its two ends for each segment
     double cell_width_ = 1, margin_ = 0;
-    std::int64_t n_rows_ = 1;  ///< and columns
+    std::int64_t n_rows_ = 1; ///< and columns
     std::vector<std::uint32_t> cell_starts_;
     std::vector<Entry> in_cells_;
 };

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The laws of boxes with periodic sides: another law, for images of discs (core/image.hpp).
 //
-// The separation of two discs is that of their stored places and a whole number of box lengths, added in one fixed
-// association; all else is the other law's. An axis has walls or is periodic; a walled one is as in the other law.
+// The separation of two discs is that of their stored places and a whole number of box lengths,
+// added in one fixed association; all else is the other law's. An axis has walls or is periodic; a
+// walled one is as in the other law.
 #pragma once
 
 #include "core/image.hpp"
@@ -25,15 +26,21 @@ public:
     double slack() const { return 0x1p-36 * this->box_size(); }
     double search_diameter() const { return this->diameter() + 2 * slack(); }
 
-    PairContact<double> contact(const Disc& p, const Disc& q) const { return contact(p, q, this->tolerance()); }
-    PairContact<double> event_contact(const Disc& p, const Disc& q) const { return contact(p, q, Walled::never); }
+    PairContact<double> contact(const Disc& p, const Disc& q) const {
+        return contact(p, q, this->tolerance());
+    }
+    PairContact<double> event_contact(const Disc& p, const Disc& q) const {
+        return contact(p, q, Walled::never);
+    }
 
     void collide(Disc& p, Disc& q, double m, double t) const {
         exchange_momentum(p, q, m + t, this->contact_.impulse());
         stop(p, m, t);
         stop(q, m, t);
     }
-    void collide_at(Disc& p, Disc& q, double time) const { exchange_momentum(p, q, time, this->contact_.impulse_at(p, q, time)); }
+    void collide_at(Disc& p, Disc& q, double time) const {
+        exchange_momentum(p, q, time, this->contact_.impulse_at(p, q, time));
+    }
 
     /// Rough discs.
     void collide(Disc& p, Disc& q, double m, double t, double& p_spin, double& q_spin) const {
@@ -47,7 +54,8 @@ public:
 
     double wall_time(const Disc& disc, double m) const {
         const double at_wall = side_time(disc, m);
-        return this->has_obstacles() ? std::min(at_wall, this->obstacle_contact(disc, m).time - m) : at_wall;
+        return this->has_obstacles() ? std::min(at_wall, this->obstacle_contact(disc, m).time - m)
+                                     : at_wall;
     }
     PlainDynamics::MetWalls met_walls(const Disc& disc, double m, double t) const {
         if (this->has_obstacles() && t != side_time(disc, m)) return {};
@@ -55,7 +63,8 @@ public:
     }
     /// There is one axis with walls at most, and so no corner.
     void bounce(Disc& disc, double m, double t) const {
-        if (this->has_obstacles() && t != side_time(disc, m)) return stop(disc, m, t, this->rebound_in(disc, m));
+        if (this->has_obstacles() && t != side_time(disc, m))
+            return stop(disc, m, t, this->rebound_in(disc, m));
         this->advance(disc, m + t);
         this->boundaries().reverse(disc, periods_.x == 0 ? Axis::x : Axis::y);
         disc.wall_collisions += 1;
@@ -69,12 +78,14 @@ public:
     }
 
 private:
-    [[gnu::flatten]] PairContact<double> contact(const Disc& p, const Disc& q, double deepest_overlap) const {
+    [[gnu::flatten]] PairContact<double> contact(const Disc& p, const Disc& q,
+                                                 double deepest_overlap) const {
         if constexpr (Walled::has_pairs) {
             const double base = std::max(p.tau, q.tau);
             const double dx = (q.x_at(base) - p.x_at(base)) + periods_.x_between(p, q);
             const double dy = (q.y_at(base) - p.y_at(base)) + periods_.y_between(p, q);
-            return {base, contact_delay(dx, dy, q.vx - p.vx, q.vy - p.vy, this->pair_diameter(p, q), deepest_overlap)};
+            return {base, contact_delay(dx, dy, q.vx - p.vx, q.vy - p.vy, this->pair_diameter(p, q),
+                                        deepest_overlap)};
         }
         return {};
     }
@@ -82,17 +93,22 @@ private:
     void exchange_momentum(Disc& p, Disc& q, double time, double impulse) const {
         this->advance(p, time);
         this->advance(q, time);
-        this->exchange_momentum_at(p, q, (q.x - p.x) + periods_.x_between(p, q), (q.y - p.y) + periods_.y_between(p, q), impulse);
+        this->exchange_momentum_at(p, q, (q.x - p.x) + periods_.x_between(p, q),
+                                   (q.y - p.y) + periods_.y_between(p, q), impulse);
     }
-    void exchange_spin(Disc& p, Disc& q, double time, bool is_guarded, double& p_spin, double& q_spin) const {
+    void exchange_spin(Disc& p, Disc& q, double time, bool is_guarded, double& p_spin,
+                       double& q_spin) const {
         this->advance(p, time);
         this->advance(q, time);
-        this->exchange_spin_at(p, q, (q.x - p.x) + periods_.x_between(p, q), (q.y - p.y) + periods_.y_between(p, q), is_guarded, p_spin, q_spin);
+        this->exchange_spin_at(p, q, (q.x - p.x) + periods_.x_between(p, q),
+                               (q.y - p.y) + periods_.y_between(p, q), is_guarded, p_spin, q_spin);
     }
 
     double side_time(const Disc& disc, double m) const {
-        if (periods_.x == 0) return this->wall_dynamics(disc).axis_time(disc.x, disc.vx, disc.tau, m);
-        return periods_.y == 0 ? this->wall_dynamics(disc).axis_time(disc.y, disc.vy, disc.tau, m) : Walled::never;
+        if (periods_.x == 0)
+            return this->wall_dynamics(disc).axis_time(disc.x, disc.vx, disc.tau, m);
+        return periods_.y == 0 ? this->wall_dynamics(disc).axis_time(disc.y, disc.vy, disc.tau, m)
+                               : Walled::never;
     }
 
     void stop(Disc& disc, double m, double t, std::uint32_t left = ObstacleContact::no_body) const {
@@ -100,7 +116,7 @@ private:
         if (!has_sides && !this->has_obstacles()) return;
         const double rest = 1 - t;
         const PlainDynamics walls = this->wall_dynamics(disc);
-        const double at_wall = !has_sides         ? Walled::never
+        const double at_wall = !has_sides        ? Walled::never
                                : periods_.x == 0 ? walls.axis_stop(disc.x, disc.vx, rest)
                                                  : walls.axis_stop(disc.y, disc.vy, rest);
         this->stop_at(disc, m, at_wall, left);

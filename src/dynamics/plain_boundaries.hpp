@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sides of a scene that names no effect, in the words of Sides: elastic walls at rest around discs that do not fall, seen
-// in the box's own frame and clock. Nothing of it is computed.
+// The sides of a scene that names no effect, in the words of Sides: elastic walls at rest around
+// discs that do not fall, seen in the box's own frame and clock. Nothing of it is computed.
 #pragma once
 
 #include <cstdint>

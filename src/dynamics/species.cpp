@@ -16,9 +16,11 @@ SpeciesTable::SpeciesTable(std::span<const Species> species, double radius) {
     for (const Species& one : species) {
         end += one.count;
         table->ranges.push_back({end, {one.radius, one.mass}});
-        if (species.size() > few_species) table->by_id.insert(table->by_id.end(), one.count, Body{one.radius, one.mass});
+        if (species.size() > few_species)
+            table->by_id.insert(table->by_id.end(), one.count, Body{one.radius, one.mass});
     }
-    table->ranges.push_back({std::numeric_limits<DiscId>::max(), species.empty() ? Body{radius, 1} : table->ranges.back().body});
+    table->ranges.push_back({std::numeric_limits<DiscId>::max(),
+                             species.empty() ? Body{radius, 1} : table->ranges.back().body});
     if (!species.empty()) table->ranges.erase(table->ranges.end() - 2); // the last class has no end
     ranges_ = table->ranges.data();
     by_id_ = table->by_id.empty() ? nullptr : table->by_id.data();

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What each disc is: its radius and its mass, which a run never changes.
 //
-// Classes come in the order of ids, so a disc's class follows from its id: no array, no byte in messages and checkpoints. A
-// few classes are found by as many comparisons; many are spread into a table by id, 16 bytes a disc on every rank.
+// Classes come in the order of ids, so a disc's class follows from its id: no array, no byte in
+// messages and checkpoints. A few classes are found by as many comparisons; many are spread into a
+// table by id, 16 bytes a disc on every rank.
 #pragma once
 
 #include <cstdint>

@@ -19,7 +19,8 @@ struct Collision {
     double impulse = 0;           ///< what p has got, in mass times length per step
 };
 
-/// A disc that has flown on through periodic sides has been brought into the box by so many box lengths.
+/// A disc that has flown on through periodic sides has been brought into the box by so many box
+/// lengths.
 struct Crossing {
     DiscId disc = 0;
     double x = 0, y = 0; ///< whole numbers

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From what a scene asks for to the law that engines are compiled for: the one place where the choice is made.
+// From what a scene asks for to the law that engines are compiled for: the one place where the
+// choice is made.
 #pragma once
 
 #include <type_traits>
@@ -9,13 +10,17 @@
 
 namespace carrom {
 
-/// Calls `make.template operator()<Law>()` with the scene's law and returns what it gives, the same type for every law.
-/// Effects have the default precision and arithmetic: the reader of scenes sees to that.
+/// Calls `make.template operator()<Law>()` with the scene's law and returns what it gives, the same
+/// type for every law. Effects have the default precision and arithmetic: the reader of scenes sees
+/// to that.
 template <class Make> auto with_dynamics_of(const Scene& scene, const Make& make) {
     const bool is_periodic = scene.effects.are_periodic();
     if (scene.effects.contact.kind == ContactKind::rough)
-        return is_periodic ? make.template operator()<PeriodicRoughDynamics>() : make.template operator()<RoughDynamics>();
-    if (!scene.effects.species.empty()) return is_periodic ? make.template operator()<PeriodicMixedDynamics>() : make.template operator()<MixedDynamics>();
+        return is_periodic ? make.template operator()<PeriodicRoughDynamics>()
+                           : make.template operator()<RoughDynamics>();
+    if (!scene.effects.species.empty())
+        return is_periodic ? make.template operator()<PeriodicMixedDynamics>()
+                           : make.template operator()<MixedDynamics>();
     if (is_periodic) {
         switch (scene.effects.contact.kind) {
         case ContactKind::none: return make.template operator()<PeriodicIdealGasDynamics>();
@@ -32,9 +37,11 @@ template <class Make> auto with_dynamics_of(const Scene& scene, const Make& make
         if (scene.effects.are_any()) return make.template operator()<ElasticDynamics>();
     }
     const auto with = [&]<class Real>(Real) {
-        if (scene.arithmetic == Arithmetic::stable) return make.template operator()<BasicPlainDynamics<Real, StableContact>>();
-        return scene.contraction ? make.template operator()<BasicPlainDynamics<Real, NaiveContact<true>>>()
-                                 : make.template operator()<BasicPlainDynamics<Real, NaiveContact<false>>>();
+        if (scene.arithmetic == Arithmetic::stable)
+            return make.template operator()<BasicPlainDynamics<Real, StableContact>>();
+        return scene.contraction
+                   ? make.template operator()<BasicPlainDynamics<Real, NaiveContact<true>>>()
+                   : make.template operator()<BasicPlainDynamics<Real, NaiveContact<false>>>();
     };
     return scene.precision == Precision::single ? with(float{}) : with(double{});
 }
@@ -42,8 +49,10 @@ template <class Make> auto with_dynamics_of(const Scene& scene, const Make& make
 /// The law with the scene's numbers.
 template <class Dynamics> Dynamics dynamics_of(const Scene& scene) {
     if constexpr (std::is_constructible_v<Dynamics, double, double, const Effects&>)
-        return Dynamics(scene.box_size, scene.radius, per_micro_step(scene.effects, static_cast<double>(scene.micro_steps)));
-    else return Dynamics(scene.box_size, scene.radius);
+        return Dynamics(scene.box_size, scene.radius,
+                        per_micro_step(scene.effects, static_cast<double>(scene.micro_steps)));
+    else
+        return Dynamics(scene.box_size, scene.radius);
 }
 
 } // namespace carrom

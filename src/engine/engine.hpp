@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What moves a run's discs: one engine for each rule. A run has one of them from its start to its end.
+// What moves a run's discs: one engine for each rule. A run has one of them from its start to its
+// end.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +21,15 @@
 
 namespace carrom {
 
-/// A rank's discs at `time`, as every window begins: own ones in their strip, the halo behind them, all in cells.
+/// A rank's discs at `time`, as every window begins: own ones in their strip, the halo behind them,
+/// all in cells.
 struct LocalView {
     Population population;
     const CellGrid* grid = nullptr; ///< partners within a diameter are within its reach
     const Strips* strips = nullptr;
-    double time = 0;                ///< since the last sync
-    Frame frame;                    ///< that the coordinates are in
-    Periods periods{};              ///< of a periodic box: discs are where their images are
+    double time = 0;   ///< since the last sync
+    Frame frame;       ///< that the coordinates are in
+    Periods periods{}; ///< of a periodic box: discs are where their images are
 };
 
 class Engine {
@@ -39,12 +41,14 @@ public:
 
     /// See Simulation::advance_towards. **Collective.**
     virtual void advance_towards(std::int64_t last_step) = 0;
-    /// Fills in what only the engine knows or finds: overlaps, rejected candidates, windows. **Collective.**
+    /// Fills in what only the engine knows or finds: overlaps, rejected candidates, windows.
+    /// **Collective.**
     virtual void add_to(Totals& totals) = 0;
-    /// Settles the discs where they are now, for a look at pairs within a diameter, or `reach` where that is more; good until
-    /// the next step. **Collective.**
+    /// Settles the discs where they are now, for a look at pairs within a diameter, or `reach`
+    /// where that is more; good until the next step. **Collective.**
     virtual LocalView local_view(double reach = 0) = 0;
-    /// Makes own discs plain states again, for whoever asks for them after such a look in a periodic box.
+    /// Makes own discs plain states again, for whoever asks for them after such a look in a
+    /// periodic box.
     virtual void forget_images() = 0;
 
     /// **Collective.**
@@ -52,9 +56,14 @@ public:
 
     virtual std::int64_t micro_steps_done() const = 0; ///< since the scene's start
     virtual std::span<const Disc> own() const = 0;
-    virtual std::span<const Disc> departed() const = 0; ///< of this rank, those that have left the box and are no more among its own
-    virtual std::span<const double> spins() const { return {}; } ///< along `own()`; empty where discs do not turn
-    virtual const SpeciesTable* species_table() const { return nullptr; } ///< of laws that know several
+    virtual std::span<const Disc> departed()
+        const = 0; ///< of this rank, those that have left the box and are no more among its own
+    virtual std::span<const double> spins() const {
+        return {};
+    } ///< along `own()`; empty where discs do not turn
+    virtual const SpeciesTable* species_table() const {
+        return nullptr;
+    } ///< of laws that know several
     virtual double clock() const = 0;
     virtual Frame frame() const { return {}; } ///< of the own discs' coordinates, at `clock()`
     virtual std::uint64_t n_discs() const = 0; ///< over all ranks, those that are gone too
@@ -68,11 +77,13 @@ public:
     void note_crossings_in(std::vector<Crossing>* crossings) { crossings_ = crossings; }
 
 protected:
-    /// Brings a state that a sync has rewritten into the box. Threads may call it for different discs at once.
+    /// Brings a state that a sync has rewritten into the box. Threads may call it for different
+    /// discs at once.
     template <class Dynamics> void wrap(const Dynamics& dynamics, Disc& disc) {
         const double x = disc.x, y = disc.y;
         dynamics.wrap(disc);
-        if (crossings_ && (x != disc.x || y != disc.y)) note_crossing(disc, x, y, dynamics.periods());
+        if (crossings_ && (x != disc.x || y != disc.y))
+            note_crossing(disc, x, y, dynamics.periods());
     }
     /// From (x, y) to where the disc is now. Threads may call it at once.
     void note_crossing(const Disc& disc, double x, double y, const Periods& periods);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the wall time of a rank goes. A `PhaseClock::Scope` bills the time of its life to one phase; scopes nest, and
-// the outer one is not billed for the inner. Price: two readings of the clock per scope, so none inside loops over discs.
+// Where the wall time of a rank goes. A `PhaseClock::Scope` bills the time of its life to one
+// phase; scopes nest, and the outer one is not billed for the inner. Price: two readings of the
+// clock per scope, so none inside loops over discs.
 #pragma once
 
 #include <array>
@@ -28,7 +29,8 @@ public:
     };
 
     std::vector<std::pair<std::string, double>> seconds() const {
-        static constexpr std::array names = {"settle", "search", "resolve", "contested", "move", "exchange", "wait", "sync"};
+        static constexpr std::array names = {"settle", "search",   "resolve", "contested",
+                                             "move",   "exchange", "wait",    "sync"};
         static_assert(names.size() == static_cast<std::size_t>(Phase::n_phases));
         std::vector<std::pair<std::string, double>> list;
         for (std::size_t k = 0; k < names.size(); ++k) list.emplace_back(names[k], seconds_[k]);
@@ -40,12 +42,14 @@ private:
 
     Phase switch_to(Phase phase) {
         const Clock::time_point now = Clock::now();
-        seconds_[static_cast<std::size_t>(phase_)] += std::chrono::duration<double>(now - since_).count();
+        seconds_[static_cast<std::size_t>(phase_)] +=
+            std::chrono::duration<double>(now - since_).count();
         since_ = now;
         return std::exchange(phase_, phase);
     }
 
-    std::array<double, static_cast<std::size_t>(Phase::n_phases) + 1> seconds_{}; ///< the last is outside all scopes
+    std::array<double, static_cast<std::size_t>(Phase::n_phases) + 1>
+        seconds_{}; ///< the last is outside all scopes
     Phase phase_ = Phase::n_phases;
     Clock::time_point since_ = Clock::now();
 };

@@ -13,7 +13,8 @@
 
 namespace carrom {
 
-void measure_collisions(std::span<const Disc> own, std::span<const double> spins, const Communicator& communicator, Totals& totals) {
+void measure_collisions(std::span<const Disc> own, std::span<const double> spins,
+                        const Communicator& communicator, Totals& totals) {
     std::uint64_t walls = 0, pairs = 0;
     for (const Disc& disc : own) {
         walls += disc.wall_collisions;
@@ -28,17 +29,21 @@ void measure_collisions(std::span<const Disc> own, std::span<const double> spins
     totals.hash = {sums[2], sums[3]};
 }
 
-/// What has left stands a radius outside its side, exactly: the one coordinate that is furthest out tells which.
-void measure_departures(std::span<const Disc> own, double box_size, const Communicator& communicator, Totals& totals) {
+/// What has left stands a radius outside its side, exactly: the one coordinate that is furthest out
+/// tells which.
+void measure_departures(std::span<const Disc> own, double box_size,
+                        const Communicator& communicator, Totals& totals) {
     for (const Disc& disc : own) {
         if (!disc.has_departed()) continue;
         const std::array<double, 4> outside{-disc.x, disc.x - box_size, -disc.y, disc.y - box_size};
-        totals.departed[static_cast<std::size_t>(std::max_element(outside.begin(), outside.end()) - outside.begin())] += 1;
+        totals.departed[static_cast<std::size_t>(std::max_element(outside.begin(), outside.end()) -
+                                                 outside.begin())] += 1;
     }
     communicator.sum(totals.departed);
 }
 
-std::span<const Disc> discs_in_box(std::span<const Disc> discs, const Effects& effects, const Extent& box, double time, std::vector<Disc>& kept) {
+std::span<const Disc> discs_in_box(std::span<const Disc> discs, const Effects& effects,
+                                   const Extent& box, double time, std::vector<Disc>& kept) {
     if (!effects.have_open_boundaries()) return discs;
     std::copy_if(discs.begin(), discs.end(), std::back_inserter(kept), [&](const Disc& disc) {
         const double x = disc.x_at(time), y = disc.y_at(time);
@@ -49,9 +54,12 @@ std::span<const Disc> discs_in_box(std::span<const Disc> discs, const Effects& e
 
 namespace {
 
-double mass_of(const Disc& disc, const SpeciesTable* species_table) { return species_table ? species_table->of(disc.id).mass : 1; }
+double mass_of(const Disc& disc, const SpeciesTable* species_table) {
+    return species_table ? species_table->of(disc.id).mass : 1;
+}
 
-double largest_mass(std::span<const Disc> own, const SpeciesTable* species_table, const Communicator& communicator) {
+double largest_mass(std::span<const Disc> own, const SpeciesTable* species_table,
+                    const Communicator& communicator) {
     if (!species_table) return 1;
     double largest = 0;
     for (const Disc& disc : own) largest = std::max(largest, species_table->of(disc.id).mass);
@@ -60,12 +68,16 @@ double largest_mass(std::span<const Disc> own, const SpeciesTable* species_table
 
 } // namespace
 
-void measure_motion(std::span<const Disc> own, const SpeciesTable* species_table, double velocity_unit, const Communicator& communicator, Totals& totals) {
+void measure_motion(std::span<const Disc> own, const SpeciesTable* species_table,
+                    double velocity_unit, const Communicator& communicator, Totals& totals) {
     double largest = 0; // of any component of a velocity
-    for (const Disc& disc : own) largest = std::max({largest, std::fabs(disc.vx), std::fabs(disc.vy)});
+    for (const Disc& disc : own)
+        largest = std::max({largest, std::fabs(disc.vx), std::fabs(disc.vy)});
     largest = communicator.max(largest) * velocity_unit;
-    const double n = static_cast<double>(totals.n_discs), heaviest = largest_mass(own, species_table, communicator);
-    ExactSum energy(n * heaviest * largest * largest), momentum_x(n * heaviest * largest), momentum_y(n * heaviest * largest);
+    const double n = static_cast<double>(totals.n_discs),
+                 heaviest = largest_mass(own, species_table, communicator);
+    ExactSum energy(n * heaviest * largest * largest), momentum_x(n * heaviest * largest),
+        momentum_y(n * heaviest * largest);
     for (const Disc& disc : own) {
         const double vx = disc.vx * velocity_unit, vy = disc.vy * velocity_unit;
         const double mass = mass_of(disc, species_table);
@@ -79,7 +91,8 @@ void measure_motion(std::span<const Disc> own, const SpeciesTable* species_table
     totals.momentum_y = momentum_y.value();
 }
 
-void measure_rotation(std::span<const Disc> own, std::span<const double> spins, const SpeciesTable& species_table, double inertia, double velocity_unit,
+void measure_rotation(std::span<const Disc> own, std::span<const double> spins,
+                      const SpeciesTable& species_table, double inertia, double velocity_unit,
                       const Communicator& communicator, Totals& totals) {
     const auto energy_of = [&](std::size_t i) {
         const Body& body = species_table.of(own[i].id);
@@ -94,12 +107,19 @@ void measure_rotation(std::span<const Disc> own, std::span<const double> spins, 
     totals.rotational_energy = energy.value();
 }
 
-void measure_height(std::span<const Disc> own, const SpeciesTable* species_table, const Gravity& gravity, double box_size, const Communicator& communicator, Totals& totals) {
-    const auto height = [box_size](double place, double pull) { return pull < 0 ? place : box_size - place; };
+void measure_height(std::span<const Disc> own, const SpeciesTable* species_table,
+                    const Gravity& gravity, double box_size, const Communicator& communicator,
+                    Totals& totals) {
+    const auto height = [box_size](double place, double pull) {
+        return pull < 0 ? place : box_size - place;
+    };
     const double gx = std::fabs(gravity.x), gy = std::fabs(gravity.y);
-    ExactSum energy(2 * static_cast<double>(totals.n_discs) * largest_mass(own, species_table, communicator) * (gx + gy) * box_size);
+    ExactSum energy(2 * static_cast<double>(totals.n_discs) *
+                    largest_mass(own, species_table, communicator) * (gx + gy) * box_size);
     for (const Disc& disc : own)
-        if (!disc.has_departed()) energy.add(mass_of(disc, species_table) * (gx * height(disc.x, gravity.x) + gy * height(disc.y, gravity.y)));
+        if (!disc.has_departed())
+            energy.add(mass_of(disc, species_table) *
+                       (gx * height(disc.x, gravity.x) + gy * height(disc.y, gravity.y)));
     communicator.sum(energy);
     totals.potential_energy = energy.value();
 }
@@ -109,10 +129,13 @@ namespace {
 /// Two discs of a population at a time.
 class PairsAt {
 public:
-    PairsAt(const Population& population, double time, const Touching& touching) : population_(population), time_(time), touching_(touching) {}
+    PairsAt(const Population& population, double time, const Touching& touching)
+        : population_(population), time_(time), touching_(touching) {}
 
     /// The rank of the lower id counts a pair.
-    bool is_mine(LocalIndex a, LocalIndex b) const { return (disc(a).id < disc(b).id ? a : b) < population_.n_own; }
+    bool is_mine(LocalIndex a, LocalIndex b) const {
+        return (disc(a).id < disc(b).id ? a : b) < population_.n_own;
+    }
     double overlap(LocalIndex a, LocalIndex b) const {
         const auto [dx, dy] = separation(a, b);
         return touching_.diameter_of(disc(a), disc(b)) - std::sqrt(dx * dx + dy * dy);
@@ -120,8 +143,11 @@ public:
     /// Of two that touch.
     bool slide(LocalIndex a, LocalIndex b) const {
         const auto [dx, dy] = separation(a, b);
-        const double wx = disc(b).vx - disc(a).vx, wy = disc(b).vy - disc(a).vy, approach = dx * wx + dy * wy, square = wx * wx + wy * wy;
-        return square > 0 && approach * approach <= 4 * touching_.tolerance * touching_.diameter_of(disc(a), disc(b)) * square;
+        const double wx = disc(b).vx - disc(a).vx, wy = disc(b).vy - disc(a).vy,
+                     approach = dx * wx + dy * wy, square = wx * wx + wy * wy;
+        return square > 0 && approach * approach <= 4 * touching_.tolerance *
+                                                        touching_.diameter_of(disc(a), disc(b)) *
+                                                        square;
     }
 
 private:
@@ -139,7 +165,8 @@ private:
 };
 
 /// Of this rank's discs: pairs that touch, those of them that slide, discs that touch several.
-std::array<std::uint64_t, 3> count_touching(const PairsAt& pairs, const Population& population, const CellGrid& grid, double tolerance) {
+std::array<std::uint64_t, 3> count_touching(const PairsAt& pairs, const Population& population,
+                                            const CellGrid& grid, double tolerance) {
     std::array<std::uint64_t, 3> counts{};
     std::vector<std::uint8_t> n_partners(population.discs.size(), 0); // 2 stands for more, too
     visit_near_pairs(grid, [&](LocalIndex a, LocalIndex b) {
@@ -154,13 +181,15 @@ std::array<std::uint64_t, 3> count_touching(const PairsAt& pairs, const Populati
 
 } // namespace
 
-void measure_overlaps(const Population& population, const CellGrid& grid, double time, const Touching& touching,
-                      const Communicator& communicator, int n_threads, Totals& totals) {
+void measure_overlaps(const Population& population, const CellGrid& grid, double time,
+                      const Touching& touching, const Communicator& communicator, int n_threads,
+                      Totals& totals) {
     const PairsAt pairs(population, time, touching);
     std::uint64_t n_pairs = 0, n_touching = 0;
     double deepest = 0;
     const int n_columns = grid.frame().n_columns;
-#pragma omp parallel for num_threads(n_threads) schedule(dynamic, 8) reduction(+ : n_pairs, n_touching) reduction(max : deepest)
+#pragma omp parallel for num_threads(n_threads) schedule(dynamic, 8)                               \
+    reduction(+ : n_pairs, n_touching) reduction(max : deepest)
     for (int column = 0; column < n_columns; ++column) {
         visit_near_pairs_of(grid, column, [&](LocalIndex first, LocalIndex second) {
             const double overlap = pairs.overlap(first, second);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums over all discs that come out the same for every machine shape: integers and 128-bit fixed point.
+// Sums over all discs that come out the same for every machine shape: integers and 128-bit fixed
+// point.
 #pragma once
 
 #include <span>
@@ -8,30 +9,40 @@
 #include "cell_list/population.hpp"
 #include "core/disc.hpp"
 #include "dynamics/effects.hpp"
-#include "parallel/communicator.hpp"
 #include "engine/stored_state.hpp"
 #include "engine/totals.hpp"
+#include "parallel/communicator.hpp"
 
 namespace carrom {
 
-/// Fills in the collision counts and the state hash; `spins` run along the discs or are empty. **Collective.**
-void measure_collisions(std::span<const Disc> own, std::span<const double> spins, const Communicator& communicator, Totals& totals);
+/// Fills in the collision counts and the state hash; `spins` run along the discs or are empty.
+/// **Collective.**
+void measure_collisions(std::span<const Disc> own, std::span<const double> spins,
+                        const Communicator& communicator, Totals& totals);
 
 /// Fills in how many discs have left through which side. **Collective.**
-void measure_departures(std::span<const Disc> own, double box_size, const Communicator& communicator, Totals& totals);
+void measure_departures(std::span<const Disc> own, double box_size,
+                        const Communicator& communicator, Totals& totals);
 
-/// Fills in energy and momentum; `velocity_unit` turns stored velocities into those per step. `bodies`: null for masses of 1. **Collective.**
-void measure_motion(std::span<const Disc> own, const SpeciesTable* species_table, double velocity_unit, const Communicator& communicator, Totals& totals);
+/// Fills in energy and momentum; `velocity_unit` turns stored velocities into those per step.
+/// `bodies`: null for masses of 1. **Collective.**
+void measure_motion(std::span<const Disc> own, const SpeciesTable* species_table,
+                    double velocity_unit, const Communicator& communicator, Totals& totals);
 
-/// The discs themselves, or where `effects` open sides those whose centres are in the box at `time`, copied to `kept`.
-std::span<const Disc> discs_in_box(std::span<const Disc> discs, const Effects& effects, const Extent& box, double time, std::vector<Disc>& kept);
+/// The discs themselves, or where `effects` open sides those whose centres are in the box at
+/// `time`, copied to `kept`.
+std::span<const Disc> discs_in_box(std::span<const Disc> discs, const Effects& effects,
+                                   const Extent& box, double time, std::vector<Disc>& kept);
 
 /// Fills in the energy of spins; moments of inertia are `inertia` m r^2. **Collective.**
-void measure_rotation(std::span<const Disc> own, std::span<const double> spins, const SpeciesTable& species_table, double inertia, double velocity_unit,
+void measure_rotation(std::span<const Disc> own, std::span<const double> spins,
+                      const SpeciesTable& species_table, double inertia, double velocity_unit,
                       const Communicator& communicator, Totals& totals);
 
 /// Fills in the potential energy of discs as the box sees them. **Collective.**
-void measure_height(std::span<const Disc> own, const SpeciesTable* species_table, const Gravity& gravity, double box_size, const Communicator& communicator, Totals& totals);
+void measure_height(std::span<const Disc> own, const SpeciesTable* species_table,
+                    const Gravity& gravity, double box_size, const Communicator& communicator,
+                    Totals& totals);
 
 /// When two discs count as overlapping: closer than the diameter by more than the tolerance.
 struct Touching {
@@ -39,20 +50,27 @@ struct Touching {
     const SpeciesTable* species_table = nullptr; ///< null where all diameters are equal
 
     double diameter_of(const Disc& p, const Disc& q) const {
-        return species_table ? species_table->of(p.id).radius + species_table->of(q.id).radius : diameter;
+        return species_table ? species_table->of(p.id).radius + species_table->of(q.id).radius
+                             : diameter;
     }
     Periods periods = {}; ///< of the discs' images
 };
-template <class Dynamics> Touching touching_of(const Dynamics& dynamics, const Periods& periods = {}) {
-    if constexpr (Dynamics::has_species) return {dynamics.diameter(), dynamics.tolerance(), &dynamics.species_table(), periods};
-    else return {dynamics.diameter(), dynamics.tolerance(), nullptr, periods};
+template <class Dynamics>
+Touching touching_of(const Dynamics& dynamics, const Periods& periods = {}) {
+    if constexpr (Dynamics::has_species)
+        return {dynamics.diameter(), dynamics.tolerance(), &dynamics.species_table(), periods};
+    else
+        return {dynamics.diameter(), dynamics.tolerance(), nullptr, periods};
 }
 
-/// Fills in the pairs that overlap at `time`, each counted once, how far the deepest overlaps, and the pairs that touch: which
-/// of them slide along each other, (d.w)^2 <= 4 tolerance sigma w.w with d, w their separation and relative velocity (the
-/// distance of closest approach is then a diameter to within the tolerance), and how many discs touch several. The grid holds
-/// the population at that time, and partners within a diameter and the tolerance are within its reach. **Collective.**
-void measure_overlaps(const Population& population, const CellGrid& grid, double time, const Touching& touching,
-                      const Communicator& communicator, int n_threads, Totals& totals);
+/// Fills in the pairs that overlap at `time`, each counted once, how far the deepest overlaps, and
+/// the pairs that touch: which of them slide along each other, (d.w)^2 <= 4 tolerance sigma w.w
+/// with d, w their separation and relative velocity (the distance of closest approach is then a
+/// diameter to within the tolerance), and how many discs touch several. The grid holds the
+/// population at that time, and partners within a diameter and the tolerance are within its reach.
+/// **Collective.**
+void measure_overlaps(const Population& population, const CellGrid& grid, double time,
+                      const Touching& touching, const Communicator& communicator, int n_threads,
+                      Totals& totals);
 
 } // namespace carrom

@@ -28,10 +28,11 @@ Strips equal_strips(double box_size, int n_ranks) {
 
 } // namespace
 
-StripDiscs::StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs, const Periods& periods, bool has_spins,
-                       std::vector<double> spins)
-    : communicator_(communicator), box_size_(box_size), periods_(periods), strips_(equal_strips(box_size, communicator.size())),
-      redistributed_strips_(strips_), exchange_(communicator) {
+StripDiscs::StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs,
+                       const Periods& periods, bool has_spins, std::vector<double> spins)
+    : communicator_(communicator), box_size_(box_size), periods_(periods),
+      strips_(equal_strips(box_size, communicator.size())), redistributed_strips_(strips_),
+      exchange_(communicator) {
     has_spins_ = has_spins;
     if (has_spins) spins.resize(discs.size(), 0); // discs begin without spin
     if (communicator.size() == 1) {
@@ -39,11 +40,15 @@ StripDiscs::StripDiscs(const Communicator& communicator, double box_size, std::v
         spins_ = std::move(spins);
     } else {
         std::vector<std::vector<Disc>> to_owner(static_cast<std::size_t>(communicator.size()));
-        for (const Disc& disc : discs) to_owner[static_cast<std::size_t>(strips_.owner(wrapped(disc.x, periods.x)))].push_back(disc);
+        for (const Disc& disc : discs)
+            to_owner[static_cast<std::size_t>(strips_.owner(wrapped(disc.x, periods.x)))].push_back(
+                disc);
         if (has_spins) {
             std::vector<std::vector<double>> spins_to_owner(to_owner.size());
             for (std::size_t i = 0; i < discs.size(); ++i)
-                spins_to_owner[static_cast<std::size_t>(strips_.owner(wrapped(discs[i].x, periods.x)))].push_back(spins[i]);
+                spins_to_owner[static_cast<std::size_t>(
+                                   strips_.owner(wrapped(discs[i].x, periods.x)))]
+                    .push_back(spins[i]);
             spins_ = send_to_owners(communicator, spins_to_owner).items;
         }
         discs = {};
@@ -97,9 +102,11 @@ void StripDiscs::migrate(double time, double farthest, std::vector<Disc>* compan
 /// Discs far from both ends of the strip when they were sorted cannot have left it.
 TransferPlan StripDiscs::migration_plan(double time, double farthest) const {
     const int rank = communicator_.rank();
-    if (periods_.are_any()) return plan_periodic_migration(redistributed_strips_, strips_, rank, own(), time, farthest, periods_);
-    const std::vector<PlaceRange> looked_at =
-        places_outside({strips_.low(rank) + farthest, strips_.high(rank) - farthest, -infinity, infinity});
+    if (periods_.are_any())
+        return plan_periodic_migration(redistributed_strips_, strips_, rank, own(), time, farthest,
+                                       periods_);
+    const std::vector<PlaceRange> looked_at = places_outside(
+        {strips_.low(rank) + farthest, strips_.high(rank) - farthest, -infinity, infinity});
     return plan_migration(redistributed_strips_, strips_, rank, own(), looked_at, time, farthest);
 }
 
@@ -119,7 +126,8 @@ Companions StripDiscs::companions(std::vector<Disc>* states) {
     return with;
 }
 
-void StripDiscs::sort(const GridFrame& frame, double anchor, double time, double duration, int n_threads, std::vector<Disc>* companion) {
+void StripDiscs::sort(const GridFrame& frame, double anchor, double time, double duration,
+                      int n_threads, std::vector<Disc>* companion) {
     const Companions with = companions(companion);
     grid_.sort(own(), frame, anchor, time, duration, n_threads, periods_, with);
     is_sorted_ = true;
@@ -141,7 +149,8 @@ void StripDiscs::set_home_images(double time, std::vector<Disc>* companion) {
     const Inside inside = periods_.inside();
     for (std::size_t i = 0; i < n_own_; ++i) {
         Disc& disc = discs_[i];
-        const bool is_at_home = is_unshifted(disc) && inside.holds(disc.x_at(time), disc.y_at(time)); // nearly all
+        const bool is_at_home = is_unshifted(disc) &&
+                                inside.holds(disc.x_at(time), disc.y_at(time)); // nearly all
         if (is_at_home && !companion) continue;
         const Image home = is_at_home ? Image{} : periods_.home(disc, time);
         if (!is_at_home) set_image(disc, home);
@@ -174,13 +183,16 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* compan
         for (const LocalIndex index : shown) is_shown_[index] = 0;
     }
     if (periods_.are_any()) {
-        const std::vector<PlaceRange> looked_at = places_outside(interior(strips_, communicator_.rank(), reach, periods_));
-        halo_plan_ = plan_periodic_halo(strips_, communicator_.rank(), own(), looked_at, time, reach, periods_);
+        const std::vector<PlaceRange> looked_at = places_outside(
+            interior(strips_, communicator_.rank(), reach, periods_));
+        halo_plan_ = plan_periodic_halo(strips_, communicator_.rank(), own(), looked_at, time,
+                                        reach, periods_);
         other_partners_ = halo_plan_.partners;
         std::erase(other_partners_, communicator_.rank());
     } else {
         const int rank = communicator_.rank();
-        const std::vector<PlaceRange> looked_at = places_outside({strips_.low(rank) + reach, strips_.high(rank) - reach, -infinity, infinity});
+        const std::vector<PlaceRange> looked_at = places_outside(
+            {strips_.low(rank) + reach, strips_.high(rank) - reach, -infinity, infinity});
         halo_plan_ = plan_halo(strips_, rank, own(), looked_at, time, reach);
     }
     Received<Disc> halo;
@@ -192,8 +204,10 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* compan
             halo.offsets = {0, values->size() - n_own_};
             continue;
         }
-        if (periods_.are_any()) transfer_images(exchange_, halo_plan_, std::span<const Disc>(*values), halo);
-        else transfer(exchange_, halo_plan_, std::span<const Disc>(*values), halo);
+        if (periods_.are_any())
+            transfer_images(exchange_, halo_plan_, std::span<const Disc>(*values), halo);
+        else
+            transfer(exchange_, halo_plan_, std::span<const Disc>(*values), halo);
         values->insert(values->end(), halo.items.begin(), halo.items.end());
     }
     if (has_spins_) show(spins_);
@@ -206,7 +220,8 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* compan
     grid_.add_halo(std::span<const Disc>(discs_).subspan(n_own_));
 }
 
-void StripDiscs::send_updates(std::span<const LocalIndex> changed, std::vector<LocalIndex>& updates) {
+void StripDiscs::send_updates(std::span<const LocalIndex> changed,
+                              std::vector<LocalIndex>& updates) {
     if (has_no_halo()) return;
     std::vector<std::vector<News>> out(halo_plan_.partners.size());
     std::vector<std::vector<double>> spins_out(has_spins_ ? out.size() : 0);
@@ -214,8 +229,10 @@ void StripDiscs::send_updates(std::span<const LocalIndex> changed, std::vector<L
         if (index >= n_own_ || is_shown_[index] == 0) continue;
         for (std::size_t k = 0; k < out.size(); ++k) {
             const std::vector<LocalIndex>& shown = halo_plan_.leaving[k];
-            for (auto place = std::lower_bound(shown.begin(), shown.end(), index); place != shown.end() && *place == index; ++place) {
-                out[k].push_back({discs_[index], static_cast<std::uint64_t>(place - shown.begin())});
+            for (auto place = std::lower_bound(shown.begin(), shown.end(), index);
+                 place != shown.end() && *place == index; ++place) {
+                out[k].push_back(
+                    {discs_[index], static_cast<std::uint64_t>(place - shown.begin())});
                 if (has_spins_) spins_out[k].push_back(spins_[index]);
             }
         }
@@ -229,7 +246,8 @@ void StripDiscs::send_updates(std::span<const LocalIndex> changed, std::vector<L
         for (const News& item : in.from(k)) {
             const auto index = static_cast<LocalIndex>(halo_offsets_[k] + item.place);
             if (has_spins_) spins_[index] = spins.items[n_received++];
-            ensure(discs_[index].id == item.disc.id, "a neighbour's news is about another disc than the halo has there");
+            ensure(discs_[index].id == item.disc.id,
+                   "a neighbour's news is about another disc than the halo has there");
             const Image image = periods_.are_any() ? image_of(discs_[index]) : Image{};
             discs_[index] = item.disc;
             if (periods_.are_any()) set_image(discs_[index], image);
@@ -238,11 +256,13 @@ void StripDiscs::send_updates(std::span<const LocalIndex> changed, std::vector<L
     }
 }
 
-void StripDiscs::name_to_owners(std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& named) {
+void StripDiscs::name_to_owners(std::span<const LocalIndex> of_halo,
+                                std::vector<LocalIndex>& named) {
     if (has_no_halo()) return;
     std::vector<std::vector<std::uint64_t>> out(halo_plan_.partners.size());
     for (const LocalIndex index : of_halo) {
-        const auto behind = std::upper_bound(halo_offsets_.begin(), halo_offsets_.end(), std::size_t{index});
+        const auto behind = std::upper_bound(halo_offsets_.begin(), halo_offsets_.end(),
+                                             std::size_t{index});
         const auto k = static_cast<std::size_t>(behind - halo_offsets_.begin()) - 1;
         out[k].push_back(index - halo_offsets_[k]);
     }
@@ -256,7 +276,8 @@ void StripDiscs::name_to_owners(std::span<const LocalIndex> of_halo, std::vector
 void StripDiscs::rebalance(double time, double above) {
     const auto n_ranks = static_cast<std::uint64_t>(communicator_.size());
     if (n_ranks == 1) return;
-    const auto largest_share = static_cast<double>(communicator_.max(std::uint64_t{n_own_}) * n_ranks);
+    const auto largest_share = static_cast<double>(communicator_.max(std::uint64_t{n_own_}) *
+                                                   n_ranks);
     if (largest_share <= above * static_cast<double>(n_total_)) return;
     std::vector<std::uint64_t> weights(std::clamp<std::size_t>(256 * n_ranks, 4096, 65536), 0);
     const auto n_bins = static_cast<double>(weights.size());
@@ -278,7 +299,8 @@ bool StripDiscs::is_valid(double time) const {
     for (const Disc& disc : own()) {
         sums[1] += disc.id;
         sums[2] += disc.id * disc.id;
-        in_strip = in_strip && redistributed_strips_.owner(wrapped(disc.x_at(time), periods_.x)) == communicator_.rank();
+        in_strip = in_strip && redistributed_strips_.owner(wrapped(disc.x_at(time), periods_.x)) ==
+                                   communicator_.rank();
     }
     communicator_.sum(sums);
     std::uint64_t id_sum = 0, square_sum = 0; // modulo 2^64, as the sums
@@ -286,7 +308,8 @@ bool StripDiscs::is_valid(double time) const {
         id_sum += id;
         square_sum += id * id;
     }
-    return communicator_.all(in_strip) && sums[0] == n_with_departed_ && sums[1] == id_sum && sums[2] == square_sum;
+    return communicator_.all(in_strip) && sums[0] == n_with_departed_ && sums[1] == id_sum &&
+           sums[2] == square_sum;
 }
 
 } // namespace carrom

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discs of one rank: its own, in the order of their cells, and behind them the halo that its neighbours have sent. Moves
-// them between ranks: migrate, sort, fetch the halo.
+// The discs of one rank: its own, in the order of their cells, and behind them the halo that its
+// neighbours have sent. Moves them between ranks: migrate, sort, fetch the halo.
 //
-// Who may send to whom follows from the cuts and from bounds that all ranks share; so `farthest` and `reach` must be the
-// same on all ranks. Price of a settling: two passes over the own discs and one message to each neighbour, twice.
+// Who may send to whom follows from the cuts and from bounds that all ranks share; so `farthest`
+// and `reach` must be the same on all ranks. Price of a settling: two passes over the own discs and
+// one message to each neighbour, twice.
 #pragma once
 
 #include <cstdint>
@@ -23,32 +24,36 @@ namespace carrom {
 
 class StripDiscs {
 public:
-    /// Takes discs that lie anywhere on any rank and gives them to the owners of equal strips. **Collective.**
-    /// Where there are periods, own discs get the images in the box when they migrate, and the halo has images of own discs, too.
-    /// `spins` run along the discs; without `has_spins` there are none, and empty ones are 0.
-    StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs, const Periods& periods = {}, bool has_spins = false,
-               std::vector<double> spins = {});
+    /// Takes discs that lie anywhere on any rank and gives them to the owners of equal strips.
+    /// **Collective.** Where there are periods, own discs get the images in the box when they
+    /// migrate, and the halo has images of own discs, too. `spins` run along the discs; without
+    /// `has_spins` there are none, and empty ones are 0.
+    StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs,
+               const Periods& periods = {}, bool has_spins = false, std::vector<double> spins = {});
 
-    /// Forgets the halo and sends each own disc to the rank whose strip holds it at `time`. No disc has moved by more
-    /// than `farthest` since it was last settled. `companion` runs along the own discs, or is null. **Collective.**
+    /// Forgets the halo and sends each own disc to the rank whose strip holds it at `time`. No disc
+    /// has moved by more than `farthest` since it was last settled. `companion` runs along the own
+    /// discs, or is null. **Collective.**
     void migrate(double time, double farthest, std::vector<Disc>* companion);
 
-    /// Brings the own discs, and what runs along them, into the order of their cells at `anchor` (CellGrid::sort), without a halo.
-    /// `companion` as above.
-    void sort(const GridFrame& frame, double anchor, double time, double duration, int n_threads, std::vector<Disc>* companion);
+    /// Brings the own discs, and what runs along them, into the order of their cells at `anchor`
+    /// (CellGrid::sort), without a halo. `companion` as above.
+    void sort(const GridFrame& frame, double anchor, double time, double duration, int n_threads,
+              std::vector<Disc>* companion);
     /// The same without flights.
     void sort_cells(const GridFrame& frame, double time, int n_threads);
 
-    /// Appends to the own discs, which have been sorted, those of other ranks within `reach` of the own strip at `time`, that of the
-    /// last migration and of the sorting, and puts them into cells. **Collective.**
+    /// Appends to the own discs, which have been sorted, those of other ranks within `reach` of the
+    /// own strip at `time`, that of the last migration and of the sorting, and puts them into
+    /// cells. **Collective.**
     void fetch_halo(double time, double reach, std::vector<Disc>* companion);
 
-    /// Sends the new states of the own discs among `changed` to the ranks that have them in their halo, takes over those
-    /// of the own halo and appends their places to `news`. **Collective.**
+    /// Sends the new states of the own discs among `changed` to the ranks that have them in their
+    /// halo, takes over those of the own halo and appends their places to `news`. **Collective.**
     void send_updates(std::span<const LocalIndex> changed, std::vector<LocalIndex>& updates);
 
-    /// Of values that run along the own discs, sends those of discs in other ranks' halos; puts those of the own halo's
-    /// discs behind the own ones. **Collective.**
+    /// Of values that run along the own discs, sends those of discs in other ranks' halos; puts
+    /// those of the own halo's discs behind the own ones. **Collective.**
     template <Message T> void show(std::vector<T>& values) {
         values.resize(n_own_);
         if (has_no_halo()) return;
@@ -57,11 +62,13 @@ public:
         values.insert(values.end(), in.items.begin(), in.items.end());
     }
 
-    /// Names discs of the halo to their owners; appends to `named` the own discs that others have named. **Collective.**
+    /// Names discs of the halo to their owners; appends to `named` the own discs that others have
+    /// named. **Collective.**
     void name_to_owners(std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& named);
 
-    /// Moves the cuts to equal shares by the discs' places at `time`, if the largest share exceeds the mean by a factor
-    /// of more than `above`. The discs follow when they migrate next. **Collective.**
+    /// Moves the cuts to equal shares by the discs' places at `time`, if the largest share exceeds
+    /// the mean by a factor of more than `above`. The discs follow when they migrate next.
+    /// **Collective.**
     void rebalance(double time, double above);
 
     Population population() const { return {discs_, n_own_}; }
@@ -74,12 +81,16 @@ public:
     std::span<Disc> own() { return std::span(discs_).first(n_own_); }
     /// By disc, own and halo; empty where discs do not turn.
     std::vector<double>& spins() { return spins_; }
-    std::span<const double> own_spins() const { return std::span(spins_).first(has_spins_ ? n_own_ : 0); }
+    std::span<const double> own_spins() const {
+        return std::span(spins_).first(has_spins_ ? n_own_ : 0);
+    }
     std::size_t n_own() const { return n_own_; }
     std::uint64_t n_total() const { return n_total_; } ///< over all ranks
     const Strips& strips() const { return strips_; }
     /// Other ranks in whose halo own discs are, since it was fetched.
-    std::span<const int> neighbours() const { return periods_.are_any() ? other_partners_ : halo_plan_.partners; }
+    std::span<const int> neighbours() const {
+        return periods_.are_any() ? other_partners_ : halo_plan_.partners;
+    }
 
     const Periods& periods() const { return periods_; }
     /// Whether no rank has a halo, for want of neighbours.
@@ -87,10 +98,12 @@ public:
     /// Makes own discs plain states again, for whoever looks at them.
     void forget_images();
 
-    /// What a rank looks at that has a halo of `reach`, in a box of this extent where it is not periodic.
+    /// What a rank looks at that has a halo of `reach`, in a box of this extent where it is not
+    /// periodic.
     Extent extent_seen(const Extent& box, double reach) const;
 
-    /// Takes discs that have left the box out of the own ones, for good, and forgets the halo. **Collective.**
+    /// Takes discs that have left the box out of the own ones, for good, and forgets the halo.
+    /// **Collective.**
     void set_departed_aside();
     std::span<const Disc> departed() const { return departed_; }
     std::uint64_t n_with_departed() const { return n_with_departed_; } ///< over all ranks
@@ -101,7 +114,8 @@ public:
         if (has_spins_) spins_.resize(n_own_);
     }
 
-    /// Each own disc lies in its strip at `time`, and all ranks together own each of 0 .. n-1 once, those that are gone too. **Collective.**
+    /// Each own disc lies in its strip at `time`, and all ranks together own each of 0 .. n-1 once,
+    /// those that are gone too. **Collective.**
     bool is_valid(double time) const;
 
 private:
@@ -113,18 +127,19 @@ private:
     Communicator communicator_;
     double box_size_;
     Periods periods_;
-    std::vector<Disc> discs_; ///< own, then halo
+    std::vector<Disc> discs_;   ///< own, then halo
     std::vector<double> spins_; ///< likewise
     bool has_spins_ = false;
     std::size_t n_own_ = 0;
     std::uint64_t n_total_ = 0, n_with_departed_ = 0;
-    std::vector<Disc> departed_;  ///< where they have left
-    Strips strips_, redistributed_strips_; ///< wanted, and those that the discs were last settled in
+    std::vector<Disc> departed_; ///< where they have left
+    Strips strips_,
+        redistributed_strips_; ///< wanted, and those that the discs were last settled in
     NeighbourExchange exchange_;
     CellGrid grid_;
-    bool is_sorted_ = false;  ///< whether the grid has the own discs' places
+    bool is_sorted_ = false; ///< whether the grid has the own discs' places
     TransferPlan halo_plan_;
-    std::vector<int> other_partners_; ///< of a periodic box, where a rank is its own partner
+    std::vector<int> other_partners_;       ///< of a periodic box, where a rank is its own partner
     std::vector<std::size_t> halo_offsets_; ///< of each partner's discs behind the own ones
     std::vector<std::uint8_t> is_shown_;    ///< by own disc: whether a partner has it in its halo
 };

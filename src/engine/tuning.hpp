@@ -7,15 +7,19 @@
 
 namespace carrom {
 
-/// Choices that cost or save time and have no say in the bits. Unset ones are chosen from the scene as it runs.
+/// Choices that cost or save time and have no say in the bits. Unset ones are chosen from the scene
+/// as it runs.
 struct Tuning {
     int threads = 1;
     std::uint64_t discs_per_thread = 2000; ///< a rank with fewer uses fewer threads
-    std::optional<double> window;      ///< micro-steps per window; below 1 the micro-step is cut into parts
-    std::optional<double> cell_width;  ///< in units of the window's reach
-    std::optional<double> usual_speed; ///< in units of the largest: what cells allow for where a micro-step is cut
-    std::int64_t rebalance_every = 1;  ///< in syncs; 0 keeps the first strips for ever
-    double rebalance_above = 1.05;     ///< largest over mean load that is tolerated; 0 moves the cuts every time
+    std::optional<double>
+        window; ///< micro-steps per window; below 1 the micro-step is cut into parts
+    std::optional<double> cell_width; ///< in units of the window's reach
+    std::optional<double>
+        usual_speed; ///< in units of the largest: what cells allow for where a micro-step is cut
+    std::int64_t rebalance_every = 1; ///< in syncs; 0 keeps the first strips for ever
+    double rebalance_above =
+        1.05; ///< largest over mean load that is tolerated; 0 moves the cuts every time
 };
 
 } // namespace carrom

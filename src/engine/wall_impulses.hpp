@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What discs have handed over to each side of the box. Engines add to it only while somebody asks for it; sums are exact,
-// so the order of collisions, and who carries them out, have no say in them.
+// What discs have handed over to each side of the box. Engines add to it only while somebody asks
+// for it; sums are exact, so the order of collisions, and who carries them out, have no say in
+// them.
 #pragma once
 
 #include <array>
@@ -12,10 +13,14 @@
 namespace carrom {
 
 struct WallImpulses {
-    /// `largest_sum` bounds the sum of any side's impulses, the same on all ranks; mass times length per step.
-    explicit WallImpulses(double largest_sum) : normal{ExactSum(largest_sum), ExactSum(largest_sum), ExactSum(largest_sum), ExactSum(largest_sum)} {}
+    /// `largest_sum` bounds the sum of any side's impulses, the same on all ranks; mass times
+    /// length per step.
+    explicit WallImpulses(double largest_sum)
+        : normal{ExactSum(largest_sum), ExactSum(largest_sum), ExactSum(largest_sum),
+                 ExactSum(largest_sum)} {}
 
-    /// `change` of the velocity across the side: away from the side that a disc has met. `axis` 0: left and right.
+    /// `change` of the velocity across the side: away from the side that a disc has met. `axis` 0:
+    /// left and right.
     void add(std::size_t axis, double change) {
         const std::size_t side = 2 * axis + (change < 0 ? 1 : 0);
         normal[side].add(change < 0 ? -change : change);

@@ -16,10 +16,11 @@ struct Costs {
     double hit_partner; ///< and of each disc within a square of one reach
 };
 constexpr Costs in_cache{30, 1.3, 85, 3}, in_memory{60, 1.3, 370, 7};
-constexpr double disc_in_part = 65; ///< of a disc in a part of a micro-step, what the part's end costs it included
+constexpr double disc_in_part =
+    65; ///< of a disc in a part of a micro-step, what the part's end costs it included
 constexpr double partner_in_part = 0.7; ///< most pass by, and are seen to at little cost
-/// Of a fast disc in a part of a micro-step, and of each disc that it looks at: those in the cells along its path, which
-/// come in runs, and the other fast ones, which lie side by side.
+/// Of a fast disc in a part of a micro-step, and of each disc that it looks at: those in the cells
+/// along its path, which come in runs, and the other fast ones, which lie side by side.
 constexpr double fast_disc = 200, fast_partner = 1, fast_pair = 0.1;
 constexpr double largest_fast_share = 0.1;
 constexpr double discs_in_cache = 200'000; // a rank's, in its share of the last cache
@@ -36,12 +37,16 @@ double cost_per_micro_step(const WindowNeeds& needs, double duration) {
 }
 
 /// The same for a part of a micro-step in which a share of the discs is faster than `usual_speed`.
-double cost_with_fast_discs(const WindowNeeds& needs, double duration, double usual_speed, double share) {
+double cost_with_fast_discs(const WindowNeeds& needs, double duration, double usual_speed,
+                            double share) {
     WindowNeeds usual = needs;
     usual.largest_speed = usual_speed;
-    const double reach = reach_of(usual, duration), density = needs.n_discs / (needs.box_size * needs.box_size);
-    const double side = std::min(needs.box_size, 1.5 * reach + 0.32 * (usual_speed + needs.largest_speed) * duration);
-    const double each = fast_disc + fast_partner * density * side * side + fast_pair * share * needs.discs_per_rank;
+    const double reach = reach_of(usual, duration),
+                 density = needs.n_discs / (needs.box_size * needs.box_size);
+    const double side = std::min(
+        needs.box_size, 1.5 * reach + 0.32 * (usual_speed + needs.largest_speed) * duration);
+    const double each = fast_disc + fast_partner * density * side * side +
+                        fast_pair * share * needs.discs_per_rank;
     return cost_per_micro_step(usual, duration) + share * each / duration;
 }
 
@@ -53,20 +58,26 @@ SpeedSpread::SpeedSpread(const Counts& counts, double largest_speed) : largest(l
         n_faster += counts[k];
         share_above[k] = static_cast<double>(n_faster);
     }
-    for (double& share : share_above) share /= static_cast<double>(std::max<std::uint64_t>(1, n_faster));
+    for (double& share : share_above)
+        share /= static_cast<double>(std::max<std::uint64_t>(1, n_faster));
 }
 
-double reach_of(const WindowNeeds& needs, double duration) { return reach_of(needs, duration, needs.largest_speed); }
+double reach_of(const WindowNeeds& needs, double duration) {
+    return reach_of(needs, duration, needs.largest_speed);
+}
 
 double reach_of(const WindowNeeds& needs, double duration, double speed) {
     const double from_anchor = duration > 1 ? duration : duration / 2; // see Window::anchor
-    return (2 * needs.radius + 2 * speed * from_anchor) * (1 + 1e-6) + 64 * 0x1p-53 * needs.box_size;
+    return (2 * needs.radius + 2 * speed * from_anchor) * (1 + 1e-6) +
+           64 * 0x1p-53 * needs.box_size;
 }
 
 WindowChoice choose_window(const WindowNeeds& needs, int n_left, std::optional<double> wanted) {
     if (wanted) {
-        if (*wanted >= 1) return {std::clamp(static_cast<int>(*wanted), 1, n_left), 1, needs.largest_speed};
-        return {1, static_cast<int>(std::clamp(std::ceil(1 / *wanted), 1.0, 1e6)), needs.largest_speed};
+        if (*wanted >= 1)
+            return {std::clamp(static_cast<int>(*wanted), 1, n_left), 1, needs.largest_speed};
+        return {1, static_cast<int>(std::clamp(std::ceil(1 / *wanted), 1.0, 1e6)),
+                needs.largest_speed};
     }
     WindowChoice best{1, 1, needs.largest_speed};
     double least = cost_per_micro_step(needs, 1);
@@ -75,7 +86,8 @@ WindowChoice choose_window(const WindowNeeds& needs, int n_left, std::optional<d
         least = cost;
         best = choice;
     };
-    for (int n = 2; n <= n_left; ++n) try_choice({n, 1, needs.largest_speed}, cost_per_micro_step(needs, n));
+    for (int n = 2; n <= n_left; ++n)
+        try_choice({n, 1, needs.largest_speed}, cost_per_micro_step(needs, n));
     for (int n = 2; n <= 100000 && n * disc_in_part < least; n += std::max(1, n / 16)) {
         const double duration = 1.0 / n;
         try_choice({1, n, needs.largest_speed}, cost_per_micro_step(needs, duration));

@@ -10,24 +10,31 @@ namespace carrom {
 
 namespace {
 
-/// So many collisions of a block's discs within a law's `one_time` are without end, and some for each disc more.
+/// So many collisions of a block's discs within a law's `one_time` are without end, and some for
+/// each disc more.
 constexpr std::uint64_t cascade_count = 100000, cascade_count_per_disc = 1000;
 
 } // namespace
 
 double block_reach(const BlockWindow& window, double diameter, double box_size) {
     const double travel = window.speed_bound * window.duration();
-    return (diameter + 2 * travel) * (1 + 1e-6) + 64 * 0x1p-53 * box_size + 0x1p-50 * window.speed_bound * window.end;
+    return (diameter + 2 * travel) * (1 + 1e-6) + 64 * 0x1p-53 * box_size +
+           0x1p-50 * window.speed_bound * window.end;
 }
 
-template <class Dynamics> BlockRun<Dynamics>::BlockRun(const Dynamics& dynamics) : scratch_(std::make_unique<Scratch>(dynamics)) {}
-template <class Dynamics> void BlockRun<Dynamics>::change_dynamics(const Dynamics& dynamics) { scratch_->dynamics = dynamics; }
+template <class Dynamics>
+BlockRun<Dynamics>::BlockRun(const Dynamics& dynamics)
+    : scratch_(std::make_unique<Scratch>(dynamics)) {}
+template <class Dynamics> void BlockRun<Dynamics>::change_dynamics(const Dynamics& dynamics) {
+    scratch_->dynamics = dynamics;
+}
 template <class Dynamics> BlockRun<Dynamics>::~BlockRun() = default;
 template <class Dynamics> BlockRun<Dynamics>::BlockRun(BlockRun&&) noexcept = default;
 
 template <class Dynamics>
-void BlockRun<Dynamics>::run(const BlockGround& ground, const CellBlock& block, int halo, [[maybe_unused]] bool is_whole,
-                           std::span<std::uint64_t> histories, BlockOutcome& outcome) {
+void BlockRun<Dynamics>::run(const BlockGround& ground, const CellBlock& block, int halo,
+                             [[maybe_unused]] bool is_whole, std::span<std::uint64_t> histories,
+                             BlockOutcome& outcome) {
     Scratch& s = *scratch_;
     s.outcome = &outcome;
     outcome.hit.clear();
@@ -49,15 +56,19 @@ void BlockRun<Dynamics>::run(const BlockGround& ground, const CellBlock& block, 
         return s.discs[event.p].version() == event.p_version &&
                (is_wall(event.q) || s.discs[event.q].version() == event.q_version);
     };
-    for (Event event; s.queue.pop(event, before, is_current) && !outcome.is_endless;) s.happen(event);
+    for (Event event; s.queue.pop(event, before, is_current) && !outcome.is_endless;)
+        s.happen(event);
     s.report(block, histories);
 }
 
 /// The flight of a disc that has just collided.
-template <class Dynamics> [[gnu::always_inline]] inline Flight BlockRun<Dynamics>::Scratch::flight_of(std::uint32_t slot) const {
+template <class Dynamics>
+[[gnu::always_inline]] inline Flight BlockRun<Dynamics>::Scratch::flight_of(
+    std::uint32_t slot) const {
     const Disc& disc = discs[slot];
     Flight flight;
-    const double x_now = Dynamics::is_periodic ? x_of(disc, disc.tau) : disc.x, y_now = Dynamics::is_periodic ? y_of(disc, disc.tau) : disc.y;
+    const double x_now = Dynamics::is_periodic ? x_of(disc, disc.tau) : disc.x,
+                 y_now = Dynamics::is_periodic ? y_of(disc, disc.tau) : disc.y;
     flight.x = static_cast<float>((x_now - x_corner) * cells_per_length);
     flight.y = static_cast<float>((y_now - y_corner) * cells_per_length);
     flight.vx = vx[slot];
@@ -68,7 +79,8 @@ template <class Dynamics> [[gnu::always_inline]] inline Flight BlockRun<Dynamics
 }
 
 /// No branches on signs, which are anything: a flight ends where it began or on either side of it.
-template <class Dynamics> FlightBox BlockRun<Dynamics>::Scratch::box_of(const Flight& flight) const {
+template <class Dynamics>
+FlightBox BlockRun<Dynamics>::Scratch::box_of(const Flight& flight) const {
     const float half = (1 - flight.now) / 2;
     const float dx = flight.vx * half, dy = flight.vy * half;
     const float x_middle = flight.x + dx, y_middle = flight.y + dy;
@@ -76,8 +88,8 @@ template <class Dynamics> FlightBox BlockRun<Dynamics>::Scratch::box_of(const Fl
     return {x_middle - wide, x_middle + wide, y_middle - high, y_middle + high};
 }
 
-/// Fills `runs` with the slots of discs that were in the box at the window's start, and makes room for all of them in
-/// the lists of partners.
+/// Fills `runs` with the slots of discs that were in the box at the window's start, and makes room
+/// for all of them in the lists of partners.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::look_around(const FlightBox& box) {
     const auto cell = [](float place, float last) {
         const float above = place > 0 ? place : 0;
@@ -105,11 +117,13 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_all() {
     if (dynamics.has_walls())
         for (std::uint32_t slot = 0; slot < discs.size(); ++slot) predict_walls(slot);
     if constexpr (!Dynamics::has_pairs) return;
-    const CellTable table{cell_starts.data(), cell_rows, cells.end_column - cells.first_column, cells.end_row - cells.first_row};
+    const CellTable table{cell_starts.data(), cell_rows, cells.end_column - cells.first_column,
+                          cells.end_row - cells.first_row};
     std::uint32_t slot = 0;
     for (int column = 0; column < table.n_columns; ++column) {
         later_ends.clear();
-        filter_column(lanes, table, column, ground.grid->frame().n_reach, touching_squared, later, later_ends);
+        filter_column(lanes, table, column, ground.grid->frame().n_reach, touching_squared, later,
+                      later_ends);
         std::uint32_t k = 0;
         for (const std::uint32_t end : later_ends) {
             for (; k < end; ++k) predict_pair(slot, later[k]);
@@ -122,32 +136,38 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_pairs(std::u
     if constexpr (!Dynamics::has_pairs) return;
     const Flight flight = flight_of(slot);
     look_around(box_of(flight));
-    const std::size_t n_partners = filter_flights(lanes, std::span(runs).first(n_runs), flight, touching_squared, partners.data());
+    const std::size_t n_partners = filter_flights(lanes, std::span(runs).first(n_runs), flight,
+                                                  touching_squared, partners.data());
     for (std::size_t k = 0; k < n_partners; ++k) predict_pair(slot, partners[k]);
 }
 
-/// Of two discs that have just collided: they touch, so both look at nearly the same cells. Whether they meet again is
-/// asked once and of the predicate alone; who comes near either of them lies in the box that holds both of theirs.
-template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_pairs_of(std::uint32_t p, std::uint32_t q) {
+/// Of two discs that have just collided: they touch, so both look at nearly the same cells. Whether
+/// they meet again is asked once and of the predicate alone; who comes near either of them lies in
+/// the box that holds both of theirs.
+template <class Dynamics>
+void BlockRun<Dynamics>::Scratch::predict_pairs_of(std::uint32_t p, std::uint32_t q) {
     if constexpr (!Dynamics::has_pairs) return;
     const Flight p_flight = flight_of(p), q_flight = flight_of(q);
     const FlightBox a = box_of(p_flight), b = box_of(q_flight);
     const auto least = [](float u, float v) { return u < v ? u : v; };
     const auto most = [](float u, float v) { return u > v ? u : v; };
-    look_around({least(a.left, b.left), most(a.right, b.right), least(a.bottom, b.bottom), most(a.top, b.top)});
-    const PartnerCounts n = filter_two_flights(lanes, std::span(runs).first(n_runs), p_flight, q_flight, touching_squared,
-                                               partners.data(), others_partners.data());
+    look_around({least(a.left, b.left), most(a.right, b.right), least(a.bottom, b.bottom),
+                 most(a.top, b.top)});
+    const PartnerCounts n = filter_two_flights(lanes, std::span(runs).first(n_runs), p_flight,
+                                               q_flight, touching_squared, partners.data(),
+                                               others_partners.data());
     predict_pair(p, q);
     for (std::size_t k = 0; k < n.p; ++k) predict_pair(p, partners[k]);
     for (std::size_t k = 0; k < n.q; ++k) predict_pair(q, others_partners[k]);
 }
 
-template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_pair(std::uint32_t a, std::uint32_t b) {
+template <class Dynamics>
+void BlockRun<Dynamics>::Scratch::predict_pair(std::uint32_t a, std::uint32_t b) {
     const auto contact = dynamics.event_contact(discs[a], discs[b]);
     if (!contact.exists()) return;
     const double time = contact.base + contact.delay;
-    // Two discs that have just collided with each other do not collide again at the same time: what rounding has left of
-    // their approach is too little for an impulse to mend.
+    // Two discs that have just collided with each other do not collide again at the same time: what
+    // rounding has left of their approach is too little for an impulse to mend.
     if (have_just_collided(a, b, time)) return;
     push(time, a, b);
 }
@@ -155,33 +175,42 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_pair(std::ui
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::uint32_t slot) {
     predict_obstacle(slot);
     const float x_end = x[slot] + vx[slot], y_end = y[slot] + vy[slot];
-    if (x_end > x_inner_low && x_end < x_inner_high && y_end > y_inner_low && y_end < y_inner_high) return;
+    if (x_end > x_inner_low && x_end < x_inner_high && y_end > y_inner_low && y_end < y_inner_high)
+        return;
     const Disc& disc = discs[slot];
     if (!dynamics.may_meet_wall(disc, ground.window.end)) return;
     push(dynamics.x_wall_time(disc), slot, x_wall);
     push(dynamics.y_wall_time(disc), slot, y_wall);
 }
 
-/// The obstacle that the disc comes to first. One that it has just left is left out at that time, as with pairs.
+/// The obstacle that the disc comes to first. One that it has just left is left out at that time,
+/// as with pairs.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_obstacle(std::uint32_t slot) {
     if constexpr (Dynamics::may_have_obstacles) {
         if (!dynamics.has_obstacles()) return;
         const BlockWindow& window = ground.window;
         const std::uint32_t last = past_events_of[slot].partner;
-        const std::uint32_t left = is_obstacle(last) && last != EventHistory::nobody ? last - first_obstacle : ObstacleContact::no_body;
-        const ObstacleContact contact = dynamics.first_obstacle(discs[slot], {window.begin, window.end, window.holds_begin, left});
+        const std::uint32_t left = is_obstacle(last) && last != EventHistory::nobody
+                                       ? last - first_obstacle
+                                       : ObstacleContact::no_body;
+        const ObstacleContact contact = dynamics.first_obstacle(
+            discs[slot], {window.begin, window.end, window.holds_begin, left});
         if (contact.exists()) push(contact.time, slot, first_obstacle + contact.body);
     }
 }
 
-template <class Dynamics> void BlockRun<Dynamics>::Scratch::push(double time, std::uint32_t a, std::uint32_t b) {
+template <class Dynamics>
+void BlockRun<Dynamics>::Scratch::push(double time, std::uint32_t a, std::uint32_t b) {
     const BlockWindow& window = ground.window;
-    if (!(time <= window.end) || time < window.begin || (time == window.begin && !window.holds_begin)) return;
+    if (!(time <= window.end) || time < window.begin ||
+        (time == window.begin && !window.holds_begin))
+        return;
     Event event;
     event.time = time;
     const auto raise = [&](std::uint32_t slot) {
         const EventHistory& past_events = past_events_of[slot];
-        if (past_events.history != 0 && discs[slot].tau == time) event.generation = std::max(event.generation, past_events.generation + 1);
+        if (past_events.history != 0 && discs[slot].tau == time)
+            event.generation = std::max(event.generation, past_events.generation + 1);
     };
     raise(a);
     if (!is_wall(b)) {
@@ -204,8 +233,13 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
     const bool is_corner = event.q == x_wall && dynamics.y_wall_time(discs[event.p]) == event.time;
     const double vy_before = discs[event.p].vy; // a thermal wall changes it, and so what comes next
     carry_out(event);
-    const bool has_left = Dynamics::may_lose_discs && discs[event.p].has_departed(); // through the first side: then the other one is none
-    if (is_corner && !has_left && (Dynamics::has_mirror_walls || discs[event.p].vy == vy_before)) { // nothing may come between its two sides: x and y are alike
+    const bool has_left =
+        Dynamics::may_lose_discs &&
+        discs[event.p].has_departed(); // through the first side: then the other one is none
+    if (is_corner && !has_left &&
+        (Dynamics::has_mirror_walls ||
+         discs[event.p].vy ==
+             vy_before)) { // nothing may come between its two sides: x and y are alike
         Event other_side = event;
         other_side.q = y_wall;
         other_side.generation += 1;
@@ -240,10 +274,13 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
     } else if (event.q == y_wall) {
         dynamics.bounce_y_at(p, event.time);
     } else if (Dynamics::may_have_obstacles && is_wall(event.q)) {
-        if constexpr (Dynamics::may_have_obstacles) dynamics.bounce_off_at(p, event.q - first_obstacle, event.time);
+        if constexpr (Dynamics::may_have_obstacles)
+            dynamics.bounce_off_at(p, event.q - first_obstacle, event.time);
     } else {
-        if constexpr (Dynamics::has_spin) dynamics.collide_at(p, discs[event.q], event.time, spins[event.p], spins[event.q]);
-        else dynamics.collide_at(p, discs[event.q], event.time);
+        if constexpr (Dynamics::has_spin)
+            dynamics.collide_at(p, discs[event.q], event.time, spins[event.p], spins[event.q]);
+        else
+            dynamics.collide_at(p, discs[event.q], event.time);
         note(event.q, event.p, event);
     }
     if constexpr (Dynamics::has_spin && Dynamics::may_lose_discs)
@@ -252,13 +289,15 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
     if (is_own_image(event.p)) {
         outcome->n_events += 1;
         const bool is_pushed = !Dynamics::may_lose_discs || !p.has_departed();
-        if (ground.is_logged) log_event(event, is_pushed ? p.vx - vx_before : 0, is_pushed ? p.vy - vy_before : 0);
+        if (ground.is_logged)
+            log_event(event, is_pushed ? p.vx - vx_before : 0, is_pushed ? p.vy - vy_before : 0);
     }
 }
 
 /// Writes down what has happened to one of an event's discs.
 template <class Dynamics>
-void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner, const Event& event) {
+void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner,
+                                       const Event& event) {
     const Disc& disc = discs[slot];
     EventHistory& past_events = past_events_of[slot];
     past_events.generation = event.generation;
@@ -270,30 +309,38 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
     if (is_own[slot] != 0) {
         const float before = vx[slot] * vx[slot] + vy[slot] * vy[slot];
         const double now = speed_squared(disc);
-        if (now > bound_squared || before > bound_lane_squared) [[unlikely]] hold_to_schedule(slot, event.time);
+        if (now > bound_squared || before > bound_lane_squared) [[unlikely]]
+            hold_to_schedule(slot, event.time);
     }
     place(slot, ground.window.begin);
 }
 
-/// What makes a window exact is that no disc gets further from its place at the start than the bound on speeds would
-/// take it until then. So one that is faster for a while is none the worse for it, if it was slower before. It is given
-/// up if it might get too far before the window ends, or if it collides again when it is not back on schedule.
-template <class Dynamics> void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double time) {
+/// What makes a window exact is that no disc gets further from its place at the start than the
+/// bound on speeds would take it until then. So one that is faster for a while is none the worse
+/// for it, if it was slower before. It is given up if it might get too far before the window ends,
+/// or if it collides again when it is not back on schedule.
+template <class Dynamics>
+void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double time) {
     const Disc& disc = discs[slot];
     const Disc& at_start = ground.discs[indices[slot]];
     const BlockWindow& window = ground.window;
-    const double dx = disc.x - at_start.x_at(window.begin), dy = disc.y - at_start.y_at(window.begin);
-    const double away = std::sqrt(dx * dx + dy * dy) * (1 + 1e-12) + 8 * 0x1p-53 * dynamics.box_size();
+    const double dx = disc.x - at_start.x_at(window.begin),
+                 dy = disc.y - at_start.y_at(window.begin);
+    const double away = std::sqrt(dx * dx + dy * dy) * (1 + 1e-12) +
+                        8 * 0x1p-53 * dynamics.box_size();
     const double speed = std::sqrt(speed_squared(disc));
     if (speed <= window.speed_bound && away <= window.speed_bound * (time - window.begin)) return;
     const bool will_be_seen = speed > window.speed_bound * (1 + 1e-5); // by its next collision
-    if (will_be_seen && speed < 2 * window.speed_bound && away + speed * (window.end - time) <= window.speed_bound * window.duration()) return;
+    if (will_be_seen && speed < 2 * window.speed_bound &&
+        away + speed * (window.end - time) <= window.speed_bound * window.duration())
+        return;
     too_fast = std::max({too_fast, speed, window.speed_bound * (1 + 1e-6)});
 }
 
 template <class Dynamics> std::size_t BlockRun<Dynamics>::bytes() const {
     const Scratch& s = *scratch_;
-    return s.discs.capacity() * (sizeof(Disc) + sizeof(EventHistory) + 4 * sizeof(float)) + s.queue.bytes();
+    return s.discs.capacity() * (sizeof(Disc) + sizeof(EventHistory) + 4 * sizeof(float)) +
+           s.queue.bytes();
 }
 
 #define CARROM_DEFINE(Dynamics) template class BlockRun<Dynamics>;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Replays a window of time in one block of cells, alone: every collision of its own discs and of those around them, in
-// the total order of the event-driven method (docs/method.md, sections 3 and 8).
+// Replays a window of time in one block of cells, alone: every collision of its own discs and of
+// those around them, in the total order of the event-driven method (docs/method.md, sections 3 and
+// 8).
 //
-// A replay knows nothing of what happens beyond its halo, and may be wrong without noticing. So it also says what it has
-// seen happen to the discs of the ring, those within one reach of its own cells: it is right if their owners have seen
-// the same. Block-local copies in the order of cells, a line of 64 bytes and four floats a disc, stay in the L2 cache;
-// whole runs of cells are rejected in single precision, survivors judged by the double predicate.
+// A replay knows nothing of what happens beyond its halo, and may be wrong without noticing. So it
+// also says what it has seen happen to the discs of the ring, those within one reach of its own
+// cells: it is right if their owners have seen the same. Block-local copies in the order of cells,
+// a line of 64 bytes and four floats a disc, stay in the L2 cache; whole runs of cells are rejected
+// in single precision, survivors judged by the double predicate.
 #pragma once
 
 #include <cstdint>
@@ -19,17 +21,20 @@
 
 namespace carrom {
 
-/// Times since the last sync. An event belongs to the window if begin < time <= end; the first window after a sync also
-/// holds its begin. What happened at `begin` is done: contacts of that time are those of pairs that have just collided.
+/// Times since the last sync. An event belongs to the window if begin < time <= end; the first
+/// window after a sync also holds its begin. What happened at `begin` is done: contacts of that
+/// time are those of pairs that have just collided.
 struct BlockWindow {
     double begin = 0, end = 1;
     bool holds_begin = true;
-    double speed_bound = 0; ///< no disc is faster at the start, none gets further than this takes it, or the replay is void
+    double speed_bound = 0; ///< no disc is faster at the start, none gets further than this takes
+                            ///< it, or the replay is void
 
     double duration() const { return end - begin; }
 };
 
-/// How far apart two discs can be at a window's start that meet in it. Cells n_reach wide must cover it.
+/// How far apart two discs can be at a window's start that meet in it. Cells n_reach wide must
+/// cover it.
 double block_reach(const BlockWindow& window, double diameter, double box_size);
 
 /// Cells [first, end) of a grid's frame.
@@ -38,19 +43,22 @@ struct CellBlock {
     int first_row = 0, end_row = 0;
 };
 
-/// What all blocks of a rank share: its discs, own ones first, and the grid built for the window's start.
+/// What all blocks of a rank share: its discs, own ones first, and the grid built for the window's
+/// start.
 struct BlockGround {
     std::span<const Disc> discs;
     std::size_t n_own = 0;
     const CellGrid* grid = nullptr;
-    int first_own_column = 0, end_own_column = 0; ///< own discs that rounding puts outside belong to the nearest one
-    int first_own_row = 0, end_own_row = 0;       ///< the same
+    int first_own_column = 0,
+        end_own_column = 0; ///< own discs that rounding puts outside belong to the nearest one
+    int first_own_row = 0, end_own_row = 0; ///< the same
     BlockWindow window;
     bool is_logged = false;
     std::span<const double> spins{}; ///< by disc, of rough ones
 };
 
-/// What a block has seen happen to a disc of its ring: 0 for nothing, else a hash of times, partners and results.
+/// What a block has seen happen to a disc of its ring: 0 for nothing, else a hash of times,
+/// partners and results.
 struct HaloRecord {
     LocalIndex index = 0;
     std::uint64_t history = 0;
@@ -61,12 +69,13 @@ struct LoggedEvent {
     double time = 0;
     std::uint32_t generation = 0;
     bool is_wall = false;
-    DiscId p = 0, q = 0;       ///< q of a wall: 0 along x, 1 along y, else an obstacle
+    DiscId p = 0, q = 0; ///< q of a wall: 0 along x, 1 along y, else an obstacle
     double impulse = 0;
     double normal_impulse = 0; ///< of a wall: along x or y, with its sign
 };
 
-/// What has become of a disc in a window: three quarters of a state, since many are kept until a window is validated.
+/// What has become of a disc in a window: three quarters of a state, since many are kept until a
+/// window is validated.
 class NewState {
 public:
     NewState() = default;
@@ -93,15 +102,15 @@ private:
 static_assert(sizeof(NewState) == 48);
 
 struct BlockOutcome {
-    std::vector<LocalIndex> hit; ///< own discs that have collided
+    std::vector<LocalIndex> hit;  ///< own discs that have collided
     std::vector<NewState> states; ///< what has become of them
-    std::vector<double> spins; ///< likewise, of rough discs
+    std::vector<double> spins;    ///< likewise, of rough discs
     std::vector<HaloRecord> ring;
     std::vector<LoggedEvent> log;
-    std::uint64_t n_events = 0;        ///< whose first disc is own
-    double too_fast = 0;               ///< the largest speed of an own disc that got too far, else 0
+    std::uint64_t n_events = 0; ///< whose first disc is own
+    double too_fast = 0;        ///< the largest speed of an own disc that got too far, else 0
     double largest_speed_at_end = 0;
-    bool is_endless = false;           ///< the replay was given up: a disc collided without end at one time
+    bool is_endless = false; ///< the replay was given up: a disc collided without end at one time
     DiscId cascade_disc = 0, cascade_partner = 0; ///< equal if it is a wall that it meets
     double cascade_time = 0;
 };
@@ -113,12 +122,13 @@ public:
     ~BlockRun();
     BlockRun(BlockRun&&) noexcept;
 
-    /// Replays the own discs in `block` and what lies `halo` cells around it. Writes the history of each own disc of the
-    /// block to its place in `histories`. `is_whole`: in a periodic box, that every disc is there with all that is within one
-    /// reach of it; what happens to one of its images happens to all then, and the replay is right. **Not collective**:
-    /// blocks may be replayed by many threads at once.
-    void run(const BlockGround& ground, const CellBlock& block, int halo, bool is_whole, std::span<std::uint64_t> histories,
-             BlockOutcome& outcome);
+    /// Replays the own discs in `block` and what lies `halo` cells around it. Writes the history of
+    /// each own disc of the block to its place in `histories`. `is_whole`: in a periodic box, that
+    /// every disc is there with all that is within one reach of it; what happens to one of its
+    /// images happens to all then, and the replay is right. **Not collective**: blocks may be
+    /// replayed by many threads at once.
+    void run(const BlockGround& ground, const CellBlock& block, int halo, bool is_whole,
+             std::span<std::uint64_t> histories, BlockOutcome& outcome);
 
     /// Another one of the same kind from now on: walls that move are elsewhere after a sync.
     void change_dynamics(const Dynamics& dynamics);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one replay works with: copies of the discs of a block and its halo, what has happened to them, what will.
+// What one replay works with: copies of the discs of a block and its halo, what has happened to
+// them, what will.
 #pragma once
 
 #include <algorithm>
@@ -22,13 +23,19 @@ struct EventHistory {
     std::uint32_t generation = 0;   ///< of the last collision
     std::uint32_t partner = nobody; ///< of the last collision
 
-    /// Of a collision: its time, the other's id and the velocities after it; the place follows from them and the state before.
-    template <bool has_spin> void add(double time, const Disc& disc, std::uint64_t partner_id, double spin) {
-        const auto mixed = [](double value, std::uint64_t factor) { return std::rotl(std::bit_cast<std::uint64_t>(value) * factor, 31); };
-        const std::uint64_t sum = mixed(time, 0x9e3779b97f4a7c15u) + mixed(disc.vx, 0xbf58476d1ce4e5b9u) +
+    /// Of a collision: its time, the other's id and the velocities after it; the place follows from
+    /// them and the state before.
+    template <bool has_spin>
+    void add(double time, const Disc& disc, std::uint64_t partner_id, double spin) {
+        const auto mixed = [](double value, std::uint64_t factor) {
+            return std::rotl(std::bit_cast<std::uint64_t>(value) * factor, 31);
+        };
+        const std::uint64_t sum = mixed(time, 0x9e3779b97f4a7c15u) +
+                                  mixed(disc.vx, 0xbf58476d1ce4e5b9u) +
                                   mixed(disc.vy, 0x94d049bb133111ebu) + partner_id;
         std::uint64_t hash = (std::rotl(history, 17) ^ sum) * 0xff51afd7ed558ccdu;
-        if constexpr (has_spin) hash = (std::rotl(hash, 23) ^ std::bit_cast<std::uint64_t>(spin)) * 0xc4ceb9fe1a85ec53u;
+        if constexpr (has_spin)
+            hash = (std::rotl(hash, 23) ^ std::bit_cast<std::uint64_t>(spin)) * 0xc4ceb9fe1a85ec53u;
         history = (hash ^ (hash >> 32)) | 1;
     }
 };
@@ -86,19 +93,27 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     /// With each other, at this time, and with nobody since; perhaps as other images.
     bool have_just_collided(std::uint32_t a, std::uint32_t b, double time) const {
         if constexpr (Dynamics::is_periodic) {
-            const auto was = [this](std::uint32_t partner, std::uint32_t disc) { return partner < discs.size() && discs[partner].id == discs[disc].id; };
-            return was(past_events_of[a].partner, b) && was(past_events_of[b].partner, a) && time == discs[a].tau;
+            const auto was = [this](std::uint32_t partner, std::uint32_t disc) {
+                return partner < discs.size() && discs[partner].id == discs[disc].id;
+            };
+            return was(past_events_of[a].partner, b) && was(past_events_of[b].partner, a) &&
+                   time == discs[a].tau;
         } else {
-            return past_events_of[a].partner == b && past_events_of[b].partner == a && time == discs[a].tau;
+            return past_events_of[a].partner == b && past_events_of[b].partner == a &&
+                   time == discs[a].tau;
         }
     }
     double x_of(const Disc& disc, double time) const {
-        if constexpr (Dynamics::is_periodic) return dynamics.periods().x_of(disc, time);
-        else return disc.x_at(time);
+        if constexpr (Dynamics::is_periodic)
+            return dynamics.periods().x_of(disc, time);
+        else
+            return disc.x_at(time);
     }
     double y_of(const Disc& disc, double time) const {
-        if constexpr (Dynamics::is_periodic) return dynamics.periods().y_of(disc, time);
-        else return disc.y_at(time);
+        if constexpr (Dynamics::is_periodic)
+            return dynamics.periods().y_of(disc, time);
+        else
+            return disc.y_at(time);
     }
     /// Whether what happens to a disc happens to all of its images at once.
     bool are_images_linked() const { return !next_image.empty(); }
@@ -107,12 +122,14 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     }
     /// Slots of cells (column, first_row .. last_row) of our own, counted from `cells`' corner.
     SlotRange cell_run(int column, int first_row, int last_row) const {
-        const std::uint32_t* const starts = cell_starts.data() + static_cast<std::size_t>(column) * cell_rows;
+        const std::uint32_t* const starts = cell_starts.data() +
+                                            static_cast<std::size_t>(column) * cell_rows;
         return {starts[first_row], starts[last_row + 1]};
     }
     /// The same for cells of the grid.
     SlotRange grid_run(int column, int first_row, int last_row) const {
-        return cell_run(column - cells.first_column, first_row - cells.first_row, last_row - cells.first_row);
+        return cell_run(column - cells.first_column, first_row - cells.first_row,
+                        last_row - cells.first_row);
     }
 
     [[gnu::noinline]] void give_up(const Event& event) {
@@ -124,39 +141,49 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
 
     [[gnu::noinline]] void log_event(const Event& event, double wx, double wy) {
         const bool at_wall = is_wall(event.q);
-        outcome->log.push_back({event.time, event.generation, at_wall, discs[event.p].id, at_wall ? event.q - x_wall : discs[event.q].id,
-                                std::sqrt(wx * wx + wy * wy), event.q == x_wall ? wx : event.q == y_wall ? wy : 0});
+        outcome->log.push_back({event.time, event.generation, at_wall, discs[event.p].id,
+                                at_wall ? event.q - x_wall : discs[event.q].id,
+                                std::sqrt(wx * wx + wy * wy),
+                                event.q == x_wall   ? wx
+                                : event.q == y_wall ? wy
+                                                    : 0});
     }
 
     Dynamics dynamics;
     BlockGround ground;
-    CellBlock cells;       ///< own ones and the halo
-    double x_corner = 0, y_corner = 0, cells_per_length = 1, cells_per_speed = 1, windows_per_time = 1;
+    CellBlock cells; ///< own ones and the halo
+    double x_corner = 0, y_corner = 0, cells_per_length = 1, cells_per_speed = 1,
+           windows_per_time = 1;
     float column_limit = 0, row_limit = 0;
-    float touching_squared = 0, farthest = 0; ///< farthest: what a partner's place at the start can be off by, in cells
-    float x_inner_low = 0, x_inner_high = 0, y_inner_low = 0, y_inner_high = 0; ///< no wall near in between, in cells
-    std::size_t cell_rows = 0;         ///< entries of `cell_starts` to a column
+    float touching_squared = 0,
+          farthest = 0; ///< farthest: what a partner's place at the start can be off by, in cells
+    float x_inner_low = 0, x_inner_high = 0, y_inner_low = 0,
+          y_inner_high = 0;                 ///< no wall near in between, in cells
+    std::size_t cell_rows = 0;              ///< entries of `cell_starts` to a column
     std::vector<std::uint32_t> cell_starts; ///< by column and row, and one more to each column
-    std::vector<LocalIndex> indices;   ///< by slot, as all that follows
+    std::vector<LocalIndex> indices;        ///< by slot, as all that follows
     std::vector<Disc> discs;
     std::vector<double> spins; ///< of rough discs
     std::vector<EventHistory> past_events_of;
     std::vector<std::uint8_t> is_own;
-    std::vector<std::uint32_t> next_image; ///< of the same disc, in a ring; empty where images go their own ways
+    std::vector<std::uint32_t>
+        next_image; ///< of the same disc, in a ring; empty where images go their own ways
     std::vector<std::uint32_t> image_table; ///< scratch
     std::vector<float> x, y, vx, vy;
     FlightLanes lanes;
     EventQueue queue;
     std::vector<SlotRange> runs; ///< the first n_runs; room for all columns
     std::size_t n_runs = 0;
-    std::vector<std::uint32_t> partners, others_partners; ///< of one disc, and of the one that it has met
-    std::vector<std::uint32_t> later, later_ends; ///< of a column: partners behind its discs, and where each one's end
+    std::vector<std::uint32_t> partners,
+        others_partners; ///< of one disc, and of the one that it has met
+    std::vector<std::uint32_t> later,
+        later_ends;           ///< of a column: partners behind its discs, and where each one's end
     double cascade_begin = 0; ///< when the present crowd of collisions at one time began
     std::uint64_t cascade = 0;
     BlockOutcome* outcome = nullptr;
-    double bound_squared = 0;      ///< of the speed
-    float bound_lane_squared = 0;  ///< the same in cells per window, somewhat less
-    double too_fast = 0;           ///< see BlockOutcome
+    double bound_squared = 0;     ///< of the speed
+    float bound_lane_squared = 0; ///< the same in cells per window, somewhat less
+    double too_fast = 0;          ///< see BlockOutcome
 };
 
 } // namespace carrom

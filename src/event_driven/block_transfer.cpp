@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "event_driven/block_scratch.hpp"
 #include "core/errors.hpp"
+#include "event_driven/block_scratch.hpp"
 
 namespace carrom {
 
 /// Copies the block's and its halo's discs, column by column, into slots of our own.
 template <class Dynamics>
-void BlockRun<Dynamics>::Scratch::gather(const BlockGround& of_rank, const CellBlock& own, int halo) {
+void BlockRun<Dynamics>::Scratch::gather(const BlockGround& of_rank, const CellBlock& own,
+                                         int halo) {
     ground = of_rank;
     const CellGrid& grid = *ground.grid;
     const GridFrame& frame = grid.frame();
@@ -25,9 +26,11 @@ void BlockRun<Dynamics>::Scratch::gather(const BlockGround& of_rank, const CellB
         cell_starts.push_back(static_cast<std::uint32_t>(indices.size()));
         const bool has_halo = grid.has_halo_in(column);
         for (int row = cells.first_row; row < cells.end_row; ++row) {
-            const SlotRange run = grid.run(column, row, row), of_halo = has_halo ? grid.halo_run(column, row, row) : SlotRange{};
+            const SlotRange run = grid.run(column, row, row),
+                            of_halo = has_halo ? grid.halo_run(column, row, row) : SlotRange{};
             for (LocalIndex index = run.begin; index < run.end; ++index) indices.push_back(index);
-            for (std::uint32_t slot = of_halo.begin; slot < of_halo.end; ++slot) indices.push_back(grid.halo_index(slot));
+            for (std::uint32_t slot = of_halo.begin; slot < of_halo.end; ++slot)
+                indices.push_back(grid.halo_index(slot));
             cell_starts.push_back(static_cast<std::uint32_t>(indices.size()));
         }
     }
@@ -53,15 +56,21 @@ void BlockRun<Dynamics>::Scratch::gather(const BlockGround& of_rank, const CellB
     cells_per_speed = window.duration() / frame.cell_width;
     windows_per_time = 1 / window.duration();
     const double sigma = dynamics.search_diameter() * cells_per_length;
-    const double extent = std::max(cells.end_column - cells.first_column, cells.end_row - cells.first_row) + 8.0;
-    const double reach = block_reach(window, dynamics.search_diameter(), dynamics.box_size()) * cells_per_length;
-    // Positions carry an error of 2^-23 of the block's size; the rounding of the filter's other terms acts like a longer
-    // diameter by 2^-20 d^2 / diameter, d being the largest distance that is looked at.
+    const double extent = std::max(cells.end_column - cells.first_column,
+                                   cells.end_row - cells.first_row) +
+                          8.0;
+    const double reach = block_reach(window, dynamics.search_diameter(), dynamics.box_size()) *
+                         cells_per_length;
+    // Positions carry an error of 2^-23 of the block's size; the rounding of the filter's other
+    // terms acts like a longer diameter by 2^-20 d^2 / diameter, d being the largest distance that
+    // is looked at.
     const double looked_at = 3 * reach + 3;
-    const double touching = sigma * (1 + 0x1p-18) + 0x1p-20 * extent + 0x1p-20 * looked_at * looked_at / sigma;
+    const double touching = sigma * (1 + 0x1p-18) + 0x1p-20 * extent +
+                            0x1p-20 * looked_at * looked_at / sigma;
     touching_squared = static_cast<float>(touching * touching);
     farthest = static_cast<float>((reach + sigma) / 2 + 0x1p-18 * extent + 1e-6);
-    const double inner = dynamics.radius() + dynamics.slack() + 1e-3 * frame.cell_width + 0x1p-18 * extent * frame.cell_width;
+    const double inner = dynamics.radius() + dynamics.slack() + 1e-3 * frame.cell_width +
+                         0x1p-18 * extent * frame.cell_width;
     const Extent walls = dynamics.walls_between(window.begin, window.end);
     x_inner_low = static_cast<float>((walls.x_low + inner - x_corner) * cells_per_length);
     y_inner_low = static_cast<float>((walls.y_low + inner - y_corner) * cells_per_length);
@@ -95,14 +104,17 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own(const CellB
     }
 }
 
-/// Writes down what has become of the block's own discs, and what has been seen of those of its ring.
+/// Writes down what has become of the block's own discs, and what has been seen of those of its
+/// ring.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::report(const CellBlock& own, std::span<std::uint64_t> histories) {
     outcome->too_fast = too_fast;
     double end_squared = 0;
-    // Memory for what a block has, not for twice as much: all blocks keep theirs until the window is validated.
+    // Memory for what a block has, not for twice as much: all blocks keep theirs until the window
+    // is validated.
     std::size_t n_hit = 0;
-    for (std::size_t slot = 0; slot < past_events_of.size(); ++slot) n_hit += is_own[slot] != 0 && past_events_of[slot].history != 0;
+    for (std::size_t slot = 0; slot < past_events_of.size(); ++slot)
+        n_hit += is_own[slot] != 0 && past_events_of[slot].history != 0;
     outcome->hit.resize(n_hit);
     outcome->states.resize(n_hit);
     if constexpr (Dynamics::has_spin) outcome->spins.resize(n_hit);
@@ -112,7 +124,7 @@ void BlockRun<Dynamics>::Scratch::report(const CellBlock& own, std::span<std::ui
     const int end_column = std::min(cells.end_column, own.end_column + ring);
     for (int column = first_column; column < end_column; ++column) {
         const SlotRange run = grid_run(column, std::max(cells.first_row, own.first_row - ring),
-                                        std::min(cells.end_row, own.end_row + ring) - 1);
+                                       std::min(cells.end_row, own.end_row + ring) - 1);
         for (std::uint32_t slot = run.begin; slot < run.end; ++slot) {
             const EventHistory& past_events = past_events_of[slot];
             if (is_own[slot] == 0) {
@@ -132,9 +144,9 @@ void BlockRun<Dynamics>::Scratch::report(const CellBlock& own, std::span<std::ui
     outcome->largest_speed_at_end = std::sqrt(end_squared) * (1 + 0x1p-50);
 }
 
-#define CARROM_DEFINE(Dynamics) \
-    template void BlockRun<Dynamics>::Scratch::gather(const BlockGround&, const CellBlock&, int); \
-    template void BlockRun<Dynamics>::Scratch::mark_own(const CellBlock&); \
+#define CARROM_DEFINE(Dynamics)                                                                    \
+    template void BlockRun<Dynamics>::Scratch::gather(const BlockGround&, const CellBlock&, int);  \
+    template void BlockRun<Dynamics>::Scratch::mark_own(const CellBlock&);                         \
     template void BlockRun<Dynamics>::Scratch::report(const CellBlock&, std::span<std::uint64_t>);
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
 #undef CARROM_DEFINE

@@ -12,19 +12,22 @@ namespace carrom {
 namespace {
 
 // Measured on one core, in nanoseconds (docs/performance.md).
-constexpr double cost_per_disc = 40;      ///< to sort, copy and give back, once a window
-constexpr double cost_per_copy = 40;      ///< of each disc in a block or its halo
+constexpr double cost_per_disc = 40; ///< to sort, copy and give back, once a window
+constexpr double cost_per_copy = 40; ///< of each disc in a block or its halo
 constexpr double cost_per_event = 160;
-constexpr double cost_per_partner = 1.0;  ///< of each disc that a prediction looks at
-constexpr double discs_in_cache = 24000;  ///< of a block with its halo; most of them are looked at once only
-/// News travel by collisions. Where discs fly far compared with their size few go two reaches in a window.
+constexpr double cost_per_partner = 1.0; ///< of each disc that a prediction looks at
+constexpr double discs_in_cache =
+    24000; ///< of a block with its halo; most of them are looked at once only
+/// News travel by collisions. Where discs fly far compared with their size few go two reaches in a
+/// window.
 constexpr double thin_gas = 0.2; ///< diameter to reach
 
-// To repeat a block's replay with twice the halo costs two or three of it, a reach more of halo a tenth: docs/performance.md.
+// To repeat a block's replay with twice the halo costs two or three of it, a reach more of halo a
+// tenth: docs/performance.md.
 constexpr double much_repeated = 0.08, mostly_repeated = 0.5;
-constexpr double memory = 0.9;  ///< weight of the windows before the last one
-constexpr int most_more = 2;    ///< reaches
-constexpr int long_calm = 200;  ///< windows after which less is tried
+constexpr double memory = 0.9; ///< weight of the windows before the last one
+constexpr int most_more = 2;   ///< reaches
+constexpr int long_calm = 200; ///< windows after which less is tried
 constexpr double shorter = 0.7, longer = 1.03, least_hits = 0.1;
 
 BlockWindow window_of(const BlockNeeds& needs, double duration) {
@@ -36,35 +39,45 @@ BlockChoice choice_of(const BlockNeeds& needs, double duration) {
     choice.duration = duration;
     choice.reach = block_reach(window_of(needs, duration), 2 * needs.radius, needs.box_size);
     const double spacing = needs.box_size / std::sqrt(needs.n_discs + 1);
-    choice.halo = needs.halo.value_or((2 * needs.radius < thin_gas * choice.reach ? 2 : 3) + needs.more_halo);
+    choice.halo = needs.halo.value_or((2 * needs.radius < thin_gas * choice.reach ? 2 : 3) +
+                                      needs.more_halo);
     const double margin = choice.halo * choice.reach;
     const double side = std::sqrt(discs_in_cache) * spacing - 2 * margin;
-    choice.block_side = needs.is_one_block ? needs.box_size : std::min(std::max(side, 1.5 * margin), needs.box_size);
+    choice.block_side = needs.is_one_block ? needs.box_size
+                                           : std::min(std::max(side, 1.5 * margin), needs.box_size);
     return choice;
 }
 
 double cost_per_time(const BlockNeeds& needs, const BlockChoice& choice) {
     const double side = choice.block_side;
-    const double halo = (needs.is_one_block ? needs.n_periodic_axes == 0 ? 0 : 1 : choice.halo) * choice.reach;
-    const double walled = (needs.is_one_block ? side : std::min(side + 2 * halo, needs.box_size)) / side, endless = (side + 2 * halo) / side;
+    const double halo = (needs.is_one_block ? needs.n_periodic_axes == 0 ? 0 : 1 : choice.halo) *
+                        choice.reach;
+    const double walled = (needs.is_one_block ? side : std::min(side + 2 * halo, needs.box_size)) /
+                          side,
+                 endless = (side + 2 * halo) / side;
     // Of discs replayed, halo included, to own ones.
-    const double share = needs.n_periodic_axes == 0 ? walled * walled : needs.n_periodic_axes == 1 ? walled * endless : endless * endless;
+    const double share = needs.n_periodic_axes == 0   ? walled * walled
+                         : needs.n_periodic_axes == 1 ? walled * endless
+                                                      : endless * endless;
     const double looked_at = std::min(1.6 * choice.reach, needs.box_size) / needs.box_size;
     const double partners = needs.n_discs * looked_at * looked_at;
     const double events = needs.collision_rate * choice.duration;
-    const double run_blocks = cost_per_copy + cost_per_partner * partners / 2 + events * (cost_per_event + 2 * cost_per_partner * partners);
+    const double run_blocks = cost_per_copy + cost_per_partner * partners / 2 +
+                              events * (cost_per_event + 2 * cost_per_partner * partners);
     return (cost_per_disc + share * run_blocks) / choice.duration;
 }
 
 } // namespace
 
-BlockChoice choose_block_window(const BlockNeeds& needs, double longest, std::optional<double> wanted) {
+BlockChoice choose_block_window(const BlockNeeds& needs, double longest,
+                                std::optional<double> wanted) {
     if (wanted) return choice_of(needs, std::min(*wanted, longest));
     BlockChoice best = choice_of(needs, longest);
     if (!(needs.speed_bound > 0)) return best;
     const double spacing = needs.box_size / std::sqrt(needs.n_discs + 1);
     double least = cost_per_time(needs, best);
-    for (double duration = std::min(longest, 0.02 * spacing / needs.speed_bound); duration < longest; duration *= 1.1) {
+    for (double duration = std::min(longest, 0.02 * spacing / needs.speed_bound);
+         duration < longest; duration *= 1.1) {
         const BlockChoice choice = choice_of(needs, duration);
         const double cost = cost_per_time(needs, choice);
         if (cost >= least) continue;

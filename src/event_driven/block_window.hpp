@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long a window of the event-driven method should be, how large its blocks. Pure arithmetic on numbers that all
-// ranks know; the choice costs or saves time and has no say in the bits.
+// How long a window of the event-driven method should be, how large its blocks. Pure arithmetic on
+// numbers that all ranks know; the choice costs or saves time and has no say in the bits.
 //
-// Long windows share the cost of sorting and copying discs, short ones look less far; large blocks have less halo, small
-// ones stay in the cache.
+// Long windows share the cost of sorting and copying discs, short ones look less far; large blocks
+// have less halo, small ones stay in the cache.
 #pragma once
 
 #include <limits>
@@ -18,30 +18,37 @@ struct BlockNeeds {
     double speed_bound = 0;
     double collision_rate = 0; ///< per disc and time
     double time = 0;           ///< since the last sync
-    std::optional<int> halo;   ///< reaches that blocks look beyond their own cells at first, if that is wanted
+    std::optional<int>
+        halo; ///< reaches that blocks look beyond their own cells at first, if that is wanted
     bool is_one_block = false; ///< all discs in one block, whatever their number
     int more_halo = 0;         ///< reaches more than where little has to be replayed again
-    int n_periodic_axes = 0;   ///< along which a halo does not end with the box: it has images, if need be many of each disc
+    int n_periodic_axes = 0;   ///< along which a halo does not end with the box: it has images, if
+                               ///< need be many of each disc
 };
 
 struct BlockChoice {
-    double duration = 0;   ///< of the window
+    double duration = 0; ///< of the window
     double reach = 0;
     int halo = 3;          ///< in reaches
     double block_side = 0; ///< wanted
 };
 
 /// The best window of at most `longest`, or of `wanted` if that is set.
-BlockChoice choose_block_window(const BlockNeeds& needs, double longest, std::optional<double> wanted);
+BlockChoice choose_block_window(const BlockNeeds& needs, double longest,
+                                std::optional<double> wanted);
 
-/// What windows teach whose replays had to be repeated. News travel by collisions: where discs are dense, or lie in a heap, they go
-/// further in a window than its cells suggest. Then blocks look further around, and if that is not enough windows are shorter.
+/// What windows teach whose replays had to be repeated. News travel by collisions: where discs are
+/// dense, or lie in a heap, they go further in a window than its cells suggest. Then blocks look
+/// further around, and if that is not enough windows are shorter.
 class Caution {
 public:
-    /// Of a window: replays that were repeated, as a share of its blocks, and its collisions per disc.
+    /// Of a window: replays that were repeated, as a share of its blocks, and its collisions per
+    /// disc.
     void learn(double repeated, double hits);
     int more_halo() const { return more_halo_; }
-    double most_hits() const { return most_hits_; } ///< collisions per disc that a window should have at most
+    double most_hits() const {
+        return most_hits_;
+    } ///< collisions per disc that a window should have at most
 
 private:
     int more_halo_ = 0, n_calm_ = 0;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Predicted collisions of one replay in their total order: time, generation, id of P, wall before pair, id of Q.
+// Predicted collisions of one replay in their total order: time, generation, id of P, wall before
+// pair, id of Q.
 //
-// Predictions are not taken back: one whose discs have collided since is known by their versions and passed over. Where
-// discs without room collide millions of times in a window such predictions pile up, so they are swept out whenever
-// there are twice as many as there were good ones.
+// Predictions are not taken back: one whose discs have collided since is known by their versions
+// and passed over. Where discs without room collide millions of times in a window such predictions
+// pile up, so they are swept out whenever there are twice as many as there were good ones.
 #pragma once
 
 #include <algorithm>
@@ -16,17 +17,21 @@
 
 namespace carrom {
 
-/// Stand for what is fixed in the place of a second disc: obstacles by their numbers, then the walls, x before y.
-inline constexpr std::uint32_t first_obstacle = 0x80000000, x_wall = 0xfffffffe, y_wall = 0xffffffff;
+/// Stand for what is fixed in the place of a second disc: obstacles by their numbers, then the
+/// walls, x before y.
+inline constexpr std::uint32_t first_obstacle = 0x80000000, x_wall = 0xfffffffe,
+                               y_wall = 0xffffffff;
 inline bool is_wall(std::uint32_t partner) { return partner >= first_obstacle; }
-inline bool is_obstacle(std::uint32_t partner) { return partner >= first_obstacle && partner < x_wall; }
+inline bool is_obstacle(std::uint32_t partner) {
+    return partner >= first_obstacle && partner < x_wall;
+}
 
 struct Event {
     double time = 0;
     std::uint32_t generation = 0;
-    std::uint32_t p = 0, q = x_wall;              ///< slots; p has the lower id
-    std::uint32_t p_version = 0, q_version = 0;   ///< the states it was predicted from
-    std::uint32_t next = 0;                       ///< for the queue
+    std::uint32_t p = 0, q = x_wall;            ///< slots; p has the lower id
+    std::uint32_t p_version = 0, q_version = 0; ///< the states it was predicted from
+    std::uint32_t next = 0;                     ///< for the queue
 };
 static_assert(sizeof(Event) == 32);
 
@@ -35,14 +40,16 @@ public:
     explicit EventOrder(std::span<const Disc> discs) : discs_(discs) {}
 
     bool operator()(const Event& a, const Event& b) const {
-        if (a.time != b.time) [[likely]] return a.time < b.time;
+        if (a.time != b.time) [[likely]]
+            return a.time < b.time;
         return before_at_one_time(a, b);
     }
 
 private:
     bool before_at_one_time(const Event& a, const Event& b) const {
         if (a.generation != b.generation) return a.generation < b.generation;
-        if (a.p != b.p && discs_[a.p].id != discs_[b.p].id) return discs_[a.p].id < discs_[b.p].id; // or two images of one
+        if (a.p != b.p && discs_[a.p].id != discs_[b.p].id)
+            return discs_[a.p].id < discs_[b.p].id; // or two images of one
         if (is_wall(a.q) || is_wall(b.q)) return is_wall(a.q) && (!is_wall(b.q) || a.q < b.q);
         return discs_[a.q].id < discs_[b.q].id;
     }
@@ -55,8 +62,9 @@ inline auto after(const EventOrder& before) {
     return [&before](const Event& a, const Event& b) { return before(b, a); };
 }
 
-/// Buckets of equal length in time, some one event to a bucket: nearly all of a queue's work is to append to a list. The
-/// bucket that is being emptied is a heap, so that thousands of events at one time cost no more than the logarithm.
+/// Buckets of equal length in time, some one event to a bucket: nearly all of a queue's work is to
+/// append to a list. The bucket that is being emptied is a heap, so that thousands of events at one
+/// time cost no more than the logarithm.
 class EventQueue {
 public:
     /// Forgets all events; those to come lie in [begin, end], about `n_expected` of them at a time.
@@ -87,9 +95,12 @@ public:
         heads_[bucket] = entry;
     }
 
-    /// Takes out the first event for which `is_current(event)` holds and forgets those before it; false if there is none.
-    template <class IsCurrent> bool pop(Event& first, const EventOrder& before, const IsCurrent& is_current) {
-        if (is_crowded()) [[unlikely]] sweep(before, is_current);
+    /// Takes out the first event for which `is_current(event)` holds and forgets those before it;
+    /// false if there is none.
+    template <class IsCurrent>
+    bool pop(Event& first, const EventOrder& before, const IsCurrent& is_current) {
+        if (is_crowded()) [[unlikely]]
+            sweep(before, is_current);
         for (;;) {
             while (!now_.empty()) {
                 if (now_.size() > 1) std::pop_heap(now_.begin(), now_.end(), after(before));
@@ -106,16 +117,20 @@ public:
     }
 
     std::size_t bytes() const {
-        return pool_.capacity() * sizeof(Event) + heads_.capacity() * sizeof(std::uint32_t) + now_.capacity() * sizeof(Event);
+        return pool_.capacity() * sizeof(Event) + heads_.capacity() * sizeof(std::uint32_t) +
+               now_.capacity() * sizeof(Event);
     }
 
 private:
     static constexpr std::uint32_t none = 0xffffffff;
     static constexpr std::size_t least_to_sweep = 4096;
 
-    bool is_crowded() const { return now_.size() > most_now_ || (first_free_ == none && pool_.size() > most_waiting_); }
+    bool is_crowded() const {
+        return now_.size() > most_now_ || (first_free_ == none && pool_.size() > most_waiting_);
+    }
 
-    /// Forgets all events that are not current. Costs a look at each, for at least as many pushes before the next sweep.
+    /// Forgets all events that are not current. Costs a look at each, for at least as many pushes
+    /// before the next sweep.
     template <class IsCurrent> void sweep(const EventOrder& before, const IsCurrent& is_current) {
         std::erase_if(now_, [&is_current](const Event& event) { return !is_current(event); });
         std::make_heap(now_.begin(), now_.end(), after(before));
@@ -139,7 +154,8 @@ private:
         now_.push_back(event);
         if (now_.size() > 1) std::push_heap(now_.begin(), now_.end(), after(before));
     }
-    template <class IsCurrent> void empty_bucket(const EventOrder& before, const IsCurrent& is_current) {
+    template <class IsCurrent>
+    void empty_bucket(const EventOrder& before, const IsCurrent& is_current) {
         std::uint32_t entry = heads_[current_];
         while (entry != none) {
             const Event& taken = pool_[entry];
@@ -157,7 +173,9 @@ private:
     std::vector<std::uint32_t> heads_;
     std::vector<Event> pool_;
     std::uint32_t first_free_ = none;
-    std::size_t most_now_ = least_to_sweep, most_waiting_ = least_to_sweep; ///< sizes of `now_` and `pool_` that ask for a sweep
+    std::size_t most_now_ = least_to_sweep,
+                most_waiting_ =
+                    least_to_sweep; ///< sizes of `now_` and `pool_` that ask for a sweep
 };
 
 } // namespace carrom

@@ -23,8 +23,9 @@ struct SpreadFlight {
     Vector x, y, vx, vy, rest, touching;
 
     HWY_INLINE SpreadFlight(const Flight& flight, float touching_squared)
-        : x(hn::Set(Lanes(), flight.x)), y(hn::Set(Lanes(), flight.y)), vx(hn::Set(Lanes(), flight.vx)),
-          vy(hn::Set(Lanes(), flight.vy)), rest(hn::Set(Lanes(), 1 - flight.now)), touching(hn::Set(Lanes(), touching_squared)) {}
+        : x(hn::Set(Lanes(), flight.x)), y(hn::Set(Lanes(), flight.y)),
+          vx(hn::Set(Lanes(), flight.vx)), vy(hn::Set(Lanes(), flight.vy)),
+          rest(hn::Set(Lanes(), 1 - flight.now)), touching(hn::Set(Lanes(), touching_squared)) {}
 };
 
 /// Where a vector of discs is at a time, and how it flies.
@@ -75,35 +76,46 @@ HWY_INLINE SlotVector compress(SlotVector slots, hn::Mask<Slots> kept) {
     return hn::TableLookupLanes(slots, hn::IndicesFromVec(Slots(), hn::PromoteTo(Slots(), lanes)));
 }
 #else
-HWY_INLINE SlotVector compress(SlotVector slots, hn::Mask<Slots> kept) { return hn::Compress(slots, kept); }
+HWY_INLINE SlotVector compress(SlotVector slots, hn::Mask<Slots> kept) {
+    return hn::Compress(slots, kept);
+}
 #endif
 
-HWY_INLINE SlotVector spread_slot(std::uint32_t slot) { return hn::Set(Slots(), static_cast<std::int32_t>(slot)); }
+HWY_INLINE SlotVector spread_slot(std::uint32_t slot) {
+    return hn::Set(Slots(), static_cast<std::int32_t>(slot));
+}
 
-/// Appends the slots that are kept to `next`; returns the new end. Writes a whole vector: what is beyond the end says
-/// nothing. (Compressing into memory is microcode on some processors, a hundred cycles each.)
+/// Appends the slots that are kept to `next`; returns the new end. Writes a whole vector: what is
+/// beyond the end says nothing. (Compressing into memory is microcode on some processors, a hundred
+/// cycles each.)
 HWY_INLINE std::uint32_t* append(SlotVector slots, hn::Mask<Slots> kept, std::uint32_t* next) {
     const hn::RebindToUnsigned<Lanes> d;
     hn::StoreU(hn::BitCast(d, compress(slots, kept)), d, next);
     return next + hn::CountTrue(Slots(), kept);
 }
 
-/// Appends to `next` the slots of `run`, but for `except`, that might touch the flight; returns the new end.
-HWY_INLINE std::uint32_t* filter_run(const FlightLanes lanes, SlotRange run, const SpreadFlight& p, Vector now, SlotVector except,
-                                     std::uint32_t* next) {
+/// Appends to `next` the slots of `run`, but for `except`, that might touch the flight; returns the
+/// new end.
+HWY_INLINE std::uint32_t* filter_run(const FlightLanes lanes, SlotRange run, const SpreadFlight& p,
+                                     Vector now, SlotVector except, std::uint32_t* next) {
     const auto steps = hn::Iota(Slots(), 0);
     const auto end = spread_slot(run.end);
-    for (std::uint32_t slot = run.begin; slot < run.end; slot += static_cast<std::uint32_t>(hn::Lanes(Lanes()))) {
+    for (std::uint32_t slot = run.begin; slot < run.end;
+         slot += static_cast<std::uint32_t>(hn::Lanes(Lanes()))) {
         const auto slots = hn::Add(steps, spread_slot(slot));
         const auto inside = hn::AndNot(hn::Eq(slots, except), hn::Lt(slots, end));
-        next = append(slots, hn::And(hn::RebindMask(Slots(), might_touch(Neighbours(lanes, slot, now), p)), inside), next);
+        next = append(
+            slots,
+            hn::And(hn::RebindMask(Slots(), might_touch(Neighbours(lanes, slot, now), p)), inside),
+            next);
     }
     return next;
 }
 
-std::size_t FilterFlights(const FlightLanes& all_lanes, std::span<const SlotRange> runs, const Flight& flight,
-                          float touching_squared, std::uint32_t* out) {
-    const FlightLanes lanes = all_lanes; // nothing else points to these pointers: they stay in registers
+std::size_t FilterFlights(const FlightLanes& all_lanes, std::span<const SlotRange> runs,
+                          const Flight& flight, float touching_squared, std::uint32_t* out) {
+    const FlightLanes lanes =
+        all_lanes; // nothing else points to these pointers: they stay in registers
     const SpreadFlight spread(flight, touching_squared);
     const auto now = hn::Set(Lanes(), flight.now);
     const auto own = spread_slot(flight.slot);
@@ -112,8 +124,9 @@ std::size_t FilterFlights(const FlightLanes& all_lanes, std::span<const SlotRang
     return static_cast<std::size_t>(next - out);
 }
 
-PartnerCounts FilterTwoFlights(const FlightLanes& all_lanes, std::span<const SlotRange> runs, const Flight& p, const Flight& q,
-                               float touching_squared, std::uint32_t* p_out, std::uint32_t* q_out) {
+PartnerCounts FilterTwoFlights(const FlightLanes& all_lanes, std::span<const SlotRange> runs,
+                               const Flight& p, const Flight& q, float touching_squared,
+                               std::uint32_t* p_out, std::uint32_t* q_out) {
     const FlightLanes lanes = all_lanes;
     const SpreadFlight p_spread(p, touching_squared), q_spread(q, touching_squared);
     const auto now = hn::Set(Lanes(), p.now);
@@ -122,22 +135,29 @@ PartnerCounts FilterTwoFlights(const FlightLanes& all_lanes, std::span<const Slo
     std::uint32_t *p_next = p_out, *q_next = q_out;
     for (const SlotRange& run : runs) {
         const auto end = spread_slot(run.end);
-        for (std::uint32_t slot = run.begin; slot < run.end; slot += static_cast<std::uint32_t>(hn::Lanes(Lanes()))) {
+        for (std::uint32_t slot = run.begin; slot < run.end;
+             slot += static_cast<std::uint32_t>(hn::Lanes(Lanes()))) {
             const auto slots = hn::Add(steps, spread_slot(slot));
             const auto is_one_of_them = hn::Or(hn::Eq(slots, p_slot), hn::Eq(slots, q_slot));
             const auto inside = hn::AndNot(is_one_of_them, hn::Lt(slots, end));
             const Neighbours others(lanes, slot, now);
-            p_next = append(slots, hn::And(hn::RebindMask(Slots(), might_touch(others, p_spread)), inside), p_next);
-            q_next = append(slots, hn::And(hn::RebindMask(Slots(), might_touch(others, q_spread)), inside), q_next);
+            p_next = append(slots,
+                            hn::And(hn::RebindMask(Slots(), might_touch(others, p_spread)), inside),
+                            p_next);
+            q_next = append(slots,
+                            hn::And(hn::RebindMask(Slots(), might_touch(others, q_spread)), inside),
+                            q_next);
         }
     }
     return {static_cast<std::size_t>(p_next - p_out), static_cast<std::size_t>(q_next - q_out)};
 }
 
-void FilterColumn(const FlightLanes& all_lanes, const CellTable& cells, int column, int n_reach, float touching_squared,
-                  std::vector<std::uint32_t>& partners, std::vector<std::uint32_t>& ends) {
+void FilterColumn(const FlightLanes& all_lanes, const CellTable& cells, int column, int n_reach,
+                  float touching_squared, std::vector<std::uint32_t>& partners,
+                  std::vector<std::uint32_t>& ends) {
     const FlightLanes lanes = all_lanes;
-    const std::uint32_t* const own = cells.starts + static_cast<std::size_t>(column) * cells.column_length;
+    const std::uint32_t* const own = cells.starts +
+                                     static_cast<std::size_t>(column) * cells.column_length;
     const int n_right = HWY_MIN(n_reach, cells.n_columns - 1 - column);
     const auto start = hn::Zero(Lanes());
     const auto nobody = spread_slot(0xffffffff);
@@ -147,18 +167,22 @@ void FilterColumn(const FlightLanes& all_lanes, const CellTable& cells, int colu
         const int low = HWY_MAX(row - n_reach, 0), high = HWY_MIN(row + n_reach, cells.n_rows - 1);
         std::size_t n_slots = own[high + 1] - own[row];
         for (int k = 1; k <= n_right; ++k) {
-            const std::uint32_t* const other = own + static_cast<std::size_t>(k) * cells.column_length;
+            const std::uint32_t* const other = own +
+                                               static_cast<std::size_t>(k) * cells.column_length;
             n_slots += other[high + 1] - other[low];
         }
         const std::size_t room = n_partners + n_slots * (own[row + 1] - own[row]) + filter_padding;
         if (partners.size() < room) partners.resize(2 * room);
         std::uint32_t* next = partners.data() + n_partners;
         for (std::uint32_t slot = own[row]; slot < own[row + 1]; ++slot) {
-            const SpreadFlight spread({lanes.x[slot], lanes.y[slot], lanes.vx[slot], lanes.vy[slot]}, touching_squared);
+            const SpreadFlight spread(
+                {lanes.x[slot], lanes.y[slot], lanes.vx[slot], lanes.vy[slot]}, touching_squared);
             next = filter_run(lanes, {slot + 1, own[high + 1]}, spread, start, nobody, next);
             for (int k = 1; k <= n_right; ++k) {
-                const std::uint32_t* const other = own + static_cast<std::size_t>(k) * cells.column_length;
-                next = filter_run(lanes, {other[low], other[high + 1]}, spread, start, nobody, next);
+                const std::uint32_t* const other = own + static_cast<std::size_t>(k) *
+                                                             cells.column_length;
+                next = filter_run(lanes, {other[low], other[high + 1]}, spread, start, nobody,
+                                  next);
             }
             ends.push_back(static_cast<std::uint32_t>(next - partners.data()));
         }
@@ -174,23 +198,27 @@ namespace carrom {
 
 HWY_EXPORT(FilterFlights);
 
-std::size_t filter_flights(const FlightLanes& lanes, std::span<const SlotRange> runs, const Flight& flight,
-                           float touching_squared, std::uint32_t* out) {
+std::size_t filter_flights(const FlightLanes& lanes, std::span<const SlotRange> runs,
+                           const Flight& flight, float touching_squared, std::uint32_t* out) {
     return HWY_DYNAMIC_DISPATCH(FilterFlights)(lanes, runs, flight, touching_squared, out);
 }
 
 HWY_EXPORT(FilterTwoFlights);
 
-PartnerCounts filter_two_flights(const FlightLanes& lanes, std::span<const SlotRange> runs, const Flight& p, const Flight& q,
-                                 float touching_squared, std::uint32_t* p_out, std::uint32_t* q_out) {
-    return HWY_DYNAMIC_DISPATCH(FilterTwoFlights)(lanes, runs, p, q, touching_squared, p_out, q_out);
+PartnerCounts filter_two_flights(const FlightLanes& lanes, std::span<const SlotRange> runs,
+                                 const Flight& p, const Flight& q, float touching_squared,
+                                 std::uint32_t* p_out, std::uint32_t* q_out) {
+    return HWY_DYNAMIC_DISPATCH(FilterTwoFlights)(lanes, runs, p, q, touching_squared, p_out,
+                                                  q_out);
 }
 
 HWY_EXPORT(FilterColumn);
 
-void filter_column(const FlightLanes& lanes, const CellTable& cells, int column, int n_reach, float touching_squared,
-                   std::vector<std::uint32_t>& partners, std::vector<std::uint32_t>& ends) {
-    HWY_DYNAMIC_DISPATCH(FilterColumn)(lanes, cells, column, n_reach, touching_squared, partners, ends);
+void filter_column(const FlightLanes& lanes, const CellTable& cells, int column, int n_reach,
+                   float touching_squared, std::vector<std::uint32_t>& partners,
+                   std::vector<std::uint32_t>& ends) {
+    HWY_DYNAMIC_DISPATCH(FilterColumn)(lanes, cells, column, n_reach, touching_squared, partners,
+                                       ends);
 }
 
 } // namespace carrom

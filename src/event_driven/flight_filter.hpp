@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// First rejection of partners in a replay, many lanes at a time: which flights of some runs of slots might touch a given
-// one between now and the window's end. It may keep pairs that never touch; it never loses one that does.
+// First rejection of partners in a replay, many lanes at a time: which flights of some runs of
+// slots might touch a given one between now and the window's end. It may keep pairs that never
+// touch; it never loses one that does.
 #pragma once
 
 #include <cstddef>
@@ -12,39 +13,45 @@
 
 namespace carrom {
 
-/// A disc in flight: position in cells at the time `now`, cells per window. Times run from 0 to 1 in a window.
+/// A disc in flight: position in cells at the time `now`, cells per window. Times run from 0 to 1
+/// in a window.
 struct Flight {
     float x = 0, y = 0, vx = 0, vy = 0;
     float now = 0;
     std::uint32_t slot = 0;
 };
 
-/// Writes the slots of `runs`, other than the flight's own, that might come within the square root of `touching_squared`
-/// of `flight`; returns how many. Lanes hold positions extrapolated to the window's start. `out` has room for all slots of
-/// the runs and `filter_padding` more; lanes can be read as far beyond the last slot.
-std::size_t filter_flights(const FlightLanes& lanes, std::span<const SlotRange> runs, const Flight& flight,
-                           float touching_squared, std::uint32_t* out);
+/// Writes the slots of `runs`, other than the flight's own, that might come within the square root
+/// of `touching_squared` of `flight`; returns how many. Lanes hold positions extrapolated to the
+/// window's start. `out` has room for all slots of the runs and `filter_padding` more; lanes can be
+/// read as far beyond the last slot.
+std::size_t filter_flights(const FlightLanes& lanes, std::span<const SlotRange> runs,
+                           const Flight& flight, float touching_squared, std::uint32_t* out);
 
 struct PartnerCounts {
     std::size_t p = 0, q = 0;
 };
 
-/// The same for two flights with the same `now` at once, into a list each: all slots but those of the two.
-PartnerCounts filter_two_flights(const FlightLanes& lanes, std::span<const SlotRange> runs, const Flight& p, const Flight& q,
-                                 float touching_squared, std::uint32_t* p_out, std::uint32_t* q_out);
+/// The same for two flights with the same `now` at once, into a list each: all slots but those of
+/// the two.
+PartnerCounts filter_two_flights(const FlightLanes& lanes, std::span<const SlotRange> runs,
+                                 const Flight& p, const Flight& q, float touching_squared,
+                                 std::uint32_t* p_out, std::uint32_t* q_out);
 
-/// Cells of a block, column by column: slots of cell (c, r) begin at starts[c * column_length + r] and end where the next
-/// cell's begin; column_length is one more than the rows.
+/// Cells of a block, column by column: slots of cell (c, r) begin at starts[c * column_length + r]
+/// and end where the next cell's begin; column_length is one more than the rows.
 struct CellTable {
     const std::uint32_t* starts = nullptr;
     std::size_t column_length = 0;
     int n_columns = 0, n_rows = 0;
 };
 
-/// Every pair that might touch in the window, of a disc in `column` and one that comes after it: later in its own column
-/// or in a column to the right, `n_reach` cells away at most. Puts the second ones into `partners` (which only
-/// grows, so its size says nothing) and, for each disc of the column, appends where its partners end there to `ends`.
-void filter_column(const FlightLanes& lanes, const CellTable& cells, int column, int n_reach, float touching_squared,
-                   std::vector<std::uint32_t>& partners, std::vector<std::uint32_t>& ends);
+/// Every pair that might touch in the window, of a disc in `column` and one that comes after it:
+/// later in its own column or in a column to the right, `n_reach` cells away at most. Puts the
+/// second ones into `partners` (which only grows, so its size says nothing) and, for each disc of
+/// the column, appends where its partners end there to `ends`.
+void filter_column(const FlightLanes& lanes, const CellTable& cells, int column, int n_reach,
+                   float touching_squared, std::vector<std::uint32_t>& partners,
+                   std::vector<std::uint32_t>& ends);
 
 } // namespace carrom

@@ -20,7 +20,9 @@ struct Overlap {
     DiscId p = ~DiscId{0}, q = ~DiscId{0};
     double depth = 0;
 
-    friend bool operator<(const Overlap& a, const Overlap& b) { return a.p != b.p ? a.p < b.p : a.q < b.q; }
+    friend bool operator<(const Overlap& a, const Overlap& b) {
+        return a.p != b.p ? a.p < b.p : a.q < b.q;
+    }
 };
 
 /// The first pairs of a rank, or of all; the number counts those that are left out too.
@@ -38,8 +40,9 @@ struct FirstOverlaps {
 
 } // namespace
 
-void refuse_overlaps(const Population& population, const CellGrid& grid, double time, const Touching& touching,
-                     const Communicator& communicator, const std::string& scene_name) {
+void refuse_overlaps(const Population& population, const CellGrid& grid, double time,
+                     const Touching& touching, const Communicator& communicator,
+                     const std::string& scene_name) {
     FirstOverlaps mine;
     visit_near_pairs(grid, [&](LocalIndex a, LocalIndex b) {
         if (population.discs[b].id < population.discs[a].id) std::swap(a, b);
@@ -62,12 +65,16 @@ void refuse_overlaps(const Population& population, const CellGrid& grid, double 
     if (number == 0) return;
     std::string pairs;
     for (const Overlap& overlap : all.pairs) {
-        if (overlap.depth > 0) pairs += fmt::format("{}{} and {} (by {:.3g})", pairs.empty() ? "" : ", ", overlap.p, overlap.q, overlap.depth);
+        if (overlap.depth > 0)
+            pairs += fmt::format("{}{} and {} (by {:.3g})", pairs.empty() ? "" : ", ", overlap.p,
+                                 overlap.q, overlap.depth);
     }
-    throw InputError({{scene_name, 0,
-                       fmt::format("{} of discs overlap: {}{}; method = \"event-driven\" needs discs that do not",
-                                   number == 1 ? "1 pair" : fmt::format("{} pairs", number), pairs,
-                                   number > n_named ? ", ..." : "")}});
+    throw InputError(
+        {{scene_name, 0,
+          fmt::format(
+              "{} of discs overlap: {}{}; method = \"event-driven\" needs discs that do not",
+              number == 1 ? "1 pair" : fmt::format("{} pairs", number), pairs,
+              number > n_named ? ", ..." : "")}});
 }
 
 } // namespace carrom

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The event-driven method cannot start from discs that overlap: it has no time at which their collision could have happened.
+// The event-driven method cannot start from discs that overlap: it has no time at which their
+// collision could have happened.
 #pragma once
 
 #include <string>
 
 #include "cell_list/cell_grid.hpp"
 #include "cell_list/population.hpp"
-#include "parallel/communicator.hpp"
 #include "engine/state_sums.hpp"
+#include "parallel/communicator.hpp"
 
 namespace carrom {
 
-/// Throws InputError on every rank, naming the first few pairs and their number, if discs overlap at `time` by more than
-/// twice the tolerance. The grid holds the population at that time and partners within a diameter. **Collective.**
-void refuse_overlaps(const Population& population, const CellGrid& grid, double time, const Touching& touching,
-                     const Communicator& communicator, const std::string& scene_name);
+/// Throws InputError on every rank, naming the first few pairs and their number, if discs overlap
+/// at `time` by more than twice the tolerance. The grid holds the population at that time and
+/// partners within a diameter. **Collective.**
+void refuse_overlaps(const Population& population, const CellGrid& grid, double time,
+                     const Touching& touching, const Communicator& communicator,
+                     const std::string& scene_name);
 
 } // namespace carrom

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a window's replays are the truth (docs/method.md, section 8, rule A), and what to do where they may not be.
+// Whether a window's replays are the truth (docs/method.md, section 8, rule A), and what to do
+// where they may not be.
 #include <algorithm>
 #include <atomic>
 
 #include <fmt/format.h>
 
-#include "parallel/agreement.hpp"
 #include "event_driven/event_driven_engine.hpp"
+#include "parallel/agreement.hpp"
 
 namespace carrom {
 
 /// Marks the blocks that have to be replayed, on all ranks.
-template <class Dynamics> typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::validate() {
+template <class Dynamics>
+typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::validate() {
     const PhaseClock::Scope scope(clock_, Phase::resolve);
     double fastest = 0;
     for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.too_fast);
@@ -42,8 +44,10 @@ template <class Dynamics> typename EventDrivenEngine<Dynamics>::Verdict EventDri
     return Verdict::repeat;
 }
 
-/// Marks both blocks wherever a ring disc has another history than its owner has seen; `foreign` are those of other ranks.
-template <class Dynamics> void EventDrivenEngine<Dynamics>::compare_histories(std::vector<LocalIndex>& foreign) {
+/// Marks both blocks wherever a ring disc has another history than its owner has seen; `foreign`
+/// are those of other ranks.
+template <class Dynamics>
+void EventDrivenEngine<Dynamics>::compare_histories(std::vector<LocalIndex>& foreign) {
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
 #pragma omp parallel num_threads(tuning_.threads)
     {
@@ -71,14 +75,16 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::compare_histories(st
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::mark_owner(LocalIndex own_index) {
     const CellGrid::Cell cell = discs_.grid().cell_of(own_index);
-    const int column = std::clamp(cell.column, first_own_column_, end_own_column_ - 1) - first_own_column_;
+    const int column = std::clamp(cell.column, first_own_column_, end_own_column_ - 1) -
+                       first_own_column_;
     const int row = std::clamp(cell.row, first_own_row_, end_own_row_ - 1) - first_own_row_;
     const int k = column / block_columns_ * n_block_rows_ + row / block_rows_;
-    std::atomic_ref(blocks_[static_cast<std::size_t>(k)].is_marked).store(1, std::memory_order_relaxed);
+    std::atomic_ref(blocks_[static_cast<std::size_t>(k)].is_marked)
+        .store(1, std::memory_order_relaxed);
 }
 
-/// Doubles the halo of all marked blocks that do not see the whole box yet. True if more halo has to be fetched for that;
-/// all blocks are to be replayed then. **Collective.**
+/// Doubles the halo of all marked blocks that do not see the whole box yet. True if more halo has
+/// to be fetched for that; all blocks are to be replayed then. **Collective.**
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
     const int n_reach = discs_.grid().frame().n_reach;
     const Periods& periods = discs_.periods();
@@ -94,16 +100,23 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
         }
         block.halo *= 2;
         ++n_widened;
-        const int to_left = block.cells.first_column - first_own_column_, to_right = end_own_column_ - block.cells.end_column;
-        if (has_left) deepest = std::max(deepest, (block.halo * n_reach - to_left + n_reach - 1) / n_reach);
-        if (has_right) deepest = std::max(deepest, (block.halo * n_reach - to_right + n_reach - 1) / n_reach);
+        const int to_left = block.cells.first_column - first_own_column_,
+                  to_right = end_own_column_ - block.cells.end_column;
+        if (has_left)
+            deepest = std::max(deepest, (block.halo * n_reach - to_left + n_reach - 1) / n_reach);
+        if (has_right)
+            deepest = std::max(deepest, (block.halo * n_reach - to_right + n_reach - 1) / n_reach);
         if (periods.y == 0) continue;
-        const int to_rows = std::min(block.cells.first_row - first_own_row_, end_own_row_ - block.cells.end_row);
+        const int to_rows = std::min(block.cells.first_row - first_own_row_,
+                                     end_own_row_ - block.cells.end_row);
         deepest = std::max(deepest, (block.halo * n_reach - to_rows + n_reach - 1) / n_reach);
     }
     if (periods.are_any()) { // once around there is nothing new
-        const double reach = block_reach(window_, dynamics_.search_diameter(), dynamics_.box_size());
-        deepest = std::max(halo_depth_, std::min(deepest, static_cast<int>(std::ceil(dynamics_.box_size() / reach)) + 3));
+        const double reach = block_reach(window_, dynamics_.search_diameter(),
+                                         dynamics_.box_size());
+        deepest = std::max(
+            halo_depth_,
+            std::min(deepest, static_cast<int>(std::ceil(dynamics_.box_size() / reach)) + 3));
     }
     ensure(communicator_.sum(n_widened) > 0, "blocks that have seen the whole box disagree");
     if (discs_.has_no_halo()) return false;
@@ -117,33 +130,45 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::sees_all(const Block
     if (Dynamics::is_periodic) return sees_all_images(block);
     const GridFrame& frame = discs_.grid().frame();
     const int halo = block.halo * frame.n_reach;
-    const bool has_all_cells = block.cells.first_column <= halo && block.cells.end_column + halo >= frame.n_columns &&
-                               block.cells.first_row <= halo && block.cells.end_row + halo >= frame.n_rows;
+    const bool has_all_cells = block.cells.first_column <= halo &&
+                               block.cells.end_column + halo >= frame.n_columns &&
+                               block.cells.first_row <= halo &&
+                               block.cells.end_row + halo >= frame.n_rows;
     const double reach = block_reach(window_, dynamics_.search_diameter(), dynamics_.box_size());
     const Extent box = extent();
-    const bool rank_has_all = communicator_.size() == 1 || halo_depth_ * reach > box.x_high - box.x_low;
+    const bool rank_has_all = communicator_.size() == 1 ||
+                              halo_depth_ * reach > box.x_high - box.x_low;
     return has_all_cells && rank_has_all;
 }
 
 /// Along a periodic axis: once around from the block's own cells, and one reach more at both ends.
-template <class Dynamics> bool EventDrivenEngine<Dynamics>::sees_all_images(const Block& block) const {
+template <class Dynamics>
+bool EventDrivenEngine<Dynamics>::sees_all_images(const Block& block) const {
     const GridFrame& frame = discs_.grid().frame();
     const int halo = block.halo * frame.n_reach;
     const double reach = block_reach(window_, dynamics_.search_diameter(), dynamics_.box_size());
-    const int around = static_cast<int>(std::ceil(dynamics_.box_size() / frame.cell_width)) + 1 + frame.n_reach;
-    const bool rank_has_all = communicator_.size() == 1 || halo_depth_ * reach > dynamics_.box_size() + 2 * reach;
-    const auto has_all = [&](int first, int end, int first_own, int end_own, int n_cells, bool goes_round, bool own_is_all) {
+    const int around = static_cast<int>(std::ceil(dynamics_.box_size() / frame.cell_width)) + 1 +
+                       frame.n_reach;
+    const bool rank_has_all = communicator_.size() == 1 ||
+                              halo_depth_ * reach > dynamics_.box_size() + 2 * reach;
+    const auto has_all = [&](int first, int end, int first_own, int end_own, int n_cells,
+                             bool goes_round, bool own_is_all) {
         const int seen_first = std::max(0, first - halo), seen_end = std::min(n_cells, end + halo);
         if (!goes_round) return seen_first == 0 && seen_end == n_cells;
-        const bool has_own = seen_first <= first_own - frame.n_reach && seen_end >= end_own + frame.n_reach;
+        const bool has_own = seen_first <= first_own - frame.n_reach &&
+                             seen_end >= end_own + frame.n_reach;
         return has_own && (own_is_all || seen_end >= first_own + around);
     };
     return rank_has_all &&
-           has_all(block.cells.first_column, block.cells.end_column, first_own_column_, end_own_column_, frame.n_columns, discs_.periods().x != 0, communicator_.size() == 1) &&
-           has_all(block.cells.first_row, block.cells.end_row, first_own_row_, end_own_row_, frame.n_rows, discs_.periods().y != 0, true);
+           has_all(block.cells.first_column, block.cells.end_column, first_own_column_,
+                   end_own_column_, frame.n_columns, discs_.periods().x != 0,
+                   communicator_.size() == 1) &&
+           has_all(block.cells.first_row, block.cells.end_row, first_own_row_, end_own_row_,
+                   frame.n_rows, discs_.periods().y != 0, true);
 }
 
-/// Ends the run on all ranks if a block that has seen the whole box has found no end. **Collective.**
+/// Ends the run on all ranks if a block that has seen the whole box has found no end.
+/// **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::fail_on_cascade() const {
     std::string text;
     for (const Block& block : blocks_) {
@@ -153,12 +178,16 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::fail_on_cascade() co
         const std::string partner = outcome.cascade_partner == outcome.cascade_disc
                                         ? "a wall"
                                         : fmt::format("disc {}", outcome.cascade_partner);
-        text = fmt::format("disc {} collides without end at step {:.9g}, at last with {}: {}",
-                           outcome.cascade_disc,
-                           (static_cast<double>(micro_step) + outcome.cascade_time) / static_cast<double>(micro_steps_),
-                           partner,
-                           Dynamics::is_loose ? "it has no room to move, or the scene's precision and arithmetic do not tell when it moves"
-                                         : "it has no room to move, or is so fast that steps should be shorter");
+        text = fmt::format(
+            "disc {} collides without end at step {:.9g}, at last with {}: {}",
+            outcome.cascade_disc,
+            (static_cast<double>(micro_step) + outcome.cascade_time) /
+                static_cast<double>(micro_steps_),
+            partner,
+            Dynamics::is_loose
+                ? "it has no room to move, or the scene's precision and arithmetic do not tell "
+                  "when it moves"
+                : "it has no room to move, or is so fast that steps should be shorter");
         break;
     }
     agree(communicator_, text.empty(), text);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When two freely flying discs touch: the one predicate that every decision rests on (docs/method.md, section 4).
+// When two freely flying discs touch: the one predicate that every decision rests on
+// (docs/method.md, section 4).
 //
-// The discriminant is taken as (sqrt(A) sigma - |X|)(sqrt(A) sigma + |X|) with the cross product X made exact by fused
-// multiply-adds, and the root as C / (-b + sqrt(disc)): no subtraction of like numbers (Lagrange's identity; Kahan 2004).
-// This form of X treats x and y alike, so transposed scenes give transposed bits. One square root for most misses,
-// two more and a division for a hit. No division before b < 0, so equal velocities need no case of their own.
+// The discriminant is taken as (sqrt(A) sigma - |X|)(sqrt(A) sigma + |X|) with the cross product X
+// made exact by fused multiply-adds, and the root as C / (-b + sqrt(disc)): no subtraction of like
+// numbers (Lagrange's identity; Kahan 2004). This form of X treats x and y alike, so transposed
+// scenes give transposed bits. One square root for most misses, two more and a division for a hit.
+// No division before b < 0, so equal velocities need no case of their own.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +14,8 @@
 
 namespace carrom {
 
-/// A contact at `base` + `delay`; `base` is the later of the two local times. `delay` < 0 means none.
+/// A contact at `base` + `delay`; `base` is the later of the two local times. `delay` < 0 means
+/// none.
 template <class Real> struct PairContact {
     Real base = 0;
     Real delay = -1;
@@ -28,10 +31,13 @@ template <class Real> Real cross(Real ax, Real ay, Real bx, Real by) {
     return (p1 - p2) + (e1 - e2);
 }
 
-/// Time until points at separation (dx, dy) with relative velocity (wx, wy) come within `sigma`; negative for never.
-/// Pairs that overlap by more than `deepest_overlap` never do (infinity: they collide at once if they approach).
-/// Inlined wherever it is called: other laws that are compiled beside the plain one shall not change its code.
-template <class Real> [[gnu::always_inline]] inline Real contact_delay(Real dx, Real dy, Real wx, Real wy, Real sigma, Real deepest_overlap) {
+/// Time until points at separation (dx, dy) with relative velocity (wx, wy) come within `sigma`;
+/// negative for never. Pairs that overlap by more than `deepest_overlap` never do (infinity: they
+/// collide at once if they approach). Inlined wherever it is called: other laws that are compiled
+/// beside the plain one shall not change its code.
+template <class Real>
+[[gnu::always_inline]] inline Real contact_delay(Real dx, Real dy, Real wx, Real wy, Real sigma,
+                                                 Real deepest_overlap) {
     const Real none = -1;
     const Real b = dx * wx + dy * wy;
     if (!(b < 0)) return none;
@@ -50,17 +56,24 @@ template <class Real> [[gnu::always_inline]] inline Real contact_delay(Real dx, 
 
 /// The formula above as a choice that a law makes (another one: naive_contact.hpp).
 struct StableContact {
-    static constexpr bool keeps_digits = true;   ///< contacts are found where discs touch, to some roundings
-    static constexpr bool parts_overlaps = true; ///< discs that overlap and approach collide at once
+    static constexpr bool keeps_digits =
+        true; ///< contacts are found where discs touch, to some roundings
+    static constexpr bool parts_overlaps =
+        true; ///< discs that overlap and approach collide at once
 
-    template <class Real> [[gnu::always_inline]] static Real delay(Real dx, Real dy, Real wx, Real wy, Real sigma, Real deepest_overlap) {
+    template <class Real>
+    [[gnu::always_inline]] static Real delay(Real dx, Real dy, Real wx, Real wy, Real sigma,
+                                             Real deepest_overlap) {
         return contact_delay(dx, dy, wx, wy, sigma, deepest_overlap);
     }
 };
 
-/// The contact of discs `p` and `q` (any order) from their stored states alone: the same bits whoever asks, and when. Inlined as above.
+/// The contact of discs `p` and `q` (any order) from their stored states alone: the same bits
+/// whoever asks, and when. Inlined as above.
 template <class Real, class AnyDisc, class Formula = StableContact>
-[[gnu::always_inline]] inline PairContact<Real> pair_contact(const AnyDisc& p, const AnyDisc& q, Real sigma, Real deepest_overlap, Formula = {}) {
+[[gnu::always_inline]] inline PairContact<Real> pair_contact(const AnyDisc& p, const AnyDisc& q,
+                                                             Real sigma, Real deepest_overlap,
+                                                             Formula = {}) {
     const Real base = std::max(p.tau, q.tau);
     const Real dx = q.x_at(base) - p.x_at(base);
     const Real dy = q.y_at(base) - p.y_at(base);

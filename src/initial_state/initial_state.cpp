@@ -6,15 +6,15 @@
 
 #include <fmt/format.h>
 
-#include "initial_state/legacy_discs.hpp"
 #include "dynamics/obstacles.hpp"
+#include "initial_state/legacy_discs.hpp"
+#include "initial_state/random_insertion.hpp"
 #include "parallel/agreement.hpp"
 #include "parallel/exchange.hpp"
 #include "parallel/slabs.hpp"
 #include "scene/disc_reader.hpp"
 #include "scene/lattice.hpp"
 #include "scene/velocities.hpp"
-#include "initial_state/random_insertion.hpp"
 
 namespace carrom {
 
@@ -23,16 +23,18 @@ namespace {
 constexpr std::size_t chunk_size = std::size_t{1} << 16;
 
 /// Sends rank 0's chunk to the ranks whose share of ids holds its discs. **Collective.**
-void hand_out(const std::vector<InputDisc>& chunk, const Scene& scene, const Communicator& communicator,
-              std::vector<InputDisc>& discs) {
+void hand_out(const std::vector<InputDisc>& chunk, const Scene& scene,
+              const Communicator& communicator, std::vector<InputDisc>& discs) {
     std::vector<std::vector<InputDisc>> out(static_cast<std::size_t>(communicator.size()));
     for (const InputDisc& disc : chunk)
-        out[static_cast<std::size_t>(slab_of(disc.id, scene.n_discs, communicator.size()))].push_back(disc);
+        out[static_cast<std::size_t>(slab_of(disc.id, scene.n_discs, communicator.size()))]
+            .push_back(disc);
     const Received<InputDisc> in = send_to_owners(communicator, out);
     discs.insert(discs.end(), in.items.begin(), in.items.end());
 }
 
-std::vector<InputDisc> read_discs(const Scene& scene, std::istream* lines, const Communicator& communicator) {
+std::vector<InputDisc> read_discs(const Scene& scene, std::istream* lines,
+                                  const Communicator& communicator) {
     std::vector<InputDisc> discs, chunk;
     std::vector<Problem> problems;
     if (communicator.is_root()) {
@@ -67,7 +69,8 @@ std::vector<InputDisc> listed_discs(const Scene& scene, const Communicator& comm
     return {begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last)};
 }
 
-/// Coprime to n and near its golden section: sites taken in such strides mix classes, which come in the order of ids.
+/// Coprime to n and near its golden section: sites taken in such strides mix classes, which come in
+/// the order of ids.
 std::uint64_t mixing_stride(std::uint64_t n) {
     auto stride = static_cast<std::uint64_t>(0.6180339887498949 * static_cast<double>(n)) | 1;
     while (std::gcd(stride, n) != 1) stride += 2;
@@ -82,7 +85,8 @@ std::vector<InputDisc> lattice_discs(const Scene& scene, const Communicator& com
     discs.reserve(last - first);
     const std::uint64_t stride = scene.effects.species.empty() ? 1 : mixing_stride(scene.n_discs);
     for (DiscId id = first; id < last; ++id) {
-        const Point place = shaken_site(*lattice, id * stride % scene.n_discs, scene.seed); // below 2^64: ids are below 2^32
+        const Point place = shaken_site(*lattice, id * stride % scene.n_discs,
+                                        scene.seed); // below 2^64: ids are below 2^32
         discs.push_back({id, place.x, place.y, 0, 0});
     }
     return discs;
@@ -93,10 +97,14 @@ std::vector<InputDisc> legacy_discs(const Scene& scene, const Communicator& comm
     std::vector<Point> places;
     std::vector<Problem> problems;
     if (communicator.is_root()) {
-        if (auto found = legacy_positions(scene, random)) places = std::move(*found);
-        else problems.push_back({scene.name, 0, fmt::format("the box is too full for the legacy generator: it draws "
-                                                            "places for {} discs (packing {:.4g}) and finds none free",
-                                                            scene.n_discs, scene.packing())});
+        if (auto found = legacy_positions(scene, random))
+            places = std::move(*found);
+        else
+            problems.push_back(
+                {scene.name, 0,
+                 fmt::format("the box is too full for the legacy generator: it draws "
+                             "places for {} discs (packing {:.4g}) and finds none free",
+                             scene.n_discs, scene.packing())});
     }
     agree_on_problems(communicator, problems);
     std::vector<InputDisc> discs, chunk;
@@ -110,8 +118,10 @@ std::vector<InputDisc> legacy_discs(const Scene& scene, const Communicator& comm
     return discs;
 }
 
-/// Every listed disc has to be clear of all obstacles; the first few that are not are named. **Collective.**
-void refuse_in_obstacles(const Scene& scene, const std::vector<InputDisc>& discs, const Communicator& communicator) {
+/// Every listed disc has to be clear of all obstacles; the first few that are not are named.
+/// **Collective.**
+void refuse_in_obstacles(const Scene& scene, const std::vector<InputDisc>& discs,
+                         const Communicator& communicator) {
     constexpr std::size_t most_named = 5;
     if (!scene.effects.obstacles.are_any()) return;
     const Obstacles obstacles(scene.box_size, scene.radius, scene.effects);
@@ -119,10 +129,13 @@ void refuse_in_obstacles(const Scene& scene, const std::vector<InputDisc>& discs
     const double least = 2 * std::max(2e-12 * scene.radius, 32 * 0x1p-53 * scene.box_size);
     std::vector<Problem> problems;
     for (const InputDisc& disc : discs) {
-        const auto overlap = obstacles.deepest_overlap(disc.x, disc.y, species_table.of(disc.id).radius, least);
+        const auto overlap = obstacles.deepest_overlap(disc.x, disc.y,
+                                                       species_table.of(disc.id).radius, least);
         if (overlap.body == ObstacleContact::no_body || problems.size() == most_named) continue;
-        problems.push_back({scene.name, 0, fmt::format("disc {} at ({}, {}) overlaps {} by {:.3g}; move one of them", disc.id, disc.x, disc.y,
-                                                       obstacles.name_of(overlap.body), overlap.depth)});
+        problems.push_back(
+            {scene.name, 0,
+             fmt::format("disc {} at ({}, {}) overlaps {} by {:.3g}; move one of them", disc.id,
+                         disc.x, disc.y, obstacles.name_of(overlap.body), overlap.depth)});
     }
     agree_on_problems(communicator, problems);
 }
@@ -146,9 +159,12 @@ void set_velocities(const Scene& scene, std::vector<InputDisc>& discs) {
 
 } // namespace
 
-std::vector<InputDisc> initial_state(const Scene& scene, std::istream* lines, const Communicator& communicator) {
+std::vector<InputDisc> initial_state(const Scene& scene, std::istream* lines,
+                                     const Communicator& communicator) {
     if (scene.generator == Generator::file) {
-        std::vector<InputDisc> listed = scene.reads_disc_lines() ? read_discs(scene, lines, communicator) : listed_discs(scene, communicator);
+        std::vector<InputDisc> listed = scene.reads_disc_lines()
+                                            ? read_discs(scene, lines, communicator)
+                                            : listed_discs(scene, communicator);
         refuse_in_obstacles(scene, listed, communicator);
         return listed;
     }
@@ -156,7 +172,8 @@ std::vector<InputDisc> initial_state(const Scene& scene, std::istream* lines, co
     if (scene.generator == Generator::legacy) {
         discs = legacy_discs(scene, communicator);
     } else {
-        discs = scene.generator == Generator::lattice ? lattice_discs(scene, communicator) : insert_at_random(scene, communicator);
+        discs = scene.generator == Generator::lattice ? lattice_discs(scene, communicator)
+                                                      : insert_at_random(scene, communicator);
         set_velocities(scene, discs);
     }
     add_streams(scene, discs);

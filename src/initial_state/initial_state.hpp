@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discs a scene starts with, spread over the ranks: generated where it asks for that, read where it lists them.
+// The discs a scene starts with, spread over the ranks: generated where it asks for that, read
+// where it lists them.
 #pragma once
 
 #include <istream>
@@ -10,9 +11,11 @@
 
 namespace carrom {
 
-/// Every disc of the scene exactly once, each on some rank; no rank holds more than its share and a bounded chunk.
-/// `lines` is the stream of listed discs on rank 0 (null where the scene generates); its problems become an InputError
-/// on every rank. Scenes with a generator give the same discs for any number of ranks. **Collective.**
-std::vector<InputDisc> initial_state(const Scene& scene, std::istream* lines, const Communicator& communicator);
+/// Every disc of the scene exactly once, each on some rank; no rank holds more than its share and a
+/// bounded chunk. `lines` is the stream of listed discs on rank 0 (null where the scene generates);
+/// its problems become an InputError on every rank. Scenes with a generator give the same discs for
+/// any number of ranks. **Collective.**
+std::vector<InputDisc> initial_state(const Scene& scene, std::istream* lines,
+                                     const Communicator& communicator);
 
 } // namespace carrom

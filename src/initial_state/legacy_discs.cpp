@@ -12,7 +12,7 @@ namespace {
 // Random insertion needs some 50 draws a disc at a packing of 0.5 and jams at 0.54.
 constexpr std::uint64_t most_draws_of_a_disc = 1'000'000;
 constexpr std::uint64_t mean_draws_of_all = 500;
-}
+} // namespace
 
 LegacyRandom::LegacyRandom(unsigned seed) { initstate_r(seed, state_, sizeof state_, &data_); }
 
@@ -23,7 +23,8 @@ double LegacyRandom::uniform(double low, double high) {
 }
 
 std::optional<std::vector<Point>> legacy_positions(const Scene& scene, LegacyRandom& random) {
-    const double low = scene.radius, high = scene.box_size - scene.radius, diameter = 2 * scene.radius;
+    const double low = scene.radius, high = scene.box_size - scene.radius,
+                 diameter = 2 * scene.radius;
     PointGrid grid(0, scene.box_size, scene.box_size, diameter, static_cast<double>(scene.n_discs));
     std::vector<Point> places;
     places.reserve(scene.n_discs);
@@ -31,7 +32,8 @@ std::optional<std::vector<Point>> legacy_positions(const Scene& scene, LegacyRan
     while (places.size() < scene.n_discs) {
         Point place;
         bool is_free = false;
-        for (std::uint64_t draw = 0; !is_free && draw < most_draws_of_a_disc && draws_left > 0; ++draw, --draws_left) {
+        for (std::uint64_t draw = 0; !is_free && draw < most_draws_of_a_disc && draws_left > 0;
+             ++draw, --draws_left) {
             place.x = random.uniform(low, high);
             place.y = random.uniform(low, high);
             is_free = !grid.any_near(place, [&](std::uint32_t k) {

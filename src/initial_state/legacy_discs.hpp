@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discs of the legacy generator, number for number: C `rand`, seeded; all positions first, x then y, uniform
-// in [r, L-r] and drawn anew on overlap; then for each disc its speed, uniform in L/8r .. L/4, and its angle.
+// The discs of the legacy generator, number for number: C `rand`, seeded; all positions first, x
+// then y, uniform in [r, L-r] and drawn anew on overlap; then for each disc its speed, uniform in
+// L/8r .. L/4, and its angle.
 //
-// The sequence is glibc's (its reentrant random_r with 128 bytes of state, what rand uses), the sine and cosine are the
-// C library's: the one place where the scene depends on them. Serial by nature: one rank draws, O(1) a draw by a grid.
+// The sequence is glibc's (its reentrant random_r with 128 bytes of state, what rand uses), the
+// sine and cosine are the C library's: the one place where the scene depends on them. Serial by
+// nature: one rank draws, O(1) a draw by a grid.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +33,8 @@ private:
     random_data data_{};
 };
 
-/// All positions by id, or nothing where the box is too full to find them in a bounded number of draws.
+/// All positions by id, or nothing where the box is too full to find them in a bounded number of
+/// draws.
 std::optional<std::vector<Point>> legacy_positions(const Scene& scene, LegacyRandom& random);
 
 /// The next disc's velocity per step; ask in the order of ids, after the positions.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points in square cells at least `reach` wide, so that all points within `reach` of a place lie in its own cell or the
-// eight around it. Linked lists: adding a point is O(1), and 4 bytes each for a point and for a cell.
+// Points in square cells at least `reach` wide, so that all points within `reach` of a place lie in
+// its own cell or the eight around it. Linked lists: adding a point is O(1), and 4 bytes each for a
+// point and for a cell.
 //
-// The grid knows points by number only; the caller keeps their coordinates and decides what near means. Clearing costs
-// as much as was added, not as many cells as there are.
+// The grid knows points by number only; the caller keeps their coordinates and decides what near
+// means. Clearing costs as much as was added, not as many cells as there are.
 #pragma once
 
 #include <algorithm>
@@ -17,11 +18,14 @@ namespace carrom {
 
 class PointGrid {
 public:
-    /// Covers [x_low, x_high] x [0, height], with about two cells for each of `n_points` unless `reach` needs fewer.
-    PointGrid(double x_low, double x_high, double height, double reach, double n_points) : x_low_(x_low) {
+    /// Covers [x_low, x_high] x [0, height], with about two cells for each of `n_points` unless
+    /// `reach` needs fewer.
+    PointGrid(double x_low, double x_high, double height, double reach, double n_points)
+        : x_low_(x_low) {
         const double width = std::max(x_high - x_low, reach);
         // The margin outweighs the rounding of `column` and `row`.
-        const double cell = std::max(reach * (1 + 1e-9), std::sqrt(width * height / (2 * n_points + 1)));
+        const double cell = std::max(reach * (1 + 1e-9),
+                                     std::sqrt(width * height / (2 * n_points + 1)));
         per_length_ = 1 / cell;
         columns_ = static_cast<std::uint64_t>(width * per_length_) + 1;
         rows_ = static_cast<std::uint64_t>(height * per_length_) + 1;
@@ -38,7 +42,8 @@ public:
     /// Whether `is_hit(number)` holds for any point near `place`; stops at the first.
     template <class IsHit> bool any_near(Point place, const IsHit& is_hit) const {
         const std::uint64_t c = column(place.x), r = row(place.y);
-        const std::uint64_t last_column = std::min(c + 1, columns_ - 1), last_row = std::min(r + 1, rows_ - 1);
+        const std::uint64_t last_column = std::min(c + 1, columns_ - 1),
+                            last_row = std::min(r + 1, rows_ - 1);
         for (std::uint64_t i = c - (c > 0); i <= last_column; ++i)
             for (std::uint64_t j = r - (r > 0); j <= last_row; ++j)
                 for (std::uint32_t k = heads_[i * rows_ + j]; k != none; k = next_[k])

@@ -9,20 +9,22 @@
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
+#include "core/random_numbers.hpp"
 #include "dynamics/obstacles.hpp"
+#include "initial_state/point_grid.hpp"
 #include "parallel/exchange.hpp"
 #include "parallel/slabs.hpp"
 #include "scene/lattice.hpp"
-#include "core/random_numbers.hpp"
-#include "initial_state/point_grid.hpp"
 
 namespace carrom {
 
 namespace {
 
-constexpr std::uint64_t most_idle_rounds = 10000; ///< without any disc finding a place, before all starts anew
+constexpr std::uint64_t most_idle_rounds =
+    10000; ///< without any disc finding a place, before all starts anew
 constexpr std::uint64_t most_starts = 10;
-constexpr DiscId copy_mark = DiscId{1} << 63;     ///< on the id of a neighbour's disc among the placed ones
+constexpr DiscId copy_mark = DiscId{1}
+                             << 63; ///< on the id of a neighbour's disc among the placed ones
 
 /// A proposal, or the news of a place taken near a strip's edge.
 struct Notice {
@@ -35,8 +37,11 @@ class Insertion {
 public:
     Insertion(const Scene& scene, const Communicator& communicator, std::uint64_t start)
         : scene_(scene), communicator_(communicator), start_(start), diameter_(2 * scene.radius),
-          species_(scene.effects.species, scene.radius), periods_(scene.effects.periods(scene.box_size)), placed_grid_(grid()), proposal_grid_(grid()) {
-        if (scene.effects.obstacles.are_any()) obstacles_.emplace(scene.box_size, scene.radius, scene.effects);
+          species_(scene.effects.species, scene.radius),
+          periods_(scene.effects.periods(scene.box_size)), placed_grid_(grid()),
+          proposal_grid_(grid()) {
+        if (scene.effects.obstacles.are_any())
+            obstacles_.emplace(scene.box_size, scene.radius, scene.effects);
         placed_.reserve(static_cast<std::size_t>(1.1 * share()) + 100);
     }
 
@@ -46,10 +51,12 @@ public:
         for (const Species& one : scene_.effects.species) radii.push_back(one.radius);
         std::sort(radii.begin(), radii.end(), std::greater<>());
         radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
-        for (const double radius : radii) { // the largest first: they find no room among smaller ones
+        for (const double radius :
+             radii) { // the largest first: they find no room among smaller ones
             if (!place_all_of(radius)) return std::nullopt;
         }
-        placed_.erase(std::remove_if(placed_.begin(), placed_.end(), [](const InputDisc& d) { return (d.id & copy_mark) != 0; }),
+        placed_.erase(std::remove_if(placed_.begin(), placed_.end(),
+                                     [](const InputDisc& d) { return (d.id & copy_mark) != 0; }),
                       placed_.end());
         return std::move(placed_);
     }
@@ -61,12 +68,14 @@ private:
         const std::uint64_t first = slab_begin(communicator_.rank(), n, communicator_.size());
         const std::uint64_t last = slab_begin(communicator_.rank() + 1, n, communicator_.size());
         for (std::uint64_t id = first; id < last; ++id)
-            if (species_.of(id).radius == radius) unplaced_.push_back(static_cast<std::uint32_t>(id));
+            if (species_.of(id).radius == radius)
+                unplaced_.push_back(static_cast<std::uint32_t>(id));
         std::uint64_t n_left = communicator_.sum(std::uint64_t{unplaced_.size()}), idle_rounds = 0;
         for (std::uint64_t round = 0; n_left > 0 && idle_rounds < most_idle_rounds; ++round) {
             exchange(round);
             judge();
-            const std::uint64_t n_before = std::exchange(n_left, communicator_.sum(std::uint64_t{unplaced_.size()}));
+            const std::uint64_t n_before = std::exchange(
+                n_left, communicator_.sum(std::uint64_t{unplaced_.size()}));
             idle_rounds = n_left < n_before ? 0 : idle_rounds + 1;
         }
         return n_left == 0;
@@ -76,7 +85,8 @@ private:
 
     PointGrid grid() const {
         const double strip = scene_.box_size / communicator_.size();
-        const double low = strip * communicator_.rank() - margin(), high = strip * (communicator_.rank() + 1) + margin();
+        const double low = strip * communicator_.rank() - margin(),
+                     high = strip * (communicator_.rank() + 1) + margin();
         return {low, high, scene_.box_size, diameter_, share()};
     }
 
@@ -84,32 +94,39 @@ private:
 
     std::size_t owner(double x) const {
         const double strip = x / scene_.box_size * communicator_.size();
-        return static_cast<std::size_t>(std::clamp(static_cast<int>(strip), 0, communicator_.size() - 1));
+        return static_cast<std::size_t>(
+            std::clamp(static_cast<int>(strip), 0, communicator_.size() - 1));
     }
 
     Point proposal(DiscId id, std::uint64_t round) const {
         const auto words = random_words(scene_.seed, Purpose::position, id, round, start_);
         const double radius = species_.of(id).radius;
         const auto place = [this, radius](double period, double number) {
-            const double low = period == 0 ? radius : 0, high = period == 0 ? scene_.box_size - radius : period;
+            const double low = period == 0 ? radius : 0,
+                         high = period == 0 ? scene_.box_size - radius : period;
             return std::min(low + (high - low) * number, high);
         };
         return {place(periods_.x, unit_number(words[0])), place(periods_.y, unit_number(words[1]))};
     }
 
-    /// Calls `visit(rank)` for each rank whose strip is within the margin of `x` or one of its images.
+    /// Calls `visit(rank)` for each rank whose strip is within the margin of `x` or one of its
+    /// images.
     template <class Visit> void visit_concerned(double x, const Visit& visit) const {
         const std::size_t first = owner(x - margin()), last = owner(x + margin());
         for (std::size_t k = first; k <= last; ++k) visit(k);
         if (periods_.x == 0) return;
         if (x < margin())
-            for (std::size_t k = std::max(last + 1, owner(x + periods_.x - margin())); k < n_ranks(); ++k) visit(k);
+            for (std::size_t k = std::max(last + 1, owner(x + periods_.x - margin()));
+                 k < n_ranks(); ++k)
+                visit(k);
         if (x > periods_.x - margin())
-            for (std::size_t k = 0; k < first && k <= owner(x - periods_.x + margin()); ++k) visit(k);
+            for (std::size_t k = 0; k < first && k <= owner(x - periods_.x + margin()); ++k)
+                visit(k);
     }
     std::size_t n_ranks() const { return static_cast<std::size_t>(communicator_.size()); }
 
-    /// Brings the round's proposals to whom they concern, together with the last round's news. **Collective.**
+    /// Brings the round's proposals to whom they concern, together with the last round's news.
+    /// **Collective.**
     void exchange(std::uint64_t round) {
         std::vector<std::vector<Notice>> out(static_cast<std::size_t>(communicator_.size()));
         const auto me = static_cast<std::size_t>(communicator_.rank());
@@ -121,18 +138,23 @@ private:
         updates_.clear();
         for (const std::uint32_t id : unplaced_) {
             const Point place = proposal(id, round);
-            visit_concerned(place.x, [&](std::size_t k) { out[k].push_back({place.x, place.y, id, 0}); });
+            visit_concerned(place.x,
+                            [&](std::size_t k) { out[k].push_back({place.x, place.y, id, 0}); });
         }
         proposals_ = out.size() == 1 ? std::move(out[0]) : send_to_owners(communicator_, out).items;
         unplaced_.clear();
     }
 
     void judge() {
-        const auto first_proposal = std::partition(proposals_.begin(), proposals_.end(), [](const Notice& n) { return n.is_placed; });
-        for (auto updates = proposals_.begin(); updates != first_proposal; ++updates) place({copy_mark | updates->id, updates->x, updates->y, 0, 0});
+        const auto first_proposal = std::partition(proposals_.begin(), proposals_.end(),
+                                                   [](const Notice& n) { return n.is_placed; });
+        for (auto updates = proposals_.begin(); updates != first_proposal; ++updates)
+            place({copy_mark | updates->id, updates->x, updates->y, 0, 0});
         proposals_.erase(proposals_.begin(), first_proposal);
-        // The verdicts do not depend on the order; memory does: columns of cells that are near in x are near in memory.
-        std::sort(proposals_.begin(), proposals_.end(), [](const Notice& a, const Notice& b) { return a.x < b.x; });
+        // The verdicts do not depend on the order; memory does: columns of cells that are near in x
+        // are near in memory.
+        std::sort(proposals_.begin(), proposals_.end(),
+                  [](const Notice& a, const Notice& b) { return a.x < b.x; });
         for (const Notice& notice : proposals_) proposal_grid_.add({notice.x, notice.y});
         for (const Notice& notice : proposals_) {
             if (owner(notice.x) != static_cast<std::size_t>(communicator_.rank())) continue;
@@ -146,18 +168,22 @@ private:
         proposal_grid_.clear(proposals_);
     }
 
-    /// Whether discs accepted earlier in this round are seen here makes no difference: they have lower ids and overlap,
-    /// or they do not overlap.
+    /// Whether discs accepted earlier in this round are seen here makes no difference: they have
+    /// lower ids and overlap, or they do not overlap.
     bool is_refused(const Notice& notice) const {
-        if (obstacles_ && obstacles_->deepest_overlap(notice.x, notice.y, species_.of(notice.id).radius, 0).body != ObstacleContact::no_body) return true;
+        if (obstacles_ &&
+            obstacles_->deepest_overlap(notice.x, notice.y, species_.of(notice.id).radius, 0)
+                    .body != ObstacleContact::no_body)
+            return true;
         if (is_refused_at({notice.x, notice.y}, notice)) return true;
         if (!periods_.are_any()) return false;
-        // Discs across a seam are near its images; grids file what is beyond their ends with what is at them.
+        // Discs across a seam are near its images; grids file what is beyond their ends with what
+        // is at them.
         for (const double dx : {-periods_.x, 0.0, periods_.x}) {
             for (const double dy : {-periods_.y, 0.0, periods_.y}) {
                 const Point image{notice.x + dx, notice.y + dy};
-                const bool is_near = image.x > -margin() && image.x < scene_.box_size + margin() && image.y > -margin() &&
-                                     image.y < scene_.box_size + margin();
+                const bool is_near = image.x > -margin() && image.x < scene_.box_size + margin() &&
+                                     image.y > -margin() && image.y < scene_.box_size + margin();
                 if ((dx != 0 || dy != 0) && is_near && is_refused_at(image, notice)) return true;
             }
         }
@@ -167,14 +193,17 @@ private:
     bool is_refused_at(Point at, Notice notice) const {
         notice.x = at.x;
         notice.y = at.y;
-        return placed_grid_.any_near(at, [&](std::uint32_t k) { return overlaps(notice, placed_[k].id & ~copy_mark, placed_[k].x, placed_[k].y); }) ||
-               proposal_grid_.any_near(at, [&](std::uint32_t k) {
-                   return proposals_[k].id < notice.id && overlaps(notice, proposals_[k].id, proposals_[k].x, proposals_[k].y);
-               });
+        return placed_grid_.any_near(at, [&](std::uint32_t k) {
+            return overlaps(notice, placed_[k].id & ~copy_mark, placed_[k].x, placed_[k].y);
+        }) || proposal_grid_.any_near(at, [&](std::uint32_t k) {
+            return proposals_[k].id < notice.id &&
+                   overlaps(notice, proposals_[k].id, proposals_[k].x, proposals_[k].y);
+        });
     }
 
     bool overlaps(const Notice& a, DiscId other, double x, double y) const {
-        const double dx = x - a.x, dy = y - a.y, distance = species_.of(a.id).radius + species_.of(other).radius;
+        const double dx = x - a.x, dy = y - a.y,
+                     distance = species_.of(a.id).radius + species_.of(other).radius;
         return dx * dx + dy * dy < distance * distance;
     }
 
@@ -199,8 +228,9 @@ private:
     SpeciesTable species_;
     Periods periods_;
     PointGrid placed_grid_, proposal_grid_;
-    std::vector<InputDisc> placed_;        ///< own discs and, with the mark, those within a diameter of the strip
-    std::vector<std::uint32_t> unplaced_;  ///< discs whose last proposal was refused here
+    std::vector<InputDisc>
+        placed_; ///< own discs and, with the mark, those within a diameter of the strip
+    std::vector<std::uint32_t> unplaced_; ///< discs whose last proposal was refused here
     std::vector<Notice> proposals_, updates_;
 };
 
@@ -209,9 +239,12 @@ private:
 std::vector<InputDisc> insert_at_random(const Scene& scene, const Communicator& communicator) {
     for (std::uint64_t start = 0; start < most_starts; ++start)
         if (auto discs = Insertion(scene, communicator, start).run()) return std::move(*discs);
-    const std::string remedy = scene.effects.obstacles.are_any() ? "leave more room beside the obstacles" : "set discs.generator to \"lattice\"";
+    const std::string remedy = scene.effects.obstacles.are_any()
+                                   ? "leave more room beside the obstacles"
+                                   : "set discs.generator to \"lattice\"";
     throw InputError({{scene.name, 0,
-                       fmt::format("random insertion of {} discs (packing {:.4g}) found no arrangement in {} tries; {}, or "
+                       fmt::format("random insertion of {} discs (packing {:.4g}) found no "
+                                   "arrangement in {} tries; {}, or "
                                    "set another discs.seed",
                                    scene.n_discs, scene.packing(), most_starts, remedy)}});
 }

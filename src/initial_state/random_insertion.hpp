@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Random positions without overlaps, found by all ranks together, the same for any number of them.
 //
-// In round k every disc without a place proposes one, a pure function of (seed, id, k), uniform in [r, L-r]^2. It is
-// refused if it overlaps a disc that has its place, or a proposal of the same round with a lower id; otherwise it is
-// the disc's place. Proposals are judged by the rank whose strip of x holds them, which also hears of everything within
-// a diameter of its strip: one exchange a round. At a packing of 0.3 some 150 rounds and 3 proposals a disc; the cost
-// explodes towards 0.54, where random insertion jams. About 80 bytes a disc, shared out over the ranks.
+// In round k every disc without a place proposes one, a pure function of (seed, id, k), uniform in
+// [r, L-r]^2. It is refused if it overlaps a disc that has its place, or a proposal of the same
+// round with a lower id; otherwise it is the disc's place. Proposals are judged by the rank whose
+// strip of x holds them, which also hears of everything within a diameter of its strip: one
+// exchange a round. At a packing of 0.3 some 150 rounds and 3 proposals a disc; the cost explodes
+// towards 0.54, where random insertion jams. About 80 bytes a disc, shared out over the ranks.
 #pragma once
 
 #include <vector>
@@ -15,8 +16,8 @@
 
 namespace carrom {
 
-/// The scene's discs with places and without velocities, each on the rank whose strip holds it. InputError on every
-/// rank where no arrangement is found. **Collective.**
+/// The scene's discs with places and without velocities, each on the rank whose strip holds it.
+/// InputError on every rank where no arrangement is found. **Collective.**
 std::vector<InputDisc> insert_at_random(const Scene& scene, const Communicator& communicator);
 
 } // namespace carrom

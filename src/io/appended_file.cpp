@@ -61,8 +61,8 @@ void AppendedFile::commit() {
     journal_.commit(file.size());
 }
 
-void create_growing(hid_t parent, const char* name, hid_t type, std::span<const hsize_t> row, std::span<const hsize_t> chunk,
-                    int level) {
+void create_growing(hid_t parent, const char* name, hid_t type, std::span<const hsize_t> row,
+                    std::span<const hsize_t> chunk, int level) {
     const h5::Properties creation = h5::dataset_creation();
     std::vector<hsize_t> dimensions = {0}, largest = {H5S_UNLIMITED};
     dimensions.insert(dimensions.end(), row.begin(), row.end());
@@ -73,8 +73,10 @@ void create_growing(hid_t parent, const char* name, hid_t type, std::span<const 
         h5::checked(H5Pset_deflate(creation.id(), static_cast<unsigned>(level)), name);
     }
     h5::checked(H5Pset_fletcher32(creation.id()), name);
-    h5::Dataset dataset(h5::checked(
-        H5Dcreate2(parent, name, type, h5::space(dimensions, largest).id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT), name));
+    h5::Dataset dataset(
+        h5::checked(H5Dcreate2(parent, name, type, h5::space(dimensions, largest).id(), H5P_DEFAULT,
+                               creation.id(), H5P_DEFAULT),
+                    name));
     dataset.close(name);
 }
 
@@ -86,13 +88,18 @@ void set_length(hid_t parent, const char* name, hsize_t length) {
     dataset.close(name);
 }
 
-hsize_t length_of(hid_t parent, const char* name) { return h5::dimensions_of(h5::open_checked(parent, name, {std::nullopt}).id()).front(); }
+hsize_t length_of(hid_t parent, const char* name) {
+    return h5::dimensions_of(h5::open_checked(parent, name, {std::nullopt}).id()).front();
+}
 
-void write_block(hid_t parent, const char* name, std::span<const hsize_t> start, std::span<const hsize_t> count, hid_t type,
-                 const void* values) {
+void write_block(hid_t parent, const char* name, std::span<const hsize_t> start,
+                 std::span<const hsize_t> count, hid_t type, const void* values) {
     h5::Dataset dataset = h5::open_dataset(parent, name);
-    const h5::Space target(h5::checked(H5Dget_space(dataset.id()), name)), memory = h5::space(count);
-    h5::checked(H5Sselect_hyperslab(target.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), name);
+    const h5::Space target(h5::checked(H5Dget_space(dataset.id()), name)),
+        memory = h5::space(count);
+    h5::checked(H5Sselect_hyperslab(target.id(), H5S_SELECT_SET, start.data(), nullptr,
+                                    count.data(), nullptr),
+                name);
     h5::checked(H5Dwrite(dataset.id(), type, memory.id(), target.id(), H5P_DEFAULT, values), name);
     dataset.close(name);
 }
@@ -100,14 +107,21 @@ void write_block(hid_t parent, const char* name, std::span<const hsize_t> start,
 hsize_t count_up_to(hid_t parent, const char* name, std::int64_t last) {
     const h5::Dataset dataset = h5::open_checked(parent, name, {std::nullopt});
     hsize_t low = 0, high = h5::dimensions_of(dataset.id()).front();
-    const h5::Space target(h5::checked(H5Dget_space(dataset.id()), name)), memory = h5::scalar_space();
+    const h5::Space target(h5::checked(H5Dget_space(dataset.id()), name)),
+        memory = h5::scalar_space();
     while (low < high) { // by halves: a log of collisions may have billions
         const hsize_t middle = low + (high - low) / 2, one = 1;
         std::int64_t number = 0;
-        h5::checked(H5Sselect_hyperslab(target.id(), H5S_SELECT_SET, &middle, nullptr, &one, nullptr), name);
-        h5::checked(H5Dread(dataset.id(), H5T_NATIVE_INT64, memory.id(), target.id(), H5P_DEFAULT, &number), name);
-        if (number <= last) low = middle + 1;
-        else high = middle;
+        h5::checked(
+            H5Sselect_hyperslab(target.id(), H5S_SELECT_SET, &middle, nullptr, &one, nullptr),
+            name);
+        h5::checked(
+            H5Dread(dataset.id(), H5T_NATIVE_INT64, memory.id(), target.id(), H5P_DEFAULT, &number),
+            name);
+        if (number <= last)
+            low = middle + 1;
+        else
+            high = middle;
     }
     return low;
 }
@@ -115,7 +129,9 @@ hsize_t count_up_to(hid_t parent, const char* name, std::int64_t last) {
 std::vector<std::int64_t> read_numbers(hid_t parent, const char* name) {
     const h5::Dataset dataset = h5::open_checked(parent, name, {std::nullopt});
     std::vector<std::int64_t> numbers(h5::dimensions_of(dataset.id()).front());
-    h5::checked(H5Dread(dataset.id(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()), name);
+    h5::checked(
+        H5Dread(dataset.id(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()),
+        name);
     return numbers;
 }
 

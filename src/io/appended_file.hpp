@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An HDF5 file that grows while a run goes on: written by rank 0, closed between two additions so that others can read
-// it meanwhile, and safe from kills by an UndoJournal.
+// An HDF5 file that grows while a run goes on: written by rank 0, closed between two additions so
+// that others can read it meanwhile, and safe from kills by an UndoJournal.
 //
-// These are calls of one rank; all throw FileError. After a failure the file is as it was at the last commit.
+// These are calls of one rank; all throw FileError. After a failure the file is as it was at the
+// last commit.
 #pragma once
 
 #include <cstdint>
@@ -32,8 +33,9 @@ public:
     /// Goes on with a file: cuts it back to its last commit. False where there is none.
     bool reopen();
 
-    /// Opens the file to add to it, any number of times, and closes it. What goes wrong in an `attempt` is thrown by
-    /// `close`: a rank that writes what others send goes on receiving till then.
+    /// Opens the file to add to it, any number of times, and closes it. What goes wrong in an
+    /// `attempt` is thrown by `close`: a rank that writes what others send goes on receiving till
+    /// then.
     void open();
     void attempt(const Act& act);
     void close();
@@ -55,18 +57,18 @@ private:
     std::string failure_;
 };
 
-/// A dataset whose first axis grows, 0 long at first; `row` are its other dimensions. `chunk` has all of them. `level` 0
-/// to 9: deflate.
-void create_growing(hid_t parent, const char* name, hid_t type, std::span<const hsize_t> row, std::span<const hsize_t> chunk,
-                    int level);
+/// A dataset whose first axis grows, 0 long at first; `row` are its other dimensions. `chunk` has
+/// all of them. `level` 0 to 9: deflate.
+void create_growing(hid_t parent, const char* name, hid_t type, std::span<const hsize_t> row,
+                    std::span<const hsize_t> chunk, int level);
 
 /// Sets the length of the first axis.
 void set_length(hid_t parent, const char* name, hsize_t length);
 hsize_t length_of(hid_t parent, const char* name);
 
 /// Writes a block that begins at `start` and is `count` long along each axis.
-void write_block(hid_t parent, const char* name, std::span<const hsize_t> start, std::span<const hsize_t> count, hid_t type,
-                 const void* values);
+void write_block(hid_t parent, const char* name, std::span<const hsize_t> start,
+                 std::span<const hsize_t> count, hid_t type, const void* values);
 
 /// How many of the ascending numbers of a dataset are <= `last`.
 hsize_t count_up_to(hid_t parent, const char* name, std::int64_t last);

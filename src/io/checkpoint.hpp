@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run's state at the end of a step, in one HDF5 file from which any number of ranks can go on with the same bits.
+// A run's state at the end of a step, in one HDF5 file from which any number of ranks can go on
+// with the same bits.
 //
-// Discs stand in the order of their ids, so the file does not show which ranks wrote it. /carrom/discs holds the stored
-// state, column by column, to the bit; /carrom/run what the run is; /particles/discs the same discs as tools for
-// trajectories expect them (H5MD; positions at the time of the step, in single precision). A seal over all bytes tells
-// a whole file from a damaged one (src/io/seal.hpp).
+// Discs stand in the order of their ids, so the file does not show which ranks wrote it.
+// /carrom/discs holds the stored state, column by column, to the bit; /carrom/run what the run is;
+// /particles/discs the same discs as tools for trajectories expect them (H5MD; positions at the
+// time of the step, in single precision). A seal over all bytes tells a whole file from a damaged
+// one (src/io/seal.hpp).
 //
-// Each rank writes its share of the ids to where rank 0 has made room for it, and reads its share through MPI-IO. Price
-// of writing: 80 bytes a disc to disk, a disc sent once if it is another rank's, 8 bytes a disc of memory and some megabytes;
-// 8 bytes more to disk for discs that turn, and 24 of memory.
+// Each rank writes its share of the ids to where rank 0 has made room for it, and reads its share
+// through MPI-IO. Price of writing: 80 bytes a disc to disk, a disc sent once if it is another
+// rank's, 8 bytes a disc of memory and some megabytes; 8 bytes more to disk for discs that turn,
+// and 24 of memory.
 #pragma once
 
 #include <cstdint>
@@ -38,41 +41,52 @@ struct CheckpointHeader {
 
     std::int64_t step = 0, micro_steps_done = 0;
     std::uint64_t n_discs = 0;
-    std::uint64_t wall_collisions = 0, pair_collisions = 0; ///< sums of the discs' counters; a pair counts once
+    std::uint64_t wall_collisions = 0,
+                  pair_collisions = 0; ///< sums of the discs' counters; a pair counts once
     std::string state_hash;
     Frame frame; ///< that the discs' coordinates are in; in the file only where it moves
-    std::vector<Species> species; ///< where a file of discs had them, for the scene's text has not; else empty
-    bool has_spins = false; ///< discs turn; the file has their spins then, and the state hash covers them
+    std::vector<Species>
+        species; ///< where a file of discs had them, for the scene's text has not; else empty
+    bool has_spins =
+        false; ///< discs turn; the file has their spins then, and the state hash covers them
 
-    /// Micro-steps since the last sync, or what the frame's clock makes of them: the time that the discs' own times belong to.
-    double clock() const { return frame.is_moving ? frame.clock : static_cast<double>(micro_steps_done % sync_every); }
+    /// Micro-steps since the last sync, or what the frame's clock makes of them: the time that the
+    /// discs' own times belong to.
+    double clock() const {
+        return frame.is_moving ? frame.clock : static_cast<double>(micro_steps_done % sync_every);
+    }
 };
 
-/// Says in words how the run `there` differs from the present one; nothing where it does not. Called on rank 0.
+/// Says in words how the run `there` differs from the present one; nothing where it does not.
+/// Called on rank 0.
 using DifferenceFrom = std::function<std::string(const CheckpointHeader& there)>;
 
-/// Writes `discs`, spread over the ranks in any way, as a whole file or not at all: beside its place first, brought to
-/// disk, then renamed; with `n_threads` threads a rank, and one that writes. `spins`, per micro-step, run along the discs where the header has some. The header's
-/// last four numbers and its hash are filled in here. If it fails on any rank every rank throws CollectiveError, code 4, and an older file of
-/// that name is as it was. **Collective.**
-void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs, const Communicator& communicator,
-                      int n_threads = 1, const StoredSamples& samples = {}, std::span<const double> spins = {});
+/// Writes `discs`, spread over the ranks in any way, as a whole file or not at all: beside its
+/// place first, brought to disk, then renamed; with `n_threads` threads a rank, and one that
+/// writes. `spins`, per micro-step, run along the discs where the header has some. The header's
+/// last four numbers and its hash are filled in here. If it fails on any rank every rank throws
+/// CollectiveError, code 4, and an older file of that name is as it was. **Collective.**
+void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs,
+                      const Communicator& communicator, int n_threads = 1,
+                      const StoredSamples& samples = {}, std::span<const double> spins = {});
 
 struct Checkpoint {
     CheckpointHeader header;
-    std::vector<Disc> discs; ///< this rank's share of the ids, see slabs.hpp
+    std::vector<Disc> discs;   ///< this rank's share of the ids, see slabs.hpp
     std::vector<double> spins; ///< along the discs; empty where the header has none
     StoredSamples samples;
 };
 
-/// Reads a checkpoint. If it is damaged in any way, or none, every rank throws CollectiveError, code 2, with the reason
-/// after the path. **Collective.**
+/// Reads a checkpoint. If it is damaged in any way, or none, every rank throws CollectiveError,
+/// code 2, with the reason after the path. **Collective.**
 Checkpoint read_checkpoint(const std::string& path, const Communicator& communicator);
 
-/// The same without the discs; the file is read to its end all the same, for its checksum. **Collective.**
+/// The same without the discs; the file is read to its end all the same, for its checksum.
+/// **Collective.**
 CheckpointHeader read_checkpoint_header(const std::string& path, const Communicator& communicator);
 
-/// Throws like `read_checkpoint` where a file is a checkpoint and damaged; does nothing for other files. **Collective.**
+/// Throws like `read_checkpoint` where a file is a checkpoint and damaged; does nothing for other
+/// files. **Collective.**
 void check_damage(const std::string& path, const Communicator& communicator);
 
 } // namespace carrom

@@ -19,13 +19,14 @@ struct Column {
     std::variant<double Disc::*, std::uint64_t Disc::*> field;
 };
 
-inline constexpr std::array<Column, 7> checkpoint_columns = {{{"x", &Disc::x},
-                                                              {"y", &Disc::y},
-                                                              {"vx", &Disc::vx},
-                                                              {"vy", &Disc::vy},
-                                                              {"tau", &Disc::tau},
-                                                              {"wall_collisions", &Disc::wall_collisions},
-                                                              {"pair_collisions", &Disc::pair_collisions}}};
+inline constexpr std::array<Column, 7> checkpoint_columns = {
+    {{"x", &Disc::x},
+     {"y", &Disc::y},
+     {"vx", &Disc::vx},
+     {"vy", &Disc::vy},
+     {"tau", &Disc::tau},
+     {"wall_collisions", &Disc::wall_collisions},
+     {"pair_collisions", &Disc::pair_collisions}}};
 
 /// One more, of doubles, where discs turn: angles per micro-step.
 inline constexpr const char* spin_column = "/carrom/discs/spin";
@@ -33,8 +34,8 @@ inline constexpr const char* spin_column = "/carrom/discs/spin";
 /// A dataset of /carrom/run: one value.
 struct HeaderField {
     const char* name;
-    std::variant<std::string CheckpointHeader::*, double CheckpointHeader::*, std::int64_t CheckpointHeader::*,
-                 std::uint64_t CheckpointHeader::*>
+    std::variant<std::string CheckpointHeader::*, double CheckpointHeader::*,
+                 std::int64_t CheckpointHeader::*, std::uint64_t CheckpointHeader::*>
         field;
 };
 
@@ -61,7 +62,7 @@ inline constexpr std::array<HeaderField, 17> checkpoint_header = {
 /// The same for a frame that moves.
 struct FrameField {
     const char* name;
-    double Frame::*field;
+    double Frame::* field;
 };
 inline constexpr std::array<FrameField, 6> checkpoint_frame = {{{"frame_x", &Frame::x},
                                                                 {"frame_y", &Frame::y},
@@ -73,34 +74,40 @@ inline constexpr std::array<FrameField, 6> checkpoint_frame = {{{"frame_x", &Fra
 /// A dataset of /carrom/measurements: one number for each disc.
 struct SampleColumn {
     const char* name;
-    double FirstPlace::*field;
+    double FirstPlace::* field;
     bool is_of_periodic_boxes = false;
 
-    bool is_in(const StoredSamples& samples) const { return is_of_periodic_boxes ? samples.have_lengths : samples.have_first_places; }
+    bool is_in(const StoredSamples& samples) const {
+        return is_of_periodic_boxes ? samples.have_lengths : samples.have_first_places;
+    }
 };
-inline constexpr std::array<SampleColumn, 4> sample_columns = {{{"first_x", &FirstPlace::x},
-                                                                {"first_y", &FirstPlace::y},
-                                                                {"lengths_x", &FirstPlace::lengths_x, true},
-                                                                {"lengths_y", &FirstPlace::lengths_y, true}}};
+inline constexpr std::array<SampleColumn, 4> sample_columns = {
+    {{"first_x", &FirstPlace::x},
+     {"first_y", &FirstPlace::y},
+     {"lengths_x", &FirstPlace::lengths_x, true},
+     {"lengths_y", &FirstPlace::lengths_y, true}}};
 /// And for one of a periodic box.
-inline constexpr std::array<FrameField, 2> checkpoint_periods = {{{"period_x", &Frame::period_x}, {"period_y", &Frame::period_y}}};
+inline constexpr std::array<FrameField, 2> checkpoint_periods = {
+    {{"period_x", &Frame::period_x}, {"period_y", &Frame::period_y}}};
 
 /// Sets the column's number of a disc by its 8 bytes.
 void set_bits(const Column& column, Disc& disc, std::uint64_t bits);
 hid_t type_of(const Column& column);
 
 void write_header(hid_t group, const CheckpointHeader& header);
-/// Throws FileError where something is missing or of another kind. Whether there are spins is for `has_spins` to say.
+/// Throws FileError where something is missing or of another kind. Whether there are spins is for
+/// `has_spins` to say.
 CheckpointHeader read_header(hid_t group);
 bool has_spins(hid_t file);
-/// The classes of /carrom/species, a column each for counts, radii and masses; nothing where there are none. Throw FileError.
+/// The classes of /carrom/species, a column each for counts, radii and masses; nothing where there
+/// are none. Throw FileError.
 void write_species(hid_t carrom, const std::vector<Species>& species);
 std::vector<Species> read_species(hid_t file, std::uint64_t n_discs);
 /// Replaces the header on every rank by that of rank 0. **Collective.**
 void broadcast(CheckpointHeader& header, const Communicator& communicator);
 
-/// Rows that are taken apart into columns, or put together from them, at a time: 1 MiB of discs, so that they stay in
-/// the L2 cache.
+/// Rows that are taken apart into columns, or put together from them, at a time: 1 MiB of discs, so
+/// that they stay in the L2 cache.
 inline constexpr std::uint64_t rows_per_piece = 1 << 14;
 
 } // namespace carrom

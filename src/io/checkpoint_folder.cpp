@@ -24,7 +24,9 @@ std::optional<FoundFile> as_checkpoint(const std::filesystem::path& path) {
     std::string_view rest = name;
     FoundFile found{path.string(), 0, !rest.ends_with(unfinished)};
     if (!found.is_finished) rest.remove_suffix(unfinished.size());
-    if (!rest.starts_with(prefix) || !rest.ends_with(suffix) || rest.size() <= prefix.size() + suffix.size()) return std::nullopt;
+    if (!rest.starts_with(prefix) || !rest.ends_with(suffix) ||
+        rest.size() <= prefix.size() + suffix.size())
+        return std::nullopt;
     rest = rest.substr(prefix.size(), rest.size() - prefix.size() - suffix.size());
     const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), found.step);
     if (error != std::errc{} || end != rest.data() + rest.size()) return std::nullopt;
@@ -34,13 +36,15 @@ std::optional<FoundFile> as_checkpoint(const std::filesystem::path& path) {
 } // namespace
 
 std::string checkpoint_path(const std::string& folder, std::int64_t step) {
-    return (std::filesystem::path(folder) / fmt::format("{}{:012}{}", prefix, step, suffix)).string();
+    return (std::filesystem::path(folder) / fmt::format("{}{:012}{}", prefix, step, suffix))
+        .string();
 }
 
 std::vector<FoundFile> find_checkpoints(const std::string& folder) {
     std::vector<FoundFile> found;
     std::error_code error;
-    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error))
         if (auto file = as_checkpoint(entry->path())) found.push_back(std::move(*file));
     std::sort(found.begin(), found.end(), [](const FoundFile& a, const FoundFile& b) {
         return a.step != b.step ? a.step > b.step : a.path < b.path;
@@ -52,7 +56,8 @@ Obstacle obstacle_to_folder(const std::string& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) return obstacle("cannot be made", error.value());
-    const std::string probe = (std::filesystem::path(folder) / fmt::format(".carrom-{}", ::getpid())).string();
+    const std::string probe =
+        (std::filesystem::path(folder) / fmt::format(".carrom-{}", ::getpid())).string();
     const int file = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file < 0) return obstacle("no file can be made there", errno);
     ::close(file);

@@ -21,10 +21,12 @@ struct FoundFile {
     bool is_finished = true; ///< false for what a killed run has left beside its place
 };
 
-/// Files named like checkpoints, those of the latest step first. A folder that is not there has none.
+/// Files named like checkpoints, those of the latest step first. A folder that is not there has
+/// none.
 std::vector<FoundFile> find_checkpoints(const std::string& folder);
 
-/// Makes the folder where there is none. Returns what keeps files from being written there, if anything does.
+/// Makes the folder where there is none. Returns what keeps files from being written there, if
+/// anything does.
 Obstacle obstacle_to_folder(const std::string& folder);
 
 /// Removes a file if it is there.

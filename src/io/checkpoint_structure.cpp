@@ -14,7 +14,8 @@ namespace carrom {
 namespace {
 
 /// What `number_of` makes of each disc, one after the other.
-template <class NumberOf> void put_each(std::span<const Disc> discs, std::byte* out, const NumberOf& number_of) {
+template <class NumberOf>
+void put_each(std::span<const Disc> discs, std::byte* out, const NumberOf& number_of) {
     for (const Disc& disc : discs) {
         const auto number = number_of(disc);
         std::memcpy(out, &number, sizeof number);
@@ -22,12 +23,14 @@ template <class NumberOf> void put_each(std::span<const Disc> discs, std::byte* 
     }
 }
 
-void create_column(hid_t parent, const char* name, std::span<const hsize_t> dimensions, hid_t type) {
+void create_column(hid_t parent, const char* name, std::span<const hsize_t> dimensions,
+                   hid_t type) {
     const h5::Properties creation = h5::dataset_creation();
     h5::checked(H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY), name);
     h5::checked(H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER), name);
-    const h5::Dataset dataset(
-        h5::checked(H5Dcreate2(parent, name, type, h5::space(dimensions).id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT), name));
+    const h5::Dataset dataset(h5::checked(H5Dcreate2(parent, name, type, h5::space(dimensions).id(),
+                                                     H5P_DEFAULT, creation.id(), H5P_DEFAULT),
+                                          name));
 }
 
 /// A group of one frame: its step and time here, its `value` is the caller's.
@@ -44,25 +47,33 @@ void create_groups(hid_t file, const CheckpointHeader& header, const StoredSampl
     h5md::write_metadata(file, header.program_version);
     const h5::Group particles = h5::create_group(file, "particles");
     const h5::Group discs = h5::create_group(particles.id(), "discs");
-    const h5::Group box = h5md::create_box(discs.id(), header.frame.period_x != 0, header.frame.period_y != 0);
+    const h5::Group box = h5md::create_box(discs.id(), header.frame.period_x != 0,
+                                           header.frame.period_y != 0);
     const std::array<double, 3> edges = {header.box_size, header.box_size, 1};
-    h5::write_whole(create_frame(box.id(), "edges", header).id(), "value", std::array<hsize_t, 2>{1, 3}, H5T_NATIVE_DOUBLE, edges.data());
+    h5::write_whole(create_frame(box.id(), "edges", header).id(), "value",
+                    std::array<hsize_t, 2>{1, 3}, H5T_NATIVE_DOUBLE, edges.data());
     const std::array<hsize_t, 3> vectors = {1, header.n_discs, 3};
     for (const char* name : {"position", "velocity"})
-        create_column(create_frame(discs.id(), name, header).id(), "value", vectors, H5T_NATIVE_FLOAT);
+        create_column(create_frame(discs.id(), name, header).id(), "value", vectors,
+                      H5T_NATIVE_FLOAT);
 
     const h5::Group carrom = h5::create_group(file, "carrom");
     write_header(h5::create_group(carrom.id(), "run").id(), header);
     write_species(carrom.id(), header.species);
     const h5::Group columns = h5::create_group(carrom.id(), "discs");
     for (const Column& column : checkpoint_columns)
-        create_column(columns.id(), column.name, std::array<hsize_t, 1>{header.n_discs}, type_of(column));
-    if (header.has_spins) create_column(file, spin_column, std::array<hsize_t, 1>{header.n_discs}, H5T_NATIVE_DOUBLE);
+        create_column(columns.id(), column.name, std::array<hsize_t, 1>{header.n_discs},
+                      type_of(column));
+    if (header.has_spins)
+        create_column(file, spin_column, std::array<hsize_t, 1>{header.n_discs}, H5T_NATIVE_DOUBLE);
     if (samples.sums.empty()) return;
     const h5::Group measurements = h5::create_group(carrom.id(), "measurements");
-    h5::write_whole(measurements.id(), "sums", std::array<hsize_t, 1>{samples.sums.size()}, H5T_NATIVE_INT64, samples.sums.data());
+    h5::write_whole(measurements.id(), "sums", std::array<hsize_t, 1>{samples.sums.size()},
+                    H5T_NATIVE_INT64, samples.sums.data());
     for (const SampleColumn& column : sample_columns)
-        if (column.is_in(samples)) create_column(measurements.id(), column.name, std::array<hsize_t, 1>{header.n_discs}, H5T_NATIVE_DOUBLE);
+        if (column.is_in(samples))
+            create_column(measurements.id(), column.name, std::array<hsize_t, 1>{header.n_discs},
+                          H5T_NATIVE_DOUBLE);
 }
 
 /// Where a contiguous data set's numbers begin, counted from the front of the file.
@@ -74,50 +85,67 @@ std::uint64_t place_of(hid_t file, const std::string& name) {
 
 } // namespace
 
-std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples, const SpinsOfPieces& spins) {
+std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples,
+                                     const SpinsOfPieces& spins) {
     std::vector<DiscTarget> targets;
     const Frame frame = header.frame;
     const double clock = header.clock(), k = static_cast<double>(header.micro_steps);
-    const auto vector_of = [](double x, double y) { return std::array<float, 3>{static_cast<float>(x), static_cast<float>(y), 0}; };
-    const auto add = [&](std::string name, std::uint64_t bytes_per_row, std::function<void(std::span<const Disc>, std::byte*)> put) {
-        targets.push_back({{std::move(name), 0, header.n_discs, bytes_per_row, {}}, std::move(put)});
+    const auto vector_of = [](double x, double y) {
+        return std::array<float, 3>{static_cast<float>(x), static_cast<float>(y), 0};
     };
-    add("/particles/discs/position/value", 3 * sizeof(float), [=](std::span<const Disc> discs, std::byte* out) {
-        put_each(discs, out, [=](const Disc& disc) {
-            const Disc shown = frame.in_box(disc, clock);
-            return vector_of(shown.x, shown.y);
+    const auto add = [&](std::string name, std::uint64_t bytes_per_row,
+                         std::function<void(std::span<const Disc>, std::byte*)> put) {
+        targets.push_back(
+            {{std::move(name), 0, header.n_discs, bytes_per_row, {}}, std::move(put)});
+    };
+    add("/particles/discs/position/value", 3 * sizeof(float),
+        [=](std::span<const Disc> discs, std::byte* out) {
+            put_each(discs, out, [=](const Disc& disc) {
+                const Disc shown = frame.in_box(disc, clock);
+                return vector_of(shown.x, shown.y);
+            });
         });
-    });
-    add("/particles/discs/velocity/value", 3 * sizeof(float), [=](std::span<const Disc> discs, std::byte* out) {
-        put_each(discs, out, [=](const Disc& disc) {
-            const Disc shown = frame.in_box(disc, clock);
-            return vector_of(shown.vx * k, shown.vy * k);
+    add("/particles/discs/velocity/value", 3 * sizeof(float),
+        [=](std::span<const Disc> discs, std::byte* out) {
+            put_each(discs, out, [=](const Disc& disc) {
+                const Disc shown = frame.in_box(disc, clock);
+                return vector_of(shown.vx * k, shown.vy * k);
+            });
         });
-    });
     for (const Column& column : checkpoint_columns)
-        add(std::string("/carrom/discs/") + column.name, sizeof(std::uint64_t), [&column](std::span<const Disc> discs, std::byte* out) {
-            std::visit([&](auto field) { put_each(discs, out, [=](const Disc& disc) { return disc.*field; }); }, column.field);
-        });
+        add(std::string("/carrom/discs/") + column.name, sizeof(std::uint64_t),
+            [&column](std::span<const Disc> discs, std::byte* out) {
+                std::visit(
+                    [&](auto field) {
+                        put_each(discs, out, [=](const Disc& disc) { return disc.*field; });
+                    },
+                    column.field);
+            });
     if (header.has_spins)
         add(spin_column, sizeof(double), [&spins](std::span<const Disc> discs, std::byte* out) {
             put_each(discs, out, [&spins](const Disc& disc) { return spins.of(disc); });
         });
     for (const SampleColumn& column : sample_columns) {
         if (!column.is_in(samples)) continue;
-        add(std::string("/carrom/measurements/") + column.name, sizeof(double), [&column, &places = samples.first_places](std::span<const Disc> discs, std::byte* out) {
-            put_each(discs, out, [&](const Disc& disc) { return places[disc.id - places.front().id].*column.field; });
-        });
+        add(std::string("/carrom/measurements/") + column.name, sizeof(double),
+            [&column, &places = samples.first_places](std::span<const Disc> discs, std::byte* out) {
+                put_each(discs, out, [&](const Disc& disc) {
+                    return places[disc.id - places.front().id].*column.field;
+                });
+            });
     }
     return targets;
 }
 
-HeaderPlaces create_structure(const std::string& path, CheckpointHeader header, const StoredSamples& samples, std::vector<DiscTarget>& targets) {
+HeaderPlaces create_structure(const std::string& path, CheckpointHeader header,
+                              const StoredSamples& samples, std::vector<DiscTarget>& targets) {
     header.wall_collisions = header.pair_collisions = 0;
     header.state_hash = to_string(StateHash{});
     h5::File file = h5::create_file(path, seal_size);
     create_groups(file.id(), header, samples);
     for (DiscTarget& target : targets) target.part.begin = place_of(file.id(), target.part.name);
-    const HeaderPlaces places = {place_of(file.id(), "/carrom/run/wall_collisions"), place_of(file.id(), "/carrom/run/pair_collisions"),
+    const HeaderPlaces places = {place_of(file.id(), "/carrom/run/wall_collisions"),
+                                 place_of(file.id(), "/carrom/run/pair_collisions"),
                                  place_of(file.id(), "/carrom/run/state_hash")};
     file.close("cannot be written");
     return places;

@@ -17,7 +17,8 @@
 
 namespace carrom {
 
-/// A data set with one row for each disc, and how discs become its bytes. Its part's `begin` is known once the file is there.
+/// A data set with one row for each disc, and how discs become its bytes. Its part's `begin` is
+/// known once the file is there.
 struct DiscTarget {
     SealedPart part;
     std::function<void(std::span<const Disc>, std::byte*)> put;
@@ -31,8 +32,10 @@ struct SpinsOfPieces {
     double of(const Disc& disc) const { return values[disc.id - first]; }
 };
 
-/// The data sets of discs that a checkpoint has, in the order in which they stand in the file. `samples` and `spins` must outlive them.
-std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples, const SpinsOfPieces& spins);
+/// The data sets of discs that a checkpoint has, in the order in which they stand in the file.
+/// `samples` and `spins` must outlive them.
+std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples,
+                                     const SpinsOfPieces& spins);
 
 /// What is known of a state only once all its discs have been seen.
 struct StateSums {
@@ -45,8 +48,10 @@ struct HeaderPlaces {
     std::uint64_t wall_collisions = 0, pair_collisions = 0, state_hash = 0;
 };
 
-/// Makes the file and fills in where each target's rows begin. The header's counters and hash stay open. Of one rank; throws FileError.
-HeaderPlaces create_structure(const std::string& path, CheckpointHeader header, const StoredSamples& samples, std::vector<DiscTarget>& targets);
+/// Makes the file and fills in where each target's rows begin. The header's counters and hash stay
+/// open. Of one rank; throws FileError.
+HeaderPlaces create_structure(const std::string& path, CheckpointHeader header,
+                              const StoredSamples& samples, std::vector<DiscTarget>& targets);
 
 /// Writes the values that were left open. Of one rank; throws FileError.
 void fill_in(const std::string& path, const HeaderPlaces& places, const StateSums& sums);

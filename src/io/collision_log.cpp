@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "io/appended_file.hpp"
-#include "parallel/exchange.hpp"
 #include "io/checked_dataset.hpp"
 #include "io/crash_guard.hpp"
 #include "io/files.hpp"
 #include "io/h5md.hpp"
 #include "io/recorded_run.hpp"
+#include "parallel/exchange.hpp"
 
 namespace carrom {
 
@@ -27,24 +27,30 @@ struct Column {
     std::variant<double LoggedCollision::*, std::int64_t LoggedCollision::*> field;
 };
 
-constexpr std::array<Column, 5> columns = {{{"/carrom/collisions/step", &LoggedCollision::step},
-                                            {"/carrom/collisions/time", &LoggedCollision::time},
-                                            {"/carrom/collisions/p", &LoggedCollision::p},
-                                            {"/carrom/collisions/q", &LoggedCollision::q},
-                                            {"/carrom/collisions/impulse", &LoggedCollision::impulse}}};
+constexpr std::array<Column, 5> columns = {
+    {{"/carrom/collisions/step", &LoggedCollision::step},
+     {"/carrom/collisions/time", &LoggedCollision::time},
+     {"/carrom/collisions/p", &LoggedCollision::p},
+     {"/carrom/collisions/q", &LoggedCollision::q},
+     {"/carrom/collisions/impulse", &LoggedCollision::impulse}}};
 
-hid_t type_of(const Column& column) { return column.field.index() == 0 ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64; }
+hid_t type_of(const Column& column) {
+    return column.field.index() == 0 ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
+}
 
 void create_structure(hid_t file, const std::string& program_version) {
     h5md::write_metadata(file, program_version);
-    const h5::Group carrom = h5::create_group(file, "carrom"), log = h5::create_group(carrom.id(), "collisions");
+    const h5::Group carrom = h5::create_group(file, "carrom"),
+                    log = h5::create_group(carrom.id(), "collisions");
     for (const Column& column : columns)
-        create_growing(file, column.path, type_of(column), {}, std::array<hsize_t, 1>{rows_per_chunk}, 0);
+        create_growing(file, column.path, type_of(column), {},
+                       std::array<hsize_t, 1>{rows_per_chunk}, 0);
 }
 
 void check_columns(hid_t file) {
     const hsize_t n_rows = length_of(file, columns.front().path);
-    for (const Column& column : columns) static_cast<void>(h5::open_checked(file, column.path, {n_rows}));
+    for (const Column& column : columns)
+        static_cast<void>(h5::open_checked(file, column.path, {n_rows}));
 }
 
 void write_rows(hid_t file, hsize_t begin, std::span<const LoggedCollision> rows) {
@@ -52,7 +58,9 @@ void write_rows(hid_t file, hsize_t begin, std::span<const LoggedCollision> rows
     const std::array<hsize_t, 1> start = {begin}, count = {rows.size()};
     for (const Column& column : columns) {
         for (std::size_t i = 0; i < rows.size(); ++i)
-            numbers[i] = std::visit([&](auto field) { return std::bit_cast<std::uint64_t>(rows[i].*field); }, column.field);
+            numbers[i] = std::visit(
+                [&](auto field) { return std::bit_cast<std::uint64_t>(rows[i].*field); },
+                column.field);
         set_length(file, column.path, begin + rows.size());
         write_block(file, column.path, start, count, type_of(column), numbers.data());
     }
@@ -66,8 +74,10 @@ struct CollisionLog::State {
     hsize_t n_rows = 0;
 };
 
-CollisionLog::CollisionLog(const std::string& path, const std::string& program_version, const Communicator& communicator, CheckpointHeader run)
-    : path_(path), program_version_(program_version), run_(std::move(run)), communicator_(communicator) {
+CollisionLog::CollisionLog(const std::string& path, const std::string& program_version,
+                           const Communicator& communicator, CheckpointHeader run)
+    : path_(path), program_version_(program_version), run_(std::move(run)),
+      communicator_(communicator) {
     if (communicator_.is_root()) state_ = std::make_unique<State>(path);
 }
 
@@ -86,7 +96,8 @@ void CollisionLog::begin() {
 
 bool CollisionLog::go_on(std::int64_t step, const DifferenceFrom& difference_from) {
     std::uint64_t is_there = 0;
-    on_root(communicator_, path_, ExitCode::output_failure, [&] { is_there = state_->file.reopen() ? 1 : 0; });
+    on_root(communicator_, path_, ExitCode::output_failure,
+            [&] { is_there = state_->file.reopen() ? 1 : 0; });
     communicator_.broadcast(is_there);
     if (is_there == 0) {
         begin();
@@ -96,7 +107,8 @@ bool CollisionLog::go_on(std::int64_t step, const DifferenceFrom& difference_fro
         const CrashGuard guard(path_);
         {
             const h5::File file = h5::open_file(path_, h5::Access::read);
-            if (!h5::has(file.id(), "/carrom/collisions")) throw FileError("is no log of collisions");
+            if (!h5::has(file.id(), "/carrom/collisions"))
+                throw FileError("is no log of collisions");
             check_recorded_run(file.id(), difference_from);
             check_columns(file.id());
         }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every collision of a run in one HDF5 file, in the total order over all ranks.
 //
-// Columns of /carrom/collisions: step (the one it happens in, from 1), time (in steps, from the start), p, q (-1: a
-// wall), impulse. Rank 0 writes what the ranks send in their order; see Trajectory for why, and for errors.
+// Columns of /carrom/collisions: step (the one it happens in, from 1), time (in steps, from the
+// start), p, q (-1: a wall), impulse. Rank 0 writes what the ranks send in their order; see
+// Trajectory for why, and for errors.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +25,10 @@ struct LoggedCollision {
 
 class CollisionLog {
 public:
-    /// `communicator` must outlive this. `run`: of which run it is, scene and classes. No text: the file will not say.
-    CollisionLog(const std::string& path, const std::string& program_version, const Communicator& communicator, CheckpointHeader run = {});
+    /// `communicator` must outlive this. `run`: of which run it is, scene and classes. No text: the
+    /// file will not say.
+    CollisionLog(const std::string& path, const std::string& program_version,
+                 const Communicator& communicator, CheckpointHeader run = {});
     ~CollisionLog();
 
     /// As for Trajectory. `go_on` returns, on every rank, whether there was a file. **Collective.**
@@ -33,7 +36,8 @@ public:
     bool go_on(std::int64_t step, const DifferenceFrom& difference_from = {});
     void commit();
 
-    /// Adds the collisions of all ranks, those of rank 0 first. Later than all before. **Collective.**
+    /// Adds the collisions of all ranks, those of rank 0 first. Later than all before.
+    /// **Collective.**
     void append(std::span<const LoggedCollision> mine);
 
 private:

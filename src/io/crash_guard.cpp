@@ -19,7 +19,9 @@ const char* path_being_read = "";
 extern "C" void end_for_damage(int) {
     static std::array<char, 4400> text; // a path has 4096 bytes at most
     std::size_t length = 0;
-    for (const std::string_view part : {std::string_view("carrom: "), std::string_view(path_being_read), std::string_view(": is damaged: HDF5 has crashed on it\n")}) {
+    for (const std::string_view part :
+         {std::string_view("carrom: "), std::string_view(path_being_read),
+          std::string_view(": is damaged: HDF5 has crashed on it\n")}) {
         const std::size_t n = std::min(part.size(), text.size() - length);
         std::memcpy(text.data() + length, part.data(), n);
         length += n;
@@ -45,12 +47,14 @@ CrashGuard::CrashGuard(const std::string& path) : outer_path_(path_being_read) {
     struct sigaction action{};
     action.sa_handler = end_for_damage;
     action.sa_flags = static_cast<int>(SA_ONSTACK | SA_RESETHAND);
-    for (std::size_t k = 0; k < signals.size(); ++k) ::sigaction(signals[k], &action, &outer_actions_[k]);
+    for (std::size_t k = 0; k < signals.size(); ++k)
+        ::sigaction(signals[k], &action, &outer_actions_[k]);
 }
 
 CrashGuard::~CrashGuard() {
     path_being_read = outer_path_;
-    for (std::size_t k = 0; k < signals.size(); ++k) ::sigaction(signals[k], &outer_actions_[k], nullptr);
+    for (std::size_t k = 0; k < signals.size(); ++k)
+        ::sigaction(signals[k], &outer_actions_[k], nullptr);
 }
 
 } // namespace carrom

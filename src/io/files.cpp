@@ -15,13 +15,17 @@
 
 namespace carrom {
 
-void fail_with_errno(const std::string& what) { throw FileError(what + ": " + std::strerror(errno)); }
+void fail_with_errno(const std::string& what) {
+    throw FileError(what + ": " + std::strerror(errno));
+}
 
 // Without waiting for the other end of a pipe: what is no plain file is refused.
-Descriptor::Descriptor(const std::string& path, int flags) : number_(::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK, 0666)) {
+Descriptor::Descriptor(const std::string& path, int flags)
+    : number_(::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK, 0666)) {
     if (number_ < 0) fail_with_errno("cannot be opened");
-    struct stat status {};
-    if ((flags & O_DIRECTORY) != 0 || (::fstat(number_, &status) == 0 && S_ISREG(status.st_mode))) return;
+    struct stat status{};
+    if ((flags & O_DIRECTORY) != 0 || (::fstat(number_, &status) == 0 && S_ISREG(status.st_mode)))
+        return;
     ::close(number_);
     throw FileError("is not a plain file");
 }
@@ -29,7 +33,7 @@ Descriptor::Descriptor(const std::string& path, int flags) : number_(::open(path
 Descriptor::~Descriptor() { ::close(number_); }
 
 std::uint64_t Descriptor::size() const {
-    struct stat status {};
+    struct stat status{};
     if (::fstat(number_, &status) != 0) fail_with_errno("its size cannot be had");
     return static_cast<std::uint64_t>(status.st_size);
 }
@@ -37,19 +41,25 @@ std::uint64_t Descriptor::size() const {
 std::size_t Descriptor::read(std::span<std::byte> bytes, std::uint64_t offset) const {
     std::size_t done = 0;
     while (done < bytes.size()) {
-        const ssize_t n = ::pread(number_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
+        const ssize_t n = ::pread(number_, bytes.data() + done, bytes.size() - done,
+                                  static_cast<off_t>(offset + done));
         if (n == 0) break;
-        if (n > 0) done += static_cast<std::size_t>(n);
-        else if (errno != EINTR) fail_with_errno("cannot be read");
+        if (n > 0)
+            done += static_cast<std::size_t>(n);
+        else if (errno != EINTR)
+            fail_with_errno("cannot be read");
     }
     return done;
 }
 
 void Descriptor::write(std::span<const std::byte> bytes, std::uint64_t offset) const {
     for (std::size_t done = 0; done < bytes.size();) {
-        const ssize_t n = ::pwrite(number_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
-        if (n >= 0) done += static_cast<std::size_t>(n);
-        else if (errno != EINTR) fail_with_errno("cannot be written");
+        const ssize_t n = ::pwrite(number_, bytes.data() + done, bytes.size() - done,
+                                   static_cast<off_t>(offset + done));
+        if (n >= 0)
+            done += static_cast<std::size_t>(n);
+        else if (errno != EINTR)
+            fail_with_errno("cannot be written");
     }
 }
 
@@ -62,17 +72,19 @@ void Descriptor::start_sync() const {
 }
 
 void check_room(const std::string& folder, std::uint64_t bytes) {
-    struct statvfs status {};
+    struct statvfs status{};
     if (::statvfs(folder.c_str(), &status) != 0) fail_with_errno("its file system cannot be asked");
     const std::uint64_t room = std::uint64_t{status.f_bavail} * status.f_frsize;
     // Some file systems do not know and say 0 of 0.
     if (status.f_blocks > 0 && room < bytes)
-        throw FileError(fmt::format("No space left on device: {} bytes are needed, {} are free", bytes, room));
+        throw FileError(
+            fmt::format("No space left on device: {} bytes are needed, {} are free", bytes, room));
 }
 
 void reserve(const std::string& path) {
     const Descriptor file(path, O_WRONLY);
-    if (::fallocate(file.number(), 0, 0, static_cast<off_t>(file.size())) != 0 && errno != EOPNOTSUPP && errno != ENOSYS && errno != EINVAL)
+    if (::fallocate(file.number(), 0, 0, static_cast<off_t>(file.size())) != 0 &&
+        errno != EOPNOTSUPP && errno != ENOSYS && errno != EINVAL)
         fail_with_errno("its room cannot be reserved");
 }
 

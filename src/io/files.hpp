@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a file system is asked for beyond writing: room, durability, names. Each throws FileError where it fails.
+// What a file system is asked for beyond writing: room, durability, names. Each throws FileError
+// where it fails.
 //
-// These are this rank's own calls; `on_all` and `on_root` turn what they throw into what all ranks know.
+// These are this rank's own calls; `on_all` and `on_root` turn what they throw into what all ranks
+// know.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +30,8 @@ public:
 /// A file descriptor that closes itself.
 class Descriptor {
 public:
-    /// Throws FileError where it cannot be opened, and for a directory (without O_DIRECTORY), a pipe or a device.
+    /// Throws FileError where it cannot be opened, and for a directory (without O_DIRECTORY), a
+    /// pipe or a device.
     Descriptor(const std::string& path, int flags);
     ~Descriptor();
     Descriptor(const Descriptor&) = delete;
@@ -49,16 +52,20 @@ private:
 
 /// Throws where the file system says that it has less room than that.
 void check_room(const std::string& folder, std::uint64_t bytes);
-/// Takes the blocks of a file now, so that a full disk shows now; does nothing where that is not to be had.
+/// Takes the blocks of a file now, so that a full disk shows now; does nothing where that is not to
+/// be had.
 void reserve(const std::string& path);
 /// Renames and makes it last: the folder is synced too.
 void rename_durably(const std::string& from, const std::string& to);
 std::string folder_of(const std::string& path);
 
-/// Runs `act` on every rank. If it throws FileError on any, every rank throws CollectiveError with `code` and that rank's
-/// text after `path`. **Collective.** With at most one collective call in `act`, no rank is left behind; should it happen
-/// all the same, the failed rank ends the run after half a minute (see `agree`).
-template <class Act> void on_all(const Communicator& communicator, const std::string& path, ExitCode code, const Act& act) {
+/// Runs `act` on every rank. If it throws FileError on any, every rank throws CollectiveError with
+/// `code` and that rank's text after `path`. **Collective.** With at most one collective call in
+/// `act`, no rank is left behind; should it happen all the same, the failed rank ends the run after
+/// half a minute (see `agree`).
+template <class Act>
+void on_all(const Communicator& communicator, const std::string& path, ExitCode code,
+            const Act& act) {
     std::string failure;
     try {
         act();
@@ -69,8 +76,12 @@ template <class Act> void on_all(const Communicator& communicator, const std::st
 }
 
 /// The same for what rank 0 does alone. **Collective.**
-template <class Act> void on_root(const Communicator& communicator, const std::string& path, ExitCode code, const Act& act) {
-    on_all(communicator, path, code, [&] { if (communicator.is_root()) act(); });
+template <class Act>
+void on_root(const Communicator& communicator, const std::string& path, ExitCode code,
+             const Act& act) {
+    on_all(communicator, path, code, [&] {
+        if (communicator.is_root()) act();
+    });
 }
 
 } // namespace carrom

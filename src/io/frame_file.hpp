@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What this program's files hold, to be looked at by one rank, block by block: a checkpoint is a file of one frame.
+// What this program's files hold, to be looked at by one rank, block by block: a checkpoint is a
+// file of one frame.
 #pragma once
 
 #include <array>
@@ -24,21 +25,24 @@ struct FrameRow {
 struct FileSummary {
     FileKind kind = FileKind::checkpoint;
     std::string program_version;
-    std::uint64_t n_discs = 0;             ///< 0 for a log of collisions
-    double box_size = 0, radius = 0;       ///< radius: of a trajectory
-    std::size_t bytes_per_number = 8;      ///< of a trajectory's positions and velocities
-    bool has_position = false, has_velocity = false, has_collisions = false, has_angular_velocity = false;
+    std::uint64_t n_discs = 0;        ///< 0 for a log of collisions
+    double box_size = 0, radius = 0;  ///< radius: of a trajectory
+    std::size_t bytes_per_number = 8; ///< of a trajectory's positions and velocities
+    bool has_position = false, has_velocity = false, has_collisions = false,
+         has_angular_velocity = false;
     std::vector<std::int64_t> steps;       ///< of the frames
     std::uint64_t n_logged = 0;            ///< collisions in a log
     std::string state_hash;                ///< of a checkpoint
-    std::array<bool, 4> open_boundaries{};      ///< of a trajectory: left, right, bottom, top
-    bool is_periodic_x = false, is_periodic_y = false; ///< of a trajectory: checkpoints leave it to the scene
+    std::array<bool, 4> open_boundaries{}; ///< of a trajectory: left, right, bottom, top
+    bool is_periodic_x = false,
+         is_periodic_y = false; ///< of a trajectory: checkpoints leave it to the scene
 };
 
 /// All functions throw InputError naming the file. Not collective.
 class FrameFile {
 public:
-    /// Damage that HDF5 does not see is not seen, and what it sees may be its end: `check_damage` comes first.
+    /// Damage that HDF5 does not see is not seen, and what it sees may be its end: `check_damage`
+    /// comes first.
     explicit FrameFile(const std::string& path);
     ~FrameFile();
     FrameFile(FrameFile&&) noexcept;
@@ -46,7 +50,8 @@ public:
     const FileSummary& summary() const { return summary_; }
 
     /// Replaces `rows` by those of the discs [begin, end) in a frame.
-    void read(std::size_t frame, std::uint64_t begin, std::uint64_t end, std::vector<FrameRow>& rows) const;
+    void read(std::size_t frame, std::uint64_t begin, std::uint64_t end,
+              std::vector<FrameRow>& rows) const;
 
     /// Replaces `rows` by the collisions [begin, end) of a log.
     void read(std::uint64_t begin, std::uint64_t end, std::vector<LoggedCollision>& rows) const;
@@ -61,8 +66,8 @@ private:
 /// Where two files of one kind differ first, and by how much at most.
 struct FileDifference {
     bool is_same = true;
-    std::string first;   ///< "disc 17, vx: 0.25 and 0.5, step 10"
-    double largest = 0;  ///< of any number
+    std::string first;  ///< "disc 17, vx: 0.25 and 0.5, step 10"
+    double largest = 0; ///< of any number
     std::string largest_in;
 };
 

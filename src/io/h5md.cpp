@@ -17,8 +17,12 @@ void write_metadata(hid_t file, const std::string& program_version) {
 h5::Group create_box(hid_t parent, bool is_periodic_x, bool is_periodic_y) {
     h5::Group box = h5::create_group(parent, "box");
     h5::write_attribute(box.id(), "dimension", std::array<std::int32_t, 1>{3});
-    const auto boundary = [](bool is_periodic) -> std::string { return is_periodic ? "periodic" : "none"; };
-    h5::write_attribute(box.id(), "boundary", std::vector<std::string>{boundary(is_periodic_x), boundary(is_periodic_y), "none"});
+    const auto boundary = [](bool is_periodic) -> std::string {
+        return is_periodic ? "periodic" : "none";
+    };
+    h5::write_attribute(
+        box.id(), "boundary",
+        std::vector<std::string>{boundary(is_periodic_x), boundary(is_periodic_y), "none"});
     return box;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts of H5MD 1.1 (de Buyl, Colberg, Hoefling 2014) that checkpoints and trajectories share: discs in a box whose
-// third edge is 1, since its readers know three dimensions only.
+// The parts of H5MD 1.1 (de Buyl, Colberg, Hoefling 2014) that checkpoints and trajectories share:
+// discs in a box whose third edge is 1, since its readers know three dimensions only.
 #pragma once
 
 #include <cstdint>

@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "io/start_io.hpp"
-#include "parallel/native.hpp"
 #include "io/checked_dataset.hpp"
 #include "io/files.hpp"
+#include "io/start_io.hpp"
+#include "parallel/native.hpp"
 
 namespace carrom {
 
@@ -31,7 +31,8 @@ constexpr std::size_t longest_text = std::size_t{1} << 28; // scenes end at 2^26
 /// The innermost entries of the error stack say what the system has said.
 herr_t take_text(unsigned number, const H5E_error2_t* error, void* text) {
     auto& all = *static_cast<std::string*>(text);
-    if (number < 2 && error->desc != nullptr && *error->desc != '\0') all += std::string(all.empty() ? "" : "; ") + error->desc;
+    if (number < 2 && error->desc != nullptr && *error->desc != '\0')
+        all += std::string(all.empty() ? "" : "; ") + error->desc;
     return 0;
 }
 
@@ -46,14 +47,19 @@ Type text_type(std::size_t length) {
     return type;
 }
 
-void write_attribute(hid_t object, const char* name, hid_t type, const Space& shape, const void* values) {
-    const Attribute attribute(checked(H5Acreate2(object, name, type, shape.id(), H5P_DEFAULT, H5P_DEFAULT), name));
+void write_attribute(hid_t object, const char* name, hid_t type, const Space& shape,
+                     const void* values) {
+    const Attribute attribute(
+        checked(H5Acreate2(object, name, type, shape.id(), H5P_DEFAULT, H5P_DEFAULT), name));
     checked(H5Awrite(attribute.id(), type, values), name);
 }
 
 /// Small writes reach the file when the dataset is closed.
-void write_dataset(hid_t parent, const char* name, const Space& shape, hid_t type, const void* values) {
-    Dataset dataset(checked(H5Dcreate2(parent, name, type, shape.id(), H5P_DEFAULT, dataset_creation().id(), H5P_DEFAULT), name));
+void write_dataset(hid_t parent, const char* name, const Space& shape, hid_t type,
+                   const void* values) {
+    Dataset dataset(checked(H5Dcreate2(parent, name, type, shape.id(), H5P_DEFAULT,
+                                       dataset_creation().id(), H5P_DEFAULT),
+                            name));
     checked(H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
     dataset.close(name);
 }
@@ -63,8 +69,10 @@ void read_scalar_as(hid_t parent, const char* name, hid_t type, void* value) {
     const Dataset dataset = open_checked(parent, name);
     const Space shape(checked(H5Dget_space(dataset.id()), name));
     const Type stored(checked(H5Dget_type(dataset.id()), name));
-    if (H5Tget_class(stored.id()) != H5Tget_class(type)) throw FileError(std::string(name) + " is of another type than this program writes");
-    if (H5Sget_simple_extent_npoints(shape.id()) != 1) throw FileError(std::string(name) + " is not a single value");
+    if (H5Tget_class(stored.id()) != H5Tget_class(type))
+        throw FileError(std::string(name) + " is of another type than this program writes");
+    if (H5Sget_simple_extent_npoints(shape.id()) != 1)
+        throw FileError(std::string(name) + " is not a single value");
     checked(H5Dread(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value), name);
 }
 
@@ -76,7 +84,9 @@ void fail(const std::string& what) {
     throw FileError(what + (text.empty() ? "" : ": " + text));
 }
 
-Properties properties(hid_t kind) { return Properties(checked(H5Pcreate(kind), "cannot make a property list")); }
+Properties properties(hid_t kind) {
+    return Properties(checked(H5Pcreate(kind), "cannot make a property list"));
+}
 
 Properties dataset_creation() {
     Properties creation = properties(H5P_DATASET_CREATE);
@@ -96,18 +106,25 @@ File create_file(const std::string& path, std::uint64_t user_block) {
     be_quiet();
     const Properties creation = properties(H5P_FILE_CREATE), access = properties(H5P_FILE_ACCESS);
     checked(H5Pset_userblock(creation.id(), user_block), "cannot set a user block");
-    if (user_block > 0) checked(H5Pset_alignment(access.id(), 1 << 16, 1 << 12), "cannot align datasets to pages");
-    return File(checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), "cannot be created"));
+    if (user_block > 0)
+        checked(H5Pset_alignment(access.id(), 1 << 16, 1 << 12), "cannot align datasets to pages");
+    return File(checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()),
+                        "cannot be created"));
 }
 
 File open_file(const std::string& path, Access access) {
     be_quiet();
-    if (H5Fis_hdf5(path.c_str()) == 0) throw FileError("is no HDF5 file, so none that carrom has written");
+    if (H5Fis_hdf5(path.c_str()) == 0)
+        throw FileError("is no HDF5 file, so none that carrom has written");
     try {
-        return File(checked(H5Fopen(path.c_str(), access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR, H5P_DEFAULT), "cannot be opened"));
+        return File(
+            checked(H5Fopen(path.c_str(), access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR,
+                            H5P_DEFAULT),
+                    "cannot be opened"));
     } catch (const FileError& error) {
         if (std::string_view(error.what()).find("truncated file") == std::string_view::npos) throw;
-        throw FileError("is cut short: it was not copied whole, or a run was killed while it wrote, which a restart mends");
+        throw FileError("is cut short: it was not copied whole, or a run was killed while it "
+                        "wrote, which a restart mends");
     }
 }
 
@@ -119,9 +136,12 @@ File open_file(const std::string& path, const Properties& access) {
 File open_file(const std::string& path, Access access, const Communicator& communicator) {
     be_quiet();
     const Properties list = properties(H5P_FILE_ACCESS);
-    checked(H5Pset_fapl_mpio(list.id(), native(communicator), MPI_INFO_NULL), "cannot choose MPI-IO");
+    checked(H5Pset_fapl_mpio(list.id(), native(communicator), MPI_INFO_NULL),
+            "cannot choose MPI-IO");
     checked(H5Pset_all_coll_metadata_ops(list.id(), true), "cannot choose collective metadata");
-    return File(checked(H5Fopen(path.c_str(), access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR, list.id()), "cannot be opened"));
+    return File(checked(
+        H5Fopen(path.c_str(), access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR, list.id()),
+        "cannot be opened"));
 }
 
 bool has(hid_t file, const std::string& path) {
@@ -135,7 +155,9 @@ Group create_group(hid_t parent, const char* name) {
     return Group(checked(H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), name));
 }
 
-Dataset open_dataset(hid_t parent, const char* name) { return Dataset(checked(H5Dopen2(parent, name, H5P_DEFAULT), name)); }
+Dataset open_dataset(hid_t parent, const char* name) {
+    return Dataset(checked(H5Dopen2(parent, name, H5P_DEFAULT), name));
+}
 
 void write_attribute(hid_t object, const char* name, const std::string& text) {
     write_attribute(object, name, text_type(text.size()).id(), scalar_space(), text.c_str());
@@ -171,34 +193,47 @@ void write_scalar(hid_t parent, const char* name, const std::string& value) {
     write_dataset(parent, name, scalar_space(), text_type(value.size()).id(), value.c_str());
 }
 
-void read_scalar(hid_t parent, const char* name, double& value) { read_scalar_as(parent, name, H5T_NATIVE_DOUBLE, &value); }
-void read_scalar(hid_t parent, const char* name, std::int64_t& value) { read_scalar_as(parent, name, H5T_NATIVE_INT64, &value); }
-void read_scalar(hid_t parent, const char* name, std::uint64_t& value) { read_scalar_as(parent, name, H5T_NATIVE_UINT64, &value); }
+void read_scalar(hid_t parent, const char* name, double& value) {
+    read_scalar_as(parent, name, H5T_NATIVE_DOUBLE, &value);
+}
+void read_scalar(hid_t parent, const char* name, std::int64_t& value) {
+    read_scalar_as(parent, name, H5T_NATIVE_INT64, &value);
+}
+void read_scalar(hid_t parent, const char* name, std::uint64_t& value) {
+    read_scalar_as(parent, name, H5T_NATIVE_UINT64, &value);
+}
 void read_scalar(hid_t parent, const char* name, std::string& value) {
     const Dataset dataset = open_checked(parent, name);
     const Type type(checked(H5Dget_type(dataset.id()), name));
-    if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0) throw FileError(std::string(name) + " is not a text");
-    if (H5Tget_size(type.id()) > longest_text) throw FileError(std::string(name) + " is longer than any text of ours");
+    if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0)
+        throw FileError(std::string(name) + " is not a text");
+    if (H5Tget_size(type.id()) > longest_text)
+        throw FileError(std::string(name) + " is longer than any text of ours");
     value.assign(H5Tget_size(type.id()), '\0');
     read_scalar_as(parent, name, type.id(), value.data());
     value.resize(value.find_last_not_of('\0') + 1); // the padding
 }
 
-void write_whole(hid_t parent, const char* name, std::span<const hsize_t> dimensions, hid_t type, const void* values) {
+void write_whole(hid_t parent, const char* name, std::span<const hsize_t> dimensions, hid_t type,
+                 const void* values) {
     write_dataset(parent, name, space(dimensions), type, values);
 }
 
 std::vector<hsize_t> dimensions_of(hid_t dataset) {
     const Space shape(checked(H5Dget_space(dataset), "cannot look at a dataset"));
-    std::vector<hsize_t> dimensions(static_cast<std::size_t>(checked(H5Sget_simple_extent_ndims(shape.id()), "cannot look at a dataset")));
-    checked(H5Sget_simple_extent_dims(shape.id(), dimensions.data(), nullptr), "cannot look at a dataset");
+    std::vector<hsize_t> dimensions(static_cast<std::size_t>(
+        checked(H5Sget_simple_extent_ndims(shape.id()), "cannot look at a dataset")));
+    checked(H5Sget_simple_extent_dims(shape.id(), dimensions.data(), nullptr),
+            "cannot look at a dataset");
     return dimensions;
 }
 
 void read_rows(hid_t dataset, const Rows& rows, hid_t type, void* numbers) {
     const hsize_t start = rows.begin, count = rows.end - rows.begin;
-    const Space memory = space({&count, 1}), file(checked(H5Dget_space(dataset), "cannot look at a dataset"));
-    checked(H5Sselect_hyperslab(file.id(), H5S_SELECT_SET, &start, nullptr, &count, nullptr), "cannot select rows");
+    const Space memory = space({&count, 1}),
+                file(checked(H5Dget_space(dataset), "cannot look at a dataset"));
+    checked(H5Sselect_hyperslab(file.id(), H5S_SELECT_SET, &start, nullptr, &count, nullptr),
+            "cannot select rows");
     checked(H5Dread(dataset, type, memory.id(), file.id(), H5P_DEFAULT, numbers), "cannot be read");
 }
 

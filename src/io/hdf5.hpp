@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// HDF5's C interface with errors that throw and handles that close themselves. Nothing outside this module sees it.
+// HDF5's C interface with errors that throw and handles that close themselves. Nothing outside this
+// module sees it.
 //
-// A throw on one rank alone would leave the others waiting, so a collective call stands alone in the body of an
-// `on_all` (on_all.hpp), which brings the ranks together again.
+// A throw on one rank alone would leave the others waiting, so a collective call stands alone in
+// the body of an `on_all` (on_all.hpp), which brings the ranks together again.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +32,9 @@ template <herr_t (*close_function)(hid_t)> class Handle {
 public:
     Handle() = default;
     explicit Handle(hid_t id) : id_(id) {}
-    ~Handle() { if (id_ >= 0) close_function(id_); }
+    ~Handle() {
+        if (id_ >= 0) close_function(id_);
+    }
     Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
     Handle& operator=(Handle&& other) noexcept {
         std::swap(id_, other.id_);
@@ -64,8 +67,8 @@ Properties dataset_creation();
 Space space(std::span<const hsize_t> dimensions, std::span<const hsize_t> largest = {});
 Space scalar_space();
 
-/// A new file of this process alone, in place of any other; `user_block` bytes at its front are left to the caller:
-/// none, or a power of 2 from 4096.
+/// A new file of this process alone, in place of any other; `user_block` bytes at its front are
+/// left to the caller: none, or a power of 2 from 4096.
 File create_file(const std::string& path, std::uint64_t user_block);
 enum class Access { read, write };
 File open_file(const std::string& path, Access access);
@@ -74,7 +77,8 @@ File open_file(const std::string& path, const Properties& access);
 /// The same for all ranks together. **Collective.**
 File open_file(const std::string& path, Access access, const Communicator& communicator);
 
-/// Whether there is something at an absolute path. HDF5 wants every group on the way to be asked for.
+/// Whether there is something at an absolute path. HDF5 wants every group on the way to be asked
+/// for.
 bool has(hid_t file, const std::string& path);
 Group create_group(hid_t parent, const char* name);
 /// To be written to; what is to be read may be damaged: see checked_dataset.hpp.
@@ -93,8 +97,10 @@ void read_scalar(hid_t parent, const char* name, std::int64_t& value);
 void read_scalar(hid_t parent, const char* name, std::uint64_t& value);
 void read_scalar(hid_t parent, const char* name, std::string& value);
 
-/// A dataset of one value or one row of values for each of the numbers, written at once by this process.
-void write_whole(hid_t parent, const char* name, std::span<const hsize_t> dimensions, hid_t type, const void* values);
+/// A dataset of one value or one row of values for each of the numbers, written at once by this
+/// process.
+void write_whole(hid_t parent, const char* name, std::span<const hsize_t> dimensions, hid_t type,
+                 const void* values);
 
 /// The dimensions of a dataset.
 std::vector<hsize_t> dimensions_of(hid_t dataset);
@@ -103,8 +109,9 @@ struct Rows {
     std::uint64_t begin = 0, end = 0;
 };
 
-/// This rank's rows, at least one, of a dataset of one axis that all ranks have open. Not collective: a rank's rows are one
-/// large piece of the file, so there is nothing for MPI-IO to gather.
+/// This rank's rows, at least one, of a dataset of one axis that all ranks have open. Not
+/// collective: a rank's rows are one large piece of the file, so there is nothing for MPI-IO to
+/// gather.
 void read_rows(hid_t dataset, const Rows& rows, hid_t type, void* numbers);
 
 } // namespace carrom::h5

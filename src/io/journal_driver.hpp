@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// HDF5's way to the disk (a virtual file driver) for files under an UndoJournal: plain reads and writes of one process.
+// HDF5's way to the disk (a virtual file driver) for files under an UndoJournal: plain reads and
+// writes of one process.
 #pragma once
 
 #include "io/hdf5.hpp"

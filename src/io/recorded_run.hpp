@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which run a recording is of, so that no other one goes on with it: its scene's text, as checkpoints have it.
+// Which run a recording is of, so that no other one goes on with it: its scene's text, as
+// checkpoints have it.
 #pragma once
 
 #include "io/checkpoint.hpp"
@@ -7,10 +8,12 @@
 
 namespace carrom {
 
-/// Writes /carrom/scene, and the classes of discs that a file had; nothing where `run` has no text. Throws FileError.
+/// Writes /carrom/scene, and the classes of discs that a file had; nothing where `run` has no text.
+/// Throws FileError.
 void write_recorded_run(hid_t file, const CheckpointHeader& run);
 
-/// Throws FileError where the file says of which run it is and `difference_from` knows a difference. Older versions' say nothing.
+/// Throws FileError where the file says of which run it is and `difference_from` knows a
+/// difference. Older versions' say nothing.
 void check_recorded_run(hid_t file, const DifferenceFrom& difference_from);
 
 } // namespace carrom

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The text of a seal. What is parsed is exactly what was written: each seal has one text, and its last line hashes the others.
+// The text of a seal. What is parsed is exactly what was written: each seal has one text, and its
+// last line hashes the others.
 #pragma once
 
 #include <array>
@@ -25,10 +26,12 @@ struct Seal {
 /// The front of a file of format 2.
 SealBlock block_of(const Seal& seal);
 
-/// The size that a seal of any format we read speaks of; throws FileError where there is no such seal.
+/// The size that a seal of any format we read speaks of; throws FileError where there is no such
+/// seal.
 std::uint64_t sealed_size(const SealBlock& block);
 
-/// Throws FileError unless the block is one that a writer has made; its parts follow each other within the file then.
+/// Throws FileError unless the block is one that a writer has made; its parts follow each other
+/// within the file then.
 Seal parsed(const SealBlock& block);
 
 } // namespace carrom

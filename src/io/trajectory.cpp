@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "io/appended_file.hpp"
-#include "parallel/exchange.hpp"
 #include "io/checked_dataset.hpp"
 #include "io/crash_guard.hpp"
 #include "io/files.hpp"
 #include "io/h5md.hpp"
 #include "io/recorded_run.hpp"
 #include "io/xdmf.hpp"
+#include "parallel/exchange.hpp"
 
 namespace carrom {
 
@@ -39,13 +39,15 @@ struct ShownDisc {
     double angular_velocity = 0;
 };
 
-/// A dataset of /particles/discs that grows by a row of n x width numbers a frame, of n numbers where the width is 1.
+/// A dataset of /particles/discs that grows by a row of n x width numbers a frame, of n numbers
+/// where the width is 1.
 struct Field {
     std::string path;
     hsize_t width;
-    hid_t type;          ///< of the file
+    hid_t type; ///< of the file
     hid_t memory_type;
-    std::uint64_t (*bits)(const ShownDisc&, std::size_t); ///< component k as the 8 bytes of the memory type
+    std::uint64_t (*bits)(const ShownDisc&,
+                          std::size_t); ///< component k as the 8 bytes of the memory type
 };
 
 std::uint64_t bits_of(double number) { return std::bit_cast<std::uint64_t>(number); }
@@ -54,16 +56,22 @@ std::vector<Field> fields_of(const TrajectoryLayout& layout) {
     const hid_t real = layout.is_single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
     std::vector<Field> fields;
     if (layout.has_position)
-        fields.push_back({"position", 3, real, H5T_NATIVE_DOUBLE,
-                          [](const ShownDisc& disc, std::size_t k) { return bits_of(k < 2 ? disc.position[k] : 0); }});
+        fields.push_back(
+            {"position", 3, real, H5T_NATIVE_DOUBLE, [](const ShownDisc& disc, std::size_t k) {
+                 return bits_of(k < 2 ? disc.position[k] : 0);
+             }});
     if (layout.has_velocity)
-        fields.push_back({"velocity", 3, real, H5T_NATIVE_DOUBLE,
-                          [](const ShownDisc& disc, std::size_t k) { return bits_of(k < 2 ? disc.velocity[k] : 0); }});
+        fields.push_back(
+            {"velocity", 3, real, H5T_NATIVE_DOUBLE, [](const ShownDisc& disc, std::size_t k) {
+                 return bits_of(k < 2 ? disc.velocity[k] : 0);
+             }});
     if (layout.has_collisions)
         fields.push_back({"collisions", 2, H5T_STD_U64LE, H5T_NATIVE_UINT64,
                           [](const ShownDisc& disc, std::size_t k) { return disc.collisions[k]; }});
     if (layout.has_angular_velocity)
-        fields.push_back({"angular_velocity", 1, real, H5T_NATIVE_DOUBLE, [](const ShownDisc& disc, std::size_t) { return bits_of(disc.angular_velocity); }});
+        fields.push_back(
+            {"angular_velocity", 1, real, H5T_NATIVE_DOUBLE,
+             [](const ShownDisc& disc, std::size_t) { return bits_of(disc.angular_velocity); }});
     return fields;
 }
 
@@ -80,7 +88,8 @@ void link(hid_t from, const char* name, hid_t to) {
 /// What never changes has no step and no time (H5MD 1.1, "time-independent data").
 void write_fixed(hid_t discs, const char* name, const std::vector<double>& values) {
     if (values.empty()) return;
-    h5::write_whole(discs, name, std::array<hsize_t, 1>{values.size()}, H5T_IEEE_F64LE, values.data());
+    h5::write_whole(discs, name, std::array<hsize_t, 1>{values.size()}, H5T_IEEE_F64LE,
+                    values.data());
 }
 
 constexpr const char* open_boundaries_path = "/parameters/open_sides";
@@ -90,7 +99,8 @@ void write_open_boundaries(hid_t file, const TrajectoryLayout& layout) {
     std::array<std::int32_t, 4> flags{};
     std::copy(layout.open_boundaries.begin(), layout.open_boundaries.end(), flags.begin());
     if (flags == std::array<std::int32_t, 4>{}) return;
-    h5::write_whole(file, open_boundaries_path, std::array<hsize_t, 1>{flags.size()}, H5T_NATIVE_INT32, flags.data());
+    h5::write_whole(file, open_boundaries_path, std::array<hsize_t, 1>{flags.size()},
+                    H5T_NATIVE_INT32, flags.data());
 }
 
 /// Steps and times stand once; every element links to them, as H5MD allows.
@@ -104,17 +114,19 @@ void create_structure(hid_t file, const TrajectoryLayout& layout) {
     const h5::Group discs = h5::create_group(particles.id(), "discs");
     write_fixed(discs.id(), "radius", layout.radii);
     write_fixed(discs.id(), "mass", layout.masses);
-    const h5::Group box = h5md::create_box(discs.id(), layout.is_periodic_x, layout.is_periodic_y), edges = h5::create_group(box.id(), "edges");
+    const h5::Group box = h5md::create_box(discs.id(), layout.is_periodic_x, layout.is_periodic_y),
+                    edges = h5::create_group(box.id(), "edges");
     create_growing(edges.id(), "step", H5T_STD_I64LE, {}, std::array<hsize_t, 1>{256}, 0);
     create_growing(edges.id(), "time", H5T_IEEE_F64LE, {}, std::array<hsize_t, 1>{256}, 0);
-    create_growing(edges.id(), "value", H5T_IEEE_F64LE, std::array<hsize_t, 1>{3}, std::array<hsize_t, 2>{256, 3}, 0);
+    create_growing(edges.id(), "value", H5T_IEEE_F64LE, std::array<hsize_t, 1>{3},
+                   std::array<hsize_t, 2>{256, 3}, 0);
     for (const Field& field : fields) {
         const h5::Group element = h5::create_group(discs.id(), field.path.c_str());
         link(edges.id(), "step", element.id());
         link(edges.id(), "time", element.id());
         const std::vector<hsize_t> frame = sizes_of(field, 1, layout.n_discs);
-        create_growing(element.id(), "value", field.type, std::span(frame).subspan(1), sizes_of(field, 1, rows_per_chunk(layout.n_discs)),
-                       layout.compression);
+        create_growing(element.id(), "value", field.type, std::span(frame).subspan(1),
+                       sizes_of(field, 1, rows_per_chunk(layout.n_discs)), layout.compression);
     }
 }
 
@@ -128,9 +140,12 @@ void set_frames(hid_t file, const TrajectoryLayout& layout, hsize_t n) {
     for (const char* path : {step_path, time_path, edges_path}) set_length(file, path, n);
 }
 
-std::array<double, 3> edges_of(const TrajectoryLayout& layout) { return {layout.box_size, layout.box_size, 1}; }
+std::array<double, 3> edges_of(const TrajectoryLayout& layout) {
+    return {layout.box_size, layout.box_size, 1};
+}
 
-/// Walls that move make the box that holds all frames depend on the last step, which a restart may change.
+/// Walls that move make the box that holds all frames depend on the last step, which a restart may
+/// change.
 void renew_box(hid_t file, const TrajectoryLayout& layout, hsize_t n_frames) {
     std::vector<double> there(3 * n_frames), wanted;
     for (hsize_t frame = 0; frame < n_frames; ++frame)
@@ -138,9 +153,12 @@ void renew_box(hid_t file, const TrajectoryLayout& layout, hsize_t n_frames) {
     const std::array<hsize_t, 2> start = {0, 0}, count = {n_frames, 3};
     {
         const h5::Dataset edges = h5::open_checked(file, edges_path, {n_frames, 3});
-        h5::checked(H5Dread(edges.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, there.data()), edges_path);
+        h5::checked(
+            H5Dread(edges.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, there.data()),
+            edges_path);
     }
-    if (there != wanted) write_block(file, edges_path, start, count, H5T_NATIVE_DOUBLE, wanted.data());
+    if (there != wanted)
+        write_block(file, edges_path, start, count, H5T_NATIVE_DOUBLE, wanted.data());
 }
 
 void check_layout(hid_t file, const TrajectoryLayout& layout) {
@@ -149,7 +167,8 @@ void check_layout(hid_t file, const TrajectoryLayout& layout) {
         const h5::Dataset dataset = h5::open_checked(file, value_path(field));
         const std::vector<hsize_t> dimensions = h5::dimensions_of(dataset.id());
         const h5::Type type(h5::checked(H5Dget_type(dataset.id()), "cannot look at a dataset"));
-        if (dimensions != sizes_of(field, n_frames, layout.n_discs) || H5Tequal(type.id(), field.type) <= 0)
+        if (dimensions != sizes_of(field, n_frames, layout.n_discs) ||
+            H5Tequal(type.id(), field.type) <= 0)
             throw FileError("is of another run: its " + field.path + " has another shape");
     }
     static_cast<void>(h5::open_checked(file, time_path, {n_frames}));
@@ -160,16 +179,21 @@ void check_layout(hid_t file, const TrajectoryLayout& layout) {
 class SlabStream {
 public:
     /// `spins` may be empty.
-    SlabStream(std::span<const Disc> discs, std::span<const double> spins, double clock, double velocity_unit, const Communicator& communicator)
-        : discs_(discs), spins_(spins), clock_(clock), velocity_unit_(velocity_unit), communicator_(communicator), order_(discs.size()) {
+    SlabStream(std::span<const Disc> discs, std::span<const double> spins, double clock,
+               double velocity_unit, const Communicator& communicator)
+        : discs_(discs), spins_(spins), clock_(clock), velocity_unit_(velocity_unit),
+          communicator_(communicator), order_(discs.size()) {
         std::iota(order_.begin(), order_.end(), LocalIndex{0});
-        std::sort(order_.begin(), order_.end(), [discs](LocalIndex a, LocalIndex b) { return discs[a].id < discs[b].id; });
+        std::sort(order_.begin(), order_.end(),
+                  [discs](LocalIndex a, LocalIndex b) { return discs[a].id < discs[b].id; });
     }
 
-    /// Ids [begin, end), which follow those of the last call; nothing on other ranks. **Collective.**
+    /// Ids [begin, end), which follow those of the last call; nothing on other ranks.
+    /// **Collective.**
     std::span<const ShownDisc> next(std::uint64_t begin, std::uint64_t end) {
         std::vector<ShownDisc> mine;
-        for (; next_ < order_.size() && discs_[order_[next_]].id < end; ++next_) mine.push_back(shown(order_[next_]));
+        for (; next_ < order_.size() && discs_[order_[next_]].id < end; ++next_)
+            mine.push_back(shown(order_[next_]));
         slab_.resize(communicator_.is_root() ? end - begin : 0);
         const auto place = [&](std::span<const ShownDisc> some) {
             for (const ShownDisc& disc : some) slab_[disc.id - begin] = disc;
@@ -197,7 +221,8 @@ private:
     std::vector<ShownDisc> slab_;
 };
 
-void write_slab(hid_t file, const TrajectoryLayout& layout, hsize_t frame, std::uint64_t begin, std::span<const ShownDisc> slab) {
+void write_slab(hid_t file, const TrajectoryLayout& layout, hsize_t frame, std::uint64_t begin,
+                std::span<const ShownDisc> slab) {
     std::vector<std::uint64_t> numbers;
     for (const Field& field : fields_of(layout)) {
         numbers.clear();
@@ -205,7 +230,8 @@ void write_slab(hid_t file, const TrajectoryLayout& layout, hsize_t frame, std::
             for (std::size_t k = 0; k < field.width; ++k) numbers.push_back(field.bits(disc, k));
         const std::array<hsize_t, 3> start = {frame, begin, 0};
         const std::vector<hsize_t> count = sizes_of(field, 1, slab.size());
-        write_block(file, value_path(field).c_str(), std::span(start).first(count.size()), count, field.memory_type, numbers.data());
+        write_block(file, value_path(field).c_str(), std::span(start).first(count.size()), count,
+                    field.memory_type, numbers.data());
     }
 }
 
@@ -214,7 +240,8 @@ void write_labels(hid_t file, hsize_t frame, std::int64_t step, const Trajectory
     const std::array<hsize_t, 1> place = {frame}, one = {1};
     const auto time = static_cast<double>(step);
     const std::array<double, 3> edges = edges_of(layout);
-    write_block(file, edges_path, std::array<hsize_t, 2>{frame, 0}, std::array<hsize_t, 2>{1, 3}, H5T_NATIVE_DOUBLE, edges.data());
+    write_block(file, edges_path, std::array<hsize_t, 2>{frame, 0}, std::array<hsize_t, 2>{1, 3},
+                H5T_NATIVE_DOUBLE, edges.data());
     write_block(file, time_path, place, one, H5T_NATIVE_DOUBLE, &time);
     write_block(file, step_path, place, one, H5T_NATIVE_INT64, &step);
 }
@@ -228,7 +255,8 @@ struct Trajectory::State {
     std::size_t n_described = 0;     ///< of them in the XDMF file
 };
 
-Trajectory::Trajectory(const std::string& path, const TrajectoryLayout& layout, const Communicator& communicator)
+Trajectory::Trajectory(const std::string& path, const TrajectoryLayout& layout,
+                       const Communicator& communicator)
     : path_(path), layout_(layout), communicator_(communicator) {
     if (communicator_.is_root()) state_ = std::make_unique<State>(path);
 }
@@ -245,7 +273,8 @@ void Trajectory::begin() {
 
 std::int64_t Trajectory::go_on(std::int64_t step, const DifferenceFrom& difference_from) {
     std::uint64_t is_there = 0;
-    on_root(communicator_, path_, ExitCode::output_failure, [&] { is_there = state_->file.reopen() ? 1 : 0; });
+    on_root(communicator_, path_, ExitCode::output_failure,
+            [&] { is_there = state_->file.reopen() ? 1 : 0; });
     communicator_.broadcast(is_there);
     if (is_there == 0) {
         begin();
@@ -263,27 +292,33 @@ std::int64_t Trajectory::go_on(std::int64_t step, const DifferenceFrom& differen
             const hsize_t n = count_up_to(file, step_path, step);
             set_frames(file, layout_, n);
             renew_box(file, layout_, n);
-            if (H5Lexists(file, open_boundaries_path, H5P_DEFAULT) == 0) write_open_boundaries(file, layout_); // an older version's
+            if (H5Lexists(file, open_boundaries_path, H5P_DEFAULT) == 0)
+                write_open_boundaries(file, layout_); // an older version's
             state_->steps = read_numbers(file, step_path);
         });
     });
     return communicator_.is_root() && !state_->steps.empty() ? state_->steps.back() : -1;
 }
 
-void Trajectory::append(std::int64_t step, std::span<const Disc> discs, double clock, std::span<const double> spins) {
-    ensure(!layout_.has_angular_velocity || spins.size() == discs.size(), "spins do not run along the discs");
+void Trajectory::append(std::int64_t step, std::span<const Disc> discs, double clock,
+                        std::span<const double> spins) {
+    ensure(!layout_.has_angular_velocity || spins.size() == discs.size(),
+           "spins do not run along the discs");
     hsize_t frame = 0;
     on_root(communicator_, path_, ExitCode::output_failure, [&] {
         frame = state_->steps.size();
         state_->file.open();
         state_->file.attempt([&](hid_t file) { set_frames(file, layout_, frame + 1); });
     });
-    SlabStream stream(discs, layout_.has_angular_velocity ? spins : std::span<const double>{}, clock, layout_.velocity_unit, communicator_);
+    SlabStream stream(discs, layout_.has_angular_velocity ? spins : std::span<const double>{},
+                      clock, layout_.velocity_unit, communicator_);
     const std::uint64_t rows = rows_per_slab(layout_.n_discs);
     for (std::uint64_t begin = 0; begin < layout_.n_discs; begin += rows) {
-        const std::span<const ShownDisc> slab = stream.next(begin, std::min(begin + rows, layout_.n_discs));
+        const std::span<const ShownDisc> slab = stream.next(
+            begin, std::min(begin + rows, layout_.n_discs));
         if (communicator_.is_root())
-            state_->file.attempt([&](hid_t file) { write_slab(file, layout_, frame, begin, slab); });
+            state_->file.attempt(
+                [&](hid_t file) { write_slab(file, layout_, frame, begin, slab); });
     }
     on_root(communicator_, path_, ExitCode::output_failure, [&] {
         state_->file.attempt([&](hid_t file) { write_labels(file, frame, step, layout_); });
@@ -303,7 +338,8 @@ void Trajectory::commit() {
 }
 
 void Trajectory::describe() {
-    on_root(communicator_, path_, ExitCode::output_failure, [&] { write_xdmf(path_, layout_, state_->steps); });
+    on_root(communicator_, path_, ExitCode::output_failure,
+            [&] { write_xdmf(path_, layout_, state_->steps); });
 }
 
 } // namespace carrom

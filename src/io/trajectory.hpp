@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every so-many-th step of a run in one H5MD file, discs in the order of their ids.
 //
-// Frames stream through rank 0 in slabs of ids, which is what makes them safe from kills and readable while the run goes
-// on (see AppendedFile); its price is one rank's speed to the disk, so frames are for looking at, checkpoints for going
-// on. Beside the file lies an XDMF description, by which ParaView and VisIt open it.
+// Frames stream through rank 0 in slabs of ids, which is what makes them safe from kills and
+// readable while the run goes on (see AppendedFile); its price is one rank's speed to the disk, so
+// frames are for looking at, checkpoints for going on. Beside the file lies an XDMF description, by
+// which ParaView and VisIt open it.
 #pragma once
 
 #include <array>
@@ -29,31 +30,34 @@ struct TrajectoryLayout {
     double velocity_unit = 1; ///< what stored velocities are multiplied by to be per step
     bool has_position = true, has_velocity = true, has_collisions = false;
     bool has_angular_velocity = false; ///< of discs that turn, per step, counterclockwise
-    bool is_single = true;    ///< float32, else float64
-    int compression = 0;      ///< deflate level; 0 for none
-    CheckpointHeader run;     ///< of which run it is: scene and classes. No text: the file will not say
+    bool is_single = true;             ///< float32, else float64
+    int compression = 0;               ///< deflate level; 0 for none
+    CheckpointHeader run; ///< of which run it is: scene and classes. No text: the file will not say
 };
 
 class Trajectory {
 public:
     /// `communicator` must outlive this.
-    Trajectory(const std::string& path, const TrajectoryLayout& layout, const Communicator& communicator);
+    Trajectory(const std::string& path, const TrajectoryLayout& layout,
+               const Communicator& communicator);
     ~Trajectory();
 
-    /// A new file in the place of any other. If this or any other call fails every rank throws CollectiveError, code 4,
-    /// and the file is as it was at the last commit. **Collective.**
+    /// A new file in the place of any other. If this or any other call fails every rank throws
+    /// CollectiveError, code 4, and the file is as it was at the last commit. **Collective.**
     void begin();
 
-    /// Goes on with the file, cut back to frames up to `step`, which get this layout's box. Begins a new one where there is
-    /// none. Throws code 2 where the file has another layout or is another run's. Returns, on rank 0, the step of the last frame
-    /// that is left, or -1. **Collective.**
+    /// Goes on with the file, cut back to frames up to `step`, which get this layout's box. Begins
+    /// a new one where there is none. Throws code 2 where the file has another layout or is another
+    /// run's. Returns, on rank 0, the step of the last frame that is left, or -1. **Collective.**
     std::int64_t go_on(std::int64_t step, const DifferenceFrom& difference_from = {});
 
-    /// Adds a frame: the discs, spread over the ranks in any way, at `clock`; their spins along them, where the layout has
-    /// angular velocities. **Collective.**
-    void append(std::int64_t step, std::span<const Disc> discs, double clock, std::span<const double> spins = {});
+    /// Adds a frame: the discs, spread over the ranks in any way, at `clock`; their spins along
+    /// them, where the layout has angular velocities. **Collective.**
+    void append(std::int64_t step, std::span<const Disc> discs, double clock,
+                std::span<const double> spins = {});
 
-    /// What has been added so far is to stay: brings it to disk. Renews the description when it has grown old.
+    /// What has been added so far is to stay: brings it to disk. Renews the description when it has
+    /// grown old.
     /// **Collective.**
     void commit();
 

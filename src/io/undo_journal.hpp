@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lets a file that grows for days be cut back to where it was known to be good, whatever has happened since.
+// Lets a file that grows for days be cut back to where it was known to be good, whatever has
+// happened since.
 //
-// HDF5 writes over its tables in place when a file grows; a process that is killed in between leaves a file that nobody
-// can open. So what stood in a block of 4 KiB is kept beside the file before the block is written over for the first time
-// since the last commit, and brought to disk. Rolling back puts these blocks into their places again and cuts off what
-// came behind them. Price: a few blocks and as many waits for the disk per commit, nothing for bytes that are new.
+// HDF5 writes over its tables in place when a file grows; a process that is killed in between
+// leaves a file that nobody can open. So what stood in a block of 4 KiB is kept beside the file
+// before the block is written over for the first time since the last commit, and brought to disk.
+// Rolling back puts these blocks into their places again and cuts off what came behind them. Price:
+// a few blocks and as many waits for the disk per commit, nothing for bytes that are new.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +23,8 @@ public:
     UndoJournal(const UndoJournal&) = delete;
     UndoJournal& operator=(const UndoJournal&) = delete;
 
-    /// To be called before bytes are written over. Throws FileError where they cannot be kept; they must not be written
-    /// over then.
+    /// To be called before bytes are written over. Throws FileError where they cannot be kept; they
+    /// must not be written over then.
     void keep(int file, std::uint64_t offset, std::uint64_t length);
 
     /// The file as it is now, of that size, is what to roll back to. It must be on disk.

@@ -30,20 +30,23 @@ std::string this_process() {
 std::string first_bytes(int file) {
     std::array<char, 512> text{};
     const ssize_t n = ::pread(file, text.data(), text.size() - 1, 0);
-    return n > 0 ? std::string(text.data(), static_cast<std::size_t>(n)) : "a process that has not yet said which";
+    return n > 0 ? std::string(text.data(), static_cast<std::size_t>(n))
+                 : "a process that has not yet said which";
 }
 
 /// Whether the name still leads to the open file: a holder that ends removes it.
 bool is_still_there(int file, const std::string& path) {
-    struct stat open {}, named {};
-    return ::fstat(file, &open) == 0 && ::stat(path.c_str(), &named) == 0 && open.st_ino == named.st_ino && open.st_dev == named.st_dev;
+    struct stat open{}, named{};
+    return ::fstat(file, &open) == 0 && ::stat(path.c_str(), &named) == 0 &&
+           open.st_ino == named.st_ino && open.st_dev == named.st_dev;
 }
 
 } // namespace
 
 WriteLock::WriteLock(std::string path) : path_(std::move(path)) {
     const auto start = std::chrono::steady_clock::now();
-    while (!try_once() && std::chrono::steady_clock::now() - start < patience) std::this_thread::sleep_for(pause);
+    while (!try_once() && std::chrono::steady_clock::now() - start < patience)
+        std::this_thread::sleep_for(pause);
 }
 
 WriteLock::~WriteLock() {
@@ -53,7 +56,8 @@ WriteLock::~WriteLock() {
 }
 
 WriteLock::WriteLock(WriteLock&& other) noexcept
-    : path_(std::move(other.path_)), holder_(std::move(other.holder_)), file_(std::exchange(other.file_, -1)) {}
+    : path_(std::move(other.path_)), holder_(std::move(other.holder_)),
+      file_(std::exchange(other.file_, -1)) {}
 
 /// True where there is nothing to wait for.
 bool WriteLock::try_once() {
@@ -70,7 +74,8 @@ bool WriteLock::try_once() {
         return false;
     }
     const std::string text = this_process();
-    if (::ftruncate(file, 0) == 0) [[maybe_unused]] const ssize_t n = ::pwrite(file, text.data(), text.size(), 0);
+    if (::ftruncate(file, 0) == 0) [[maybe_unused]]
+        const ssize_t n = ::pwrite(file, text.data(), text.size(), 0);
     file_ = file;
     return true;
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A place that one run at a time may write to: two would remove each other's files and write into one.
+// A place that one run at a time may write to: two would remove each other's files and write into
+// one.
 //
-// The lock is flock's, on a small file of its own (HDF5 locks its files itself). The kernel releases it with the process,
-// however that ends, so none outlives its run; the file may, and means nothing then. NFS carries such locks between
-// nodes; Lustre does where it is mounted with `flock`. Where a file system has no locks there is no protection.
+// The lock is flock's, on a small file of its own (HDF5 locks its files itself). The kernel
+// releases it with the process, however that ends, so none outlives its run; the file may, and
+// means nothing then. NFS carries such locks between nodes; Lustre does where it is mounted with
+// `flock`. Where a file system has no locks there is no protection.
 #pragma once
 
 #include <string>
@@ -12,8 +14,8 @@ namespace carrom {
 
 class WriteLock {
 public:
-    /// Takes the lock that `path` stands for, of one rank. If another process has it, and keeps it for two seconds, `holder`
-    /// says which; empty else, also where there are no locks.
+    /// Takes the lock that `path` stands for, of one rank. If another process has it, and keeps it
+    /// for two seconds, `holder` says which; empty else, also where there are no locks.
     explicit WriteLock(std::string path);
     /// Gives it back, and removes the file.
     ~WriteLock();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A description of a trajectory in XDMF 2, by which VTK (ParaView, VisIt) opens the HDF5 file without a copy.
+// A description of a trajectory in XDMF 2, by which VTK (ParaView, VisIt) opens the HDF5 file
+// without a copy.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,9 @@
 
 namespace carrom {
 
-/// Writes trajectory.xdmf beside trajectory.h5, whole or not at all. Some 1 KB a frame. Throws FileError.
-void write_xdmf(const std::string& path, const TrajectoryLayout& layout, std::span<const std::int64_t> steps);
+/// Writes trajectory.xdmf beside trajectory.h5, whole or not at all. Some 1 KB a frame. Throws
+/// FileError.
+void write_xdmf(const std::string& path, const TrajectoryLayout& layout,
+                std::span<const std::int64_t> steps);
 
 } // namespace carrom

@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "parallel/pieces.hpp"
 #include "engine/state_sums.hpp"
+#include "parallel/pieces.hpp"
 #include "statistics/pair_distances.hpp"
 
 namespace carrom {
@@ -21,8 +21,10 @@ constexpr std::int64_t format = 1;
 
 /// Everything that is kept, in one order for writing and reading.
 template <class Sums, class Visit> void visit_all(Sums& s, const Visit& visit) {
-    visit(s.quantities), visit(s.every_steps), visit(s.wanted_from), visit(s.largest_distance), visit(s.largest_velocity);
-    visit(s.first_step), visit(s.last_step), visit(s.speed_scale), visit(s.n_samples), visit(s.n_discs), visit(s.area);
+    visit(s.quantities), visit(s.every_steps), visit(s.wanted_from), visit(s.largest_distance),
+        visit(s.largest_velocity);
+    visit(s.first_step), visit(s.last_step), visit(s.speed_scale), visit(s.n_samples),
+        visit(s.n_discs), visit(s.area);
     for (auto* counts : {&s.pairs, &s.vx, &s.vy, &s.speeds, &s.x, &s.y, &s.pending}) visit(*counts);
     for (auto& count : s.wall_collisions) visit(count);
     for (auto* numbers : {&s.ideal_pairs, &s.impulses, &s.displacements}) visit(*numbers);
@@ -54,9 +56,11 @@ std::optional<SampleSums> unpacked(std::span<const std::int64_t> words) {
     visit_all(sums, [&](auto& value) {
         if constexpr (requires { value.size(); }) {
             const std::int64_t size = take();
-            is_right = is_right && size >= 0 && static_cast<std::size_t>(size) <= words.size() - next;
+            is_right = is_right && size >= 0 &&
+                       static_cast<std::size_t>(size) <= words.size() - next;
             value.resize(is_right ? static_cast<std::size_t>(size) : 0);
-            for (auto& item : value) item = std::bit_cast<std::remove_reference_t<decltype(item)>>(take());
+            for (auto& item : value)
+                item = std::bit_cast<std::remove_reference_t<decltype(item)>>(take());
         } else {
             value = std::bit_cast<std::remove_reference_t<decltype(value)>>(take());
         }
@@ -66,14 +70,17 @@ std::optional<SampleSums> unpacked(std::span<const std::int64_t> words) {
 }
 
 std::uint64_t quantities_of(const MeasurementOutput& output) {
-    return (output.wall_pressure ? 1u : 0u) | (output.radial_distribution ? 2u : 0u) | (output.velocities ? 4u : 0u) |
-           (output.density ? 8u : 0u) | (output.displacement ? 16u : 0u);
+    return (output.wall_pressure ? 1u : 0u) | (output.radial_distribution ? 2u : 0u) |
+           (output.velocities ? 4u : 0u) | (output.density ? 8u : 0u) |
+           (output.displacement ? 16u : 0u);
 }
 
-/// A component's root mean square, as the discs and the thermal walls have it; 0 where all is at rest.
+/// A component's root mean square, as the discs and the thermal walls have it; 0 where all is at
+/// rest.
 double thermal_speed(const Scene& scene, const Totals& totals) {
     double temperature = totals.kinetic_energy / static_cast<double>(totals.n_discs);
-    for (const Boundary& side : scene.effects.boundaries) temperature = std::max(temperature, side.temperature);
+    for (const Boundary& side : scene.effects.boundaries)
+        temperature = std::max(temperature, side.temperature);
     double lightest = 1;
     for (const Species& each : scene.effects.species) lightest = std::min(lightest, each.mass);
     return std::sqrt(temperature / lightest);
@@ -81,8 +88,11 @@ double thermal_speed(const Scene& scene, const Totals& totals) {
 
 /// How fast discs may become by falling or by being pushed.
 double driven_speed(const Scene& scene) {
-    double speed = std::sqrt(2 * (std::fabs(scene.effects.gravity.x) + std::fabs(scene.effects.gravity.y)) * scene.box_size);
-    for (const Boundary& side : scene.effects.boundaries) speed = std::max(speed, std::fabs(side.speed));
+    double speed = std::sqrt(
+        2 * (std::fabs(scene.effects.gravity.x) + std::fabs(scene.effects.gravity.y)) *
+        scene.box_size);
+    for (const Boundary& side : scene.effects.boundaries)
+        speed = std::max(speed, std::fabs(side.speed));
     return speed;
 }
 
@@ -91,16 +101,19 @@ std::vector<Disc> flown_on(const Simulation& simulation) {
     Frame frame = simulation.frame();
     frame.period_x = frame.period_y = 0;
     std::vector<Disc> discs;
-    for (const Disc& disc : simulation.discs()) discs.push_back(frame.in_box(disc, simulation.clock()));
+    for (const Disc& disc : simulation.discs())
+        discs.push_back(frame.in_box(disc, simulation.clock()));
     return discs;
 }
 
 void count(std::vector<std::uint64_t>& counts, double place) {
-    if (place >= 0 && place < static_cast<double>(counts.size())) ++counts[static_cast<std::size_t>(place)];
+    if (place >= 0 && place < static_cast<double>(counts.size()))
+        ++counts[static_cast<std::size_t>(place)];
 }
 
 /// Adds what all ranks have counted.
-void add_over(const Communicator& ranks, std::vector<std::uint64_t>&& mine, std::vector<std::uint64_t>& sums) {
+void add_over(const Communicator& ranks, std::vector<std::uint64_t>&& mine,
+              std::vector<std::uint64_t>& sums) {
     ranks.sum(std::span(mine));
     for (std::size_t k = 0; k < mine.size(); ++k) sums[k] += mine[k];
 }
@@ -116,7 +129,8 @@ std::vector<Species> species_told_apart(const Scene& scene) {
 
 double share_of_ideal_pairs(double a, double b, double distance) {
     const double r = distance;
-    return 4 / (a * a * b * b) * r * r * (a * b * (0.25 * std::numbers::pi) - (a + b) * r / 3 + r * r / 8);
+    return 4 / (a * a * b * b) * r * r *
+           (a * b * (0.25 * std::numbers::pi) - (a + b) * r / 3 + r * r / 8);
 }
 
 double share_of_ideal_pairs_around_x(double period, double b, double distance) {
@@ -124,7 +138,9 @@ double share_of_ideal_pairs_around_x(double period, double b, double distance) {
     return r * r / (period * b * b) * (std::numbers::pi * b - 4 * r / 3);
 }
 
-double share_of_ideal_pairs_around(double period, double distance) { return std::numbers::pi * distance * distance / (period * period); }
+double share_of_ideal_pairs_around(double period, double distance) {
+    return std::numbers::pi * distance * distance / (period * period);
+}
 
 Sampler::Sampler(const Scene& scene, Simulation& simulation, const Communicator& ranks)
     : scene_(scene), output_(*scene.measurements), simulation_(simulation), ranks_(ranks) {}
@@ -134,7 +150,8 @@ Sampler::~Sampler() {
     simulation_.note_crossings_in(nullptr);
 }
 
-/// Sums of nothing with the scene's keys. A largest velocity that is not given is what sampling begins with.
+/// Sums of nothing with the scene's keys. A largest velocity that is not given is what sampling
+/// begins with.
 SampleSums Sampler::wanted() const {
     SampleSums sums;
     sums.quantities = quantities_of(output_);
@@ -142,7 +159,8 @@ SampleSums Sampler::wanted() const {
     sums.wanted_from = output_.from_step;
     sums.largest_distance = output_.largest_distance;
     sums.largest_velocity = output_.largest_velocity.value_or(0);
-    if (output_.radial_distribution) sums.pairs.assign(output_.bins * n_pair_kinds(species_told_apart(scene_).size()), 0);
+    if (output_.radial_distribution)
+        sums.pairs.assign(output_.bins * n_pair_kinds(species_told_apart(scene_).size()), 0);
     sums.ideal_pairs.assign(sums.pairs.size(), 0);
     for (auto* counts : {&sums.vx, &sums.vy, &sums.speeds})
         if (output_.velocities) counts->assign(output_.bins, 0);
@@ -166,13 +184,16 @@ void Sampler::begin() {
 
 void Sampler::follow_walls() {
     if (!output_.wall_pressure) return;
-    impulses_.emplace(sums_.speed_scale * 0x1p62); // more than a run comes to, and 2^-63 of a speed is seen
+    impulses_.emplace(sums_.speed_scale *
+                      0x1p62); // more than a run comes to, and 2^-63 of a speed is seen
     simulation_.add_impulses_to(&*impulses_);
 }
 
-/// Where discs fly on through the seams, what syncs bring them back by is part of how far they have got.
+/// Where discs fly on through the seams, what syncs bring them back by is part of how far they have
+/// got.
 void Sampler::follow_seams() {
-    if (output_.displacement && scene_.effects.are_periodic()) simulation_.note_crossings_in(&crossings_);
+    if (output_.displacement && scene_.effects.are_periodic())
+        simulation_.note_crossings_in(&crossings_);
 }
 
 void Sampler::go_on(StoredSamples stored) {
@@ -183,19 +204,29 @@ void Sampler::go_on(StoredSamples stored) {
     if (found && output_.is_distance_default && found->largest_distance != asked.largest_distance) {
         // Another last step: walls come in less far, or further.
         if (found->largest_distance > asked.largest_distance)
-            throw InputError({{"[output.measurements]", 0,
-                               fmt::format("the checkpoint's radial distribution reaches {:g}, and walls that come in until the last step leave room for {:g}: "
-                                           "run to an earlier step, or begin anew with output.measurements.from_step = {}",
-                                           found->largest_distance, asked.largest_distance, step)}});
+            throw InputError(
+                {{"[output.measurements]", 0,
+                  fmt::format("the checkpoint's radial distribution reaches {:g}, and walls that "
+                              "come in until the last step leave room for {:g}: "
+                              "run to an earlier step, or begin anew with "
+                              "output.measurements.from_step = {}",
+                              found->largest_distance, asked.largest_distance, step)}});
         asked.largest_distance = found->largest_distance;
     }
-    const bool is_same = found && found->quantities == asked.quantities && found->every_steps == asked.every_steps &&
-                         found->wanted_from == asked.wanted_from && found->largest_distance == asked.largest_distance &&
-                         (!output_.largest_velocity || found->largest_velocity == asked.largest_velocity) &&
-                         found->pairs.size() == asked.pairs.size() && found->vx.size() == asked.vx.size() && found->x.size() == asked.x.size();
+    const bool is_same = found && found->quantities == asked.quantities &&
+                         found->every_steps == asked.every_steps &&
+                         found->wanted_from == asked.wanted_from &&
+                         found->largest_distance == asked.largest_distance &&
+                         (!output_.largest_velocity ||
+                          found->largest_velocity == asked.largest_velocity) &&
+                         found->pairs.size() == asked.pairs.size() &&
+                         found->vx.size() == asked.vx.size() && found->x.size() == asked.x.size();
     if (!is_same)
-        throw InputError({{"[output.measurements]", 0,
-                           fmt::format("the checkpoint's measurements are of other keys: keep those, or begin anew with output.measurements.from_step = {}", step)}});
+        throw InputError(
+            {{"[output.measurements]", 0,
+              fmt::format("the checkpoint's measurements are of other keys: keep those, or begin "
+                          "anew with output.measurements.from_step = {}",
+                          step)}});
     sums_ = *found;
     has_begun_ = true;
     follow_walls();
@@ -212,13 +243,16 @@ void Sampler::go_on(StoredSamples stored) {
 
 std::int64_t Sampler::next_due(std::int64_t step) const {
     if (!has_begun_) return std::max(step + 1, output_.from_step);
-    return sums_.first_step + ((step - sums_.first_step) / output_.every_steps + 1) * output_.every_steps;
+    return sums_.first_step +
+           ((step - sums_.first_step) / output_.every_steps + 1) * output_.every_steps;
 }
 
 void Sampler::look() {
     const std::int64_t step = simulation_.step();
     if (!has_begun_ && step >= output_.from_step) begin();
-    if (!has_begun_ || step == sums_.last_step || (step - sums_.first_step) % output_.every_steps != 0) return;
+    if (!has_begun_ || step == sums_.last_step ||
+        (step - sums_.first_step) % output_.every_steps != 0)
+        return;
     sample(step);
 }
 
@@ -228,12 +262,16 @@ void Sampler::sample(std::int64_t step) {
     const Extent box = extent_at(scene_.effects, scene_.box_size, static_cast<double>(step));
     const bool is_first = sums_.n_samples == 0;
     std::vector<Disc> kept;
-    const std::span<const Disc> inside = discs_in_box(discs, scene_.effects, box, simulation_.clock(), kept);
+    const std::span<const Disc> inside = discs_in_box(discs, scene_.effects, box,
+                                                      simulation_.clock(), kept);
     sums_.n_discs += ranks_.sum(std::uint64_t{inside.size()});
     sums_.area += (box.x_high - box.x_low) * (box.y_high - box.y_low);
     if (output_.velocities) sample_velocities(inside);
     if (output_.density) sample_density(inside, box);
-    if (output_.displacement) sample_displacement(scene_.effects.are_periodic() ? std::span<const Disc>(flown_on(simulation_)) : discs, n_discs, is_first);
+    if (output_.displacement)
+        sample_displacement(
+            scene_.effects.are_periodic() ? std::span<const Disc>(flown_on(simulation_)) : discs,
+            n_discs, is_first);
     if (output_.wall_pressure && !is_first) sample_impulses(step);
     if (output_.radial_distribution) sample_distances(box); // moves discs in memory: last
     ++sums_.n_samples;
@@ -243,7 +281,8 @@ void Sampler::sample(std::int64_t step) {
 void Sampler::sample_velocities(std::span<const Disc> discs) {
     const std::size_t n = output_.bins;
     const double unit = simulation_.velocity_unit(), largest = sums_.largest_velocity;
-    const double per_component = static_cast<double>(n) / (2 * largest), per_speed = static_cast<double>(n) / largest;
+    const double per_component = static_cast<double>(n) / (2 * largest),
+                 per_speed = static_cast<double>(n) / largest;
     std::vector<std::uint64_t> vx(n, 0), vy(n, 0), speeds(n, 0);
     for (const Disc& disc : discs) {
         const double u = disc.vx * unit, v = disc.vy * unit;
@@ -259,7 +298,8 @@ void Sampler::sample_velocities(std::span<const Disc> discs) {
 void Sampler::sample_density(std::span<const Disc> discs, const Extent& box) {
     const std::size_t n = output_.bins;
     const double time = simulation_.clock(), last = static_cast<double>(n - 1);
-    const double per_x = static_cast<double>(n) / (box.x_high - box.x_low), per_y = static_cast<double>(n) / (box.y_high - box.y_low);
+    const double per_x = static_cast<double>(n) / (box.x_high - box.x_low),
+                 per_y = static_cast<double>(n) / (box.y_high - box.y_low);
     std::vector<std::uint64_t> x(n, 0), y(n, 0);
     for (const Disc& disc : discs) { // the box's own edge belongs to its last bin
         count(x, std::clamp((disc.x_at(time) - box.x_low) * per_x, 0.0, last));
@@ -275,23 +315,31 @@ void Sampler::sample_distances(const Extent& box) {
     std::vector<std::uint64_t> pairs(sums_.pairs.size(), 0);
     const std::vector<Species> species = species_told_apart(scene_);
     std::vector<DiscId> species_ends;
-    for (const Species& one : species) species_ends.push_back((species_ends.empty() ? 0 : species_ends.back()) + one.count);
+    for (const Species& one : species)
+        species_ends.push_back((species_ends.empty() ? 0 : species_ends.back()) + one.count);
     simulation_.count_pair_distances(width, species_ends, pairs);
     add_over(ranks_, std::move(pairs), sums_.pairs);
-    const double a = box.x_high - box.x_low - 2 * scene_.radius, b = box.y_high - box.y_low - 2 * scene_.radius;
-    const bool goes_round_x = scene_.effects.is_periodic_x(), goes_round_y = scene_.effects.is_periodic_y();
+    const double a = box.x_high - box.x_low - 2 * scene_.radius,
+                 b = box.y_high - box.y_low - 2 * scene_.radius;
+    const bool goes_round_x = scene_.effects.is_periodic_x(),
+               goes_round_y = scene_.effects.is_periodic_y();
     const auto share = [&](double distance) {
-        if (goes_round_x && goes_round_y) return share_of_ideal_pairs_around(scene_.box_size, distance);
-        if (goes_round_x || goes_round_y) return share_of_ideal_pairs_around_x(scene_.box_size, goes_round_x ? b : a, distance);
+        if (goes_round_x && goes_round_y)
+            return share_of_ideal_pairs_around(scene_.box_size, distance);
+        if (goes_round_x || goes_round_y)
+            return share_of_ideal_pairs_around_x(scene_.box_size, goes_round_x ? b : a, distance);
         return share_of_ideal_pairs(a, b, distance);
     };
     for (std::size_t second = 0; second < species.size(); ++second) {
         for (std::size_t first = 0; first <= second; ++first) {
-            const auto n_first = static_cast<double>(species[first].count), n_second = static_cast<double>(species[second].count);
+            const auto n_first = static_cast<double>(species[first].count),
+                       n_second = static_cast<double>(species[second].count);
             const double all = first == second ? 0.5 * n_first * (n_first - 1) : n_first * n_second;
             for (std::size_t k = 0; k < n; ++k) {
-                const double inner = static_cast<double>(k) * width, outer = static_cast<double>(k + 1) * width;
-                sums_.ideal_pairs[pair_kind(first, second) * n + k] += all * (share(outer) - share(inner));
+                const double inner = static_cast<double>(k) * width,
+                             outer = static_cast<double>(k + 1) * width;
+                sums_.ideal_pairs[pair_kind(first, second) * n + k] += all * (share(outer) -
+                                                                              share(inner));
             }
         }
     }
@@ -309,16 +357,19 @@ void Sampler::sample_impulses(std::int64_t /*step*/) {
     *impulses_ = WallImpulses(sums_.speed_scale * 0x1p62);
 }
 
-void Sampler::sample_displacement(std::span<const Disc> discs, std::uint64_t n_discs, bool is_first) {
+void Sampler::sample_displacement(std::span<const Disc> discs, std::uint64_t n_discs,
+                                  bool is_first) {
     const double time = simulation_.clock();
     if (is_first) {
         std::vector<FirstPlace> places;
-        for (const Disc& disc : discs) places.push_back({disc.id, disc.x_at(time), disc.y_at(time)});
+        for (const Disc& disc : discs)
+            places.push_back({disc.id, disc.x_at(time), disc.y_at(time)});
         crossings_.clear(); // of before
         place_first(places);
     }
     take_crossings();
-    const double length = scene_.box_size, farthest = (scene_.effects.are_periodic() ? 0x1p22 : 4) * length;
+    const double length = scene_.box_size,
+                 farthest = (scene_.effects.are_periodic() ? 0x1p22 : 4) * length;
     const double bound = static_cast<double>(n_discs) * farthest * farthest;
     ExactSum x(bound), y(bound);
     PieceStream stream(ranks_, discs, n_discs, [](const Disc& disc) { return disc.id; });
@@ -326,8 +377,12 @@ void Sampler::sample_displacement(std::span<const Disc> discs, std::uint64_t n_d
         for (const Disc& disc : stream.next()) {
             const auto& [x0, y0] = first_places_[disc.id - first_id_];
             double dx = disc.x_at(time) - x0, dy = disc.y_at(time) - y0;
-            if (!lengths_.empty()) dx += lengths_[disc.id - first_id_][0] * length, dy += lengths_[disc.id - first_id_][1] * length;
-            ensure(std::fabs(dx) <= farthest && std::fabs(dy) <= farthest, "a disc has gone round a periodic box millions of times; measure \"displacement\" over fewer steps");
+            if (!lengths_.empty())
+                dx += lengths_[disc.id - first_id_][0] * length,
+                    dy += lengths_[disc.id - first_id_][1] * length;
+            ensure(std::fabs(dx) <= farthest && std::fabs(dy) <= farthest,
+                   "a disc has gone round a periodic box millions of times; measure "
+                   "\"displacement\" over fewer steps");
             x.add(dx * dx);
             y.add(dy * dy);
         }
@@ -349,18 +404,22 @@ void Sampler::place_first(std::span<const FirstPlace> places) {
     for (std::uint64_t round = 0; round < pieces.n_rounds(); ++round) {
         for (const FirstPlace& place : stream.next()) {
             first_places_.push_back({place.x, place.y});
-            if (scene_.effects.are_periodic()) lengths_.push_back({place.lengths_x, place.lengths_y});
+            if (scene_.effects.are_periodic())
+                lengths_.push_back({place.lengths_x, place.lengths_y});
         }
     }
 }
 
-/// Tells the ranks that keep first places what discs have been brought back by. Whole numbers: their order has no say. **Collective.**
+/// Tells the ranks that keep first places what discs have been brought back by. Whole numbers:
+/// their order has no say. **Collective.**
 void Sampler::take_crossings() const {
     if (!output_.displacement || !scene_.effects.are_periodic()) return;
     const Pieces pieces(scene_.n_discs, ranks_.size());
     std::vector<std::vector<Crossing>> out(static_cast<std::size_t>(ranks_.size()));
     for (const Crossing& crossing : crossings_)
-        out[static_cast<std::size_t>(slab_of(pieces.of(crossing.disc), pieces.count(), ranks_.size()))].push_back(crossing);
+        out[static_cast<std::size_t>(
+                slab_of(pieces.of(crossing.disc), pieces.count(), ranks_.size()))]
+            .push_back(crossing);
     crossings_.clear();
     for (const Crossing& crossing : send_to_owners(ranks_, out).items) {
         std::array<double, 2>& lengths = lengths_[crossing.disc - first_id_];
@@ -380,21 +439,24 @@ StoredSamples Sampler::stored() const {
         for (std::size_t side = 0; side < 4; ++side) {
             ExactSum sum = impulses_->normal[side];
             ranks_.sum(sum);
-            for (const std::uint64_t word : {sum.low_word(), sum.high_word(), counts[side]}) sums.pending.push_back(word);
+            for (const std::uint64_t word : {sum.low_word(), sum.high_word(), counts[side]})
+                sums.pending.push_back(word);
         }
     }
     stored.sums = packed(sums);
     stored.have_first_places = output_.displacement;
     stored.have_lengths = output_.displacement && scene_.effects.are_periodic();
     for (std::size_t i = 0; i < first_places_.size(); ++i) {
-        FirstPlace& place = stored.first_places.emplace_back(FirstPlace{first_id_ + i, first_places_[i][0], first_places_[i][1]});
+        FirstPlace& place = stored.first_places.emplace_back(
+            FirstPlace{first_id_ + i, first_places_[i][0], first_places_[i][1]});
         if (stored.have_lengths) place.lengths_x = lengths_[i][0], place.lengths_y = lengths_[i][1];
     }
     return stored;
 }
 
 std::vector<MeasuredTable> Sampler::tables() const {
-    return has_begun_ && sums_.n_samples > 0 ? tables_of(sums_, scene_) : std::vector<MeasuredTable>{};
+    return has_begun_ && sums_.n_samples > 0 ? tables_of(sums_, scene_)
+                                             : std::vector<MeasuredTable>{};
 }
 
 } // namespace carrom

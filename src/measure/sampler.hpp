@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `[output.measurements]` asks for, sampled every so many steps. A run that does not ask has none of this: no memory,
-// and no work in any kernel.
+// What `[output.measurements]` asks for, sampled every so many steps. A run that does not ask has
+// none of this: no memory, and no work in any kernel.
 //
-// Everything is a count, or a sum in fixed point (exact_sum.hpp), so the tables have the same bits for every machine shape,
-// and a restart goes on with them. Price of a sample: for velocities and density some nanoseconds a disc; for the
-// radial distribution a halo and a look at all pairs within its distance; for displacement each disc sent once to where its
-// first place is kept (16 bytes a disc, as many again in a periodic box). Wall pressure is added up collision by collision, as the log of collisions is.
+// Everything is a count, or a sum in fixed point (exact_sum.hpp), so the tables have the same bits
+// for every machine shape, and a restart goes on with them. Price of a sample: for velocities and
+// density some nanoseconds a disc; for the radial distribution a halo and a look at all pairs
+// within its distance; for displacement each disc sent once to where its first place is kept (16
+// bytes a disc, as many again in a periodic box). Wall pressure is added up collision by collision,
+// as the log of collisions is.
 #pragma once
 
 #include <array>
@@ -19,11 +21,11 @@
 
 #include "core/disc.hpp"
 #include "core/stored_samples.hpp"
+#include "engine/wall_impulses.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
-#include "statistics/averages.hpp"
 #include "simulation/simulation.hpp"
-#include "engine/wall_impulses.hpp"
+#include "statistics/averages.hpp"
 
 namespace carrom {
 
@@ -45,25 +47,28 @@ struct SampleSums {
     std::int64_t first_step = 0, last_step = -1; ///< of the samples
     double speed_scale = 0;                      ///< that the unit of impulses was chosen by
     std::uint64_t n_samples = 0, n_discs = 0;    ///< n_discs: over all samples
-    std::vector<std::uint64_t> pairs, vx, vy, speeds, x, y; ///< pairs: all bins of the first kind (pair_distances.hpp), then of the second ...
-    std::vector<double> ideal_pairs;             ///< likewise, what discs without size would have
-    double area = 0;                             ///< of the box, over all samples
+    std::vector<std::uint64_t> pairs, vx, vy, speeds, x,
+        y; ///< pairs: all bins of the first kind (pair_distances.hpp), then of the second ...
+    std::vector<double> ideal_pairs; ///< likewise, what discs without size would have
+    double area = 0;                 ///< of the box, over all samples
     std::array<std::uint64_t, 4> wall_collisions{};
-    std::vector<double> impulses;                ///< of each interval: of the four sides
-    std::vector<double> displacements;           ///< of each sample: its mean square along x, along y
-    std::vector<std::uint64_t> pending;          ///< impulses and collisions since the last sample
+    std::vector<double> impulses;       ///< of each interval: of the four sides
+    std::vector<double> displacements;  ///< of each sample: its mean square along x, along y
+    std::vector<std::uint64_t> pending; ///< impulses and collisions since the last sample
 };
 
 class Sampler {
 public:
-    /// Samples from the present step on if the scene's `from_step` has come. All must outlive this. **Collective.**
+    /// Samples from the present step on if the scene's `from_step` has come. All must outlive this.
+    /// **Collective.**
     Sampler(const Scene& scene, Simulation& simulation, const Communicator& ranks);
     ~Sampler();
     Sampler(const Sampler&) = delete;
     Sampler& operator=(const Sampler&) = delete;
 
-    /// Goes on with what a checkpoint has kept, to be called before anything is sampled. Where there is nothing, or where
-    /// `from_step` is still to come, sampling begins anew; throws InputError on every rank where the sums are of other keys. **Collective.**
+    /// Goes on with what a checkpoint has kept, to be called before anything is sampled. Where
+    /// there is nothing, or where `from_step` is still to come, sampling begins anew; throws
+    /// InputError on every rank where the sums are of other keys. **Collective.**
     void go_on(StoredSamples stored);
 
     /// The next step after `step` at which to sample.
@@ -99,17 +104,21 @@ private:
     std::optional<WallImpulses> impulses_; ///< of this rank since the last sample
     std::uint64_t first_id_ = 0;
     std::vector<std::array<double, 2>> first_places_; ///< of this rank's run of ids, see pieces.hpp
-    mutable std::vector<Crossing> crossings_;                  ///< of a periodic box's own discs, not yet told
-    mutable std::vector<std::array<double, 2>> lengths_; ///< along the first places, there: what discs have been brought back by
+    mutable std::vector<Crossing> crossings_; ///< of a periodic box's own discs, not yet told
+    mutable std::vector<std::array<double, 2>>
+        lengths_; ///< along the first places, there: what discs have been brought back by
 };
 
-/// The classes whose pairs are counted apart: the scene's, or one of all discs where they are alike or of more than eight classes.
+/// The classes whose pairs are counted apart: the scene's, or one of all discs where they are alike
+/// or of more than eight classes.
 std::vector<Species> species_told_apart(const Scene& scene);
 
-/// The share of pairs of points, anywhere in a box of a by b independently, that are at most `distance` apart; up to the
-/// shorter side. (From the distribution of each component's difference, as in Ghosh, Bull. Calcutta Math. Soc. 43, 17 (1951).)
+/// The share of pairs of points, anywhere in a box of a by b independently, that are at most
+/// `distance` apart; up to the shorter side. (From the distribution of each component's difference,
+/// as in Ghosh, Bull. Calcutta Math. Soc. 43, 17 (1951).)
 double share_of_ideal_pairs(double a, double b, double distance);
-/// The same in a box with periodic sides, of nearest images, up to half a period: with walls along the side b ...
+/// The same in a box with periodic sides, of nearest images, up to half a period: with walls along
+/// the side b ...
 double share_of_ideal_pairs_around_x(double period, double b, double distance);
 /// ... and without walls.
 double share_of_ideal_pairs_around(double period, double distance);

@@ -1,44 +1,62 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From sums over samples to what a physicist plots. Every rank computes the same numbers from the same sums.
+// From sums over samples to what a physicist plots. Every rank computes the same numbers from the
+// same sums.
 #include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
 
-#include "statistics/block_averages.hpp"
 #include "measure/sampler.hpp"
+#include "statistics/block_averages.hpp"
 #include "statistics/pair_distances.hpp"
 
 namespace carrom {
 
 namespace {
 
-double edge(double low, double high, std::size_t k, std::size_t n) { return low + (high - low) * static_cast<double>(k) / static_cast<double>(n); }
+double edge(double low, double high, std::size_t k, std::size_t n) {
+    return low + (high - low) * static_cast<double>(k) / static_cast<double>(n);
+}
 
 /// A density of probability: counts over all that were looked at, per unit of the bins' width.
-double share(std::uint64_t count, std::uint64_t all, double width) { return static_cast<double>(count) / (static_cast<double>(all) * width); }
+double share(std::uint64_t count, std::uint64_t all, double width) {
+    return static_cast<double>(count) / (static_cast<double>(all) * width);
+}
 
-std::uint64_t total(const std::vector<std::uint64_t>& counts) { return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}); }
+std::uint64_t total(const std::vector<std::uint64_t>& counts) {
+    return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+}
 
 MeasuredTable radial_distribution(const SampleSums& s, const Scene& scene) {
     MeasuredTable table{"radial_distribution",
-                        {"g: pairs at a distance from `from` to `to`, over those that as many discs without size would have, anywhere in the box that centres have",
+                        {"g: pairs at a distance from `from` to `to`, over those that as many "
+                         "discs without size would have, anywhere in the box that centres have",
                          "distances in the scene's unit of length; pairs: of all samples"},
-                        {"from", "to", "pairs", "g"}, {}};
-    const std::size_t n_species = species_told_apart(scene).size(), n_kinds = n_pair_kinds(n_species), n = s.pairs.size() / n_kinds;
-    if (n_kinds > 1) table.remarks.push_back("pairs_a_b, g_a_b: of a disc of class a and one of class b, classes counted from 1 in the order of ids");
+                        {"from", "to", "pairs", "g"},
+                        {}};
+    const std::size_t n_species = species_told_apart(scene).size(),
+                      n_kinds = n_pair_kinds(n_species), n = s.pairs.size() / n_kinds;
+    if (n_kinds > 1)
+        table.remarks.push_back("pairs_a_b, g_a_b: of a disc of class a and one of class b, "
+                                "classes counted from 1 in the order of ids");
     for (std::size_t b = 1; b <= n_species && n_kinds > 1; ++b)
         for (std::size_t a = 1; a <= b; ++a)
-            for (const char* what : {"pairs", "g"}) table.columns.push_back(fmt::format("{}_{}_{}", what, a, b));
+            for (const char* what : {"pairs", "g"})
+                table.columns.push_back(fmt::format("{}_{}_{}", what, a, b));
     for (std::size_t k = 0; k < n; ++k) {
-        std::vector<double> row = {edge(0, s.largest_distance, k, n), edge(0, s.largest_distance, k + 1, n), 0, 0};
+        std::vector<double> row = {edge(0, s.largest_distance, k, n),
+                                   edge(0, s.largest_distance, k + 1, n), 0, 0};
         std::uint64_t all = 0;
         double ideal = 0;
-        const auto g = [](std::uint64_t pairs, double ideal_pairs) { return ideal_pairs > 0 ? static_cast<double>(pairs) / ideal_pairs : 0; };
+        const auto g = [](std::uint64_t pairs, double ideal_pairs) {
+            return ideal_pairs > 0 ? static_cast<double>(pairs) / ideal_pairs : 0;
+        };
         for (std::size_t place = k; place < s.pairs.size(); place += n) {
             all += s.pairs[place];
             ideal += s.ideal_pairs[place];
-            if (n_kinds > 1) row.insert(row.end(), {static_cast<double>(s.pairs[place]), g(s.pairs[place], s.ideal_pairs[place])});
+            if (n_kinds > 1)
+                row.insert(row.end(), {static_cast<double>(s.pairs[place]),
+                                       g(s.pairs[place], s.ideal_pairs[place])});
         }
         row[2] = static_cast<double>(all);
         row[3] = g(all, ideal);
@@ -51,11 +69,15 @@ MeasuredTable velocities(const SampleSums& s) {
     const std::size_t n = s.vx.size();
     const double largest = s.largest_velocity, width = 2 * largest / static_cast<double>(n);
     MeasuredTable table{"velocities",
-                        {"vx_density, vy_density: of probability, per length per step; velocities in lengths per step",
-                         fmt::format("beyond the table: {} of vx, {} of vy, of {}", s.n_discs - total(s.vx), s.n_discs - total(s.vy), s.n_discs)},
-                        {"from", "to", "vx_count", "vy_count", "vx_density", "vy_density"}, {}};
+                        {"vx_density, vy_density: of probability, per length per step; velocities "
+                         "in lengths per step",
+                         fmt::format("beyond the table: {} of vx, {} of vy, of {}",
+                                     s.n_discs - total(s.vx), s.n_discs - total(s.vy), s.n_discs)},
+                        {"from", "to", "vx_count", "vy_count", "vx_density", "vy_density"},
+                        {}};
     for (std::size_t k = 0; k < n; ++k)
-        table.rows.push_back({edge(-largest, largest, k, n), edge(-largest, largest, k + 1, n), static_cast<double>(s.vx[k]), static_cast<double>(s.vy[k]),
+        table.rows.push_back({edge(-largest, largest, k, n), edge(-largest, largest, k + 1, n),
+                              static_cast<double>(s.vx[k]), static_cast<double>(s.vy[k]),
                               share(s.vx[k], s.n_discs, width), share(s.vy[k], s.n_discs, width)});
     return table;
 }
@@ -63,28 +85,38 @@ MeasuredTable velocities(const SampleSums& s) {
 MeasuredTable speeds(const SampleSums& s) {
     const std::size_t n = s.speeds.size();
     const double width = s.largest_velocity / static_cast<double>(n);
-    MeasuredTable table{"speeds",
-                        {"density: of probability, per length per step; speeds in lengths per step",
-                         fmt::format("beyond the table: {} of {}", s.n_discs - total(s.speeds), s.n_discs)},
-                        {"from", "to", "count", "density"}, {}};
+    MeasuredTable table{
+        "speeds",
+        {"density: of probability, per length per step; speeds in lengths per step",
+         fmt::format("beyond the table: {} of {}", s.n_discs - total(s.speeds), s.n_discs)},
+        {"from", "to", "count", "density"},
+        {}};
     for (std::size_t k = 0; k < n; ++k)
-        table.rows.push_back({edge(0, s.largest_velocity, k, n), edge(0, s.largest_velocity, k + 1, n), static_cast<double>(s.speeds[k]),
-                              share(s.speeds[k], s.n_discs, width)});
+        table.rows.push_back(
+            {edge(0, s.largest_velocity, k, n), edge(0, s.largest_velocity, k + 1, n),
+             static_cast<double>(s.speeds[k]), share(s.speeds[k], s.n_discs, width)});
     return table;
 }
 
 /// Where walls move, places are shares of the box as it is at each sample.
-MeasuredTable density(const SampleSums& s, const Scene& scene, const std::vector<std::uint64_t>& counts, const char* axis) {
+MeasuredTable density(const SampleSums& s, const Scene& scene,
+                      const std::vector<std::uint64_t>& counts, const char* axis) {
     bool is_moving = false;
     for (const Boundary& side : scene.effects.boundaries) is_moving = is_moving || side.speed != 0;
     const std::size_t n = counts.size();
     const double size = is_moving ? 1 : scene.box_size, area = s.area / static_cast<double>(n);
-    MeasuredTable table{fmt::format("density_{}", axis),
-                        {fmt::format("density: discs' centres per area, in strips from `from` to `to` along {}", axis),
-                         is_moving ? "walls move: places are shares of the box's side at each sample" : "lengths in the scene's unit"},
-                        {"from", "to", "count", "density"}, {}};
+    MeasuredTable table{
+        fmt::format("density_{}", axis),
+        {fmt::format("density: discs' centres per area, in strips from `from` to `to` along {}",
+                     axis),
+         is_moving ? "walls move: places are shares of the box's side at each sample"
+                   : "lengths in the scene's unit"},
+        {"from", "to", "count", "density"},
+        {}};
     for (std::size_t k = 0; k < n; ++k)
-        table.rows.push_back({edge(0, size, k, n), edge(0, size, k + 1, n), static_cast<double>(counts[k]), static_cast<double>(counts[k]) / area});
+        table.rows.push_back({edge(0, size, k, n), edge(0, size, k + 1, n),
+                              static_cast<double>(counts[k]),
+                              static_cast<double>(counts[k]) / area});
     return table;
 }
 
@@ -96,25 +128,34 @@ double length_of(const Scene& scene, std::size_t side, double step) {
 
 MeasuredTable pressure_history(const SampleSums& s, const Scene& scene) {
     MeasuredTable table{"wall_pressure_history",
-                        {"impulse that each side was given between two steps, over its length and that time (nan: a periodic side); masses of 1, times in steps"},
-                        {"from_step", "to_step", "left", "right", "bottom", "top"}, {}};
+                        {"impulse that each side was given between two steps, over its length and "
+                         "that time (nan: a periodic side); masses of 1, times in steps"},
+                        {"from_step", "to_step", "left", "right", "bottom", "top"},
+                        {}};
     for (std::size_t k = 0; k < s.impulses.size() / 4; ++k) {
-        const double from = static_cast<double>(s.first_step + static_cast<std::int64_t>(k) * s.every_steps);
+        const double from = static_cast<double>(s.first_step +
+                                                static_cast<std::int64_t>(k) * s.every_steps);
         const double to = from + static_cast<double>(s.every_steps);
         std::vector<double> row = {from, to};
-        for (std::size_t side = 0; side < 4; ++side) // walls move evenly: their mean length is that in the middle
-            row.push_back(scene.effects.boundaries[side].kind == BoundaryKind::periodic ? std::nan("") : s.impulses[4 * k + side] / (length_of(scene, side, (from + to) / 2) * (to - from)));
+        for (std::size_t side = 0; side < 4;
+             ++side) // walls move evenly: their mean length is that in the middle
+            row.push_back(scene.effects.boundaries[side].kind == BoundaryKind::periodic
+                              ? std::nan("")
+                              : s.impulses[4 * k + side] /
+                                    (length_of(scene, side, (from + to) / 2) * (to - from)));
         table.rows.push_back(std::move(row));
     }
     return table;
 }
 
 MeasuredTable wall_pressure(const SampleSums& s, const MeasuredTable& history) {
-    MeasuredTable table{"wall_pressure",
-                        {"mean pressure on each side with one standard error (from joined intervals of the history; nan where there are too few), and collisions with it"},
-                        {"left", "right", "bottom", "top", "left_error", "right_error", "bottom_error", "top_error", "left_collisions", "right_collisions",
-                         "bottom_collisions", "top_collisions"},
-                        {}};
+    MeasuredTable table{
+        "wall_pressure",
+        {"mean pressure on each side with one standard error (from joined intervals of the "
+         "history; nan where there are too few), and collisions with it"},
+        {"left", "right", "bottom", "top", "left_error", "right_error", "bottom_error", "top_error",
+         "left_collisions", "right_collisions", "bottom_collisions", "top_collisions"},
+        {}};
     std::vector<double> means, errors, counts;
     for (std::size_t side = 0; side < 4; ++side) {
         std::vector<double> terms;
@@ -128,17 +169,21 @@ MeasuredTable wall_pressure(const SampleSums& s, const MeasuredTable& history) {
         counts.push_back(static_cast<double>(s.wall_collisions[side]));
     }
     table.rows.emplace_back();
-    for (const auto* part : {&means, &errors, &counts}) table.rows[0].insert(table.rows[0].end(), part->begin(), part->end());
+    for (const auto* part : {&means, &errors, &counts})
+        table.rows[0].insert(table.rows[0].end(), part->begin(), part->end());
     return table;
 }
 
 MeasuredTable displacement(const SampleSums& s) {
     MeasuredTable table{"displacement",
-                        {"mean square displacement since from_step, over all discs, on through periodic sides; lengths squared, times in steps"},
-                        {"steps", "x", "y", "sum"}, {}};
+                        {"mean square displacement since from_step, over all discs, on through "
+                         "periodic sides; lengths squared, times in steps"},
+                        {"steps", "x", "y", "sum"},
+                        {}};
     for (std::size_t k = 0; k < s.displacements.size() / 2; ++k) {
         const double x = s.displacements[2 * k], y = s.displacements[2 * k + 1];
-        table.rows.push_back({static_cast<double>(static_cast<std::int64_t>(k) * s.every_steps), x, y, x + y});
+        table.rows.push_back(
+            {static_cast<double>(static_cast<std::int64_t>(k) * s.every_steps), x, y, x + y});
     }
     return table;
 }
@@ -163,7 +208,8 @@ std::vector<MeasuredTable> tables_of(const SampleSums& sums, const Scene& scene)
         tables.push_back(density(sums, scene, sums.y, "y"));
     }
     if (output.displacement) tables.push_back(displacement(sums));
-    const std::string what = fmt::format("{} samples, steps {} to {}, one every {}", sums.n_samples, sums.first_step, sums.last_step, sums.every_steps);
+    const std::string what = fmt::format("{} samples, steps {} to {}, one every {}", sums.n_samples,
+                                         sums.first_step, sums.last_step, sums.every_steps);
     for (MeasuredTable& table : tables) table.remarks.insert(table.remarks.begin(), what);
     return tables;
 }

@@ -19,7 +19,8 @@ struct PackedProblem {
 };
 
 /// All ranks' items on every rank, in rank order.
-template <Message T> std::vector<T> concatenate(const Communicator& communicator, std::vector<T> mine) {
+template <Message T>
+std::vector<T> concatenate(const Communicator& communicator, std::vector<T> mine) {
     std::vector<std::vector<T>> out(static_cast<std::size_t>(communicator.size()));
     out.front() = std::move(mine);
     std::vector<T> all = send_to_owners(communicator, out).items;
@@ -29,15 +30,18 @@ template <Message T> std::vector<T> concatenate(const Communicator& communicator
 
 } // namespace
 
-void agree(const Communicator& communicator, bool ok, const std::string& text, ExitCode code, double patience_seconds) {
+void agree(const Communicator& communicator, bool ok, const std::string& text, ExitCode code,
+           double patience_seconds) {
     Communicator::Handle& handle = communicator.handle();
     ++handle.traffic.collectives;
     const int mine = ok ? handle.size : handle.rank;
     int failing = mine, agreed_code = static_cast<int>(code);
     MPI_Request request = MPI_REQUEST_NULL;
     MPI_Iallreduce(&mine, &failing, 1, MPI_INT, MPI_MIN, handle.comm, &request);
-    if (ok) MPI_Wait(&request, MPI_STATUS_IGNORE);
-    else wait_or_abort(request, text, patience_seconds, agreed_code);
+    if (ok)
+        MPI_Wait(&request, MPI_STATUS_IGNORE);
+    else
+        wait_or_abort(request, text, patience_seconds, agreed_code);
     if (failing == handle.size) return;
     std::string agreed_text = text;
     communicator.broadcast(agreed_text, failing);
@@ -45,7 +49,8 @@ void agree(const Communicator& communicator, bool ok, const std::string& text, E
     throw CollectiveError(agreed_text, static_cast<ExitCode>(agreed_code));
 }
 
-void agree_on_problems(const Communicator& communicator, const std::vector<Problem>& problems, std::size_t most) {
+void agree_on_problems(const Communicator& communicator, const std::vector<Problem>& problems,
+                       std::size_t most) {
     const std::uint64_t total = communicator.sum(std::uint64_t{problems.size()});
     if (total == 0) return;
 
@@ -72,7 +77,8 @@ void agree_on_problems(const Communicator& communicator, const std::vector<Probl
         const std::string place = take(problem.place_length);
         agreed.push_back({place, problem.line, take(problem.text_length)});
     }
-    if (agreed.size() < total) agreed.push_back({"", 0, std::to_string(total - agreed.size()) + " more problems"});
+    if (agreed.size() < total)
+        agreed.push_back({"", 0, std::to_string(total - agreed.size()) + " more problems"});
     throw InputError(std::move(agreed));
 }
 

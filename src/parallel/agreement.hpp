@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How ranks come to know that one of them has failed: every rank throws, or none does.
 //
-// For set-up and around input and output, not inside the step. Price when all is well: one reduction.
+// For set-up and around input and output, not inside the step. Price when all is well: one
+// reduction.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +14,16 @@
 
 namespace carrom {
 
-/// Throws CollectiveError on every rank, with text and code of the lowest rank that is not `ok`, if there is one.
-/// A rank that is not `ok` and waits for the others in vain, because they wait for it in something that it has left,
-/// prints its text after `patience_seconds` and aborts all ranks with its code. **Collective.**
+/// Throws CollectiveError on every rank, with text and code of the lowest rank that is not `ok`, if
+/// there is one. A rank that is not `ok` and waits for the others in vain, because they wait for it
+/// in something that it has left, prints its text after `patience_seconds` and aborts all ranks
+/// with its code. **Collective.**
 void agree(const Communicator& communicator, bool ok, const std::string& text,
            ExitCode code = ExitCode::collective_failure, double patience_seconds = 30);
 
-/// Throws InputError with the problems of all ranks, in rank order, on every rank, if any rank has one. Beyond `most`
-/// problems a last one says how many were left out. **Collective.**
-void agree_on_problems(const Communicator& communicator, const std::vector<Problem>& problems, std::size_t most = 1000);
+/// Throws InputError with the problems of all ranks, in rank order, on every rank, if any rank has
+/// one. Beyond `most` problems a last one says how many were left out. **Collective.**
+void agree_on_problems(const Communicator& communicator, const std::vector<Problem>& problems,
+                       std::size_t most = 1000);
 
 } // namespace carrom

@@ -6,14 +6,15 @@
 
 #include "core/errors.hpp"
 #include "core/exact_sum.hpp"
-#include "parallel/native.hpp"
 #include "parallel/handle.hpp"
+#include "parallel/native.hpp"
 
 namespace carrom {
 
 namespace {
 
-template <class T> T reduce(Communicator::Handle& handle, T value, MPI_Datatype type, MPI_Op operation) {
+template <class T>
+T reduce(Communicator::Handle& handle, T value, MPI_Datatype type, MPI_Op operation) {
     ++handle.traffic.collectives;
     T result = value;
     MPI_Allreduce(&value, &result, 1, type, operation, handle.comm);
@@ -22,7 +23,8 @@ template <class T> T reduce(Communicator::Handle& handle, T value, MPI_Datatype 
 
 } // namespace
 
-Communicator::Handle::Handle(MPI_Comm duplicated, std::size_t limit) : comm(duplicated), max_message(limit) {
+Communicator::Handle::Handle(MPI_Comm duplicated, std::size_t limit)
+    : comm(duplicated), max_message(limit) {
     MPI_Comm_rank(comm, &rank);
     MPI_Comm_size(comm, &size);
     ensure(0 < limit && limit <= largest_message, "the message limit is out of range");
@@ -52,21 +54,37 @@ Traffic Communicator::traffic() const { return handle_->traffic; }
 MPI_Comm native(const Communicator& communicator) { return communicator.handle().comm; }
 
 // Adding +0 turns -0 into +0: which zero a reduction returns would depend on the ranks' order.
-double Communicator::max(double value) const { return reduce(*handle_, value, MPI_DOUBLE, MPI_MAX) + 0.0; }
-double Communicator::min(double value) const { return reduce(*handle_, value, MPI_DOUBLE, MPI_MIN) + 0.0; }
-std::int64_t Communicator::max(std::int64_t value) const { return reduce(*handle_, value, MPI_INT64_T, MPI_MAX); }
-std::int64_t Communicator::min(std::int64_t value) const { return reduce(*handle_, value, MPI_INT64_T, MPI_MIN); }
-std::uint64_t Communicator::max(std::uint64_t value) const { return reduce(*handle_, value, MPI_UINT64_T, MPI_MAX); }
-std::uint64_t Communicator::min(std::uint64_t value) const { return reduce(*handle_, value, MPI_UINT64_T, MPI_MIN); }
-std::uint64_t Communicator::sum(std::uint64_t value) const { return reduce(*handle_, value, MPI_UINT64_T, MPI_SUM); }
+double Communicator::max(double value) const {
+    return reduce(*handle_, value, MPI_DOUBLE, MPI_MAX) + 0.0;
+}
+double Communicator::min(double value) const {
+    return reduce(*handle_, value, MPI_DOUBLE, MPI_MIN) + 0.0;
+}
+std::int64_t Communicator::max(std::int64_t value) const {
+    return reduce(*handle_, value, MPI_INT64_T, MPI_MAX);
+}
+std::int64_t Communicator::min(std::int64_t value) const {
+    return reduce(*handle_, value, MPI_INT64_T, MPI_MIN);
+}
+std::uint64_t Communicator::max(std::uint64_t value) const {
+    return reduce(*handle_, value, MPI_UINT64_T, MPI_MAX);
+}
+std::uint64_t Communicator::min(std::uint64_t value) const {
+    return reduce(*handle_, value, MPI_UINT64_T, MPI_MIN);
+}
+std::uint64_t Communicator::sum(std::uint64_t value) const {
+    return reduce(*handle_, value, MPI_UINT64_T, MPI_SUM);
+}
 bool Communicator::any(bool value) const { return max(std::uint64_t{value}) == 1; }
 bool Communicator::all(bool value) const { return min(std::uint64_t{value}) == 1; }
 
 void Communicator::sum(std::span<std::uint64_t> values) const {
-    const std::size_t limit = std::max<std::size_t>(1, handle_->max_message / sizeof(std::uint64_t));
+    const std::size_t limit = std::max<std::size_t>(1,
+                                                    handle_->max_message / sizeof(std::uint64_t));
     for_pieces(values, limit, [this](std::span<std::uint64_t> piece) {
         ++handle_->traffic.collectives;
-        MPI_Allreduce(MPI_IN_PLACE, piece.data(), static_cast<int>(piece.size()), MPI_UINT64_T, MPI_SUM, handle_->comm);
+        MPI_Allreduce(MPI_IN_PLACE, piece.data(), static_cast<int>(piece.size()), MPI_UINT64_T,
+                      MPI_SUM, handle_->comm);
     });
 }
 
@@ -74,7 +92,8 @@ void Communicator::sum(ExactSum& value) const {
     // Limbs of 32 bits leave room for the carries of 2^32 ranks.
     constexpr std::uint64_t limb = 0xffffffff;
     const std::uint64_t own_low = value.low_word(), own_high = value.high_word();
-    std::array<std::uint64_t, 4> limbs = {own_low & limb, own_low >> 32, own_high & limb, own_high >> 32};
+    std::array<std::uint64_t, 4> limbs = {own_low & limb, own_low >> 32, own_high & limb,
+                                          own_high >> 32};
     sum(limbs);
     for (std::size_t k = 0; k < 3; ++k) limbs[k + 1] += limbs[k] >> 32;
     const std::uint64_t low = (limbs[0] & limb) | (limbs[1] << 32);
@@ -109,27 +128,31 @@ void Communicator::broadcast_bytes(std::span<std::byte> bytes, int root) const {
     });
 }
 
-void Communicator::all_gather_bytes(std::span<const std::byte> mine, std::span<std::byte> all) const {
+void Communicator::all_gather_bytes(std::span<const std::byte> mine,
+                                    std::span<std::byte> all) const {
     ensure(mine.size() <= handle_->max_message, "a value to gather is too large");
-    ensure(all.size() == mine.size() * static_cast<std::size_t>(size()), "a gather needs room for every rank's value");
+    ensure(all.size() == mine.size() * static_cast<std::size_t>(size()),
+           "a gather needs room for every rank's value");
     ++handle_->traffic.collectives;
     const int length = static_cast<int>(mine.size());
     MPI_Allgather(mine.data(), length, MPI_BYTE, all.data(), length, MPI_BYTE, handle_->comm);
 }
 
-void start_send(Communicator::Handle& handle, std::span<const std::byte> bytes, int to, int message_tag, Requests& requests) {
+void start_send(Communicator::Handle& handle, std::span<const std::byte> bytes, int to,
+                int message_tag, Requests& requests) {
     for_pieces(bytes, handle.max_message, [&](std::span<const std::byte> piece) {
         ++handle.traffic.messages;
         handle.traffic.bytes += piece.size();
-        MPI_Isend(piece.data(), static_cast<int>(piece.size()), MPI_BYTE, to, message_tag, handle.comm,
-                  &requests.emplace_back(MPI_REQUEST_NULL));
+        MPI_Isend(piece.data(), static_cast<int>(piece.size()), MPI_BYTE, to, message_tag,
+                  handle.comm, &requests.emplace_back(MPI_REQUEST_NULL));
     });
 }
 
-void start_receive(Communicator::Handle& handle, std::span<std::byte> bytes, int from, int message_tag, Requests& requests) {
+void start_receive(Communicator::Handle& handle, std::span<std::byte> bytes, int from,
+                   int message_tag, Requests& requests) {
     for_pieces(bytes, handle.max_message, [&](std::span<std::byte> piece) {
-        MPI_Irecv(piece.data(), static_cast<int>(piece.size()), MPI_BYTE, from, message_tag, handle.comm,
-                  &requests.emplace_back(MPI_REQUEST_NULL));
+        MPI_Irecv(piece.data(), static_cast<int>(piece.size()), MPI_BYTE, from, message_tag,
+                  handle.comm, &requests.emplace_back(MPI_REQUEST_NULL));
     });
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ranks of a run and what all of them do together: reductions, broadcasts, gathers. Only this module calls MPI.
+// The ranks of a run and what all of them do together: reductions, broadcasts, gathers. Only this
+// module calls MPI.
 //
-// Values are sent as bytes, so they must be trivially copyable; all ranks run the same program. Data of any size is
-// split into messages below MPI's limit of 2^31 bytes. Copies of a Communicator share one MPI communicator, which is
-// a duplicate of the world's: its tags never meet those of another owner. Every reduction gives all ranks the same
-// bits for any number of ranks: no floating-point sums but exact ones are offered.
+// Values are sent as bytes, so they must be trivially copyable; all ranks run the same program.
+// Data of any size is split into messages below MPI's limit of 2^31 bytes. Copies of a Communicator
+// share one MPI communicator, which is a duplicate of the world's: its tags never meet those of
+// another owner. Every reduction gives all ranks the same bits for any number of ranks: no
+// floating-point sums but exact ones are offered.
 #pragma once
 
 #include <concepts>
@@ -22,9 +24,11 @@ class ExactSum;
 
 /// What may travel as bytes. `bool` may not: a vector of it is no array.
 template <class T>
-concept Message = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> && !std::same_as<T, bool>;
+concept Message = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> &&
+                  !std::same_as<T, bool>;
 
-/// What this rank has sent so far: messages to single ranks, their bytes, and calls that involve all ranks.
+/// What this rank has sent so far: messages to single ranks, their bytes, and calls that involve
+/// all ranks.
 struct Traffic {
     std::uint64_t messages = 0;
     std::uint64_t bytes = 0;
@@ -45,24 +49,28 @@ public:
     int size() const;
     bool is_root() const { return rank() == 0; }
 
-    /// Reductions over all ranks; every rank gets the result. **Collective.** Values must not be NaN; -0 becomes +0.
+    /// Reductions over all ranks; every rank gets the result. **Collective.** Values must not be
+    /// NaN; -0 becomes +0.
     double max(double value) const;
     double min(double value) const;
     std::int64_t max(std::int64_t value) const;
     std::int64_t min(std::int64_t value) const;
     std::uint64_t max(std::uint64_t value) const;
     std::uint64_t min(std::uint64_t value) const;
-    std::uint64_t sum(std::uint64_t value) const;         ///< wraps
-    void sum(std::span<std::uint64_t> values) const;      ///< element-wise, in place, wraps; same length on all ranks
-    void sum(ExactSum& value) const;                      ///< in place; same bound on all ranks
-    std::uint64_t sum_before(std::uint64_t value) const;  ///< over the ranks below this one; 0 on rank 0
+    std::uint64_t sum(std::uint64_t value) const; ///< wraps
+    void sum(std::span<std::uint64_t> values)
+        const;                       ///< element-wise, in place, wraps; same length on all ranks
+    void sum(ExactSum& value) const; ///< in place; same bound on all ranks
+    std::uint64_t sum_before(
+        std::uint64_t value) const; ///< over the ranks below this one; 0 on rank 0
     bool any(bool value) const;
     bool all(bool value) const;
 
     /// Returns on no rank before every rank has called it. **Collective.**
     void barrier() const;
 
-    /// Replaces the value on every rank by that of `root`. **Collective.** A span has the same length on all ranks.
+    /// Replaces the value on every rank by that of `root`. **Collective.** A span has the same
+    /// length on all ranks.
     void broadcast(std::string& text, int root = 0) const;
     void broadcast_bytes(std::span<std::byte> bytes, int root) const;
     template <Message T> void broadcast(T& value, int root = 0) const {
@@ -78,7 +86,8 @@ public:
     /// Every rank's value, in rank order, on every rank. Memory grows with size(). **Collective.**
     template <Message T> std::vector<T> all_gather(const T& value) const {
         std::vector<T> values(static_cast<std::size_t>(size()));
-        all_gather_bytes(std::as_bytes(std::span(&value, 1)), std::as_writable_bytes(std::span(values)));
+        all_gather_bytes(std::as_bytes(std::span(&value, 1)),
+                         std::as_writable_bytes(std::span(values)));
         return values;
     }
     void all_gather_bytes(std::span<const std::byte> mine, std::span<std::byte> all) const;

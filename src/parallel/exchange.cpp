@@ -7,7 +7,8 @@
 
 namespace carrom::detail {
 
-std::vector<std::uint64_t> announce(const Communicator& communicator, std::span<const std::uint64_t> bytes_to) {
+std::vector<std::uint64_t> announce(const Communicator& communicator,
+                                    std::span<const std::uint64_t> bytes_to) {
     Communicator::Handle& handle = communicator.handle();
     std::vector<std::uint64_t> bytes_from(bytes_to.size());
     ++handle.traffic.collectives;
@@ -35,7 +36,8 @@ void move_parcels(const Communicator& communicator, std::span<const std::span<co
 
 std::vector<std::uint64_t> gather_to_root(const Communicator& communicator, std::uint64_t value) {
     Communicator::Handle& handle = communicator.handle();
-    std::vector<std::uint64_t> values(communicator.is_root() ? static_cast<std::size_t>(handle.size) : 0);
+    std::vector<std::uint64_t> values(communicator.is_root() ? static_cast<std::size_t>(handle.size)
+                                                             : 0);
     ++handle.traffic.collectives;
     MPI_Gather(&value, 1, MPI_UINT64_T, values.data(), 1, MPI_UINT64_T, 0, handle.comm);
     return values;
@@ -46,15 +48,16 @@ void send_piece(const Communicator& communicator, std::span<const std::byte> pie
     for_pieces(piece, handle.max_message, [&handle](std::span<const std::byte> part) {
         ++handle.traffic.messages;
         handle.traffic.bytes += part.size();
-        MPI_Ssend(part.data(), static_cast<int>(part.size()), MPI_BYTE, 0, tag::stream, handle.comm);
+        MPI_Ssend(part.data(), static_cast<int>(part.size()), MPI_BYTE, 0, tag::stream,
+                  handle.comm);
     });
 }
 
 void receive_piece(const Communicator& communicator, int sender, std::span<std::byte> piece) {
     Communicator::Handle& handle = communicator.handle();
     for_pieces(piece, handle.max_message, [&handle, sender](std::span<std::byte> part) {
-        MPI_Recv(part.data(), static_cast<int>(part.size()), MPI_BYTE, sender, tag::stream, handle.comm,
-                 MPI_STATUS_IGNORE);
+        MPI_Recv(part.data(), static_cast<int>(part.size()), MPI_BYTE, sender, tag::stream,
+                 handle.comm, MPI_STATUS_IGNORE);
     });
 }
 

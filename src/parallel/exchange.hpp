@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Any rank to any rank, and all ranks to rank 0 in bounded memory.
 //
-// send_to_owners announces sizes with one MPI_Alltoall of 8 bytes per pair of ranks, then sends only the messages that
-// are not empty. The announcement grows with the number of ranks (some 30 us at 1000); a consensus without it (Hoefler,
-// Siebert, Lumsdaine 2010) costs a barrier and as much in latency until there are many thousands.
+// send_to_owners announces sizes with one MPI_Alltoall of 8 bytes per pair of ranks, then sends
+// only the messages that are not empty. The announcement grows with the number of ranks (some 30 us
+// at 1000); a consensus without it (Hoefler, Siebert, Lumsdaine 2010) costs a barrier and as much
+// in latency until there are many thousands.
 #pragma once
 
 #include <algorithm>
@@ -20,21 +21,25 @@ namespace carrom {
 
 namespace detail {
 /// How many bytes each rank will send here, given how many go to each. **Collective.**
-std::vector<std::uint64_t> announce(const Communicator& communicator, std::span<const std::uint64_t> bytes_to);
-/// Moves parcels of known sizes; parcel k of `out` goes to rank k and parcel k of `in` comes from it.
+std::vector<std::uint64_t> announce(const Communicator& communicator,
+                                    std::span<const std::uint64_t> bytes_to);
+/// Moves parcels of known sizes; parcel k of `out` goes to rank k and parcel k of `in` comes from
+/// it.
 void move_parcels(const Communicator& communicator, std::span<const std::span<const std::byte>> out,
                   std::span<const std::span<std::byte>> in);
 /// Every rank's number on rank 0, nothing elsewhere. **Collective.**
 std::vector<std::uint64_t> gather_to_root(const Communicator& communicator, std::uint64_t value);
-/// One piece of a stream; the sender waits until it is being received, so that pieces never pile up.
+/// One piece of a stream; the sender waits until it is being received, so that pieces never pile
+/// up.
 void send_piece(const Communicator& communicator, std::span<const std::byte> piece);
 void receive_piece(const Communicator& communicator, int sender, std::span<std::byte> piece);
 } // namespace detail
 
-/// Sends out[k] to rank k (this one included; empty lists cost nothing) and returns what came, grouped by sender in
-/// rank order. `out` has size() lists. **Collective.**
+/// Sends out[k] to rank k (this one included; empty lists cost nothing) and returns what came,
+/// grouped by sender in rank order. `out` has size() lists. **Collective.**
 template <Message T>
-Received<T> send_to_owners(const Communicator& communicator, const std::vector<std::vector<T>>& out) {
+Received<T> send_to_owners(const Communicator& communicator,
+                           const std::vector<std::vector<T>>& out) {
     const auto n_ranks = static_cast<std::size_t>(communicator.size());
     ensure(out.size() == n_ranks, "sending to owners needs one list of items per rank");
     std::vector<std::uint64_t> bytes_to(n_ranks);
@@ -55,16 +60,17 @@ Received<T> send_to_owners(const Communicator& communicator, const std::vector<s
     return in;
 }
 
-/// Hands everyone's items to `consume(std::span<const T>)` on rank 0, in rank order, in chunks of 1 to `max_chunk`
-/// items; rank 0 holds one chunk at a time, the other ranks wait for their turn. If `consume` throws, the exception
-/// must end the run: the others are still sending. **Collective.**
+/// Hands everyone's items to `consume(std::span<const T>)` on rank 0, in rank order, in chunks of 1
+/// to `max_chunk` items; rank 0 holds one chunk at a time, the other ranks wait for their turn. If
+/// `consume` throws, the exception must end the run: the others are still sending. **Collective.**
 template <Message T, class Consume>
 void stream_to_root(const Communicator& communicator, std::span<const T> mine, Consume&& consume,
                     std::size_t max_chunk) {
     ensure(max_chunk > 0, "a stream needs chunks of at least one item");
     const std::vector<std::uint64_t> counts = detail::gather_to_root(communicator, mine.size());
     for (std::size_t done = 0; done < mine.size(); done += max_chunk) {
-        const std::span<const T> piece = mine.subspan(done, std::min(max_chunk, mine.size() - done));
+        const std::span<const T> piece = mine.subspan(done,
+                                                      std::min(max_chunk, mine.size() - done));
         if (communicator.is_root())
             consume(piece);
         else
@@ -74,7 +80,8 @@ void stream_to_root(const Communicator& communicator, std::span<const T> mine, C
     for (std::size_t sender = 1; sender < counts.size(); ++sender) {
         for (std::size_t left = counts[sender]; left > 0; left -= chunk.size()) {
             chunk.resize(std::min(max_chunk, left));
-            detail::receive_piece(communicator, static_cast<int>(sender), std::as_writable_bytes(std::span(chunk)));
+            detail::receive_piece(communicator, static_cast<int>(sender),
+                                  std::as_writable_bytes(std::span(chunk)));
             consume(std::span<const T>(chunk));
         }
     }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands behind a Communicator, and the sending of data of any size in messages of a limited one.
+// What stands behind a Communicator, and the sending of data of any size in messages of a limited
+// one.
 //
-// Every byte that goes from one rank to another goes through `start_send`, so it is split and counted in one place.
+// Every byte that goes from one rank to another goes through `start_send`, so it is split and
+// counted in one place.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +18,8 @@
 
 namespace carrom {
 
-/// Tags that are taken; those from `first_free` on are given to neighbour exchanges, round and round.
+/// Tags that are taken; those from `first_free` on are given to neighbour exchanges, round and
+/// round.
 namespace tag {
 inline constexpr int any_to_any = 1;
 inline constexpr int stream = 2;
@@ -40,21 +43,27 @@ struct Communicator::Handle {
 
 using Requests = std::vector<MPI_Request>;
 
-/// Starts sending `bytes` in pieces of at most `max_message`; no piece for no bytes. They must stay until the wait.
-void start_send(Communicator::Handle& handle, std::span<const std::byte> bytes, int to, int message_tag, Requests& requests);
+/// Starts sending `bytes` in pieces of at most `max_message`; no piece for no bytes. They must stay
+/// until the wait.
+void start_send(Communicator::Handle& handle, std::span<const std::byte> bytes, int to,
+                int message_tag, Requests& requests);
 
 /// Starts receiving what `start_send` sends with the same number of bytes and the same tag.
-void start_receive(Communicator::Handle& handle, std::span<std::byte> bytes, int from, int message_tag, Requests& requests);
+void start_receive(Communicator::Handle& handle, std::span<std::byte> bytes, int from,
+                   int message_tag, Requests& requests);
 
 /// Waits for all of `requests` and empties the list.
 void wait_for(Requests& requests);
 
-/// Waits for `request`; without limit if `failure` is empty. Else this rank has failed, the others may be waiting for it
-/// in some other operation, and after `patience_seconds` it prints `failure` and aborts all ranks with `code`.
-void wait_or_abort(MPI_Request& request, const std::string& failure, double patience_seconds, int code);
+/// Waits for `request`; without limit if `failure` is empty. Else this rank has failed, the others
+/// may be waiting for it in some other operation, and after `patience_seconds` it prints `failure`
+/// and aborts all ranks with `code`.
+void wait_or_abort(MPI_Request& request, const std::string& failure, double patience_seconds,
+                   int code);
 
 /// Calls `act` on successive pieces of at most `limit` bytes.
-template <class Byte, class Act> void for_pieces(std::span<Byte> bytes, std::size_t limit, const Act& act) {
+template <class Byte, class Act>
+void for_pieces(std::span<Byte> bytes, std::size_t limit, const Act& act) {
     for (std::size_t done = 0; done < bytes.size(); done += limit)
         act(bytes.subspan(done, std::min(limit, bytes.size() - done)));
 }

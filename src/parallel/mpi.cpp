@@ -28,7 +28,8 @@ int world_rank = -1; // kept, so that any thread may print it without a call of 
 
 [[noreturn]] void abort_all(const char* kind, std::string_view text, int code = abort_code) {
     std::fflush(stdout);
-    std::fprintf(stderr, "carrom: %s on rank %d: %.*s\n", kind, world_rank, static_cast<int>(text.size()), text.data());
+    std::fprintf(stderr, "carrom: %s on rank %d: %.*s\n", kind, world_rank,
+                 static_cast<int>(text.size()), text.data());
     std::fflush(stderr);
     MPI_Abort(MPI_COMM_WORLD, code);
     std::abort();
@@ -40,10 +41,12 @@ void on_failure(std::string_view text, const char* file, int line) {
 
 /// Whichever thread asked for the memory, in a parallel region or not: nothing flies out of those.
 void on_no_memory() {
-    abort_all("out of memory", "take fewer discs, or more ranks on more nodes", static_cast<int>(ExitCode::collective_failure));
+    abort_all("out of memory", "take fewer discs, or more ranks on more nodes",
+              static_cast<int>(ExitCode::collective_failure));
 }
 
-void on_mpi_error(MPI_Comm*, int* code, ...) { // NOLINT(cert-dcl50-cpp): MPI prescribes the ellipsis
+void on_mpi_error(MPI_Comm*, int* code,
+                  ...) { // NOLINT(cert-dcl50-cpp): MPI prescribes the ellipsis
     std::array<char, MPI_MAX_ERROR_STRING> text{};
     int length = 0;
     MPI_Error_string(*code, text.data(), &length);
@@ -69,22 +72,25 @@ Outcome run(const Communicator& communicator, const std::function<int(const Comm
     }
 }
 
-/// The largest code of any rank; waits without limit after a return, for `patience_seconds` after an error.
+/// The largest code of any rank; waits without limit after a return, for `patience_seconds` after
+/// an error.
 int agreed_code(const Communicator& communicator, const Outcome& outcome, double patience_seconds) {
     int largest = outcome.code;
     MPI_Request request = MPI_REQUEST_NULL;
-    MPI_Iallreduce(&outcome.code, &largest, 1, MPI_INT, MPI_MAX, communicator.handle().comm, &request);
+    MPI_Iallreduce(&outcome.code, &largest, 1, MPI_INT, MPI_MAX, communicator.handle().comm,
+                   &request);
     wait_or_abort(request, outcome.text, patience_seconds, abort_code);
     return largest;
 }
 
-/// Open MPI's own MPI-IO hangs in a collective write to a full disk; ROMIO, which it also has, returns the error.
-/// Whoever has chosen one knows better.
+/// Open MPI's own MPI-IO hangs in a collective write to a full disk; ROMIO, which it also has,
+/// returns the error. Whoever has chosen one knows better.
 void choose_io() { setenv("OMPI_MCA_io", "^ompio", 0); }
 
 } // namespace
 
-void wait_or_abort(MPI_Request& request, const std::string& failure, double patience_seconds, int code) {
+void wait_or_abort(MPI_Request& request, const std::string& failure, double patience_seconds,
+                   int code) {
     int is_done = 0;
     const auto start = std::chrono::steady_clock::now();
     const std::chrono::duration<double> patience(patience_seconds);
@@ -111,7 +117,8 @@ Mpi::Mpi(int& argc, char**& argv) {
     MPI_Comm_rank(MPI_COMM_WORLD, &world_rank);
     set_failure_handler(on_failure);
     std::set_new_handler(on_no_memory);
-    if (provided < MPI_THREAD_FUNNELED) abort_all("error", "this MPI library does not allow threads");
+    if (provided < MPI_THREAD_FUNNELED)
+        abort_all("error", "this MPI library does not allow threads");
     MPI_Errhandler handler = MPI_ERRHANDLER_NULL;
     MPI_Comm_create_errhandler(on_mpi_error, &handler);
     MPI_Comm_set_errhandler(MPI_COMM_WORLD, handler); // duplicates inherit it
@@ -121,10 +128,11 @@ Mpi::Mpi(int& argc, char**& argv) {
 
 Mpi::~Mpi() { MPI_Finalize(); }
 
-int run_on_all(const Communicator& communicator, const std::function<int(const Communicator&)>& body,
-               double patience_seconds) {
+int run_on_all(const Communicator& communicator,
+               const std::function<int(const Communicator&)>& body, double patience_seconds) {
     const Outcome outcome = run(communicator, body);
-    // Rank 0 speaks for all; should it not have met the error, the rank that waits in vain will speak.
+    // Rank 0 speaks for all; should it not have met the error, the rank that waits in vain will
+    // speak.
     if (communicator.is_root() && !outcome.text.empty()) {
         std::fflush(stdout);
         std::fprintf(stderr, "%s\n", outcome.text.c_str());

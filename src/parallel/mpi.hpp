@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Start and end of a parallel run, so that no failure on any rank leaves the others waiting (docs/architecture.md).
+// Start and end of a parallel run, so that no failure on any rank leaves the others waiting
+// (docs/architecture.md).
 #pragma once
 
 #include <functional>
@@ -9,9 +10,9 @@
 
 namespace carrom {
 
-/// Holds MPI open. Only the thread that made it talks to other ranks (MPI_THREAD_FUNNELED, checked).
-/// From then on an MPI error or a failed `ensure` prints rank and text and aborts all ranks; where memory runs out, on any
-/// thread, the code is 3. One per program.
+/// Holds MPI open. Only the thread that made it talks to other ranks (MPI_THREAD_FUNNELED,
+/// checked). From then on an MPI error or a failed `ensure` prints rank and text and aborts all
+/// ranks; where memory runs out, on any thread, the code is 3. One per program.
 class Mpi {
 public:
     Mpi(int& argc, char**& argv);
@@ -20,16 +21,17 @@ public:
     Mpi& operator=(const Mpi&) = delete;
 };
 
-/// Prints `text` as it is and ends all ranks with `code`: for handlers of signals that end the program. Should MPI not come to
-/// an end within ten seconds, this process does.
+/// Prints `text` as it is and ends all ranks with `code`: for handlers of signals that end the
+/// program. Should MPI not come to an end within ten seconds, this process does.
 [[noreturn]] void abort_from_signal(std::string_view text, int code);
 
-/// Runs `body` on every rank and turns what it throws into an exit code: the program's only try and catch.
-/// InputError: rank 0 prints each problem on a line of standard error, 2. CollectiveError: rank 0 prints it, its code.
-/// Anything else: prints rank and text, aborts all ranks. All ranks return the largest code of any.
-/// An InputError or CollectiveError that the other ranks have not met within `patience_seconds` aborts them too.
+/// Runs `body` on every rank and turns what it throws into an exit code: the program's only try and
+/// catch. InputError: rank 0 prints each problem on a line of standard error, 2. CollectiveError:
+/// rank 0 prints it, its code. Anything else: prints rank and text, aborts all ranks. All ranks
+/// return the largest code of any. An InputError or CollectiveError that the other ranks have not
+/// met within `patience_seconds` aborts them too.
 /// **Collective.**
-int run_on_all(const Communicator& communicator, const std::function<int(const Communicator&)>& body,
-               double patience_seconds = 30);
+int run_on_all(const Communicator& communicator,
+               const std::function<int(const Communicator&)>& body, double patience_seconds = 30);
 
 } // namespace carrom

@@ -11,13 +11,15 @@ namespace carrom {
 
 namespace {
 
-/// What opens a first message. The number of the exchange tells when two ranks disagree on being neighbours.
+/// What opens a first message. The number of the exchange tells when two ranks disagree on being
+/// neighbours.
 struct Header {
     std::uint64_t n_bytes = 0;
     std::uint64_t exchange = 0;
 };
 
-/// Below the size up to which common MPI libraries send at once, without asking the receiver (4096 in shared memory).
+/// Below the size up to which common MPI libraries send at once, without asking the receiver (4096
+/// in shared memory).
 constexpr std::size_t first_message_bytes = 3968;
 
 } // namespace
@@ -27,13 +29,17 @@ struct NeighbourExchange::State {
         Communicator::Handle& handle = communicator.handle();
         message_tag = handle.next_tag;
         handle.next_tag = message_tag < tag::last ? message_tag + 1 : tag::first_free;
-        first_capacity = std::max(std::min(first_message_bytes, handle.max_message), sizeof(Header)) - sizeof(Header);
+        first_capacity = std::max(std::min(first_message_bytes, handle.max_message),
+                                  sizeof(Header)) -
+                         sizeof(Header);
     }
 
     std::size_t first_size() const { return sizeof(Header) + first_capacity; }
     bool is_own(std::size_t k) const { return neighbours[k] == communicator.rank(); }
     std::byte* first_in(std::size_t k) { return firsts.data() + k * first_size(); }
-    std::byte* first_out(std::size_t k) { return firsts.data() + (neighbours.size() + k) * first_size(); }
+    std::byte* first_out(std::size_t k) {
+        return firsts.data() + (neighbours.size() + k) * first_size();
+    }
 
     Communicator communicator;
     int message_tag = 0;
@@ -47,7 +53,8 @@ struct NeighbourExchange::State {
     Requests receives, sends;
 };
 
-NeighbourExchange::NeighbourExchange(const Communicator& communicator) : state_(std::make_unique<State>(communicator)) {}
+NeighbourExchange::NeighbourExchange(const Communicator& communicator)
+    : state_(std::make_unique<State>(communicator)) {}
 NeighbourExchange::~NeighbourExchange() = default;
 NeighbourExchange::NeighbourExchange(NeighbourExchange&&) noexcept = default;
 NeighbourExchange& NeighbourExchange::operator=(NeighbourExchange&&) noexcept = default;
@@ -57,7 +64,9 @@ void NeighbourExchange::clear_parcels() {
     state_->parcels.clear();
 }
 
-void NeighbourExchange::add_parcel(std::span<const std::byte> bytes) { state_->parcels.push_back(bytes); }
+void NeighbourExchange::add_parcel(std::span<const std::byte> bytes) {
+    state_->parcels.push_back(bytes);
+}
 
 void NeighbourExchange::begin_parcels(std::span<const int> neighbours) {
     State& state = *state_;
@@ -68,13 +77,14 @@ void NeighbourExchange::begin_parcels(std::span<const int> neighbours) {
     state.firsts.resize(2 * neighbours.size() * state.first_size());
     for (std::size_t k = 0; k < neighbours.size(); ++k) {
         if (state.is_own(k)) continue;
-        MPI_Irecv(state.first_in(k), static_cast<int>(state.first_size()), MPI_BYTE, neighbours[k], state.message_tag,
-                  handle.comm, &state.receives.emplace_back(MPI_REQUEST_NULL));
+        MPI_Irecv(state.first_in(k), static_cast<int>(state.first_size()), MPI_BYTE, neighbours[k],
+                  state.message_tag, handle.comm, &state.receives.emplace_back(MPI_REQUEST_NULL));
     }
     for (std::size_t k = 0; k < neighbours.size(); ++k) {
         if (state.is_own(k)) continue;
         const std::span<const std::byte> parcel = state.parcels[k];
-        const std::span<const std::byte> head = parcel.first(std::min(parcel.size(), state.first_capacity));
+        const std::span<const std::byte> head = parcel.first(
+            std::min(parcel.size(), state.first_capacity));
         const Header header = {parcel.size(), state.n_begun};
         std::byte* const message = state.first_out(k);
         std::memcpy(message, &header, sizeof header);
@@ -82,9 +92,10 @@ void NeighbourExchange::begin_parcels(std::span<const int> neighbours) {
         const std::size_t length = sizeof header + head.size();
         ++handle.traffic.messages;
         handle.traffic.bytes += length;
-        MPI_Isend(message, static_cast<int>(length), MPI_BYTE, neighbours[k], state.message_tag, handle.comm,
-                  &state.sends.emplace_back(MPI_REQUEST_NULL));
-        start_send(handle, parcel.subspan(head.size()), neighbours[k], state.message_tag, state.sends);
+        MPI_Isend(message, static_cast<int>(length), MPI_BYTE, neighbours[k], state.message_tag,
+                  handle.comm, &state.sends.emplace_back(MPI_REQUEST_NULL));
+        start_send(handle, parcel.subspan(head.size()), neighbours[k], state.message_tag,
+                   state.sends);
     }
 }
 
@@ -96,7 +107,8 @@ std::span<const std::size_t> NeighbourExchange::receive_sizes() {
     for (std::size_t k = 0; k < state.neighbours.size(); ++k) {
         Header header = {state.parcels[k].size(), state.n_begun};
         if (!state.is_own(k)) std::memcpy(&header, state.first_in(k), sizeof header);
-        ensure(header.exchange == state.n_begun, "two ranks disagree on whether they are neighbours");
+        ensure(header.exchange == state.n_begun,
+               "two ranks disagree on whether they are neighbours");
         state.offsets.push_back(state.offsets.back() + header.n_bytes);
     }
     return state.offsets;
@@ -105,15 +117,16 @@ std::span<const std::size_t> NeighbourExchange::receive_sizes() {
 void NeighbourExchange::receive_parcels(std::span<std::byte> all) {
     State& state = *state_;
     for (std::size_t k = 0; k < state.neighbours.size(); ++k) {
-        const std::span<std::byte> parcel = all.subspan(state.offsets[k], state.offsets[k + 1] - state.offsets[k]);
+        const std::span<std::byte> parcel = all.subspan(state.offsets[k],
+                                                        state.offsets[k + 1] - state.offsets[k]);
         if (state.is_own(k)) {
             if (!parcel.empty()) std::memcpy(parcel.data(), state.parcels[k].data(), parcel.size());
             continue;
         }
         const std::size_t head = std::min(parcel.size(), state.first_capacity);
         if (head > 0) std::memcpy(parcel.data(), state.first_in(k) + sizeof(Header), head);
-        start_receive(state.communicator.handle(), parcel.subspan(head), state.neighbours[k], state.message_tag,
-                      state.receives);
+        start_receive(state.communicator.handle(), parcel.subspan(head), state.neighbours[k],
+                      state.message_tag, state.receives);
     }
     wait_for(state.receives);
     wait_for(state.sends);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exchange with a few known ranks: what halo, migration and verdicts of neighbouring strips travel by.
+// Exchange with a few known ranks: what halo, migration and verdicts of neighbouring strips travel
+// by.
 //
-// Both sides know that they are neighbours, the receiver does not know how much comes. The first few kilobytes travel
-// with the size in one message whose receive is posted in advance; only what does not fit follows in further ones,
-// straight from and into the arrays. So a tiny exchange costs one short message per neighbour and no probing, and
-// ranks that are not neighbours do not wait for each other.
+// Both sides know that they are neighbours, the receiver does not know how much comes. The first
+// few kilobytes travel with the size in one message whose receive is posted in advance; only what
+// does not fit follows in further ones, straight from and into the arrays. So a tiny exchange costs
+// one short message per neighbour and no probing, and ranks that are not neighbours do not wait for
+// each other.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +20,8 @@
 
 namespace carrom {
 
-/// Keeps its buffers from one exchange to the next. Several may be under way at once: each has tags of its own.
+/// Keeps its buffers from one exchange to the next. Several may be under way at once: each has tags
+/// of its own.
 class NeighbourExchange {
 public:
     /// Sends nothing, but all ranks must make their exchanges in the same order.
@@ -27,17 +30,21 @@ public:
     NeighbourExchange(NeighbourExchange&&) noexcept;
     NeighbourExchange& operator=(NeighbourExchange&&) noexcept;
 
-    /// Starts sending out[k] to neighbours[k]. The list holds ranks, each once, in any order; it may be empty
-    /// and may change from call to call. What a rank sends to itself is copied, without a message. If a lists b, b must list a in the same call. `out` must stay unchanged
+    /// Starts sending out[k] to neighbours[k]. The list holds ranks, each once, in any order; it
+    /// may be empty and may change from call to call. What a rank sends to itself is copied,
+    /// without a message. If a lists b, b must list a in the same call. `out` must stay unchanged
     /// until `complete`. **Collective**: also ranks without neighbours take part, at no cost.
-    template <Message T> void begin(std::span<const int> neighbours, const std::vector<std::vector<T>>& out) {
-        ensure(out.size() == neighbours.size(), "a neighbour exchange needs one list of items per neighbour");
+    template <Message T>
+    void begin(std::span<const int> neighbours, const std::vector<std::vector<T>>& out) {
+        ensure(out.size() == neighbours.size(),
+               "a neighbour exchange needs one list of items per neighbour");
         clear_parcels();
         for (const std::vector<T>& items : out) add_parcel(std::as_bytes(std::span(items)));
         begin_parcels(neighbours);
     }
 
-    /// Waits for what the neighbours sent in this exchange; replaces `in`, grouped in the order of `neighbours`.
+    /// Waits for what the neighbours sent in this exchange; replaces `in`, grouped in the order of
+    /// `neighbours`.
     template <Message T> void complete(Received<T>& in) {
         const std::span<const std::size_t> byte_offsets = receive_sizes();
         in.offsets.clear();
@@ -51,7 +58,8 @@ public:
 
     /// `begin` and `complete` in one.
     template <Message T>
-    void exchange(std::span<const int> neighbours, const std::vector<std::vector<T>>& out, Received<T>& in) {
+    void exchange(std::span<const int> neighbours, const std::vector<std::vector<T>>& out,
+                  Received<T>& in) {
         begin(neighbours, out);
         complete(in);
     }
@@ -67,7 +75,8 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// One exchange with fresh buffers, for rare use; see NeighbourExchange::begin for what is required. **Collective.**
+/// One exchange with fresh buffers, for rare use; see NeighbourExchange::begin for what is
+/// required. **Collective.**
 template <Message T>
 Received<T> exchange_with(const Communicator& communicator, std::span<const int> neighbours,
                           const std::vector<std::vector<T>>& out) {

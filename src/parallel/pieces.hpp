@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Records with ids 0 .. n-1 that lie in any order on any ranks, brought into order piece by piece.
 //
-// The ids are cut into pieces of a power of two; each rank owns a run of whole pieces. A counting sort says which
-// records are of which piece; then, round after round, each rank is given its next piece in order. So the whole is never
-// held twice, and a piece is in cache when its rank takes it apart. Records travel for several rounds at once, so that
-// ranks rarely wait for each other. Price: 4 bytes a record, each record read three times on its rank and sent once if it
-// is another's, and room for the records of some pieces.
+// The ids are cut into pieces of a power of two; each rank owns a run of whole pieces. A counting
+// sort says which records are of which piece; then, round after round, each rank is given its next
+// piece in order. So the whole is never held twice, and a piece is in cache when its rank takes it
+// apart. Records travel for several rounds at once, so that ranks rarely wait for each other.
+// Price: 4 bytes a record, each record read three times on its rank and sent once if it is
+// another's, and room for the records of some pieces.
 #pragma once
 
 #include <algorithm>
@@ -23,14 +24,16 @@
 
 namespace carrom {
 
-/// Which ids make up a piece, and which pieces are a rank's: runs as equal as pieces allow, longer ones first.
+/// Which ids make up a piece, and which pieces are a rank's: runs as equal as pieces allow, longer
+/// ones first.
 class Pieces {
 public:
     static constexpr std::uint64_t least_rows = 1 << 10, most_rows = 1 << 15;
 
     Pieces(std::uint64_t n, int n_ranks)
         : n_(n), n_ranks_(n_ranks),
-          rows_(std::clamp(std::bit_floor(n / (8 * static_cast<std::uint64_t>(n_ranks)) + 1), least_rows, most_rows)) {}
+          rows_(std::clamp(std::bit_floor(n / (8 * static_cast<std::uint64_t>(n_ranks)) + 1),
+                           least_rows, most_rows)) {}
 
     std::uint64_t count() const { return (n_ + rows_ - 1) / rows_; }
     std::uint64_t rows() const { return rows_; }
@@ -51,19 +54,22 @@ private:
 /// Hands each rank its pieces, one a round.
 template <Message T, class IdOf> class PieceStream {
 public:
-    /// `id_of(record)` gives the id; each of 0 .. n-1 must occur once over all ranks (checked as pieces come).
-    /// `records` must stay as they are as long as this is used.
-    PieceStream(const Communicator& communicator, std::span<const T> records, std::uint64_t n, const IdOf& id_of)
-        : communicator_(communicator), records_(records), id_of_(id_of), n_(n), pieces_(n, communicator.size()),
-          out_(static_cast<std::size_t>(communicator.size())) {
-        ensure(records.size() < std::numeric_limits<std::uint32_t>::max(), "too many records on a rank");
+    /// `id_of(record)` gives the id; each of 0 .. n-1 must occur once over all ranks (checked as
+    /// pieces come). `records` must stay as they are as long as this is used.
+    PieceStream(const Communicator& communicator, std::span<const T> records, std::uint64_t n,
+                const IdOf& id_of)
+        : communicator_(communicator), records_(records), id_of_(id_of), n_(n),
+          pieces_(n, communicator.size()), out_(static_cast<std::size_t>(communicator.size())) {
+        ensure(records.size() < std::numeric_limits<std::uint32_t>::max(),
+               "too many records on a rank");
         sort_by_piece();
     }
 
     const Pieces& pieces() const { return pieces_; }
 
-    /// Goes on to this rank's piece of the next round and returns it in order, empty if this rank has no more: its
-    /// first id is `begin()`. Good until the next call. Must be called n_rounds() times by every rank. **Collective.**
+    /// Goes on to this rank's piece of the next round and returns it in order, empty if this rank
+    /// has no more: its first id is `begin()`. Good until the next call. Must be called n_rounds()
+    /// times by every rank. **Collective.**
     std::span<const T> next() {
         const int me = communicator_.rank();
         const std::uint64_t mine = pieces_.first_of(me) + round_;
@@ -88,7 +94,8 @@ public:
 
 private:
     static constexpr std::uint64_t rounds_per_exchange = 8;
-    static constexpr std::size_t records_ahead = 64; ///< asked for early: they lie anywhere in memory
+    static constexpr std::size_t records_ahead =
+        64; ///< asked for early: they lie anywhere in memory
 
     void sort_by_piece() {
         first_in_order_.assign(pieces_.count() + 1, 0);
@@ -99,18 +106,26 @@ private:
             piece_of[i] = static_cast<std::uint32_t>(pieces_.of(id));
             ++first_in_order_[piece_of[i] + 1];
         }
-        for (std::size_t k = 1; k < first_in_order_.size(); ++k) first_in_order_[k] += first_in_order_[k - 1];
+        for (std::size_t k = 1; k < first_in_order_.size(); ++k)
+            first_in_order_[k] += first_in_order_[k - 1];
         std::vector<std::uint32_t> next(first_in_order_.begin(), first_in_order_.end() - 1);
         order_.resize(records_.size());
-        for (std::size_t i = 0; i < records_.size(); ++i) order_[next[piece_of[i]]++] = static_cast<std::uint32_t>(i);
+        for (std::size_t i = 0; i < records_.size(); ++i)
+            order_[next[piece_of[i]]++] = static_cast<std::uint32_t>(i);
     }
 
-    std::size_t n_in(std::uint64_t piece) const { return first_in_order_[piece + 1] - first_in_order_[piece]; }
+    std::size_t n_in(std::uint64_t piece) const {
+        return first_in_order_[piece + 1] - first_in_order_[piece];
+    }
 
-    template <class Act> void for_each_of(std::uint64_t piece, const Act& act) const { for_each_between(piece, piece + 1, act); }
-    template <class Act> void for_each_between(std::uint64_t piece, std::uint64_t end, const Act& act) const {
+    template <class Act> void for_each_of(std::uint64_t piece, const Act& act) const {
+        for_each_between(piece, piece + 1, act);
+    }
+    template <class Act>
+    void for_each_between(std::uint64_t piece, std::uint64_t end, const Act& act) const {
         for (std::size_t k = first_in_order_[piece]; k < first_in_order_[end]; ++k) {
-            __builtin_prefetch(&records_[order_[std::min(k + records_ahead, order_.size() - 1)]], 0, 2);
+            __builtin_prefetch(&records_[order_[std::min(k + records_ahead, order_.size() - 1)]], 0,
+                               2);
             act(records_[order_[k]]);
         }
     }
@@ -123,14 +138,17 @@ private:
         piece_[i] = record;
     }
 
-    /// Sends what is of the others' pieces of the next rounds, piece after piece, and takes what comes.
+    /// Sends what is of the others' pieces of the next rounds, piece after piece, and takes what
+    /// comes.
     void exchange() {
         for (int rank = 0; rank < communicator_.size(); ++rank) {
             std::vector<T>& out = out_[static_cast<std::size_t>(rank)];
             out.clear();
-            const std::uint64_t end = pieces_.first_of(rank + 1), piece = std::min(pieces_.first_of(rank) + round_, end);
+            const std::uint64_t end = pieces_.first_of(rank + 1),
+                                piece = std::min(pieces_.first_of(rank) + round_, end);
             if (rank != communicator_.rank())
-                for_each_between(piece, std::min(piece + rounds_per_exchange, end), [&](const T& record) { out.push_back(record); });
+                for_each_between(piece, std::min(piece + rounds_per_exchange, end),
+                                 [&](const T& record) { out.push_back(record); });
         }
         received_ = send_to_owners(communicator_, out_);
         n_taken_.assign(received_.n_senders(), 0);

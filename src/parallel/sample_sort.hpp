@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Distributed sort of records that are spread over the ranks in any way.
 //
-// Each rank sorts its own, every so-many-th record of all becomes a sample, rank 0 sorts the samples and cuts them into
-// slices (Shi and Schaeffer 1992, with the samples shared out by count, so a skewed start does not skew the cuts), and
-// each record travels once. Price: n log n / ranks comparisons, one any-to-any exchange, and about 64 samples per slice
-// on rank 0. With distinct records a slice exceeds its share by less than ranks / 64 of it, by far less on data
-// that is not made for it.
+// Each rank sorts its own, every so-many-th record of all becomes a sample, rank 0 sorts the
+// samples and cuts them into slices (Shi and Schaeffer 1992, with the samples shared out by count,
+// so a skewed start does not skew the cuts), and each record travels once. Price: n log n / ranks
+// comparisons, one any-to-any exchange, and about 64 samples per slice on rank 0. With distinct
+// records a slice exceeds its share by less than ranks / 64 of it, by far less on data that is not
+// made for it.
 #pragma once
 
 #include <algorithm>
@@ -24,9 +25,12 @@ namespace detail {
 
 inline constexpr std::uint64_t samples_per_slice = 64;
 
-/// Merges the sorted groups of `in` into one sorted array; equal items stay in the order of their senders.
+/// Merges the sorted groups of `in` into one sorted array; equal items stay in the order of their
+/// senders.
 template <class T, class Less> std::vector<T> merge_groups(Received<T> in, const Less& less) {
-    const auto at = [&in](std::size_t k) { return in.items.begin() + static_cast<std::ptrdiff_t>(in.offsets[k]); };
+    const auto at = [&in](std::size_t k) {
+        return in.items.begin() + static_cast<std::ptrdiff_t>(in.offsets[k]);
+    };
     const std::size_t n = in.n_senders();
     for (std::size_t width = 1; width < n; width *= 2)
         for (std::size_t k = 0; k + width < n; k += 2 * width)
@@ -35,16 +39,18 @@ template <class T, class Less> std::vector<T> merge_groups(Received<T> in, const
 }
 
 /// Every rank's list on rank 0, nothing elsewhere.
-template <Message T> Received<T> collect_on_root(const Communicator& communicator, std::vector<T> mine) {
+template <Message T>
+Received<T> collect_on_root(const Communicator& communicator, std::vector<T> mine) {
     std::vector<std::vector<T>> out(static_cast<std::size_t>(communicator.size()));
     out.front() = std::move(mine);
     return send_to_owners(communicator, out);
 }
 
-/// The records that open slices 1 .. n_slices - 1, the same on all ranks; none if no rank has a record.
+/// The records that open slices 1 .. n_slices - 1, the same on all ranks; none if no rank has a
+/// record.
 template <Message T, class Less>
-std::vector<T> choose_splitters(const Communicator& communicator, const std::vector<T>& sorted, const Less& less,
-                                int n_slices) {
+std::vector<T> choose_splitters(const Communicator& communicator, const std::vector<T>& sorted,
+                                const Less& less, int n_slices) {
     const auto n = static_cast<std::uint64_t>(n_slices);
     const std::uint64_t total = communicator.sum(std::uint64_t{sorted.size()});
     const std::uint64_t before = communicator.sum_before(sorted.size());
@@ -62,22 +68,29 @@ std::vector<T> choose_splitters(const Communicator& communicator, const std::vec
 
 } // namespace detail
 
-/// Returns the `communicator.rank()`-th of `n_slices` sorted slices of all ranks' records, nothing on ranks >= n_slices.
-/// Slices follow each other in the order `less` (strict, weak; the same on all ranks); equal records are in one slice,
-/// in the order of the ranks and places they came from. 1 <= n_slices <= size(). **Collective.**
+/// Returns the `communicator.rank()`-th of `n_slices` sorted slices of all ranks' records, nothing
+/// on ranks >= n_slices. Slices follow each other in the order `less` (strict, weak; the same on
+/// all ranks); equal records are in one slice, in the order of the ranks and places they came from.
+/// 1 <= n_slices <= size(). **Collective.**
 template <Message T, class Less>
-std::vector<T> sample_sort(const Communicator& communicator, std::vector<T> records, const Less& less, int n_slices) {
-    ensure(1 <= n_slices && n_slices <= communicator.size(), "a sort needs between one slice and one per rank");
+std::vector<T> sample_sort(const Communicator& communicator, std::vector<T> records,
+                           const Less& less, int n_slices) {
+    ensure(1 <= n_slices && n_slices <= communicator.size(),
+           "a sort needs between one slice and one per rank");
     std::stable_sort(records.begin(), records.end(), less);
     if (communicator.size() == 1) return records;
-    if (n_slices == 1) return detail::merge_groups(detail::collect_on_root(communicator, std::move(records)), less);
+    if (n_slices == 1)
+        return detail::merge_groups(detail::collect_on_root(communicator, std::move(records)),
+                                    less);
 
-    const std::vector<T> splitters = detail::choose_splitters(communicator, records, less, n_slices);
+    const std::vector<T> splitters = detail::choose_splitters(communicator, records, less,
+                                                              n_slices);
     std::vector<std::vector<T>> out(static_cast<std::size_t>(communicator.size()));
     auto begin = records.cbegin();
     for (std::size_t slice = 0; slice <= splitters.size(); ++slice) {
-        const auto end = slice < splitters.size() ? std::lower_bound(begin, records.cend(), splitters[slice], less)
-                                                  : records.cend();
+        const auto end = slice < splitters.size()
+                             ? std::lower_bound(begin, records.cend(), splitters[slice], less)
+                             : records.cend();
         out[slice].assign(begin, end);
         begin = end;
     }

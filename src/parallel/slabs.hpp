@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Records with ids 0 .. n-1 in equal shares by id: how arrays that belong to the run, not to a rank, are laid out.
+// Records with ids 0 .. n-1 in equal shares by id: how arrays that belong to the run, not to a
+// rank, are laid out.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +8,8 @@
 
 namespace carrom {
 
-/// The first id of a rank's slab; that of rank `size` is n. Slabs differ by at most one record, larger ones first.
+/// The first id of a rank's slab; that of rank `size` is n. Slabs differ by at most one record,
+/// larger ones first.
 inline std::uint64_t slab_begin(int rank, std::uint64_t n, int size) {
     const auto r = static_cast<std::uint64_t>(rank), p = static_cast<std::uint64_t>(size);
     return r * (n / p) + std::min(r, n % p);
@@ -18,7 +20,8 @@ inline int slab_of(std::uint64_t id, std::uint64_t n, int size) {
     const auto p = static_cast<std::uint64_t>(size);
     const std::uint64_t share = n / p, n_larger = n % p;
     const std::uint64_t in_larger = n_larger * (share + 1);
-    return static_cast<int>(id < in_larger ? id / (share + 1) : n_larger + (id - in_larger) / share);
+    return static_cast<int>(id < in_larger ? id / (share + 1)
+                                           : n_larger + (id - in_larger) / share);
 }
 
 } // namespace carrom

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How settings are looked at when a scene is checked: a value that is right, or nothing and one more problem.
+// How settings are looked at when a scene is checked: a value that is right, or nothing and one
+// more problem.
 #pragma once
 
 #include <array>
@@ -13,9 +14,9 @@
 #include <fmt/format.h>
 
 #include "scene/disc_columns.hpp"
-#include "scene/scene.hpp"
 #include "scene/keys.hpp"
 #include "scene/number.hpp"
+#include "scene/scene.hpp"
 #include "scene/settings.hpp"
 
 namespace carrom {
@@ -27,9 +28,12 @@ struct Check {
     Problems& problems;
     const DiscColumns* columns = nullptr; ///< of the file of discs
 
-    void refuse(const Setting& setting, std::string text) const { add_problem(problems, setting.place, std::move(text)); }
+    void refuse(const Setting& setting, std::string text) const {
+        add_problem(problems, setting.place, std::move(text));
+    }
     void refuse_missing(std::string_view key, std::string_view what) const {
-        if (!settings.is_mentioned(key)) add_problem(problems, {scene.name, 0}, fmt::format("'{}' is missing: {}", key, what));
+        if (!settings.is_mentioned(key))
+            add_problem(problems, {scene.name, 0}, fmt::format("'{}' is missing: {}", key, what));
     }
 };
 
@@ -44,14 +48,16 @@ inline std::optional<double> finite_number(const Check& check, std::string_view 
 }
 
 /// A whole number from `low` to `high`; 1e5 counts as whole.
-inline std::optional<std::int64_t> whole_number(const Check& check, std::string_view key, std::int64_t low, std::int64_t high) {
+inline std::optional<std::int64_t> whole_number(const Check& check, std::string_view key,
+                                                std::int64_t low, std::int64_t high) {
     const Setting* setting = check.settings.find(key);
     if (!setting) return std::nullopt;
     if (const auto* real = std::get_if<double>(&setting->value)) {
         if (!std::isfinite(*real) || *real != std::floor(*real)) {
             check.refuse(*setting, fmt::format("'{}' must be a whole number, not {}", key, *real));
         } else if (*real < static_cast<double>(low) || *real > static_cast<double>(high)) {
-            check.refuse(*setting, fmt::format("'{}' must be from {} to {}, not {}", key, low, high, *real));
+            check.refuse(*setting,
+                         fmt::format("'{}' must be from {} to {}, not {}", key, low, high, *real));
         } else if (std::fabs(*real) < 0x1p63) {
             return static_cast<std::int64_t>(*real);
         }
@@ -59,15 +65,18 @@ inline std::optional<std::int64_t> whole_number(const Check& check, std::string_
     }
     const auto number = std::get<std::int64_t>(setting->value);
     if (number >= low && number <= high) return number;
-    check.refuse(*setting, fmt::format("'{}' must be from {} to {}, not {}", key, low, high, number));
+    check.refuse(*setting,
+                 fmt::format("'{}' must be from {} to {}, not {}", key, low, high, number));
     return std::nullopt;
 }
 
-template <class Choice, std::size_t n> using Choices = std::array<std::pair<std::string_view, Choice>, n>;
+template <class Choice, std::size_t n>
+using Choices = std::array<std::pair<std::string_view, Choice>, n>;
 
 /// One of a few words.
 template <class Choice, std::size_t n>
-std::optional<Choice> choice(const Check& check, std::string_view key, const Choices<Choice, n>& choices) {
+std::optional<Choice> choice(const Check& check, std::string_view key,
+                             const Choices<Choice, n>& choices) {
     const Setting* setting = check.settings.find(key);
     if (!setting) return std::nullopt;
     const std::string& word = std::get<std::string>(setting->value);
@@ -78,7 +87,8 @@ std::optional<Choice> choice(const Check& check, std::string_view key, const Cho
         names[i] = choices[i].first;
         list += (i == 0 ? "" : i + 1 == n ? " or " : ", ") + fmt::format("\"{}\"", names[i]);
     }
-    check.refuse(*setting, fmt::format("'{}' must be {}, not {}{}", key, list, quoted(word), guess(word, names, '"')));
+    check.refuse(*setting, fmt::format("'{}' must be {}, not {}{}", key, list, quoted(word),
+                                       guess(word, names, '"')));
     return std::nullopt;
 }
 

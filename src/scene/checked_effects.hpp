@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The effects that a scene names, checked: a parameter of an effect that is not there is a problem, which names the effect.
+// The effects that a scene names, checked: a parameter of an effect that is not there is a problem,
+// which names the effect.
 #pragma once
 
 #include "scene/check.hpp"

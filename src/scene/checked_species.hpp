@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs of several radii and masses, and those that turn at the start: `[[discs.species]]`, more numbers in each row of
-// `discs.list`, or `discs.columns` of the file of discs.
+// Discs of several radii and masses, and those that turn at the start: `[[discs.species]]`, more
+// numbers in each row of `discs.list`, or `discs.columns` of the file of discs.
 #pragma once
 
 #include "scene/check.hpp"
 
 namespace carrom {
 
-/// Fills in `scene.disc_columns` and `scene.effects.classes`, which stay empty where nothing names them, and refuses what does not go with them.
+/// Fills in `scene.disc_columns` and `scene.effects.classes`, which stay empty where nothing names
+/// them, and refuses what does not go with them.
 void fill_species(const Check& check);
 
 /// Fills in `scene.spins`, once the contact is known.

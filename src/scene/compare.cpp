@@ -13,7 +13,8 @@ namespace carrom {
 namespace {
 
 bool operator==(const Stream& a, const Stream& b) {
-    return a.x_low == b.x_low && a.y_low == b.y_low && a.x_high == b.x_high && a.y_high == b.y_high && a.vx == b.vx && a.vy == b.vy;
+    return a.x_low == b.x_low && a.y_low == b.y_low && a.x_high == b.x_high &&
+           a.y_high == b.y_high && a.vx == b.vx && a.vy == b.vy;
 }
 
 bool same_streams(const std::vector<Stream>& a, const std::vector<Stream>& b) {
@@ -23,11 +24,17 @@ bool same_streams(const std::vector<Stream>& a, const std::vector<Stream>& b) {
     return true;
 }
 
-std::string_view name_of(Method method) { return method == Method::time_stepped ? "\"one\"" : "\"all\""; }
+std::string_view name_of(Method method) {
+    return method == Method::time_stepped ? "\"one\"" : "\"all\"";
+}
 
-std::string_view name_of(Precision precision) { return precision == Precision::single ? "\"single\"" : "\"double\""; }
+std::string_view name_of(Precision precision) {
+    return precision == Precision::single ? "\"single\"" : "\"double\"";
+}
 
-std::string_view name_of(Arithmetic arithmetic) { return arithmetic == Arithmetic::naive ? "\"naive\"" : "\"stable\""; }
+std::string_view name_of(Arithmetic arithmetic) {
+    return arithmetic == Arithmetic::naive ? "\"naive\"" : "\"stable\"";
+}
 
 std::string_view name_of(Generator generator) {
     switch (generator) {
@@ -39,14 +46,20 @@ std::string_view name_of(Generator generator) {
     return "";
 }
 
-std::string_view name_of(VelocityKind kind) { return kind == VelocityKind::maxwell ? "\"maxwell\"" : "\"uniform\""; }
+std::string_view name_of(VelocityKind kind) {
+    return kind == VelocityKind::maxwell ? "\"maxwell\"" : "\"uniform\"";
+}
 
-std::string shown(const std::optional<double>& number) { return number ? fmt::format("{}", *number) : "not set"; }
+std::string shown(const std::optional<double>& number) {
+    return number ? fmt::format("{}", *number) : "not set";
+}
 
 class Comparison {
 public:
-    template <class Value> void compare(std::string_view key, const Value& there, const Value& here) {
-        if (!(there == here)) differences.push_back(fmt::format("'{}' is {} there and {} here", key, there, here));
+    template <class Value>
+    void compare(std::string_view key, const Value& there, const Value& here) {
+        if (!(there == here))
+            differences.push_back(fmt::format("'{}' is {} there and {} here", key, there, here));
     }
     void compare_list(std::string_view key, bool is_same) {
         if (!is_same) differences.push_back(fmt::format("'{}' is another list there", key));
@@ -79,10 +92,12 @@ std::string_view name_of(BoundaryKind kind) {
 void compare_effects(Comparison& c, const Effects& there, const Effects& here) {
     c.compare("effects.contact.kind", name_of(there.contact.kind), name_of(here.contact.kind));
     c.compare("effects.contact.restitution", there.contact.restitution, here.contact.restitution);
-    c.compare("effects.contact.tangential_restitution", there.contact.tangential_restitution, here.contact.tangential_restitution);
+    c.compare("effects.contact.tangential_restitution", there.contact.tangential_restitution,
+              here.contact.tangential_restitution);
     c.compare("effects.contact.friction", there.contact.friction, here.contact.friction);
     c.compare("effects.contact.moment_of_inertia", there.contact.inertia, here.contact.inertia);
-    c.compare("effects.contact.contact_time", there.contact.contact_time, here.contact.contact_time);
+    c.compare("effects.contact.contact_time", there.contact.contact_time,
+              here.contact.contact_time);
     for (std::size_t k = 0; k < boundary_names.size(); ++k) {
         const Boundary &a = there.boundaries[k], &b = here.boundaries[k];
         const std::string table = std::string("box.") + boundary_names[k];
@@ -96,8 +111,10 @@ void compare_effects(Comparison& c, const Effects& there, const Effects& here) {
     c.compare("effects.drag.rate", there.drag, here.drag);
     c.compare("effects.thermal.seed", there.thermal_seed, here.thermal_seed);
     c.compare_list("effects.obstacles.discs", there.obstacles.discs == here.obstacles.discs);
-    c.compare_list("effects.obstacles.segments", there.obstacles.segments == here.obstacles.segments);
-    c.compare("effects.obstacles.restitution", there.obstacles.restitution, here.obstacles.restitution);
+    c.compare_list("effects.obstacles.segments",
+                   there.obstacles.segments == here.obstacles.segments);
+    c.compare("effects.obstacles.restitution", there.obstacles.restitution,
+              here.obstacles.restitution);
 }
 
 } // namespace
@@ -112,8 +129,11 @@ std::vector<std::string> physical_differences(const Scene& there, const Scene& h
     c.compare("discs.file", there.discs_file, here.discs_file);
     c.compare_list("discs.list", there.listed_discs == here.listed_discs);
     c.compare_list("discs.columns", there.disc_columns == here.disc_columns);
-    const bool are_listed = !has_column(there, DiscColumn::spin) && !has_column(here, DiscColumn::spin); // checkpoints do not have those of files
-    if (are_listed && there.spins != here.spins) c.differences.push_back("discs begin with other spins there");
+    const bool are_listed = !has_column(there, DiscColumn::spin) &&
+                            !has_column(here,
+                                        DiscColumn::spin); // checkpoints do not have those of files
+    if (are_listed && there.spins != here.spins)
+        c.differences.push_back("discs begin with other spins there");
     const bool speeds = here.generator == Generator::random || here.generator == Generator::lattice;
     if (there.generator == here.generator && speeds) {
         c.compare("discs.speed", there.speed, here.speed);

@@ -9,8 +9,8 @@
 
 namespace carrom {
 
-/// One line for each setting that differs, "'discs.seed' is 1 there and 2 here". How long a run goes on and what it
-/// writes are no differences. Lines of discs in files are not looked at.
+/// One line for each setting that differs, "'discs.seed' is 1 there and 2 here". How long a run
+/// goes on and what it writes are no differences. Lines of discs in files are not looked at.
 std::vector<std::string> physical_differences(const Scene& there, const Scene& here);
 
 } // namespace carrom

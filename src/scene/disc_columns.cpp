@@ -19,7 +19,8 @@ struct Row {
 };
 
 /// What a line of `5 + columns.size()` words says, or nothing where DiscReader would refuse it.
-std::optional<Row> row_of(const std::vector<std::string_view>& words, const std::vector<DiscColumn>& columns) {
+std::optional<Row> row_of(const std::vector<std::string_view>& words,
+                          const std::vector<DiscColumn>& columns) {
     if (words.size() != 5 + columns.size()) return std::nullopt;
     Row row;
     const auto id = parse_id(words[0]);
@@ -36,22 +37,30 @@ std::optional<Row> row_of(const std::vector<std::string_view>& words, const std:
 } // namespace
 
 void add_species(std::vector<Species>& species, const Species& next) {
-    if (!species.empty() && species.back().radius == next.radius && species.back().mass == next.mass) species.back().count += next.count;
-    else species.push_back(next);
+    if (!species.empty() && species.back().radius == next.radius &&
+        species.back().mass == next.mass)
+        species.back().count += next.count;
+    else
+        species.push_back(next);
 }
 
 void add_spins(std::vector<SpinRun>& spins, std::uint64_t count, double spin) {
     const DiscId end = (spins.empty() ? 0 : spins.back().end) + count;
-    if (!spins.empty() && spins.back().spin == spin) spins.back().end = end;
-    else spins.push_back({end, spin});
+    if (!spins.empty() && spins.back().spin == spin)
+        spins.back().end = end;
+    else
+        spins.push_back({end, spin});
 }
 
 bool has_column(const Scene& scene, DiscColumn column) {
-    return std::find(scene.disc_columns.begin(), scene.disc_columns.end(), column) != scene.disc_columns.end();
+    return std::find(scene.disc_columns.begin(), scene.disc_columns.end(), column) !=
+           scene.disc_columns.end();
 }
 
 double& number_of(DiscColumn column, Body& body, double& spin) {
-    return column == DiscColumn::radius ? body.radius : column == DiscColumn::mass ? body.mass : spin;
+    return column == DiscColumn::radius ? body.radius
+           : column == DiscColumn::mass ? body.mass
+                                        : spin;
 }
 
 DiscColumns read_disc_columns(std::istream& stream, const Scene& scene) {
@@ -62,7 +71,8 @@ DiscColumns read_disc_columns(std::istream& stream, const Scene& scene) {
     LineReader lines(stream, 0);
     for (std::string_view line; lines.next(line);) {
         if (lines.is_cut()) return found;
-        if (lines.line_number() == 1 && line.starts_with(byte_order_mark)) line.remove_prefix(byte_order_mark.size());
+        if (lines.line_number() == 1 && line.starts_with(byte_order_mark))
+            line.remove_prefix(byte_order_mark.size());
         if (trimmed(line).empty()) continue;
         split_words(line, 5 + scene.disc_columns.size(), words);
         const std::optional<Row> row = row_of(words, scene.disc_columns);
@@ -75,7 +85,8 @@ DiscColumns read_disc_columns(std::istream& stream, const Scene& scene) {
         if (rows[i].id != i) return found;
     found.is_whole = true;
     for (const Row& row : rows) {
-        if (has_column(scene, DiscColumn::radius)) add_species(found.species, {1, row.body.radius, row.body.mass});
+        if (has_column(scene, DiscColumn::radius))
+            add_species(found.species, {1, row.body.radius, row.body.mass});
         if (has_column(scene, DiscColumn::spin)) add_spins(found.spins, 1, row.spin);
     }
     return found;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a file of discs says of each disc beyond its place and velocity: `discs.columns` names it.
 //
-// Radii and masses are known before anything else is made of a scene, for its checks need them, and by every rank, for a law asks
-// for those of any disc. So rank 0 reads the file twice: for these columns, then for the discs. Discs that follow each other
-// and are alike are one class; at worst each is a class of its own.
+// Radii and masses are known before anything else is made of a scene, for its checks need them, and
+// by every rank, for a law asks for those of any disc. So rank 0 reads the file twice: for these
+// columns, then for the discs. Discs that follow each other and are alike are one class; at worst
+// each is a class of its own.
 #pragma once
 
 #include <istream>
@@ -13,14 +14,16 @@
 
 namespace carrom {
 
-/// By id. Without `is_whole` the file has lines that are wrong, or not the right ones: DiscReader tells which.
+/// By id. Without `is_whole` the file has lines that are wrong, or not the right ones: DiscReader
+/// tells which.
 struct DiscColumns {
     std::vector<Species> species; ///< empty where radii are no column
-    std::vector<SpinRun> spins;     ///< likewise
+    std::vector<SpinRun> spins;   ///< likewise
     bool is_whole = true;
 };
 
-/// Reads all lines of `stream`, `id x y vx vy` and the scene's columns. Costs 32 bytes a disc while it reads.
+/// Reads all lines of `stream`, `id x y vx vy` and the scene's columns. Costs 32 bytes a disc while
+/// it reads.
 DiscColumns read_disc_columns(std::istream& stream, const Scene& scene);
 
 bool has_column(const Scene& scene, DiscColumn column);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs from lines of text, "id x y vx vy" (and the columns of `discs.columns`, which are checked here and kept by
-// read_disc_columns) in any order of ids, in bounded chunks: one rank reads what it could never
-// hold. Costs up to N bits to see that every id comes once, and under a microsecond a line.
+// Discs from lines of text, "id x y vx vy" (and the columns of `discs.columns`, which are checked
+// here and kept by read_disc_columns) in any order of ids, in bounded chunks: one rank reads what
+// it could never hold. Costs up to N bits to see that every id comes once, and under a microsecond
+// a line.
 //
 // Problems are collected, not thrown: reading goes on, so that one look at a file finds them all.
 #pragma once
@@ -22,16 +23,19 @@ namespace carrom {
 class DiscReader {
 public:
     static constexpr std::size_t most_problems = 20; ///< listed in full; the rest are counted
-    static constexpr std::size_t most_wrong_lines = 1'000'000; ///< reading ends there: this is no list of discs
+    static constexpr std::size_t most_wrong_lines =
+        1'000'000; ///< reading ends there: this is no list of discs
 
-    /// Reads `stream`, which stands at the first disc; `stream` and `scene` must outlive the reader.
+    /// Reads `stream`, which stands at the first disc; `stream` and `scene` must outlive the
+    /// reader.
     DiscReader(std::istream& stream, const Scene& scene);
     ~DiscReader();
 
     /// Replaces `chunk` by the next discs, at most `limit`; false once there are none left.
     bool read(std::vector<InputDisc>& chunk, std::size_t limit);
 
-    /// Everything wrong with the lines, ids that never came included. Call after `read` has returned false.
+    /// Everything wrong with the lines, ids that never came included. Call after `read` has
+    /// returned false.
     std::vector<Problem> problems() const;
 
 private:
@@ -42,7 +46,8 @@ private:
     bool note_id(std::string_view word, DiscId& id);
     void refuse(std::string text);
     std::string missing_ids() const;
-    std::uint64_t most_discs() const; ///< N, or what it can be at most where the scene has no right one
+    std::uint64_t most_discs()
+        const; ///< N, or what it can be at most where the scene has no right one
 
     const Scene& scene_;
     SpeciesTable species_;
@@ -55,8 +60,9 @@ private:
     std::uint64_t n_problems_ = 0;
 };
 
-/// Everything wrong with the lines of `stream`, as DiscReader has it, and keeps no disc. The scene may have problems of
-/// its own: without a number of discs (0) none is missing, without a box (0) none is outside.
+/// Everything wrong with the lines of `stream`, as DiscReader has it, and keeps no disc. The scene
+/// may have problems of its own: without a number of discs (0) none is missing, without a box (0)
+/// none is outside.
 std::vector<Problem> disc_line_problems(std::istream& stream, const Scene& scene);
 
 } // namespace carrom

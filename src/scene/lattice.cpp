@@ -17,7 +17,8 @@ struct Shape {
     double x_spans = 0, y_spans = 0;
 };
 
-Shape shape_of(std::uint64_t n_discs, std::uint64_t rows, bool is_staggered, bool odd_rows_are_shorter) {
+Shape shape_of(std::uint64_t n_discs, std::uint64_t rows, bool is_staggered,
+               bool odd_rows_are_shorter) {
     Shape shape;
     Lattice& lattice = shape.lattice;
     lattice.n_discs = n_discs;
@@ -26,7 +27,8 @@ Shape shape_of(std::uint64_t n_discs, std::uint64_t rows, bool is_staggered, boo
     lattice.columns = (n_discs + n_removed + rows - 1) / rows;
     lattice.is_staggered = is_staggered;
     lattice.odd_rows_are_shorter = odd_rows_are_shorter;
-    shape.x_spans = static_cast<double>(lattice.columns - 1) + (is_staggered && !odd_rows_are_shorter && rows > 1 ? 0.5 : 0.0);
+    shape.x_spans = static_cast<double>(lattice.columns - 1) +
+                    (is_staggered && !odd_rows_are_shorter && rows > 1 ? 0.5 : 0.0);
     shape.y_spans = static_cast<double>(rows - 1);
     return shape;
 }
@@ -45,8 +47,8 @@ double nearest_share(const Shape& shape) {
     return std::min({in_row, next_row, second_row});
 }
 
-/// Spreads the sites over the box. With w = L - 2r - 2s the width of the lattice and q w the nearest distance, the free
-/// radius s solves q w - 2r = 2s.
+/// Spreads the sites over the box. With w = L - 2r - 2s the width of the lattice and q w the
+/// nearest distance, the free radius s solves q w - 2r = 2s.
 void place(Shape& shape, double box_size, double radius) {
     Lattice& lattice = shape.lattice;
     const double q = nearest_share(shape);
@@ -68,22 +70,26 @@ std::optional<Lattice> widest_lattice(std::uint64_t n_discs, double box_size, do
     const std::uint64_t most_rows = std::min(n_discs, 2 * side + 4);
     for (std::uint64_t rows = 1; rows <= most_rows; ++rows) {
         for (const int kind : {0, 1, 2}) {
-            if (kind == 2 && (n_discs + rows / 2 + rows - 1) / rows < 2) continue; // odd rows would be empty
+            if (kind == 2 && (n_discs + rows / 2 + rows - 1) / rows < 2)
+                continue; // odd rows would be empty
             Shape shape = shape_of(n_discs, rows, kind > 0, kind == 2);
             place(shape, box_size, radius);
             if (!widest || shape.lattice.free_radius > widest->free_radius) widest = shape.lattice;
         }
     }
-    // Touching neighbours are fine, and a rounding error of L deeper than touching is within the method's tolerance.
+    // Touching neighbours are fine, and a rounding error of L deeper than touching is within the
+    // method's tolerance.
     if (widest->free_radius < -0x1p-52 * box_size) return std::nullopt;
-    widest->free_radius = std::max(widest->free_radius - 0x1p-49 * box_size, 0.0); // rounding must not close a gap
+    widest->free_radius = std::max(widest->free_radius - 0x1p-49 * box_size,
+                                   0.0); // rounding must not close a gap
     return widest;
 }
 
 Point lattice_site(const Lattice& lattice, DiscId id) {
     __extension__ using Wide = unsigned __int128;
     // Empty sites are spread evenly: ids are stretched over the sites.
-    const auto site = static_cast<std::uint64_t>(static_cast<Wide>(id) * lattice.n_sites() / lattice.n_discs);
+    const auto site = static_cast<std::uint64_t>(static_cast<Wide>(id) * lattice.n_sites() /
+                                                 lattice.n_discs);
     std::uint64_t row = 0, column = 0;
     if (lattice.odd_rows_are_shorter) {
         const std::uint64_t two_rows = 2 * lattice.columns - 1;
@@ -95,7 +101,8 @@ Point lattice_site(const Lattice& lattice, DiscId id) {
         column = site % lattice.columns;
     }
     const double shift = lattice.is_staggered && row % 2 == 1 ? 0.5 : 0.0;
-    return {lattice.x0 + (static_cast<double>(column) + shift) * lattice.dx, lattice.y0 + static_cast<double>(row) * lattice.dy};
+    return {lattice.x0 + (static_cast<double>(column) + shift) * lattice.dx,
+            lattice.y0 + static_cast<double>(row) * lattice.dy};
 }
 
 Point shaken_site(const Lattice& lattice, DiscId id, std::uint64_t seed) {

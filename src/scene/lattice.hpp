@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A lattice of N discs between the walls with the widest gaps, and a random shake that closes none of them.
+// A lattice of N discs between the walls with the widest gaps, and a random shake that closes none
+// of them.
 //
-// Tried are a square lattice and two hexagonal ones (rows of n and n, rows of n and n-1 sites), stretched to fill the
-// box, over every number of rows; the one whose discs may move farthest wins. Sites keep the same distance s to the
-// walls as half of what they keep from each other, so each disc may be moved by up to s in any direction: no overlap,
-// none outside. Sites in excess of N stay empty, spread evenly. Finding it costs O(sqrt N), a site O(1).
+// Tried are a square lattice and two hexagonal ones (rows of n and n, rows of n and n-1 sites),
+// stretched to fill the box, over every number of rows; the one whose discs may move farthest wins.
+// Sites keep the same distance s to the walls as half of what they keep from each other, so each
+// disc may be moved by up to s in any direction: no overlap, none outside. Sites in excess of N
+// stay empty, spread evenly. Finding it costs O(sqrt N), a site O(1).
 #pragma once
 
 #include <cstdint>

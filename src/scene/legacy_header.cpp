@@ -17,31 +17,37 @@ struct Entry {
     bool is_integer;
 };
 
-constexpr std::array<Entry, legacy_header_lines> entries = {{{"discs.count", "N, the number of discs", true},
-                                                               {"box.size", "L, the side of the box", false},
-                                                               {"discs.radius", "r, the radius of a disc", false},
-                                                               {"time.steps", "S, the number of steps", true},
-                                                               {"output.text", "'print' or 'perf'", false}}};
+constexpr std::array<Entry, legacy_header_lines> entries = {
+    {{"discs.count", "N, the number of discs", true},
+     {"box.size", "L, the side of the box", false},
+     {"discs.radius", "r, the radius of a disc", false},
+     {"time.steps", "S, the number of steps", true},
+     {"output.text", "'print' or 'perf'", false}}};
 
-void add_entry(Settings& settings, Problems& problems, const Entry& entry, std::string_view word, const Place& place) {
+void add_entry(Settings& settings, Problems& problems, const Entry& entry, std::string_view word,
+               const Place& place) {
     Setting setting{std::string(entry.key), place, {}};
     if (entry.key == "output.text") {
-        if (word == "print" || word == "perf") setting.value = std::string(word == "print" ? "every_step" : "ends");
-        else return add_problem(problems, place, fmt::format("expected {}, not {}", entry.meaning, quoted(word)));
+        if (word == "print" || word == "perf")
+            setting.value = std::string(word == "print" ? "every_step" : "ends");
+        else
+            return add_problem(problems, place,
+                               fmt::format("expected {}, not {}", entry.meaning, quoted(word)));
     } else if (const auto integer = parse_integer(word); entry.is_integer && integer) {
         setting.value = *integer;
     } else if (const auto number = parse_double(word)) {
         setting.value = *number;
     } else {
-        return add_problem(problems, place, fmt::format("expected {}, not {}", entry.meaning, quoted(word)));
+        return add_problem(problems, place,
+                           fmt::format("expected {}, not {}", entry.meaning, quoted(word)));
     }
     settings.set(std::move(setting));
 }
 
 } // namespace
 
-void add_legacy_header(Settings& settings, Problems& problems, std::string_view text, const std::string& name,
-                         bool discs_follow) {
+void add_legacy_header(Settings& settings, Problems& problems, std::string_view text,
+                       const std::string& name, bool discs_follow) {
     for (const Entry& entry : entries) settings.mention(entry.key);
     Place place{name, 0};
     std::size_t found = 0;
@@ -55,12 +61,16 @@ void add_legacy_header(Settings& settings, Problems& problems, std::string_view 
         const std::string_view word = line.substr(0, line.find_first_of(" \t\r"));
         add_entry(settings, problems, entry, word, place);
         if (word.size() < line.size())
-            add_problem(problems, place, fmt::format("{} after {}", quoted(trimmed(line.substr(word.size()))), entry.meaning));
+            add_problem(problems, place,
+                        fmt::format("{} after {}", quoted(trimmed(line.substr(word.size()))),
+                                    entry.meaning));
     }
     if (found == 0)
-        add_problem(problems, {name, 0}, "the input is empty; expected N, L, r, S and 'print' or 'perf', one per line");
+        add_problem(problems, {name, 0},
+                    "the input is empty; expected N, L, r, S and 'print' or 'perf', one per line");
     else if (found < entries.size())
-        add_problem(problems, place, fmt::format("the input ends before {}", entries[found].meaning));
+        add_problem(problems, place,
+                    fmt::format("the input ends before {}", entries[found].meaning));
     settings.set({"discs.generator", place, std::string(discs_follow ? "file" : "legacy")});
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The legacy text format: N, L, r, S and `print` or `perf`, one per line, then nothing or N lines "id x y vx vy".
+// The legacy text format: N, L, r, S and `print` or `perf`, one per line, then nothing or N lines
+// "id x y vx vy".
 #pragma once
 
 #include <string>
@@ -12,7 +13,7 @@ namespace carrom {
 inline constexpr int legacy_header_lines = 5; ///< blank lines do not count
 
 /// Settings of the header `text`. `discs_follow`: the input goes on with lines of discs.
-void add_legacy_header(Settings& settings, Problems& problems, std::string_view text, const std::string& name,
-                         bool discs_follow);
+void add_legacy_header(Settings& settings, Problems& problems, std::string_view text,
+                       const std::string& name, bool discs_follow);
 
 } // namespace carrom

@@ -10,19 +10,33 @@ namespace carrom {
 
 std::string velocity_problem(double component) {
     const double size = std::fabs(component);
-    if (!std::isfinite(component)) return fmt::format("the velocity {} is not a finite number", component);
-    if (size > largest_size) return fmt::format("the velocity {} is too large (at most 2^250)", component);
-    if (size != 0 && size < smallest_size) return fmt::format("the velocity {} is too small (0, or at least 2^-250)", component);
+    if (!std::isfinite(component))
+        return fmt::format("the velocity {} is not a finite number", component);
+    if (size > largest_size)
+        return fmt::format("the velocity {} is too large (at most 2^250)", component);
+    if (size != 0 && size < smallest_size)
+        return fmt::format("the velocity {} is too small (0, or at least 2^-250)", component);
     return {};
 }
 
 std::string column_problem(DiscColumn column, double number) {
     constexpr double smallest_mass = 0x1p-100, largest_mass = 0x1p100;
-    const auto is_within = [number](double low, double high) { return number >= low && number <= high; };
+    const auto is_within = [number](double low, double high) {
+        return number >= low && number <= high;
+    };
     switch (column) {
-    case DiscColumn::radius: return is_within(smallest_length, largest_size) ? "" : fmt::format("the radius must be from 2^-230 to 2^250, not {}", number);
-    case DiscColumn::mass: return is_within(smallest_mass, largest_mass) ? "" : fmt::format("the mass must be from 2^-100 to 2^100, not {}", number);
-    case DiscColumn::spin: return is_within(-largest_size, largest_size) ? "" : fmt::format("the spin must be finite and at most 2^250, not {}", number);
+    case DiscColumn::radius:
+        return is_within(smallest_length, largest_size)
+                   ? ""
+                   : fmt::format("the radius must be from 2^-230 to 2^250, not {}", number);
+    case DiscColumn::mass:
+        return is_within(smallest_mass, largest_mass)
+                   ? ""
+                   : fmt::format("the mass must be from 2^-100 to 2^100, not {}", number);
+    case DiscColumn::spin:
+        return is_within(-largest_size, largest_size)
+                   ? ""
+                   : fmt::format("the spin must be finite and at most 2^250, not {}", number);
     }
     return {};
 }
@@ -35,17 +49,23 @@ std::string disc_problem(const InputDisc& disc, const Scene& scene, double radiu
     // L - r and whatever wrote the input round to within an ulp of L, at most 2^-52 L.
     const double slack = 0x1p-52 * scene.box_size;
     bool is_finite = true, is_inside = true;
-    for (const auto& [centre, is_periodic] : {std::pair(disc.x, scene.effects.is_periodic_x()), {disc.y, scene.effects.is_periodic_y()}}) {
-        const double low = is_periodic ? 0 : radius - slack, high = is_periodic ? scene.box_size : (scene.box_size - radius) + slack;
-        if (!std::isfinite(centre)) add(fmt::format("the position {} is not a finite number", centre));
+    for (const auto& [centre, is_periodic] : {std::pair(disc.x, scene.effects.is_periodic_x()),
+                                              {disc.y, scene.effects.is_periodic_y()}}) {
+        const double low = is_periodic ? 0 : radius - slack,
+                     high = is_periodic ? scene.box_size : (scene.box_size - radius) + slack;
+        if (!std::isfinite(centre))
+            add(fmt::format("the position {} is not a finite number", centre));
         is_finite = is_finite && std::isfinite(centre);
         is_inside = is_inside && centre >= low && centre <= high;
     }
     const bool is_box_known = scene.box_size > 0;
     if (is_finite && !is_inside && is_box_known)
-        add(fmt::format("disc {} at ({}, {}) is not inside the box: centres lie between r = {} and L - r = {}{}", disc.id,
-                        disc.x, disc.y, radius, scene.box_size - radius,
-                        scene.effects.are_periodic() ? fmt::format(", between periodic sides 0 and L = {}", scene.box_size) : ""));
+        add(fmt::format("disc {} at ({}, {}) is not inside the box: centres lie between r = {} and "
+                        "L - r = {}{}",
+                        disc.id, disc.x, disc.y, radius, scene.box_size - radius,
+                        scene.effects.are_periodic()
+                            ? fmt::format(", between periodic sides 0 and L = {}", scene.box_size)
+                            : ""));
     for (const double component : {disc.vx, disc.vy}) add(velocity_problem(component));
     return all;
 }

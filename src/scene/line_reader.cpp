@@ -37,7 +37,8 @@ bool LineReader::next(std::string_view& line) {
     return true;
 }
 
-/// Characters before the first line end in the buffer, or all of them; the first `searched` are known to hold none.
+/// Characters before the first line end in the buffer, or all of them; the first `searched` are
+/// known to hold none.
 std::size_t LineReader::find_line_end(std::size_t searched) const {
     const char* first = buffer_.data() + begin_;
     const std::size_t available = end_ - begin_;
@@ -61,8 +62,8 @@ void LineReader::skip_rest_of_line() {
 }
 
 bool LineReader::refill() {
-    std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_), buffer_.begin() + static_cast<std::ptrdiff_t>(end_),
-              buffer_.begin());
+    std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_),
+              buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
     end_ -= begin_;
     begin_ = 0;
     stream_.read(buffer_.data() + end_, static_cast<std::streamsize>(buffer_.size() - end_));

@@ -16,18 +16,23 @@ public:
     static constexpr std::size_t longest_line = 4096;
     static constexpr std::size_t most_skipped = std::size_t{64} << 20;
 
-    /// `lines_before` lines of the stream have been read by somebody else. The stream must outlive the reader.
+    /// `lines_before` lines of the stream have been read by somebody else. The stream must outlive
+    /// the reader.
     LineReader(std::istream& stream, std::int64_t lines_before);
 
-    /// The next line without its end; false at the end of the stream. `line` stays valid until the next call.
-    /// A line longer than `longest_line` is cut there and the rest of it is skipped; where that is more than
-    /// `most_skipped` the stream counts as ended.
+    /// The next line without its end; false at the end of the stream. `line` stays valid until the
+    /// next call. A line longer than `longest_line` is cut there and the rest of it is skipped;
+    /// where that is more than `most_skipped` the stream counts as ended.
     bool next(std::string_view& line);
 
     std::int64_t line_number() const { return line_number_; }
     bool is_cut() const { return is_cut_; }
-    bool is_endless() const { return is_endless_; } ///< the end that `next` met is that of its patience
-    bool has_failed() const { return stream_.bad(); } ///< the end that `next` met was not the stream's end
+    bool is_endless() const {
+        return is_endless_;
+    } ///< the end that `next` met is that of its patience
+    bool has_failed() const {
+        return stream_.bad();
+    } ///< the end that `next` met was not the stream's end
 
 private:
     bool refill();

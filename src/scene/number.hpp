@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers from text by std::from_chars: exact, and the same in every locale. The whole text must be the number.
+// Numbers from text by std::from_chars: exact, and the same in every locale. The whole text must be
+// the number.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,8 @@ inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 /// Without blanks (space, tab, carriage return) at either end.
 std::string_view trimmed(std::string_view text);
 
-/// The words of `line` that blanks part, at most `limit` of them; more words than that end in one last entry.
+/// The words of `line` that blanks part, at most `limit` of them; more words than that end in one
+/// last entry.
 void split_words(std::string_view line, std::size_t limit, std::vector<std::string_view>& words);
 
 /// `text` in quotes, cut to a readable length, with control characters shown as `?`.

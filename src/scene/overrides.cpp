@@ -16,16 +16,20 @@ namespace {
 
 /// Pairs that say the same thing in two ways; the one from the command line wins.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 3> rivals = {
-    {{"discs.radius", "discs.packing"}, {"discs.file", "discs.list"}, {"discs.columns", "discs.list"}}};
+    {{"discs.radius", "discs.packing"},
+     {"discs.file", "discs.list"},
+     {"discs.columns", "discs.list"}}};
 
 /// An accuracy asks for these to be chosen.
-constexpr std::array<std::string_view, 5> chosen_by_accuracy = {"time.method", "time.micro_steps", "time.precision",
-                                                                "time.arithmetic", "time.contraction"};
+constexpr std::array<std::string_view, 5> chosen_by_accuracy = {
+    "time.method", "time.micro_steps", "time.precision", "time.arithmetic", "time.contraction"};
 
 void remove_rivals_of_accuracy(Settings& settings, const Settings& given) {
     for (const std::string_view key : chosen_by_accuracy) {
-        if (given.has("time.accuracy")) settings.remove(key);
-        else if (given.has(key)) settings.remove("time.accuracy");
+        if (given.has("time.accuracy"))
+            settings.remove(key);
+        else if (given.has(key))
+            settings.remove("time.accuracy");
     }
 }
 
@@ -47,18 +51,21 @@ void remove_rivals(Settings& settings, const Settings& given) {
 
 } // namespace
 
-void add_overrides(Settings& settings, Problems& problems, const std::vector<std::string>& overrides) {
+void add_overrides(Settings& settings, Problems& problems,
+                   const std::vector<std::string>& overrides) {
     Settings given;
     for (const std::string& text : overrides) {
         const std::size_t equals = text.find('=');
         const std::string key{trimmed(std::string_view(text).substr(0, equals))};
         const Place place{"--set " + (key.empty() ? text : key), 0};
         if (equals == std::string::npos || key.empty())
-            add_problem(problems, place, fmt::format("{} is not of the form key=value", quoted(text)));
+            add_problem(problems, place,
+                        fmt::format("{} is not of the form key=value", quoted(text)));
         else if (!kind_of_key(key))
             add_problem(problems, place, unknown_key_text(key));
         else
-            add_toml_value(given, problems, key, std::string(trimmed(std::string_view(text).substr(equals + 1))), place);
+            add_toml_value(given, problems, key,
+                           std::string(trimmed(std::string_view(text).substr(equals + 1))), place);
     }
     remove_rivals(settings, given);
     for (const Setting& setting : given.all()) settings.set(setting);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Settings from the command line, `key=value`. They replace what the input says, and whatever excludes them there:
-// `discs.packing` replaces a radius, another generator the keys that have no meaning for it.
+// Settings from the command line, `key=value`. They replace what the input says, and whatever
+// excludes them there: `discs.packing` replaces a radius, another generator the keys that have no
+// meaning for it.
 #pragma once
 
 #include <string>
@@ -10,6 +11,7 @@
 
 namespace carrom {
 
-void add_overrides(Settings& settings, Problems& problems, const std::vector<std::string>& overrides);
+void add_overrides(Settings& settings, Problems& problems,
+                   const std::vector<std::string>& overrides);
 
 } // namespace carrom

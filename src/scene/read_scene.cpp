@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "scene/legacy_header.hpp"
 #include "scene/checked_scene.hpp"
+#include "scene/legacy_header.hpp"
 #include "scene/line_reader.hpp"
 #include "scene/number.hpp"
 #include "scene/overrides.hpp"
@@ -37,10 +37,13 @@ void check_stream(const std::istream& stream, const std::string& name) {
 std::string read_all(std::istream& stream, const std::string& name) {
     std::string text;
     std::string block(std::size_t{1} << 16, '\0');
-    while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) || stream.gcount() > 0) {
+    while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) ||
+           stream.gcount() > 0) {
         text.append(block, 0, static_cast<std::size_t>(stream.gcount()));
         if (text.size() > longest_toml)
-            refuse(name, 0, "a TOML scene of more than 64 MiB; put the discs into a file of their own (discs.file)");
+            refuse(name, 0,
+                   "a TOML scene of more than 64 MiB; put the discs into a file of their own "
+                   "(discs.file)");
     }
     check_stream(stream, name);
     return text;
@@ -73,7 +76,9 @@ std::ifstream open_input(const std::string& path) {
     const auto status = std::filesystem::status(path, ignored);
     if (std::filesystem::is_directory(status)) refuse(path, 0, "is a directory, not a file");
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-        refuse(path, 0, "is not a plain file; the legacy text format from a pipe or a device is read from standard input, as in `carrom run -`");
+        refuse(path, 0,
+               "is not a plain file; the legacy text format from a pipe or a device is read from "
+               "standard input, as in `carrom run -`");
     errno = 0;
     std::ifstream stream(path, std::ios::binary);
     if (!stream) refuse(path, 0, "cannot be opened: " + std::generic_category().message(errno));
@@ -89,8 +94,10 @@ SceneText read_scene_text(std::istream& stream, const std::string& name) {
     std::string line;
     for (int found = 0; found < legacy_header_lines && take_line(stream, line);) {
         input.lines_before_discs += 1;
-        if (line.size() > LineReader::longest_line) refuse(name, input.lines_before_discs, "a line of more than 4096 characters");
-        if (input.lines_before_discs == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
+        if (line.size() > LineReader::longest_line)
+            refuse(name, input.lines_before_discs, "a line of more than 4096 characters");
+        if (input.lines_before_discs == 1 && line.starts_with(byte_order_mark))
+            line.erase(0, byte_order_mark.size());
         std::string_view content = line;
         if (content.empty()) continue;
         if (content.back() == '\n') content.remove_suffix(1);
@@ -109,12 +116,15 @@ Scene read_scene(const SceneText& input, const std::vector<std::string>& overrid
     return scene;
 }
 
-Scene read_scene(const SceneText& input, const std::vector<std::string>& overrides, Problems& all_problems) {
+Scene read_scene(const SceneText& input, const std::vector<std::string>& overrides,
+                 Problems& all_problems) {
     Settings settings;
     Problems problems;
     bool is_parsed = true;
-    if (is_toml(input.name)) is_parsed = add_toml(settings, problems, input.text, input.name);
-    else add_legacy_header(settings, problems, input.text, input.name, input.discs_follow);
+    if (is_toml(input.name))
+        is_parsed = add_toml(settings, problems, input.text, input.name);
+    else
+        add_legacy_header(settings, problems, input.text, input.name, input.discs_follow);
     add_overrides(settings, problems, overrides);
     Scene scene;
     scene.name = input.name;
@@ -123,14 +133,17 @@ Scene read_scene(const SceneText& input, const std::vector<std::string>& overrid
     scene.discs_follow = input.discs_follow;
     scene.overrides = overrides;
     if (is_parsed) fill_scene(scene, settings, problems, input.columns ? &*input.columns : nullptr);
-    const auto line_of = [](const Problem& p) { return p.line > 0 ? p.line : std::numeric_limits<std::int64_t>::max(); };
+    const auto line_of = [](const Problem& p) {
+        return p.line > 0 ? p.line : std::numeric_limits<std::int64_t>::max();
+    };
     std::stable_sort(problems.begin(), problems.end(),
                      [&](const Problem& a, const Problem& b) { return line_of(a) < line_of(b); });
     all_problems.insert(all_problems.end(), problems.begin(), problems.end());
     return scene;
 }
 
-Scene read_scene(std::string_view text, const std::string& name, const std::vector<std::string>& overrides) {
+Scene read_scene(std::string_view text, const std::string& name,
+                 const std::vector<std::string>& overrides) {
     std::istringstream stream{std::string(text)};
     return read_scene(read_scene_text(stream, name), overrides);
 }

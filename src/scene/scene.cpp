@@ -10,7 +10,9 @@ namespace carrom {
 double Scene::packing() const {
     if (!effects.species.empty()) {
         double sum = 0;
-        for (const Species& one : effects.species) sum += static_cast<double>(one.count) * std::numbers::pi * (one.radius / box_size) * (one.radius / box_size);
+        for (const Species& one : effects.species)
+            sum += static_cast<double>(one.count) * std::numbers::pi * (one.radius / box_size) *
+                   (one.radius / box_size);
         return sum;
     }
     const double share = radius / box_size;
@@ -18,7 +20,9 @@ double Scene::packing() const {
 }
 
 double first_spin(const Scene& scene, DiscId id) {
-    const auto run = std::upper_bound(scene.spins.begin(), scene.spins.end(), id, [](DiscId wanted, const SpinRun& one) { return wanted < one.end; });
+    const auto run = std::upper_bound(
+        scene.spins.begin(), scene.spins.end(), id,
+        [](DiscId wanted, const SpinRun& one) { return wanted < one.end; });
     return run == scene.spins.end() ? 0 : run->spin;
 }
 

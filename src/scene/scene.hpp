@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One checked description of a run. Every reader ends in a `Scene`; nothing after it looks at the input's text again.
+// One checked description of a run. Every reader ends in a `Scene`; nothing after it looks at the
+// input's text again.
 //
-// Velocities and times here are the scene's (per step); the engine divides by `micro_steps` when it takes over.
+// Velocities and times here are the scene's (per step); the engine divides by `micro_steps` when it
+// takes over.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +24,8 @@ enum class Arithmetic { stable, naive };
 enum class Generator { random, lattice, legacy, file };
 enum class VelocityKind { maxwell, uniform };
 
-/// What goes to standard output: nothing, steps 0 and S, or every step (the course program's `perf` and `print`).
+/// What goes to standard output: nothing, steps 0 and S, or every step (the course program's `perf`
+/// and `print`).
 enum class TextOutput { none, first_and_last, every_step };
 
 /// A disc as an input gives it, velocity per step.
@@ -33,7 +36,8 @@ struct InputDisc {
     friend bool operator==(const InputDisc&, const InputDisc&) = default;
 };
 
-/// Discs whose ids follow each other, up to `end`, that have one spin at the start, an angle per step.
+/// Discs whose ids follow each other, up to `end`, that have one spin at the start, an angle per
+/// step.
 struct SpinRun {
     DiscId end = 0;
     double spin = 0;
@@ -44,7 +48,8 @@ struct SpinRun {
 /// What a line of `discs_file` may have behind `id x y vx vy`.
 enum class DiscColumn { radius, mass, spin };
 
-/// Discs generated inside this rectangle get this velocity added: a jet, a shear, a piston-like slab.
+/// Discs generated inside this rectangle get this velocity added: a jet, a shear, a piston-like
+/// slab.
 struct Stream {
     double x_low = 0, y_low = 0, x_high = 0, y_high = 0;
     double vx = 0, vy = 0;
@@ -52,10 +57,10 @@ struct Stream {
 
 /// `[output.checkpoint]`: when the state is stored, and where. At the end and on a signal as well.
 struct CheckpointOutput {
-    std::string folder;                       ///< as seen from where the program runs
+    std::string folder; ///< as seen from where the program runs
     std::optional<std::int64_t> every_steps;
-    std::optional<double> every_minutes;      ///< of wall time
-    std::int64_t keep = 2;                    ///< older ones are removed
+    std::optional<double> every_minutes; ///< of wall time
+    std::int64_t keep = 2;               ///< older ones are removed
     bool at_end = true;
 };
 
@@ -65,8 +70,8 @@ struct TrajectoryOutput {
     std::int64_t every_steps = 1;
     bool has_position = true, has_velocity = true, has_collisions = false;
     bool has_angular_velocity = false; ///< of rough discs, where fields are not named
-    bool is_single = true;  ///< numbers of 4 bytes, else of 8
-    int compression = 0;    ///< 0 to 9
+    bool is_single = true;             ///< numbers of 4 bytes, else of 8
+    int compression = 0;               ///< 0 to 9
 };
 
 /// `[output.collisions]`: every collision in one file.
@@ -76,35 +81,41 @@ struct CollisionOutput {
 
 /// `[output.measurements]`: what is sampled as the run goes on, and where the tables go.
 struct MeasurementOutput {
-    std::string folder;                     ///< as seen from where the program runs
+    std::string folder; ///< as seen from where the program runs
     std::int64_t every_steps = 10, from_step = 0;
-    bool wall_pressure = false, radial_distribution = false, velocities = false, density = false, displacement = false;
+    bool wall_pressure = false, radial_distribution = false, velocities = false, density = false,
+         displacement = false;
     std::size_t bins = 100;
-    double largest_distance = 0;            ///< of the radial distribution
-    bool is_distance_default = false;       ///< not named: as far as a box allows whose walls come in until the last step
-    std::optional<double> largest_velocity; ///< of a component, per step; else five times its root mean square when sampling begins
+    double largest_distance = 0; ///< of the radial distribution
+    bool is_distance_default =
+        false; ///< not named: as far as a box allows whose walls come in until the last step
+    std::optional<double> largest_velocity; ///< of a component, per step; else five times its root
+                                            ///< mean square when sampling begins
 };
 
 struct Scene {
-    std::string name;       ///< the file's name, "standard input" for `-`
-    std::string text;       ///< the input's own text without the lines of discs, for checkpoints
-    std::int64_t lines_before_discs = 0; ///< lines of legacy text that come before its list of discs
-    bool discs_follow = false;           ///< legacy text goes on with lines of discs
-    std::vector<std::string> overrides;  ///< `key=value`, what was set on top of the text
+    std::string name; ///< the file's name, "standard input" for `-`
+    std::string text; ///< the input's own text without the lines of discs, for checkpoints
+    std::int64_t lines_before_discs =
+        0;                              ///< lines of legacy text that come before its list of discs
+    bool discs_follow = false;          ///< legacy text goes on with lines of discs
+    std::vector<std::string> overrides; ///< `key=value`, what was set on top of the text
 
-    double box_size = 0;    ///< L
-    double radius = 0;      ///< r; the largest one where there are classes
+    double box_size = 0; ///< L
+    double radius = 0;   ///< r; the largest one where there are classes
     std::uint64_t n_discs = 0;
 
     Generator generator = Generator::random;
-    std::string discs_file; ///< for Generator::file, relative to the scene's folder; empty: lines follow the header
+    std::string discs_file; ///< for Generator::file, relative to the scene's folder; empty: lines
+                            ///< follow the header
     double speed = 1;       ///< root mean square of the generated speeds
     VelocityKind velocities = VelocityKind::maxwell;
     std::uint64_t seed = 3210;
     std::vector<Stream> streams;
-    std::vector<InputDisc> listed_discs; ///< discs written in the scene itself (`discs.list`)
+    std::vector<InputDisc> listed_discs;  ///< discs written in the scene itself (`discs.list`)
     std::vector<DiscColumn> disc_columns; ///< of `discs_file`, in their order (`discs.columns`)
-    std::vector<SpinRun> spins;           ///< at the start, in the order of ids; empty where all discs begin without
+    std::vector<SpinRun>
+        spins; ///< at the start, in the order of ids; empty where all discs begin without
 
     std::int64_t steps = 0;
     Method method = Method::time_stepped;
@@ -112,10 +123,10 @@ struct Scene {
     std::int64_t sync_every = 64;
     Precision precision = Precision::double_;
     Arithmetic arithmetic = Arithmetic::stable;
-    bool contraction = false;           ///< of the naive formula's products and sums
+    bool contraction = false; ///< of the naive formula's products and sums
     std::optional<double> accuracy;
 
-    Effects effects;        ///< times in steps
+    Effects effects; ///< times in steps
 
     TextOutput text_output = TextOutput::none;
     std::optional<CheckpointOutput> checkpoint;
@@ -127,7 +138,8 @@ struct Scene {
 
     /// The share of the box that the discs cover.
     double packing() const;
-    /// True where the discs come from lines of text: `discs_file`, or the lines after the course program's header.
+    /// True where the discs come from lines of text: `discs_file`, or the lines after the course
+    /// program's header.
     bool reads_disc_lines() const { return generator == Generator::file && listed_discs.empty(); }
 };
 

@@ -18,7 +18,8 @@ void Settings::set(Setting setting) {
 }
 
 void Settings::remove(std::string_view key) {
-    settings_.erase(std::remove_if(settings_.begin(), settings_.end(), [key](const Setting& s) { return s.key == key; }),
+    settings_.erase(std::remove_if(settings_.begin(), settings_.end(),
+                                   [key](const Setting& s) { return s.key == key; }),
                     settings_.end());
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an input asks for, key by key, before anything is checked: the common form of TOML scenes, legacy text and
-// `--set key=value`. Each setting remembers where it stands, so that every problem can name its line.
+// What an input asks for, key by key, before anything is checked: the common form of TOML scenes,
+// legacy text and
+// `--set key=value`. Each setting remembers where it stands, so that every problem can name its
+// line.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +24,8 @@ struct Place {
     std::int64_t line = 0;
 };
 
-/// One row of numbers of `discs.list`, four to seven, or of the obstacles' lists; empty where something else was written, a problem by then.
+/// One row of numbers of `discs.list`, four to seven, or of the obstacles' lists; empty where
+/// something else was written, a problem by then.
 struct Row {
     Place place;
     std::vector<double> numbers;
@@ -45,7 +48,9 @@ struct SpeciesRow {
 struct Setting {
     std::string key;
     Place place;
-    std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, std::vector<Row>, std::vector<StreamRows>, std::vector<SpeciesRow>> value;
+    std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>,
+                 std::vector<Row>, std::vector<StreamRows>, std::vector<SpeciesRow>>
+        value;
 };
 
 class Settings {
@@ -58,7 +63,8 @@ public:
     void set(Setting setting);
     void remove(std::string_view key);
 
-    /// Notes that the input tried to set `key`, so that a wrong value is not reported as a missing one too.
+    /// Notes that the input tried to set `key`, so that a wrong value is not reported as a missing
+    /// one too.
     void mention(std::string_view key) { mentioned_.emplace_back(key); }
     bool is_mentioned(std::string_view key) const;
 

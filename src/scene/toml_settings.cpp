@@ -68,7 +68,8 @@ std::optional<double> as_number(const toml::node& node) {
 }
 
 /// The numbers of an array of exactly `count`; otherwise a problem.
-std::optional<std::vector<double>> numbers_of(Walk& walk, const toml::node& node, std::size_t count, const std::string& what) {
+std::optional<std::vector<double>> numbers_of(Walk& walk, const toml::node& node, std::size_t count,
+                                              const std::string& what) {
     std::vector<double> numbers;
     if (const auto* array = node.as_array())
         for (const toml::node& element : *array)
@@ -79,12 +80,16 @@ std::optional<std::vector<double>> numbers_of(Walk& walk, const toml::node& node
     return std::nullopt;
 }
 
-std::vector<Row> rows_of(Walk& walk, const toml::array& array, const std::string& key, std::size_t count, std::string_view numbers_wanted) {
+std::vector<Row> rows_of(Walk& walk, const toml::array& array, const std::string& key,
+                         std::size_t count, std::string_view numbers_wanted) {
     std::vector<Row> rows;
     for (const toml::node& node : array) {
         const std::size_t n = node.is_array() ? node.as_array()->size() : count;
-        const bool has_more = key == "discs.list" && n > count && n <= 7; // spin, or radius and mass, or all three
-        const auto numbers = numbers_of(walk, node, has_more ? n : count, fmt::format("row {} of '{}' must be {}", rows.size() + 1, key, numbers_wanted));
+        const bool has_more = key == "discs.list" && n > count &&
+                              n <= 7; // spin, or radius and mass, or all three
+        const auto numbers = numbers_of(
+            walk, node, has_more ? n : count,
+            fmt::format("row {} of '{}' must be {}", rows.size() + 1, key, numbers_wanted));
         rows.push_back({walk.place_of(node.source()), numbers.value_or(std::vector<double>{})});
     }
     return rows;
@@ -97,7 +102,8 @@ std::optional<StreamRows> stream_of(Walk& walk, const toml::table& table, std::s
     for (const auto& [key, node] : table)
         if (key.str() != names[0] && key.str() != names[1])
             add_problem(walk.problems, walk.place_of(key.source()),
-                        fmt::format("{}: a stream has no {}{}", name, quoted(key.str()), guess(key.str(), names, '\'')));
+                        fmt::format("{}: a stream has no {}{}", name, quoted(key.str()),
+                                    guess(key.str(), names, '\'')));
     const toml::node* region = table.get("region");
     const toml::node* velocity = table.get("velocity");
     if (!region || !velocity) {
@@ -105,10 +111,13 @@ std::optional<StreamRows> stream_of(Walk& walk, const toml::table& table, std::s
                     name + " needs region = [x0, y0, x1, y1] and velocity = [vx, vy]");
         return std::nullopt;
     }
-    auto corners = numbers_of(walk, *region, 4, name + ": its region must be four numbers, [x0, y0, x1, y1]");
-    auto components = numbers_of(walk, *velocity, 2, name + ": its velocity must be two numbers, [vx, vy]");
+    auto corners = numbers_of(walk, *region, 4,
+                              name + ": its region must be four numbers, [x0, y0, x1, y1]");
+    auto components = numbers_of(walk, *velocity, 2,
+                                 name + ": its velocity must be two numbers, [vx, vy]");
     if (!corners || !components) return std::nullopt;
-    return StreamRows{walk.place_of(region->source()), number, std::move(*corners), std::move(*components)};
+    return StreamRows{walk.place_of(region->source()), number, std::move(*corners),
+                      std::move(*components)};
 }
 
 std::optional<std::vector<StreamRows>> streams_of(Walk& walk, const toml::array& array) {
@@ -116,7 +125,8 @@ std::optional<std::vector<StreamRows>> streams_of(Walk& walk, const toml::array&
     std::size_t number = 0;
     for (const toml::node& node : array) {
         if (!node.is_table()) return std::nullopt;
-        if (auto stream = stream_of(walk, *node.as_table(), ++number)) streams.push_back(std::move(*stream));
+        if (auto stream = stream_of(walk, *node.as_table(), ++number))
+            streams.push_back(std::move(*stream));
     }
     return streams;
 }
@@ -127,17 +137,24 @@ std::optional<SpeciesRow> species_of(Walk& walk, const toml::table& table, std::
     SpeciesRow row{walk.place_of(table.source()), number, 0, 0, 1, 0};
     const std::array<double*, 4> numbers = {&row.count, &row.radius, &row.mass, &row.spin};
     const std::size_t n_problems = walk.problems.size();
-    const auto refuse = [&](const Place& place, const std::string& text) { add_problem(walk.problems, place, fmt::format("class {}: {}", number, text)); };
+    const auto refuse = [&](const Place& place, const std::string& text) {
+        add_problem(walk.problems, place, fmt::format("class {}: {}", number, text));
+    };
     for (const auto& [key, node] : table) {
         const auto value = as_number(node);
         const Place place = walk.place_of(key.source());
         const auto name = std::find(names.begin(), names.end(), key.str());
         if (name == names.end())
-            refuse(place, fmt::format("a class has no {}{}", quoted(key.str()), guess(key.str(), names, '\'')));
-        else if (!value) refuse(place, fmt::format("its {} must be a number, not {}", key.str(), shown(node)));
-        else *numbers[static_cast<std::size_t>(name - names.begin())] = *value;
+            refuse(place, fmt::format("a class has no {}{}", quoted(key.str()),
+                                      guess(key.str(), names, '\'')));
+        else if (!value)
+            refuse(place, fmt::format("its {} must be a number, not {}", key.str(), shown(node)));
+        else
+            *numbers[static_cast<std::size_t>(name - names.begin())] = *value;
     }
-    if (!table.contains(names[0]) || !table.contains(names[1])) refuse(row.place, "it needs count = ... and radius = ...; mass = 1 and spin = 0 unless given");
+    if (!table.contains(names[0]) || !table.contains(names[1]))
+        refuse(row.place,
+               "it needs count = ... and radius = ...; mass = 1 and spin = 0 unless given");
     if (walk.problems.size() > n_problems) return std::nullopt;
     return row;
 }
@@ -147,7 +164,8 @@ std::optional<std::vector<SpeciesRow>> species_list_of(Walk& walk, const toml::a
     std::size_t number = 0;
     for (const toml::node& node : array) {
         if (!node.is_table()) return std::nullopt;
-        if (auto one = species_of(walk, *node.as_table(), ++number)) species.push_back(std::move(*one));
+        if (auto one = species_of(walk, *node.as_table(), ++number))
+            species.push_back(std::move(*one));
     }
     return species;
 }
@@ -160,8 +178,10 @@ bool add_value(Walk& walk, const std::string& key, ValueKind kind, const toml::n
     if (kind == ValueKind::number && number) {
         setting.value = *number;
     } else if (kind == ValueKind::integer && number) {
-        if (const auto* integer = node.as_integer()) setting.value = integer->get();
-        else setting.value = *number; // 1e5 is fine, 1.5 is refused where values are checked
+        if (const auto* integer = node.as_integer())
+            setting.value = integer->get();
+        else
+            setting.value = *number; // 1e5 is fine, 1.5 is refused where values are checked
     } else if (kind == ValueKind::text && node.is_string()) {
         setting.value = node.as_string()->get();
     } else if (kind == ValueKind::words && node.is_array()) {
@@ -201,13 +221,15 @@ void walk_table(Walk& walk, const toml::table& table, const std::string& prefix)
         const bool is_scene_table = is_table(key);
         if (kind) {
             if (!add_value(walk, key, *kind, node))
-                add_problem(walk.problems, walk.place_of(node.source()),
-                            fmt::format("'{}' must be {}, not {}", key, kind_name(*kind), shown(node)));
+                add_problem(
+                    walk.problems, walk.place_of(node.source()),
+                    fmt::format("'{}' must be {}, not {}", key, kind_name(*kind), shown(node)));
         } else if (is_scene_table && node.is_table()) {
             walk.settings.mention(key);
             walk_table(walk, *node.as_table(), key + '.');
         } else if (is_scene_table) {
-            add_problem(walk.problems, walk.place_of(name.source()), fmt::format("'{}' must be a table, [{}]", key, key));
+            add_problem(walk.problems, walk.place_of(name.source()),
+                        fmt::format("'{}' must be a table, [{}]", key, key));
         } else {
             add_problem(walk.problems, walk.place_of(name.source()), unknown_key_text(key));
         }
@@ -216,20 +238,22 @@ void walk_table(Walk& walk, const toml::table& table, const std::string& prefix)
 
 } // namespace
 
-bool add_toml(Settings& settings, Problems& problems, std::string_view text, const std::string& name) {
+bool add_toml(Settings& settings, Problems& problems, std::string_view text,
+              const std::string& name) {
     Walk walk{settings, problems, {name, 0}, true};
     try {
         const toml::table table = toml::parse(text);
         walk_table(walk, table, "");
         return true;
     } catch (const toml::parse_error& error) {
-        add_problem(problems, walk.place_of(error.source()), "not valid TOML: " + std::string(error.description()));
+        add_problem(problems, walk.place_of(error.source()),
+                    "not valid TOML: " + std::string(error.description()));
         return false;
     }
 }
 
-void add_toml_value(Settings& settings, Problems& problems, const std::string& key, const std::string& value,
-                    const Place& place) {
+void add_toml_value(Settings& settings, Problems& problems, const std::string& key,
+                    const std::string& value, const Place& place) {
     const ValueKind kind = *kind_of_key(key);
     if (kind == ValueKind::text && (value.empty() || (value[0] != '"' && value[0] != '\''))) {
         settings.set({key, place, value});
@@ -246,7 +270,9 @@ void add_toml_value(Settings& settings, Problems& problems, const std::string& k
             is_valid = false;
         }
     }
-    if (!is_valid) add_problem(problems, place, fmt::format("must be {}, not {}", kind_name(kind), quoted(value)));
+    if (!is_valid)
+        add_problem(problems, place,
+                    fmt::format("must be {}, not {}", kind_name(kind), quoted(value)));
 }
 
 } // namespace carrom

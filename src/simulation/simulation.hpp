@@ -30,54 +30,67 @@ struct WallImpulses;
 
 class Simulation {
 public:
-    /// Takes over `discs` as the scene has them (velocities per step, tau 0), spread over the ranks in any way.
+    /// Takes over `discs` as the scene has them (velocities per step, tau 0), spread over the ranks
+    /// in any way.
     /// **Collective.**
-    Simulation(const Scene& scene, std::vector<InputDisc> discs, const Communicator& communicator, const Tuning& tuning);
-    /// Goes on from a stored state of the same scene, spread over the ranks in any way. **Collective.**
-    Simulation(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning);
+    Simulation(const Scene& scene, std::vector<InputDisc> discs, const Communicator& communicator,
+               const Tuning& tuning);
+    /// Goes on from a stored state of the same scene, spread over the ranks in any way.
+    /// **Collective.**
+    Simulation(const Scene& scene, StoredState state, const Communicator& communicator,
+               const Tuning& tuning);
     ~Simulation();
 
-    /// Runs until `last_step`, or until an earlier step that is a good place to look up from (at least one step on).
-    /// Steps are the scene's. **Collective.**
+    /// Runs until `last_step`, or until an earlier step that is a good place to look up from (at
+    /// least one step on). Steps are the scene's. **Collective.**
     void advance_towards(std::int64_t last_step);
 
     std::int64_t step() const;
     std::int64_t micro_steps_done() const;
 
-    /// Own discs in no particular order: velocities per micro-step, times on `clock()`. Those that have left the box are
-    /// among them (Disc::departed). Good until the next call.
+    /// Own discs in no particular order: velocities per micro-step, times on `clock()`. Those that
+    /// have left the box are among them (Disc::departed). Good until the next call.
     std::span<const Disc> discs() const;
     /// Along `discs()`, in angles per micro-step; empty where discs are not rough.
     std::span<const double> spins() const;
     /// The present time in micro-steps since the last sync, to evaluate Disc::x_at with.
     double clock() const;
-    /// What the coordinates of `discs()` are in at `clock()`; the box's own unless there is gravity.
+    /// What the coordinates of `discs()` are in at `clock()`; the box's own unless there is
+    /// gravity.
     Frame frame() const;
-    /// The own discs as the box sees them at `clock()`: `discs()` itself unless there is gravity, else good until the next call.
+    /// The own discs as the box sees them at `clock()`: `discs()` itself unless there is gravity,
+    /// else good until the next call.
     std::span<const Disc> shown() const;
     /// What velocities are multiplied by to be per step.
     double velocity_unit() const { return velocity_unit_; }
 
-    /// From now on every collision is appended to `log` of one rank, in no particular order; null ends that.
+    /// From now on every collision is appended to `log` of one rank, in no particular order; null
+    /// ends that.
     void log_to(std::vector<Collision>* log);
 
-    /// From now on what discs hand over to the sides of the box is added to `impulses` of one rank; null ends that.
+    /// From now on what discs hand over to the sides of the box is added to `impulses` of one rank;
+    /// null ends that.
     void add_impulses_to(WallImpulses* impulses);
-    /// From now on what own discs are brought back by at syncs, in a periodic box, is appended to `crossings`; null ends that.
+    /// From now on what own discs are brought back by at syncs, in a periodic box, is appended to
+    /// `crossings`; null ends that.
     void note_crossings_in(std::vector<Crossing>* crossings);
-    /// Adds to counts[k] this rank's pairs of discs at distances from k to k + 1 times `bin_width`, now; over all ranks each
-    /// pair is counted once. The counts of all bins reach no further than half the box. `class_ends`: the ids before which classes end, the
-    /// last one the number of discs; as many counts follow each other for pairs of classes (0, 0), (0, 1), (1, 1), (0, 2) and so on. **Collective.**
-    void count_pair_distances(double bin_width, std::span<const DiscId> species_ends, std::span<std::uint64_t> counts) const;
+    /// Adds to counts[k] this rank's pairs of discs at distances from k to k + 1 times `bin_width`,
+    /// now; over all ranks each pair is counted once. The counts of all bins reach no further than
+    /// half the box. `class_ends`: the ids before which classes end, the last one the number of
+    /// discs; as many counts follow each other for pairs of classes (0, 0), (0, 1), (1, 1), (0, 2)
+    /// and so on. **Collective.**
+    void count_pair_distances(double bin_width, std::span<const DiscId> species_ends,
+                              std::span<std::uint64_t> counts) const;
 
-    /// From now on every step is held to the invariants of check_failure.hpp: `advance_towards` goes one step at a time and
-    /// throws CheckFailure on every rank when one is broken. `scene` must outlive the run, and be of the default precision
-    /// and arithmetic. **Collective.**
+    /// From now on every step is held to the invariants of check_failure.hpp: `advance_towards`
+    /// goes one step at a time and throws CheckFailure on every rank when one is broken. `scene`
+    /// must outlive the run, and be of the default precision and arithmetic. **Collective.**
     void check_every_step(const Scene& scene);
 
     /// Averages since this process began, or since `average_anew`. **Collective.**
     Averages averages() const;
-    /// Forgets what has been averaged so far, as before a gas had come to equilibrium. **Collective.**
+    /// Forgets what has been averaged so far, as before a gas had come to equilibrium.
+    /// **Collective.**
     void average_anew();
 
     /// **Collective.**
@@ -92,7 +105,7 @@ private:
 
     Communicator communicator_;
     double velocity_unit_;
-    Effects effects_;                 ///< times in steps
+    Effects effects_; ///< times in steps
     double box_size_;
     int n_threads_;
     std::unique_ptr<Engine> engine_;

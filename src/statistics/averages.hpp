@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Averages over a run: how often discs collide, the pressure, the speeds, each with a standard error.
+// Averages over a run: how often discs collide, the pressure, the speeds, each with a standard
+// error.
 //
-// All follow from counts of collisions, which every disc carries, and from sums over speeds in fixed point: the same
-// bits for every machine shape. What they mean: docs/user.md. Sources of the pressures: Li, Nishikawa, Hoellmer, Carillo,
-// Maggs, Krauth, J. Chem. Phys. 157, 234111 (2022), equations (13c) and (19a).
+// All follow from counts of collisions, which every disc carries, and from sums over speeds in
+// fixed point: the same bits for every machine shape. What they mean: docs/user.md. Sources of the
+// pressures: Li, Nishikawa, Hoellmer, Carillo, Maggs, Krauth, J. Chem. Phys. 157, 234111 (2022),
+// equations (13c) and (19a).
 #pragma once
 
 #include <cstdint>
@@ -11,7 +13,8 @@
 
 namespace carrom {
 
-/// The error is one standard error of the mean, by block averaging; NaN where there are too few blocks for one.
+/// The error is one standard error of the mean, by block averaging; NaN where there are too few
+/// blocks for one.
 struct Estimate {
     double value = 0;
     double error = std::numeric_limits<double>::quiet_NaN();
@@ -22,11 +25,11 @@ struct Averages {
     std::int64_t first_step = 0, steps = 0; ///< what they are averages over
     std::int64_t n_blocks = 0;              ///< that the errors rest on
     Estimate collision_frequency;           ///< collisions with other discs, per disc and step
-    Estimate mean_free_time;                ///< steps between two of them; infinite if there are none
-    Estimate wall_pressure;                 ///< from collisions with walls, (13c)
-    Estimate virial_pressure;               ///< from collisions with walls and of pairs, (19a)
+    Estimate mean_free_time;  ///< steps between two of them; infinite if there are none
+    Estimate wall_pressure;   ///< from collisions with walls, (13c)
+    Estimate virial_pressure; ///< from collisions with walls and of pairs, (19a)
     Estimate mean_speed;
-    Estimate speed_kurtosis;                ///< <v^4> / <v^2>^2; 2 N / (N + 1) in equilibrium
+    Estimate speed_kurtosis; ///< <v^4> / <v^2>^2; 2 N / (N + 1) in equilibrium
 };
 
 } // namespace carrom

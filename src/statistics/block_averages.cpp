@@ -17,7 +17,8 @@ constexpr std::size_t fewest_blocks = 4, fewest_joined_blocks = 16;
 double speed_unit_of(std::span<const Disc> own, int n_threads, const Communicator& communicator) {
     double largest = 0;
     const auto n = static_cast<std::int64_t>(own.size());
-#pragma omp parallel for num_threads(n_threads) schedule(static) reduction(max : largest) if (n > 10000)
+#pragma omp parallel for num_threads(n_threads) schedule(static)                                   \
+    reduction(max : largest) if (n > 10000)
     for (std::int64_t i = 0; i < n; ++i) {
         const Disc& disc = own[static_cast<std::size_t>(i)];
         largest = std::max({largest, std::fabs(disc.vx), std::fabs(disc.vy)});
@@ -31,28 +32,35 @@ double speed_unit_of(std::span<const Disc> own, int n_threads, const Communicato
 
 double standard_error(std::vector<double> terms) {
     double error = std::numeric_limits<double>::quiet_NaN();
-    for (std::size_t fewest = fewest_blocks; terms.size() >= fewest; fewest = fewest_joined_blocks) {
+    for (std::size_t fewest = fewest_blocks; terms.size() >= fewest;
+         fewest = fewest_joined_blocks) {
         const auto n = static_cast<double>(terms.size());
         double mean = 0, squares = 0;
         for (const double term : terms) mean += term / n;
         for (const double term : terms) squares += (term - mean) * (term - mean);
         error = std::fmax(error, std::sqrt(squares / (n * (n - 1))));
-        for (std::size_t k = 0; k < terms.size() / 2; ++k) terms[k] = (terms[2 * k] + terms[2 * k + 1]) / 2;
+        for (std::size_t k = 0; k < terms.size() / 2; ++k)
+            terms[k] = (terms[2 * k] + terms[2 * k + 1]) / 2;
         terms.resize(terms.size() / 2);
     }
     return error;
 }
 
-Look look_at(std::span<const Disc> own, std::uint64_t n_discs, int n_threads, const Communicator& communicator) {
+Look look_at(std::span<const Disc> own, std::uint64_t n_discs, int n_threads,
+             const Communicator& communicator) {
     Look look;
     look.speed_unit = speed_unit_of(own, n_threads, communicator);
     // No term is above 1: their sum stays below 2^63.
-    const double terms_per_unit = std::ldexp(1.0, 62 - static_cast<int>(std::ceil(std::log2(static_cast<double>(n_discs)))));
+    const double terms_per_unit = std::ldexp(
+        1.0, 62 - static_cast<int>(std::ceil(std::log2(static_cast<double>(n_discs)))));
     const double per_unit = 1 / look.speed_unit;
     std::uint64_t walls = 0, pairs = 0, speeds = 0, squares = 0, fourths = 0, departed = 0;
     const auto n = static_cast<std::int64_t>(own.size());
-    const auto fixed = [terms_per_unit](double term) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(term * terms_per_unit)); };
-#pragma omp parallel for num_threads(n_threads) schedule(static) reduction(+ : walls, pairs, speeds, squares, fourths, departed) if (n > 10000)
+    const auto fixed = [terms_per_unit](double term) {
+        return static_cast<std::uint64_t>(static_cast<std::int64_t>(term * terms_per_unit));
+    };
+#pragma omp parallel for num_threads(n_threads) schedule(static)                                   \
+    reduction(+ : walls, pairs, speeds, squares, fourths, departed) if (n > 10000)
     for (std::int64_t i = 0; i < n; ++i) {
         const Disc& disc = own[static_cast<std::size_t>(i)];
         walls += disc.wall_collisions;
@@ -66,7 +74,8 @@ Look look_at(std::span<const Disc> own, std::uint64_t n_discs, int n_threads, co
     }
     std::uint64_t sums[] = {walls, pairs, speeds, squares, fourths, departed};
     communicator.sum(sums);
-    const double per_disc = 1 / (terms_per_unit * static_cast<double>(std::max<std::uint64_t>(1, n_discs - sums[5])));
+    const double per_disc = 1 / (terms_per_unit * static_cast<double>(std::max<std::uint64_t>(
+                                                      1, n_discs - sums[5])));
     look.wall_collisions = sums[0];
     look.pair_collisions = sums[1] / 2;
     look.mean_speed = static_cast<double>(sums[2]) * per_disc;
@@ -111,11 +120,16 @@ void BlockAverages::end_block(std::int64_t step, const Look& look) {
     syncs_per_block_ *= 2;
 }
 
-double BlockAverages::speed_of(const Look& look) const { return look.mean_speed * look.speed_unit * system_.velocity_unit; }
+double BlockAverages::speed_of(const Look& look) const {
+    return look.mean_speed * look.speed_unit * system_.velocity_unit;
+}
 
-double BlockAverages::kurtosis_of(const Look& look) { return look.mean_square > 0 ? look.mean_fourth / (look.mean_square * look.mean_square) : 0; }
+double BlockAverages::kurtosis_of(const Look& look) {
+    return look.mean_square > 0 ? look.mean_fourth / (look.mean_square * look.mean_square) : 0;
+}
 
-BlockAverages::Block BlockAverages::block_since(std::int64_t step, const Look& before, std::int64_t now, const Look& look) const {
+BlockAverages::Block BlockAverages::block_since(std::int64_t step, const Look& before,
+                                                std::int64_t now, const Look& look) const {
     Block block;
     block.steps = static_cast<double>(now - step);
     block.walls = static_cast<double>(look.wall_collisions - before.wall_collisions);
@@ -124,7 +138,8 @@ BlockAverages::Block BlockAverages::block_since(std::int64_t step, const Look& b
     block.speed = speed_of(look);
     block.kurtosis = kurtosis_of(look);
     if (system_.is_plain) return block;
-    // Where speeds drift those at the ends of blocks alone would be too late: half of the one before, half of the one after.
+    // Where speeds drift those at the ends of blocks alone would be too late: half of the one
+    // before, half of the one after.
     block.speed = (speed_of(before) + block.speed) / 2;
     block.kurtosis = (kurtosis_of(before) + block.kurtosis) / 2;
     return block;
@@ -149,7 +164,9 @@ Averages BlockAverages::averages(std::int64_t step, const Look& look) const {
     const auto frequency = [n](const Block& block) { return 2 * block.pairs / (n * block.steps); };
     // beta P per collision and time; R^2 = sum of the squares of all velocities, kT = R^2 / (2 N).
     const double square = look.mean_square * std::pow(look.speed_unit * system_.velocity_unit, 2);
-    const double sqrt_pi_g_over_r = square > 0 ? std::sqrt(std::numbers::pi / (n * square)) * gamma_ratio(n) : 0;
+    const double sqrt_pi_g_over_r = square > 0 ? std::sqrt(std::numbers::pi / (n * square)) *
+                                                     gamma_ratio(n)
+                                               : 0;
     const double temperature = square / 2;
     const auto wall_pressure = [=, this](const Block& block) {
         return temperature * sqrt_pi_g_over_r * block.walls / (2 * system_.box_size * block.steps);
@@ -167,7 +184,8 @@ Averages BlockAverages::averages(std::int64_t step, const Look& look) const {
                                                    : std::numeric_limits<double>::quiet_NaN()};
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     result.wall_pressure = result.virial_pressure = {unknown, unknown};
-    if (!system_.keeps_discs) result.collision_frequency = result.mean_free_time = {unknown, unknown};
+    if (!system_.keeps_discs)
+        result.collision_frequency = result.mean_free_time = {unknown, unknown};
     if (system_.is_plain) {
         result.wall_pressure = {wall_pressure(whole), error_of(wall_pressure)};
         result.virial_pressure = {virial_pressure(whole), error_of(virial_pressure)};
@@ -177,12 +195,17 @@ Averages BlockAverages::averages(std::int64_t step, const Look& look) const {
     return result;
 }
 
-/// Asymptotic series from 64 on (Tricomi and Erdelyi 1951), below that by Gamma(n + 1) = n Gamma(n).
+/// Asymptotic series from 64 on (Tricomi and Erdelyi 1951), below that by Gamma(n + 1) = n
+/// Gamma(n).
 double gamma_ratio(double n) {
     double factor = 1;
     for (; n < 64; n += 1) factor *= n / (n + 0.5);
     const double u = 1 / n;
-    const double series = 1 + u * (-1.0 / 8 + u * (1.0 / 128 + u * (5.0 / 1024 + u * (-21.0 / 32768 + u * (-399.0 / 262144 + u * (869.0 / 4194304))))));
+    const double series = 1 + u * (-1.0 / 8 +
+                                   u * (1.0 / 128 +
+                                        u * (5.0 / 1024 +
+                                             u * (-21.0 / 32768 +
+                                                  u * (-399.0 / 262144 + u * (869.0 / 4194304))))));
     return factor * std::sqrt(n) * series;
 }
 

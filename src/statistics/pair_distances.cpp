@@ -18,7 +18,9 @@ std::size_t species_of(DiscId id, std::span<const DiscId> species_ends) {
 
 } // namespace
 
-void count_pair_distances(const LocalView& local_view, double bin_width, std::span<const DiscId> species_ends, int n_threads, std::span<std::uint64_t> counts) {
+void count_pair_distances(const LocalView& local_view, double bin_width,
+                          std::span<const DiscId> species_ends, int n_threads,
+                          std::span<std::uint64_t> counts) {
     const Population& population = local_view.population;
     const std::size_t n_each = counts.size() / n_pair_kinds(species_ends.size());
     const double bins_per_length = 1 / bin_width, n_bins = static_cast<double>(n_each);
@@ -31,15 +33,21 @@ void count_pair_distances(const LocalView& local_view, double bin_width, std::sp
 #pragma omp for schedule(dynamic, 1)
         for (int column = 0; column < n_columns; ++column) {
             visit_near_pairs_of(*local_view.grid, column, [&](LocalIndex a, LocalIndex b) {
-                // The lower id comes first: a difference has the same bits on every rank, whose discs lie in any order.
+                // The lower id comes first: a difference has the same bits on every rank, whose
+                // discs lie in any order.
                 if (population.discs[b].id < population.discs[a].id) std::swap(a, b);
                 if (a >= population.n_own) return; // the rank of the lower id counts the pair
                 const Disc &p = population.discs[a], &q = population.discs[b];
-                double dx = q.x_at(local_view.time) - p.x_at(local_view.time), dy = q.y_at(local_view.time) - p.y_at(local_view.time);
-                if (is_periodic) dx += local_view.periods.x_between(p, q), dy += local_view.periods.y_between(p, q);
+                double dx = q.x_at(local_view.time) - p.x_at(local_view.time),
+                       dy = q.y_at(local_view.time) - p.y_at(local_view.time);
+                if (is_periodic)
+                    dx += local_view.periods.x_between(p, q),
+                        dy += local_view.periods.y_between(p, q);
                 const double bin = std::sqrt(dx * dx + dy * dy) * bins_per_length;
                 if (!(bin < n_bins)) return;
-                const std::size_t kind = are_alike ? 0 : pair_kind(species_of(p.id, species_ends), species_of(q.id, species_ends));
+                const std::size_t kind = are_alike ? 0
+                                                   : pair_kind(species_of(p.id, species_ends),
+                                                               species_of(q.id, species_ends));
                 ++mine[kind * n_each + static_cast<std::size_t>(bin)];
             });
         }

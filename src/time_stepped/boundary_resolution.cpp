@@ -26,9 +26,9 @@ struct BoundaryResolution::Conflict {
 struct BoundaryResolution::Statement {
     double time;
     DiscId p, q;
-    std::uint32_t number;       ///< among the undecided of the rank that says it
-    std::uint16_t is_first;     ///< for the own disc, among what is left
-    std::uint16_t is_mine = 0;  ///< said here, not heard
+    std::uint32_t number;      ///< among the undecided of the rank that says it
+    std::uint16_t is_first;    ///< for the own disc, among what is left
+    std::uint16_t is_mine = 0; ///< said here, not heard
 
     auto key() const { return std::tuple(time, p, q); }
 };
@@ -41,28 +41,33 @@ bool is_shared(const Candidate& c, const Population& population) {
 
 } // namespace
 
-void BoundaryResolution::resolve_boundary(const Population& population, std::span<const int> neighbours,
-                                std::vector<Candidate>& undecided, std::vector<Candidate>& kept) {
+void BoundaryResolution::resolve_boundary(const Population& population,
+                                          std::span<const int> neighbours,
+                                          std::vector<Candidate>& undecided,
+                                          std::vector<Candidate>& kept) {
     std::sort(undecided.begin(), undecided.end(), TotalOrder(population.discs));
     find_first(population, undecided);
     std::vector<Statement> mine;
     for (std::size_t k = 0; k < undecided.size(); ++k) {
         const Candidate& c = undecided[k];
         if (!is_shared(c, population)) continue;
-        mine.push_back({c.time, population.discs[c.p].id, population.discs[c.q].id, static_cast<std::uint32_t>(k), is_first_[k]});
+        mine.push_back({c.time, population.discs[c.p].id, population.discs[c.q].id,
+                        static_cast<std::uint32_t>(k), is_first_[k]});
     }
     // Who owns the other disc is not known here: all neighbours hear all of the few statements.
     Received<Statement> received;
     with_neighbours_.exchange(neighbours, std::vector(neighbours.size(), mine), received);
     for (Statement& statement : mine) statement.is_mine = 1;
     mine.insert(mine.end(), received.items.begin(), received.items.end());
-    std::sort(mine.begin(), mine.end(), [](const Statement& a, const Statement& b) { return a.key() < b.key(); });
+    std::sort(mine.begin(), mine.end(),
+              [](const Statement& a, const Statement& b) { return a.key() < b.key(); });
 
     std::vector<std::uint8_t> is_struck(undecided.size(), 0);
     Marks taken;
     for (std::size_t begin = 0, end = 0; begin < mine.size(); begin = end) {
         bool are_first = true;
-        for (end = begin; end < mine.size() && mine[end].key() == mine[begin].key(); ++end) are_first = are_first && mine[end].is_first != 0;
+        for (end = begin; end < mine.size() && mine[end].key() == mine[begin].key(); ++end)
+            are_first = are_first && mine[end].is_first != 0;
         const bool is_named_by_both = end - begin >= 2; // else one of its ranks has struck it
         for (std::size_t k = begin; k < end; ++k) {
             if (mine[k].is_mine == 0 || (is_named_by_both && !are_first)) continue;
@@ -76,8 +81,10 @@ void BoundaryResolution::resolve_boundary(const Population& population, std::spa
     walk_own(population, taken, is_struck, undecided, kept);
 }
 
-/// Of undecided candidates in total order, tells which come first for all of this rank's discs that they have.
-void BoundaryResolution::find_first(const Population& population, const std::vector<Candidate>& undecided) {
+/// Of undecided candidates in total order, tells which come first for all of this rank's discs that
+/// they have.
+void BoundaryResolution::find_first(const Population& population,
+                                    const std::vector<Candidate>& undecided) {
     is_first_.clear();
     seen_.clear();
     for (const Candidate& c : undecided) {
@@ -88,15 +95,19 @@ void BoundaryResolution::find_first(const Population& population, const std::vec
     }
 }
 
-/// Decides what follows on this rank from the discs `taken` and the candidates struck, which are dropped.
-void BoundaryResolution::walk_own(const Population& population, Marks& taken, const std::vector<std::uint8_t>& is_struck,
-                               std::vector<Candidate>& undecided, std::vector<Candidate>& kept) {
+/// Decides what follows on this rank from the discs `taken` and the candidates struck, which are
+/// dropped.
+void BoundaryResolution::walk_own(const Population& population, Marks& taken,
+                                  const std::vector<std::uint8_t>& is_struck,
+                                  std::vector<Candidate>& undecided, std::vector<Candidate>& kept) {
     seen_.clear(); // discs that wait for another rank
     std::size_t n_left = 0;
     for (std::size_t k = 0; k < undecided.size(); ++k) {
         const Candidate c = undecided[k];
-        if (is_struck[k] != 0 || taken.contains(c.p) || (!c.is_wall() && taken.contains(c.q))) continue;
-        if (is_shared(c, population) || seen_.contains(c.p) || (!c.is_wall() && seen_.contains(c.q))) {
+        if (is_struck[k] != 0 || taken.contains(c.p) || (!c.is_wall() && taken.contains(c.q)))
+            continue;
+        if (is_shared(c, population) || seen_.contains(c.p) ||
+            (!c.is_wall() && seen_.contains(c.q))) {
             undecided[n_left++] = c;
             seen_.insert({c.p, c.q});
         } else {
@@ -107,8 +118,9 @@ void BoundaryResolution::walk_own(const Population& population, Marks& taken, co
     undecided.resize(n_left);
 }
 
-void BoundaryResolution::decide(const Population& population, std::span<const int> neighbours, std::vector<Candidate>& undecided,
-                             std::uint64_t n_conflicts, std::vector<Candidate>& kept) {
+void BoundaryResolution::decide(const Population& population, std::span<const int> neighbours,
+                                std::vector<Candidate>& undecided, std::uint64_t n_conflicts,
+                                std::vector<Candidate>& kept) {
     for (int round = 0; round < rounds_before_sort && n_conflicts > 0; ++round) {
         resolve_boundary(population, neighbours, undecided, kept);
         n_conflicts = communicator_.sum(std::uint64_t{undecided.size()});
@@ -116,26 +128,30 @@ void BoundaryResolution::decide(const Population& population, std::span<const in
     if (n_conflicts > 0) sort(population, undecided, n_conflicts, kept);
 }
 
-void BoundaryResolution::sort(const Population& population, std::vector<Candidate>& undecided, std::uint64_t n_conflicts,
-                           std::vector<Candidate>& kept) {
+void BoundaryResolution::sort(const Population& population, std::vector<Candidate>& undecided,
+                              std::uint64_t n_conflicts, std::vector<Candidate>& kept) {
     std::vector<Conflict> mine;
     mine.reserve(undecided.size());
     for (std::size_t k = 0; k < undecided.size(); ++k) {
         const Candidate& c = undecided[k];
-        mine.push_back({c.time, population.discs[c.p].id, c.is_wall() ? 0 : population.discs[c.q].id + 1,
-                        communicator_.rank(), static_cast<std::uint32_t>(k), is_shared(c, population) ? 2u : 1u});
+        mine.push_back({c.time, population.discs[c.p].id,
+                        c.is_wall() ? 0 : population.discs[c.q].id + 1, communicator_.rank(),
+                        static_cast<std::uint32_t>(k), is_shared(c, population) ? 2u : 1u});
     }
     const auto before = [](const Conflict& a, const Conflict& b) { return a.key() < b.key(); };
     const auto n_ranks = static_cast<std::uint64_t>(communicator_.size());
-    const auto n_slices = static_cast<int>(std::clamp<std::uint64_t>(n_conflicts / candidates_per_slice, 1, n_ranks));
-    const std::vector<Conflict> slice = sample_sort(communicator_, std::move(mine), before, n_slices);
+    const auto n_slices = static_cast<int>(
+        std::clamp<std::uint64_t>(n_conflicts / candidates_per_slice, 1, n_ranks));
+    const std::vector<Conflict> slice = sample_sort(communicator_, std::move(mine), before,
+                                                    n_slices);
 
     std::vector<std::vector<std::uint32_t>> verdicts(n_ranks);
     std::vector<DiscId> taken;
     Received<DiscId> handed_on;
     for (int turn = 0; turn < n_slices; ++turn) {
         if (communicator_.rank() == turn) {
-            for (const Conflict& c : walk(slice, taken)) verdicts[static_cast<std::size_t>(c.rank)].push_back(c.number);
+            for (const Conflict& c : walk(slice, taken))
+                verdicts[static_cast<std::size_t>(c.rank)].push_back(c.number);
         }
         if (turn + 1 == n_slices) break;
         std::vector<int> partner;
@@ -146,13 +162,14 @@ void BoundaryResolution::sort(const Population& population, std::vector<Candidat
         next_slice_.exchange(std::span<const int>(partner), out, handed_on);
         if (communicator_.rank() == turn + 1) taken = handed_on.items;
     }
-    for (const std::uint32_t number : send_to_owners(communicator_, verdicts).items) kept.push_back(undecided[number]);
+    for (const std::uint32_t number : send_to_owners(communicator_, verdicts).items)
+        kept.push_back(undecided[number]);
     undecided.clear();
 }
 
 /// The candidates of a sorted slice that happen, all copies of each; `taken` grows by their discs.
-std::vector<BoundaryResolution::Conflict> BoundaryResolution::walk(const std::vector<Conflict>& slice,
-                                                              std::vector<DiscId>& taken) const {
+std::vector<BoundaryResolution::Conflict> BoundaryResolution::walk(
+    const std::vector<Conflict>& slice, std::vector<DiscId>& taken) const {
     std::unordered_set<DiscId> is_taken(taken.begin(), taken.end());
     std::vector<Conflict> kept;
     for (std::size_t begin = 0, end = 0; begin < slice.size(); begin = end) {
@@ -167,7 +184,8 @@ std::vector<BoundaryResolution::Conflict> BoundaryResolution::walk(const std::ve
             is_taken.insert(c.second - 1);
             taken.push_back(c.second - 1);
         }
-        kept.insert(kept.end(), slice.begin() + static_cast<std::ptrdiff_t>(begin), slice.begin() + static_cast<std::ptrdiff_t>(end));
+        kept.insert(kept.end(), slice.begin() + static_cast<std::ptrdiff_t>(begin),
+                    slice.begin() + static_cast<std::ptrdiff_t>(end));
     }
     return kept;
 }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Decides what no rank could decide alone: candidates that hang together across strips.
 //
-// Neighbours talk first. Each tells for every candidate with discs of two ranks whether it comes first for the own disc, among
-// those that are left; a candidate that comes first for both is final, one that the other rank does not name has been struck
-// there. One message to each neighbour settles nearly everything in a gas, whatever the number of ranks. A chain that zigzags
-// between strips takes a round for each crossing, so after a few rounds what is left goes to a distributed sort: it is
-// brought into the total order and walked, slice after slice, each slice told which discs the ones before it took. A chain
-// may span any number of strips. Price of the sort: two any-to-any exchanges, and memory for these candidates alone.
+// Neighbours talk first. Each tells for every candidate with discs of two ranks whether it comes
+// first for the own disc, among those that are left; a candidate that comes first for both is
+// final, one that the other rank does not name has been struck there. One message to each neighbour
+// settles nearly everything in a gas, whatever the number of ranks. A chain that zigzags between
+// strips takes a round for each crossing, so after a few rounds what is left goes to a distributed
+// sort: it is brought into the total order and walked, slice after slice, each slice told which
+// discs the ones before it took. A chain may span any number of strips. Price of the sort: two
+// any-to-any exchanges, and memory for these candidates alone.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +16,10 @@
 #include <unordered_set>
 #include <vector>
 
-#include "time_stepped/candidate.hpp"
-#include "time_stepped/search.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/neighbour_exchange.hpp"
+#include "time_stepped/candidate.hpp"
+#include "time_stepped/search.hpp"
 
 namespace carrom {
 
@@ -26,15 +28,17 @@ public:
     explicit BoundaryResolution(const Communicator& communicator)
         : communicator_(communicator), with_neighbours_(communicator), next_slice_(communicator) {}
 
-    /// One round of talk with `neighbours`: all ranks that own discs of this rank's halo, or have its discs in theirs. Moves
-    /// those of `undecided` that are final now to `kept` and drops those that are struck. **Collective.**
-    void resolve_boundary(const Population& population, std::span<const int> neighbours, std::vector<Candidate>& undecided,
-                   std::vector<Candidate>& kept);
+    /// One round of talk with `neighbours`: all ranks that own discs of this rank's halo, or have
+    /// its discs in theirs. Moves those of `undecided` that are final now to `kept` and drops those
+    /// that are struck. **Collective.**
+    void resolve_boundary(const Population& population, std::span<const int> neighbours,
+                          std::vector<Candidate>& undecided, std::vector<Candidate>& kept);
 
-    /// Appends to `kept` those of this rank's `undecided` that happen; none is left undecided. `n_contested` is their
-    /// number over all ranks. **Collective.**
-    void decide(const Population& population, std::span<const int> neighbours, std::vector<Candidate>& undecided,
-                std::uint64_t n_conflicts, std::vector<Candidate>& kept);
+    /// Appends to `kept` those of this rank's `undecided` that happen; none is left undecided.
+    /// `n_contested` is their number over all ranks. **Collective.**
+    void decide(const Population& population, std::span<const int> neighbours,
+                std::vector<Candidate>& undecided, std::uint64_t n_conflicts,
+                std::vector<Candidate>& kept);
 
     int rounds_before_sort = 6;                ///< cost only; of `decide`
     std::uint64_t candidates_per_slice = 8192; ///< cost only
@@ -44,10 +48,13 @@ private:
     struct Statement;
     using Marks = std::unordered_set<LocalIndex>;
     void find_first(const Population& population, const std::vector<Candidate>& undecided);
-    void walk_own(const Population& population, Marks& taken, const std::vector<std::uint8_t>& is_struck,
-                  std::vector<Candidate>& undecided, std::vector<Candidate>& kept);
-    void sort(const Population& population, std::vector<Candidate>& undecided, std::uint64_t n_conflicts, std::vector<Candidate>& kept);
-    std::vector<Conflict> walk(const std::vector<Conflict>& slice, std::vector<DiscId>& taken) const;
+    void walk_own(const Population& population, Marks& taken,
+                  const std::vector<std::uint8_t>& is_struck, std::vector<Candidate>& undecided,
+                  std::vector<Candidate>& kept);
+    void sort(const Population& population, std::vector<Candidate>& undecided,
+              std::uint64_t n_conflicts, std::vector<Candidate>& kept);
+    std::vector<Conflict> walk(const std::vector<Conflict>& slice,
+                               std::vector<DiscId>& taken) const;
 
     Communicator communicator_;
     NeighbourExchange with_neighbours_, next_slice_;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A collision that may happen, and the total order that says which of two comes first.
 //
-// A candidate names its discs by their places in this rank's arrays; their ids are looked up only to break ties.
+// A candidate names its discs by their places in this rank's arrays; their ids are looked up only
+// to break ties.
 #pragma once
 
 #include <cstdint>
 #include <limits>
 #include <span>
 
-#include "time_stepped/window.hpp"
 #include "core/disc.hpp"
+#include "time_stepped/window.hpp"
 
 namespace carrom {
 
@@ -17,8 +18,8 @@ namespace carrom {
 inline constexpr LocalIndex wall = std::numeric_limits<LocalIndex>::max();
 
 struct Candidate {
-    double time = 0;             ///< in-step time of its micro-step, in [0, 1]
-    LocalIndex p = 0, q = wall;  ///< p has the lower id
+    double time = 0;            ///< in-step time of its micro-step, in [0, 1]
+    LocalIndex p = 0, q = wall; ///< p has the lower id
 
     bool is_wall() const { return q == wall; }
 };
@@ -31,7 +32,8 @@ public:
 
     bool operator()(const Candidate& a, const Candidate& b) const {
         if (a.time != b.time) return a.time < b.time;
-        if (a.p != b.p && discs_[a.p].id != discs_[b.p].id) return discs_[a.p].id < discs_[b.p].id; // or two images of one
+        if (a.p != b.p && discs_[a.p].id != discs_[b.p].id)
+            return discs_[a.p].id < discs_[b.p].id; // or two images of one
         if (a.is_wall() || b.is_wall()) return a.is_wall() && !b.is_wall();
         return discs_[a.q].id < discs_[b.q].id;
     }
@@ -40,8 +42,10 @@ private:
     std::span<const Disc> discs_;
 };
 
-/// Whether neither disc has been hit since the prediction, before which the last state of any was `seen`; `states` by disc.
-inline bool is_current(const Candidate& candidate, WindowState seen, std::span<const WindowState> states) {
+/// Whether neither disc has been hit since the prediction, before which the last state of any was
+/// `seen`; `states` by disc.
+inline bool is_current(const Candidate& candidate, WindowState seen,
+                       std::span<const WindowState> states) {
     return states[candidate.p] <= seen && (candidate.is_wall() || states[candidate.q] <= seen);
 }
 

@@ -20,50 +20,61 @@ template <class D> struct Broadcast {
     hn::Vec<D> x, y, vx, vy, touching;
 
     HWY_INLINE Broadcast(D d, const FlightLanes& lanes, std::uint32_t slot, float touching_squared)
-        : x(hn::Set(d, lanes.x[slot])), y(hn::Set(d, lanes.y[slot])), vx(hn::Set(d, lanes.vx[slot])),
-          vy(hn::Set(d, lanes.vy[slot])), touching(hn::Set(d, touching_squared)) {}
+        : x(hn::Set(d, lanes.x[slot])), y(hn::Set(d, lanes.y[slot])),
+          vx(hn::Set(d, lanes.vx[slot])), vy(hn::Set(d, lanes.vy[slot])),
+          touching(hn::Set(d, touching_squared)) {}
 };
 
-/// Which lanes of the vector of flights that begins at `slot` might touch `flight`, as bits. With d the separation and w
-/// the relative velocity over the window, b = d.w, a = w.w and c = d.d - touching^2: those that are near already, and
-/// those that approach, do not pass by, and are there before the window ends. All rounding in b^2 - a c and in c at the
-/// window's end together is less than 18 * 2^-24 a d.d, so c with d.d shortened by 2^-19 loses no contact.
+/// Which lanes of the vector of flights that begins at `slot` might touch `flight`, as bits. With d
+/// the separation and w the relative velocity over the window, b = d.w, a = w.w and c = d.d -
+/// touching^2: those that are near already, and those that approach, do not pass by, and are there
+/// before the window ends. All rounding in b^2 - a c and in c at the window's end together is less
+/// than 18 * 2^-24 a d.d, so c with d.d shortened by 2^-19 loses no contact.
 template <class D>
-HWY_INLINE std::uint64_t lanes_that_touch(D d, const FlightLanes& lanes, std::uint32_t slot, std::uint32_t n_inside,
-                                          const Broadcast<D>& flight) {
+HWY_INLINE std::uint64_t lanes_that_touch(D d, const FlightLanes& lanes, std::uint32_t slot,
+                                          std::uint32_t n_inside, const Broadcast<D>& flight) {
     const auto dx = hn::Sub(hn::LoadU(d, lanes.x + slot), flight.x);
     const auto dy = hn::Sub(hn::LoadU(d, lanes.y + slot), flight.y);
     const auto wx = hn::Sub(hn::LoadU(d, lanes.vx + slot), flight.vx);
     const auto wy = hn::Sub(hn::LoadU(d, lanes.vy + slot), flight.vy);
     const auto b = hn::MulAdd(dx, wx, hn::Mul(dy, wy));
     const auto a = hn::MulAdd(wx, wx, hn::Mul(wy, wy));
-    const auto c = hn::MulSub(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Set(d, 1 - 0x1p-19f), flight.touching);
+    const auto c = hn::MulSub(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Set(d, 1 - 0x1p-19f),
+                              flight.touching);
     const auto b_end = hn::Add(b, a); // b at the window's end, and so on
     const auto c_end = hn::Add(hn::Add(b, b_end), c);
-    // Each condition as a number that is not positive where it holds, so that one comparison does for all of them.
-    const auto passes_by = hn::MulAdd(b, hn::Abs(b), hn::Mul(a, c)); // where c > 0: approaches, and b^2 >= a c
+    // Each condition as a number that is not positive where it holds, so that one comparison does
+    // for all of them.
+    const auto passes_by = hn::MulAdd(b, hn::Abs(b),
+                                      hn::Mul(a, c)); // where c > 0: approaches, and b^2 >= a c
     const auto too_late = hn::Min(hn::Neg(b_end), c_end);
     const auto misses = hn::Min(c, hn::Max(passes_by, too_late));
     const auto keep = hn::Le(misses, hn::Zero(d));
-    // Read back as wide as it was written: a wider load would have to wait until the store has reached the cache.
-    using Bits = std::conditional_t<hn::MaxLanes(d) <= 8, std::uint8_t,
-                                    std::conditional_t<hn::MaxLanes(d) <= 16, std::uint16_t, std::uint64_t>>;
+    // Read back as wide as it was written: a wider load would have to wait until the store has
+    // reached the cache.
+    using Bits =
+        std::conditional_t<hn::MaxLanes(d) <= 8, std::uint8_t,
+                           std::conditional_t<hn::MaxLanes(d) <= 16, std::uint16_t, std::uint64_t>>;
     Bits stored = 0;
     hn::StoreMaskBits(d, keep, reinterpret_cast<std::uint8_t*>(&stored));
     const std::uint64_t bits = stored;
     return n_inside < 64 ? bits & ((std::uint64_t{1} << n_inside) - 1) : bits;
 }
 
-/// Writes (first, second) to `out` behind the first `n_pairs`, which has room, for each slot `second` of `run` in `lanes`
-/// that might touch `flight`; without (first, first) if `first` may be one of them. Returns how many pairs there are now.
+/// Writes (first, second) to `out` behind the first `n_pairs`, which has room, for each slot
+/// `second` of `run` in `lanes` that might touch `flight`; without (first, first) if `first` may be
+/// one of them. Returns how many pairs there are now.
 template <bool is_one_of_them, class D>
-HWY_INLINE std::size_t write_pairs(D d, const Broadcast<D>& flight, std::uint32_t first, const FlightLanes& lanes, SlotRange run,
-                                   DiscPair* out, std::size_t n_pairs) {
+HWY_INLINE std::size_t write_pairs(D d, const Broadcast<D>& flight, std::uint32_t first,
+                                   const FlightLanes& lanes, SlotRange run, DiscPair* out,
+                                   std::size_t n_pairs) {
     const auto n_lanes = static_cast<std::uint32_t>(hn::Lanes(d));
     for (std::uint32_t other = run.begin; other < run.end; other += n_lanes) {
         std::uint64_t bits = lanes_that_touch(d, lanes, other, run.end - other, flight);
-        if (is_one_of_them && first - other < n_lanes) bits &= ~(std::uint64_t{1} << (first - other));
-        for (; bits != 0; bits &= bits - 1) out[n_pairs++] = {first, other + static_cast<std::uint32_t>(std::countr_zero(bits))};
+        if (is_one_of_them && first - other < n_lanes)
+            bits &= ~(std::uint64_t{1} << (first - other));
+        for (; bits != 0; bits &= bits - 1)
+            out[n_pairs++] = {first, other + static_cast<std::uint32_t>(std::countr_zero(bits))};
     }
     return n_pairs;
 }
@@ -81,25 +92,30 @@ float passing_squared(const CellGrid& grid, float touching_squared) {
     return passing * passing * (1 + 0x1p-20f);
 }
 
-/// A vector of flights, from slot `other` on, that holds one which does not pass that of `first` by.
+/// A vector of flights, from slot `other` on, that holds one which does not pass that of `first`
+/// by.
 struct NearPass {
     std::uint32_t first, other, n_inside;
 };
 
-/// Finds those among the flights of `cell` and the vectors of `run`: (d x w)^2 <= touching^2 w.w, with d and w as above. That is
-/// half as dear as to ask when they are near, and few vectors are left where discs fly much further than they are wide.
-/// No branch depends on what it finds. Writes to `out` behind the first n, which has room for all; returns how many there are.
+/// Finds those among the flights of `cell` and the vectors of `run`: (d x w)^2 <= touching^2 w.w,
+/// with d and w as above. That is half as dear as to ask when they are near, and few vectors are
+/// left where discs fly much further than they are wide. No branch depends on what it finds. Writes
+/// to `out` behind the first n, which has room for all; returns how many there are.
 template <class D>
-HWY_INLINE std::size_t find_near_passes(D d, const FlightLanes& lanes, SlotRange cell, SlotRange run, float passing_squared,
-                                        NearPass* out, std::size_t n) {
+HWY_INLINE std::size_t find_near_passes(D d, const FlightLanes& lanes, SlotRange cell,
+                                        SlotRange run, float passing_squared, NearPass* out,
+                                        std::size_t n) {
     const auto n_lanes = static_cast<std::uint32_t>(hn::Lanes(d));
     const auto passing = hn::Set(d, passing_squared);
     for (std::uint32_t other = run.begin; other < run.end; other += n_lanes) {
         const auto x = hn::LoadU(d, lanes.x + other), y = hn::LoadU(d, lanes.y + other);
         const auto vx = hn::LoadU(d, lanes.vx + other), vy = hn::LoadU(d, lanes.vy + other);
         for (std::uint32_t slot = cell.begin; slot < cell.end; ++slot) {
-            const auto dx = hn::Sub(x, hn::Set(d, lanes.x[slot])), dy = hn::Sub(y, hn::Set(d, lanes.y[slot]));
-            const auto wx = hn::Sub(vx, hn::Set(d, lanes.vx[slot])), wy = hn::Sub(vy, hn::Set(d, lanes.vy[slot]));
+            const auto dx = hn::Sub(x, hn::Set(d, lanes.x[slot])),
+                       dy = hn::Sub(y, hn::Set(d, lanes.y[slot]));
+            const auto wx = hn::Sub(vx, hn::Set(d, lanes.vx[slot])),
+                       wy = hn::Sub(vy, hn::Set(d, lanes.vy[slot]));
             const auto cross = hn::MulSub(dx, wy, hn::Mul(dy, wx));
             const auto a = hn::MulAdd(wx, wx, hn::Mul(wy, wy));
             out[n] = {slot, other, run.end - other};
@@ -111,7 +127,8 @@ HWY_INLINE std::size_t find_near_passes(D d, const FlightLanes& lanes, SlotRange
 
 /// FilterColumn where discs fly much further than they are wide.
 template <class D>
-HWY_INLINE std::size_t filter_long_flights(D d, const CellGrid& grid, int column, float touching_squared, std::vector<DiscPair>& pairs) {
+HWY_INLINE std::size_t filter_long_flights(D d, const CellGrid& grid, int column,
+                                           float touching_squared, std::vector<DiscPair>& pairs) {
     const FlightLanes lanes = grid.lanes();
     const auto n_lanes = static_cast<std::uint32_t>(hn::Lanes(d));
     const int reach = grid.frame().n_reach, n_rows = grid.frame().n_rows;
@@ -125,19 +142,23 @@ HWY_INLINE std::size_t filter_long_flights(D d, const CellGrid& grid, int column
         if (n_in_cell == 0) continue;
         std::size_t n_near = 0;
         for (int other = column; other <= last_column; ++other) {
-            const SlotRange run = other == column ? SlotRange{cell.end, grid.run(column, row, row + reach).end}
-                                                  : grid.run(other, row - reach, row + reach);
+            const SlotRange run = other == column
+                                      ? SlotRange{cell.end, grid.run(column, row, row + reach).end}
+                                      : grid.run(other, row - reach, row + reach);
             const std::size_t n_vectors = (run.end - run.begin + n_lanes - 1) / n_lanes;
-            n_near = find_near_passes(d, lanes, cell, run, passing, room(near, n_near, n_in_cell * n_vectors + 1), n_near);
+            n_near = find_near_passes(d, lanes, cell, run, passing,
+                                      room(near, n_near, n_in_cell * n_vectors + 1), n_near);
         }
         DiscPair* out = room(pairs, n_pairs, n_in_cell * n_in_cell + n_near * n_lanes);
         for (std::uint32_t slot = cell.begin; slot < cell.end; ++slot) {
-            n_pairs = write_pairs<false>(d, Broadcast(d, lanes, slot, touching_squared), slot, lanes, {slot + 1, cell.end}, out, n_pairs);
+            n_pairs = write_pairs<false>(d, Broadcast(d, lanes, slot, touching_squared), slot,
+                                         lanes, {slot + 1, cell.end}, out, n_pairs);
         }
         for (std::size_t k = 0; k < n_near; ++k) {
             const auto [first, other, n_inside] = near[k];
             const SlotRange vector{other, other + HWY_MIN(n_inside, n_lanes)};
-            n_pairs = write_pairs<false>(d, Broadcast(d, lanes, first, touching_squared), first, lanes, vector, out, n_pairs);
+            n_pairs = write_pairs<false>(d, Broadcast(d, lanes, first, touching_squared), first,
+                                         lanes, vector, out, n_pairs);
         }
     }
     return n_pairs;
@@ -145,7 +166,8 @@ HWY_INLINE std::size_t filter_long_flights(D d, const CellGrid& grid, int column
 
 /// FilterColumn where they do not.
 template <class D>
-HWY_INLINE std::size_t filter_short_flights(D d, const CellGrid& grid, int column, float touching_squared, std::vector<DiscPair>& pairs) {
+HWY_INLINE std::size_t filter_short_flights(D d, const CellGrid& grid, int column,
+                                            float touching_squared, std::vector<DiscPair>& pairs) {
     const FlightLanes lanes = grid.lanes();
     const int reach = grid.frame().n_reach, n_rows = grid.frame().n_rows;
     const int last_column = HWY_MIN(column + reach, grid.frame().n_columns - 1);
@@ -165,7 +187,8 @@ HWY_INLINE std::size_t filter_short_flights(D d, const CellGrid& grid, int colum
         for (std::uint32_t slot = cell.begin; slot < cell.end; ++slot) {
             const Broadcast flight(d, lanes, slot, touching_squared);
             n_pairs = write_pairs<false>(d, flight, slot, lanes, {slot + 1, own_end}, out, n_pairs);
-            for (const SlotRange run : runs) n_pairs = write_pairs<false>(d, flight, slot, lanes, run, out, n_pairs);
+            for (const SlotRange run : runs)
+                n_pairs = write_pairs<false>(d, flight, slot, lanes, run, out, n_pairs);
         }
     }
     return n_pairs;
@@ -173,20 +196,24 @@ HWY_INLINE std::size_t filter_short_flights(D d, const CellGrid& grid, int colum
 
 /// write_pairs with the halo's discs of `run`, that are slots there.
 template <class D>
-HWY_INLINE std::size_t write_halo_pairs(D d, const Broadcast<D>& flight, std::uint32_t first, const CellGrid& grid, SlotRange run,
+HWY_INLINE std::size_t write_halo_pairs(D d, const Broadcast<D>& flight, std::uint32_t first,
+                                        const CellGrid& grid, SlotRange run,
                                         std::vector<DiscPair>& pairs, std::size_t n_pairs) {
     DiscPair* out = room(pairs, n_pairs, run.end - run.begin);
-    const std::size_t n_now = write_pairs<false>(d, flight, first, grid.halo_lanes(), run, out, n_pairs);
+    const std::size_t n_now = write_pairs<false>(d, flight, first, grid.halo_lanes(), run, out,
+                                                 n_pairs);
     for (std::size_t k = n_pairs; k < n_now; ++k) out[k].second = grid.halo_index(out[k].second);
     return n_now;
 }
 
 /// The column's own discs with those of the halo.
 template <class D>
-HWY_INLINE std::size_t filter_halo(D d, const CellGrid& grid, int column, float touching_squared, std::vector<DiscPair>& pairs, std::size_t n_pairs) {
+HWY_INLINE std::size_t filter_halo(D d, const CellGrid& grid, int column, float touching_squared,
+                                   std::vector<DiscPair>& pairs, std::size_t n_pairs) {
     const FlightLanes lanes = grid.lanes();
     const int reach = grid.frame().n_reach;
-    const int first_column = HWY_MAX(column - reach, 0), last_column = HWY_MIN(column + reach, grid.frame().n_columns - 1);
+    const int first_column = HWY_MAX(column - reach, 0),
+              last_column = HWY_MIN(column + reach, grid.frame().n_columns - 1);
     for (int other = first_column; other <= last_column; ++other) {
         if (!grid.has_halo_in(other)) continue;
         for (int row = 0; row < grid.frame().n_rows; ++row) {
@@ -194,18 +221,23 @@ HWY_INLINE std::size_t filter_halo(D d, const CellGrid& grid, int column, float 
             if (run.begin == run.end) continue;
             const SlotRange cell = grid.run(column, row, row);
             for (std::uint32_t slot = cell.begin; slot < cell.end; ++slot)
-                n_pairs = write_halo_pairs(d, Broadcast(d, lanes, slot, touching_squared), slot, grid, run, pairs, n_pairs);
+                n_pairs = write_halo_pairs(d, Broadcast(d, lanes, slot, touching_squared), slot,
+                                           grid, run, pairs, n_pairs);
         }
     }
     return n_pairs;
 }
 
-std::size_t FilterColumn(const CellGrid& grid, int column, float touching_squared, std::vector<DiscPair>& pairs) {
+std::size_t FilterColumn(const CellGrid& grid, int column, float touching_squared,
+                         std::vector<DiscPair>& pairs) {
     const hn::ScalableTag<float> d;
     const auto reach = static_cast<float>(grid.frame().n_reach);
-    const std::size_t n_pairs = reach * reach > 64 * touching_squared ? filter_long_flights(d, grid, column, touching_squared, pairs)
-                                                                      : filter_short_flights(d, grid, column, touching_squared, pairs);
-    return grid.has_halo() ? filter_halo(d, grid, column, touching_squared, pairs, n_pairs) : n_pairs;
+    const std::size_t n_pairs = reach * reach > 64 * touching_squared
+                                    ? filter_long_flights(d, grid, column, touching_squared, pairs)
+                                    : filter_short_flights(d, grid, column, touching_squared,
+                                                           pairs);
+    return grid.has_halo() ? filter_halo(d, grid, column, touching_squared, pairs, n_pairs)
+                           : n_pairs;
 }
 
 /// A flight between two times, as cells.
@@ -228,47 +260,56 @@ struct CellsAround {
           last_row(grid.clamped_row(HWY_MAX(path.y_begin, path.y_end) + half_reach)) {}
 };
 
-/// Pairs of a flight, which counts as `first`, with the own discs in `cells`, and with the halo's there if they are wanted.
+/// Pairs of a flight, which counts as `first`, with the own discs in `cells`, and with the halo's
+/// there if they are wanted.
 template <bool is_one_of_them, class D>
-HWY_INLINE std::size_t filter_cells(D d, const CellGrid& grid, const Broadcast<D>& flight, std::uint32_t first, const CellsAround& cells,
-                                    bool with_halo, std::vector<DiscPair>& pairs, std::size_t n_pairs) {
+HWY_INLINE std::size_t filter_cells(D d, const CellGrid& grid, const Broadcast<D>& flight,
+                                    std::uint32_t first, const CellsAround& cells, bool with_halo,
+                                    std::vector<DiscPair>& pairs, std::size_t n_pairs) {
     const FlightLanes lanes = grid.lanes();
     for (int column = cells.first_column; column <= cells.last_column; ++column) {
         const SlotRange run = grid.run(column, cells.first_row, cells.last_row);
-        n_pairs = write_pairs<is_one_of_them>(d, flight, first, lanes, run, room(pairs, n_pairs, run.end - run.begin), n_pairs);
+        n_pairs = write_pairs<is_one_of_them>(d, flight, first, lanes, run,
+                                              room(pairs, n_pairs, run.end - run.begin), n_pairs);
     }
     for (int column = cells.first_column; with_halo && column <= cells.last_column; ++column) {
         if (!grid.has_halo_in(column)) continue; // as nearly all
-        n_pairs = write_halo_pairs(d, flight, first, grid, grid.halo_run(column, cells.first_row, cells.last_row), pairs, n_pairs);
+        n_pairs = write_halo_pairs(d, flight, first, grid,
+                                   grid.halo_run(column, cells.first_row, cells.last_row), pairs,
+                                   n_pairs);
     }
     return n_pairs;
 }
 
-std::size_t FilterAround(const CellGrid& grid, LocalIndex index, float from, float half_reach, float touching_squared,
-                         std::vector<DiscPair>& pairs, std::size_t n_pairs) {
+std::size_t FilterAround(const CellGrid& grid, LocalIndex index, float from, float half_reach,
+                         float touching_squared, std::vector<DiscPair>& pairs,
+                         std::size_t n_pairs) {
     const hn::ScalableTag<float> d;
     const bool is_own = index < grid.n_own();
     const FlightLanes lanes = is_own ? grid.lanes() : grid.halo_lanes();
     const std::uint32_t slot = is_own ? index : grid.halo_slot(index);
     const Broadcast flight(d, lanes, slot, touching_squared);
     const CellsAround cells(grid, Path(lanes, slot, from), half_reach);
-    return filter_cells<true>(d, grid, flight, index, cells, is_own && grid.has_halo(), pairs, n_pairs);
+    return filter_cells<true>(d, grid, flight, index, cells, is_own && grid.has_halo(), pairs,
+                              n_pairs);
 }
 
-std::size_t FilterApart(const CellGrid& grid, std::uint32_t k, float half_reach, float touching_squared,
-                        std::vector<DiscPair>& pairs, std::size_t n_pairs) {
+std::size_t FilterApart(const CellGrid& grid, std::uint32_t k, float half_reach,
+                        float touching_squared, std::vector<DiscPair>& pairs, std::size_t n_pairs) {
     const hn::ScalableTag<float> d;
     const FlightLanes apart = grid.apart_lanes();
     const CellsAround cells(grid, Path(apart, k, 0), half_reach);
-    return filter_cells<false>(d, grid, Broadcast(d, apart, k, touching_squared), k, cells, grid.has_halo(), pairs, n_pairs);
+    return filter_cells<false>(d, grid, Broadcast(d, apart, k, touching_squared), k, cells,
+                               grid.has_halo(), pairs, n_pairs);
 }
 
-std::size_t FilterApartPairs(const CellGrid& grid, std::uint32_t k, float touching_squared, std::vector<DiscPair>& pairs,
-                             std::size_t n_pairs) {
+std::size_t FilterApartPairs(const CellGrid& grid, std::uint32_t k, float touching_squared,
+                             std::vector<DiscPair>& pairs, std::size_t n_pairs) {
     const hn::ScalableTag<float> d;
     const FlightLanes apart = grid.apart_lanes();
     const SlotRange later{k + 1, static_cast<std::uint32_t>(grid.apart().size())};
-    return write_pairs<false>(d, Broadcast(d, apart, k, touching_squared), k, apart, later, room(pairs, n_pairs, later.end - later.begin), n_pairs);
+    return write_pairs<false>(d, Broadcast(d, apart, k, touching_squared), k, apart, later,
+                              room(pairs, n_pairs, later.end - later.begin), n_pairs);
 }
 
 const char* FilterTarget() { return hwy::TargetName(HWY_TARGET); }
@@ -285,22 +326,26 @@ HWY_EXPORT(FilterApart);
 HWY_EXPORT(FilterApartPairs);
 HWY_EXPORT(FilterTarget);
 
-std::size_t filter_column(const CellGrid& grid, int column, float touching_squared, std::vector<DiscPair>& pairs) {
+std::size_t filter_column(const CellGrid& grid, int column, float touching_squared,
+                          std::vector<DiscPair>& pairs) {
     return HWY_DYNAMIC_DISPATCH(FilterColumn)(grid, column, touching_squared, pairs);
 }
 
-std::size_t filter_around(const CellGrid& grid, LocalIndex index, float from, float half_reach, float touching_squared,
-                          std::vector<DiscPair>& pairs, std::size_t n_pairs) {
-    return HWY_DYNAMIC_DISPATCH(FilterAround)(grid, index, from, half_reach, touching_squared, pairs, n_pairs);
+std::size_t filter_around(const CellGrid& grid, LocalIndex index, float from, float half_reach,
+                          float touching_squared, std::vector<DiscPair>& pairs,
+                          std::size_t n_pairs) {
+    return HWY_DYNAMIC_DISPATCH(FilterAround)(grid, index, from, half_reach, touching_squared,
+                                              pairs, n_pairs);
 }
 
-std::size_t filter_apart(const CellGrid& grid, std::uint32_t k, float half_reach, float touching_squared,
-                         std::vector<DiscPair>& pairs, std::size_t n_pairs) {
+std::size_t filter_apart(const CellGrid& grid, std::uint32_t k, float half_reach,
+                         float touching_squared, std::vector<DiscPair>& pairs,
+                         std::size_t n_pairs) {
     return HWY_DYNAMIC_DISPATCH(FilterApart)(grid, k, half_reach, touching_squared, pairs, n_pairs);
 }
 
-std::size_t filter_apart_pairs(const CellGrid& grid, std::uint32_t k, float touching_squared, std::vector<DiscPair>& pairs,
-                               std::size_t n_pairs) {
+std::size_t filter_apart_pairs(const CellGrid& grid, std::uint32_t k, float touching_squared,
+                               std::vector<DiscPair>& pairs, std::size_t n_pairs) {
     return HWY_DYNAMIC_DISPATCH(FilterApartPairs)(grid, k, touching_squared, pairs, n_pairs);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// First rejection of pairs, many lanes at a time: which flights of a run of slots might touch a given disc's in this
-// window. It may keep pairs that never touch; it never loses one that does. The widest instruction set that the
-// machine has is chosen when the program runs.
+// First rejection of pairs, many lanes at a time: which flights of a run of slots might touch a
+// given disc's in this window. It may keep pairs that never touch; it never loses one that does.
+// The widest instruction set that the machine has is chosen when the program runs.
 #pragma once
 
 #include <cstddef>
@@ -13,23 +13,26 @@
 
 namespace carrom {
 
-/// Writes to the front of `pairs`, which grows as needed, all pairs (first, second) that might touch: `first` an own disc in
-/// `column`; `second` an own one after it in the half stencil, later in its own column or in one to the right, or one of the
-/// halo all around it. Returns how many.
-std::size_t filter_column(const CellGrid& grid, int column, float touching_squared, std::vector<DiscPair>& pairs);
+/// Writes to the front of `pairs`, which grows as needed, all pairs (first, second) that might
+/// touch: `first` an own disc in `column`; `second` an own one after it in the half stencil, later
+/// in its own column or in one to the right, or one of the halo all around it. Returns how many.
+std::size_t filter_column(const CellGrid& grid, int column, float touching_squared,
+                          std::vector<DiscPair>& pairs);
 
-/// Writes to `pairs` behind the first `n_pairs` the disc with each that it might touch between the fraction `from` of the
-/// window and its end, itself and pairs of the halo's discs excluded; returns how many pairs there are now. Only cells within
-/// `half_reach` of that part of its path are looked at: how far from where two discs touch the other one's cell can be.
-std::size_t filter_around(const CellGrid& grid, LocalIndex index, float from, float half_reach, float touching_squared,
-                          std::vector<DiscPair>& pairs, std::size_t n_pairs);
+/// Writes to `pairs` behind the first `n_pairs` the disc with each that it might touch between the
+/// fraction `from` of the window and its end, itself and pairs of the halo's discs excluded;
+/// returns how many pairs there are now. Only cells within `half_reach` of that part of its path
+/// are looked at: how far from where two discs touch the other one's cell can be.
+std::size_t filter_around(const CellGrid& grid, LocalIndex index, float from, float half_reach,
+                          float touching_squared, std::vector<DiscPair>& pairs,
+                          std::size_t n_pairs);
 
-/// The same for disc k of those that the grid has set apart, for all of the window; `first` is k. With filter_apart_pairs
-/// `second` is another place among those set apart, after k.
-std::size_t filter_apart(const CellGrid& grid, std::uint32_t k, float half_reach, float touching_squared,
-                         std::vector<DiscPair>& pairs, std::size_t n_pairs);
-std::size_t filter_apart_pairs(const CellGrid& grid, std::uint32_t k, float touching_squared, std::vector<DiscPair>& pairs,
-                               std::size_t n_pairs);
+/// The same for disc k of those that the grid has set apart, for all of the window; `first` is k.
+/// With filter_apart_pairs `second` is another place among those set apart, after k.
+std::size_t filter_apart(const CellGrid& grid, std::uint32_t k, float half_reach,
+                         float touching_squared, std::vector<DiscPair>& pairs, std::size_t n_pairs);
+std::size_t filter_apart_pairs(const CellGrid& grid, std::uint32_t k, float touching_squared,
+                               std::vector<DiscPair>& pairs, std::size_t n_pairs);
 
 /// The instruction set in use, as in "AVX3".
 const char* filter_target();

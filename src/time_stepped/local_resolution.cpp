@@ -20,19 +20,24 @@ bool has_halo_disc(const Candidate& candidate, std::size_t n_own) {
     return candidate.p >= n_own || (!candidate.is_wall() && candidate.q >= n_own);
 }
 
-std::uint32_t read(std::uint32_t& mark) { return std::atomic_ref<std::uint32_t>(mark).load(std::memory_order_relaxed); }
+std::uint32_t read(std::uint32_t& mark) {
+    return std::atomic_ref<std::uint32_t>(mark).load(std::memory_order_relaxed);
+}
 void write(std::uint32_t& mark, std::uint32_t value) {
     std::atomic_ref<std::uint32_t>(mark).store(value, std::memory_order_relaxed);
 }
 
-/// Puts candidate `number` into `mark` if it comes before the one that is there. Where threads do so at once one of them may be lost.
-void offer(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate> live, const TotalOrder& before) {
+/// Puts candidate `number` into `mark` if it comes before the one that is there. Where threads do
+/// so at once one of them may be lost.
+void offer(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate> live,
+           const TotalOrder& before) {
     const std::uint32_t seen = read(mark);
     if (seen == free_disc || before(live[number], live[seen])) write(mark, number);
 }
 
 /// The same when all have offered, for what was lost then: hardly any.
-void insist(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate> live, const TotalOrder& before) {
+void insist(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate> live,
+            const TotalOrder& before) {
     std::atomic_ref<std::uint32_t> place(mark);
     std::uint32_t seen = place.load(std::memory_order_relaxed);
     while (seen != number && (seen == free_disc || before(live[number], live[seen]))) {
@@ -42,7 +47,8 @@ void insist(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate
 
 } // namespace
 
-void LocalResolution::resolve(const Population& population, std::vector<Candidate>& live, Verdicts& verdicts) {
+void LocalResolution::resolve(const Population& population, std::vector<Candidate>& live,
+                              Verdicts& verdicts) {
     verdicts.kept.clear();
     verdicts.undecided.clear();
     verdicts.n_rounds = 0;
@@ -55,7 +61,8 @@ void LocalResolution::resolve(const Population& population, std::vector<Candidat
         if (verdicts.n_rounds >= rounds_before_walk) return walk(population, live, verdicts);
         ++verdicts.n_rounds;
         const bool concurrent = n_threads_ > 1 && live.size() > 512;
-        const std::size_t n_kept = concurrent ? round_together(population, live, verdicts) : round_alone(population, live, verdicts);
+        const std::size_t n_kept = concurrent ? round_together(population, live, verdicts)
+                                              : round_alone(population, live, verdicts);
         if (n_kept == 0) {
             std::swap(verdicts.undecided, live);
             return;
@@ -63,23 +70,29 @@ void LocalResolution::resolve(const Population& population, std::vector<Candidat
     }
 }
 
-std::size_t LocalResolution::round_alone(const Population& population, std::vector<Candidate>& live, Verdicts& verdicts) {
+std::size_t LocalResolution::round_alone(const Population& population, std::vector<Candidate>& live,
+                                         Verdicts& verdicts) {
     const TotalOrder before(population.discs);
     const std::size_t old_kept = verdicts.kept.size();
     for (std::size_t k = 0; k < live.size(); ++k) {
         for (const LocalIndex index : {live[k].p, live[k].q})
-            if (index != wall && (first_[index] == free_disc || before(live[k], live[first_[index]]))) first_[index] = static_cast<std::uint32_t>(k);
+            if (index != wall &&
+                (first_[index] == free_disc || before(live[k], live[first_[index]])))
+                first_[index] = static_cast<std::uint32_t>(k);
     }
     for (std::size_t k = 0; k < live.size(); ++k) {
         const Candidate& candidate = live[k];
-        if (first_[candidate.p] != k || (!candidate.is_wall() && first_[candidate.q] != k) || has_halo_disc(candidate, population.n_own)) continue;
+        if (first_[candidate.p] != k || (!candidate.is_wall() && first_[candidate.q] != k) ||
+            has_halo_disc(candidate, population.n_own))
+            continue;
         verdicts.kept.push_back(candidate);
         first_[candidate.p] = taken_disc;
         if (!candidate.is_wall()) first_[candidate.q] = taken_disc;
     }
     // Every rival of what was kept is struck: the discs' marks are no longer needed.
     const auto is_struck = [&](const Candidate& candidate) {
-        const bool p_taken = first_[candidate.p] == taken_disc, q_taken = !candidate.is_wall() && first_[candidate.q] == taken_disc;
+        const bool p_taken = first_[candidate.p] == taken_disc,
+                   q_taken = !candidate.is_wall() && first_[candidate.q] == taken_disc;
         if (!p_taken) first_[candidate.p] = free_disc;
         if (!candidate.is_wall() && !q_taken) first_[candidate.q] = free_disc;
         return p_taken || q_taken;
@@ -92,15 +105,18 @@ std::size_t LocalResolution::round_alone(const Population& population, std::vect
     return verdicts.kept.size() - old_kept;
 }
 
-std::size_t LocalResolution::round_together(const Population& population, std::vector<Candidate>& live, Verdicts& verdicts) {
+std::size_t LocalResolution::round_together(const Population& population,
+                                            std::vector<Candidate>& live, Verdicts& verdicts) {
     const TotalOrder before(population.discs);
     const std::size_t old_kept = verdicts.kept.size();
     const auto n_live = static_cast<std::int64_t>(live.size());
     const std::size_t n_lists = kept_by_thread_.size();
 #pragma omp parallel num_threads(n_threads_)
     {
-        std::vector<Candidate>& kept = kept_by_thread_[static_cast<std::size_t>(omp_get_thread_num())];
-        std::vector<Candidate>& rest = live_by_thread_[static_cast<std::size_t>(omp_get_thread_num())];
+        std::vector<Candidate>& kept =
+            kept_by_thread_[static_cast<std::size_t>(omp_get_thread_num())];
+        std::vector<Candidate>& rest =
+            live_by_thread_[static_cast<std::size_t>(omp_get_thread_num())];
         kept.clear();
         rest.clear();
 #pragma omp for schedule(static)
@@ -154,14 +170,17 @@ std::size_t LocalResolution::round_together(const Population& population, std::v
             verdicts.kept.resize(old_kept + n_kept);
             live.resize(n_rest);
         }
-        const auto [kept_place, rest_place] = places_[static_cast<std::size_t>(omp_get_thread_num())];
-        std::copy(kept.begin(), kept.end(), verdicts.kept.begin() + static_cast<std::ptrdiff_t>(kept_place));
+        const auto [kept_place,
+                    rest_place] = places_[static_cast<std::size_t>(omp_get_thread_num())];
+        std::copy(kept.begin(), kept.end(),
+                  verdicts.kept.begin() + static_cast<std::ptrdiff_t>(kept_place));
         std::copy(rest.begin(), rest.end(), live.begin() + static_cast<std::ptrdiff_t>(rest_place));
     }
     return verdicts.kept.size() - old_kept;
 }
 
-void LocalResolution::walk(const Population& population, std::vector<Candidate>& live, Verdicts& verdicts) {
+void LocalResolution::walk(const Population& population, std::vector<Candidate>& live,
+                           Verdicts& verdicts) {
     std::sort(live.begin(), live.end(), TotalOrder(population.discs));
     touched_.clear();
     const auto mark_both = [&](const Candidate& candidate, std::uint32_t mark) {
@@ -175,7 +194,8 @@ void LocalResolution::walk(const Population& population, std::vector<Candidate>&
         const std::uint32_t p_mark = first_[candidate.p];
         const std::uint32_t q_mark = candidate.is_wall() ? free_disc : first_[candidate.q];
         if (p_mark == taken_disc || q_mark == taken_disc) continue;
-        if (p_mark == blocked_disc || q_mark == blocked_disc || has_halo_disc(candidate, population.n_own)) {
+        if (p_mark == blocked_disc || q_mark == blocked_disc ||
+            has_halo_disc(candidate, population.n_own)) {
             verdicts.undecided.push_back(candidate);
             mark_both(candidate, blocked_disc);
         } else {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which candidates of one micro-step (or part of one) happen, as far as this rank can tell.
 //
-// The rule is the sorted walk: keep a candidate if neither of its discs is taken yet. A candidate that is first for
-// both its discs is final, whatever comes later; take all such, strike their rivals, repeat: the same result (Blelloch,
-// Fineman, Shun 2012). Gases need one to three rounds. A long chain would need as many rounds as half its length, so
-// after a few the rest is sorted and walked. All candidates of an own disc are known here, those of a halo disc are
-// not: a candidate with a halo disc blocks its discs and stays undecided, and so does what depends on it.
+// The rule is the sorted walk: keep a candidate if neither of its discs is taken yet. A candidate
+// that is first for both its discs is final, whatever comes later; take all such, strike their
+// rivals, repeat: the same result (Blelloch, Fineman, Shun 2012). Gases need one to three rounds. A
+// long chain would need as many rounds as half its length, so after a few the rest is sorted and
+// walked. All candidates of an own disc are known here, those of a halo disc are not: a candidate
+// with a halo disc blocks its discs and stays undecided, and so does what depends on it.
 #pragma once
 
 #include <cstdint>
@@ -35,15 +36,18 @@ public:
     int rounds_before_walk = 12; ///< cost only; 0 walks at once
 
 private:
-    // A round: keeps what is first for both its discs, strikes its rivals from `live`, and says how many it has kept.
+    // A round: keeps what is first for both its discs, strikes its rivals from `live`, and says how
+    // many it has kept.
     std::size_t round_alone(const Population&, std::vector<Candidate>& live, Verdicts&);
     std::size_t round_together(const Population&, std::vector<Candidate>& live, Verdicts&);
     void walk(const Population&, std::vector<Candidate>& live, Verdicts&);
 
     int n_threads_;
-    std::vector<std::uint32_t> first_; ///< by disc: the number of its first live candidate, or a mark
+    std::vector<std::uint32_t>
+        first_; ///< by disc: the number of its first live candidate, or a mark
     std::vector<std::vector<Candidate>> kept_by_thread_, live_by_thread_;
-    std::vector<std::pair<std::size_t, std::size_t>> places_; ///< where a thread's kept and live ones go
+    std::vector<std::pair<std::size_t, std::size_t>>
+        places_; ///< where a thread's kept and live ones go
     std::vector<LocalIndex> touched_;
 };
 

@@ -21,14 +21,16 @@ constexpr std::size_t pairs_ahead = 8;
 
 /// What was predicted for the micro-steps from `from` on.
 void add(SearchLists& lists, const Window& window, int from, int m, const Candidate& candidate) {
-    lists.by_micro[static_cast<std::size_t>(m - window.first_micro)].add(candidate, window.state_after(from - 1));
+    lists.by_micro[static_cast<std::size_t>(m - window.first_micro)].add(
+        candidate, window.state_after(from - 1));
 }
 
 void prefetch(std::span<const Disc> discs, LocalIndex index) { __builtin_prefetch(&discs[index]); }
 
 /// Calls ask(pair) some time before judge(pair), for the first n pairs.
 template <class Ask, class Judge>
-void for_each_ahead(const std::vector<DiscPair>& pairs, std::size_t n, const Ask& ask, const Judge& judge) {
+void for_each_ahead(const std::vector<DiscPair>& pairs, std::size_t n, const Ask& ask,
+                    const Judge& judge) {
     for (std::size_t k = 0; k < std::min(pairs_ahead, n); ++k) ask(pairs[k]);
     for (std::size_t k = 0; k < n; ++k) {
         if (k + pairs_ahead < n) ask(pairs[k + pairs_ahead]);
@@ -39,9 +41,12 @@ void for_each_ahead(const std::vector<DiscPair>& pairs, std::size_t n, const Ask
 } // namespace
 
 void MicroStepList::add(const Candidate& candidate, WindowState seen) {
-    if (sections.empty() || sections.back().seen != seen) sections.push_back({seen, candidates.size()});
-    // Candidates are most of what a rank keeps beside its discs: lists grow by a quarter, not to twice their size.
-    if (candidates.size() == candidates.capacity()) candidates.reserve(candidates.size() + candidates.size() / 4 + 64);
+    if (sections.empty() || sections.back().seen != seen)
+        sections.push_back({seen, candidates.size()});
+    // Candidates are most of what a rank keeps beside its discs: lists grow by a quarter, not to
+    // twice their size.
+    if (candidates.size() == candidates.capacity())
+        candidates.reserve(candidates.size() + candidates.size() / 4 + 64);
     candidates.push_back(candidate);
 }
 
@@ -50,21 +55,27 @@ void MicroStepList::drop_stale(std::span<const WindowState> states) {
     for (std::size_t k = 0; k < sections.size(); ++k) {
         const std::size_t end = k + 1 < sections.size() ? sections[k + 1].begin : candidates.size();
         for (std::size_t i = sections[k].begin; i < end; ++i)
-            if (is_current(candidates[i], sections[k].seen, states)) candidates[n_left++] = candidates[i];
+            if (is_current(candidates[i], sections[k].seen, states))
+                candidates[n_left++] = candidates[i];
     }
     candidates.resize(n_left);
     sections.clear();
 }
 
-/// What rejects in single precision: pairs by distance, walls by the position at the window's end, in cells.
+/// What rejects in single precision: pairs by distance, walls by the position at the window's end,
+/// in cells.
 template <class Dynamics> struct Search<Dynamics>::Bounds {
     float touching_squared;
     float x_low, x_high, y_low, y_high;
 
-    Bounds(const Dynamics& dynamics, const CellGrid& grid) : touching_squared(grid.touching_squared(dynamics.search_diameter())) {
+    Bounds(const Dynamics& dynamics, const CellGrid& grid)
+        : touching_squared(grid.touching_squared(dynamics.search_diameter())) {
         const GridFrame& frame = grid.frame();
-        const double margin = dynamics.radius() * 1e-6 / frame.cell_width + 0x1p-18 * (std::max(frame.n_columns, frame.n_rows) + 8);
-        const auto cells = [&](double length, double origin) { return (length - origin) / frame.cell_width; };
+        const double margin = dynamics.radius() * 1e-6 / frame.cell_width +
+                              0x1p-18 * (std::max(frame.n_columns, frame.n_rows) + 8);
+        const auto cells = [&](double length, double origin) {
+            return (length - origin) / frame.cell_width;
+        };
         const double high = dynamics.box_size() - dynamics.radius();
         x_low = static_cast<float>(cells(dynamics.radius(), frame.x_low) + margin);
         x_high = static_cast<float>(cells(high, frame.x_low) - margin);
@@ -83,7 +94,8 @@ Search<Dynamics>::Search(const Dynamics& dynamics, int n_threads)
     : dynamics_(dynamics), n_threads_(n_threads), lists_(static_cast<std::size_t>(n_threads)) {}
 
 template <class Dynamics>
-void Search<Dynamics>::predict_all(const Population& population, const CellGrid& grid, const Window& window, double reach) {
+void Search<Dynamics>::predict_all(const Population& population, const CellGrid& grid,
+                                   const Window& window, double reach) {
     const Bounds bounds(dynamics_, grid);
     const int n_columns = grid.frame().n_columns;
     SharedWork columns(grid.column_shares(n_threads_), std::max(1, n_columns / (16 * n_threads_)));
@@ -98,21 +110,28 @@ void Search<Dynamics>::predict_all(const Population& population, const CellGrid&
         });
 #pragma omp for schedule(dynamic, 8)
         for (std::int64_t k = 0; k < n_apart; ++k) {
-            predict_apart(population, grid, window, bounds, reach, static_cast<std::uint32_t>(k), lists);
+            predict_apart(population, grid, window, bounds, reach, static_cast<std::uint32_t>(k),
+                          lists);
         }
     }
 }
 
 template <class Dynamics>
-void Search<Dynamics>::predict_column(const Population& population, const CellGrid& grid, const Window& window,
-                                 const Bounds& bounds, int column, SearchLists& lists) const {
-    lists.n_pairs = Dynamics::has_pairs ? filter_column(grid, column, bounds.touching_squared, lists.pairs) : 0;
-    for_each_ahead(lists.pairs, lists.n_pairs, [&](const DiscPair& pair) {
-        prefetch(population.discs, pair.first);
-        prefetch(population.discs, pair.second);
-    }, [&](const DiscPair& pair) {
-        predict_pair(population, window, window.first_micro, pair.first, pair.second, lists);
-    });
+void Search<Dynamics>::predict_column(const Population& population, const CellGrid& grid,
+                                      const Window& window, const Bounds& bounds, int column,
+                                      SearchLists& lists) const {
+    lists.n_pairs = Dynamics::has_pairs
+                        ? filter_column(grid, column, bounds.touching_squared, lists.pairs)
+                        : 0;
+    for_each_ahead(
+        lists.pairs, lists.n_pairs,
+        [&](const DiscPair& pair) {
+            prefetch(population.discs, pair.first);
+            prefetch(population.discs, pair.second);
+        },
+        [&](const DiscPair& pair) {
+            predict_pair(population, window, window.first_micro, pair.first, pair.second, lists);
+        });
     const SlotRange own = grid.run(column, 0, grid.frame().n_rows - 1);
     for (LocalIndex index = own.begin; index < own.end; ++index) {
         if (bounds.reaches_wall(grid.lanes(), index) || dynamics_.has_obstacles())
@@ -120,31 +139,38 @@ void Search<Dynamics>::predict_column(const Population& population, const CellGr
     }
 }
 
-/// How far from a disc's path the cell of one that it touches can be: they are a diameter apart then, and the other one
-/// is half a reach less a radius from its cell.
-template <class Dynamics> float Search<Dynamics>::half_reach(const CellGrid& grid, double reach) const {
+/// How far from a disc's path the cell of one that it touches can be: they are a diameter apart
+/// then, and the other one is half a reach less a radius from its cell.
+template <class Dynamics>
+float Search<Dynamics>::half_reach(const CellGrid& grid, double reach) const {
     return grid.cells_of(reach / 2 + dynamics_.radius() + dynamics_.slack());
 }
 
 /// Disc k of those set apart, with all others that come after it.
 template <class Dynamics>
-void Search<Dynamics>::predict_apart(const Population& population, const CellGrid& grid, const Window& window, const Bounds& bounds,
-                                double reach, std::uint32_t k, SearchLists& lists) const {
+void Search<Dynamics>::predict_apart(const Population& population, const CellGrid& grid,
+                                     const Window& window, const Bounds& bounds, double reach,
+                                     std::uint32_t k, SearchLists& lists) const {
     const std::span<const LocalIndex> apart = grid.apart();
-    const std::size_t n_others = filter_apart(grid, k, half_reach(grid, reach), bounds.touching_squared, lists.pairs, 0);
+    const std::size_t n_others = filter_apart(grid, k, half_reach(grid, reach),
+                                              bounds.touching_squared, lists.pairs, 0);
     lists.n_pairs = filter_apart_pairs(grid, k, bounds.touching_squared, lists.pairs, n_others);
     for (std::size_t i = 0; i < lists.n_pairs; ++i) {
         const std::uint32_t other = lists.pairs[i].second;
-        predict_pair(population, window, window.first_micro, apart[k], i < n_others ? other : apart[other], lists);
+        predict_pair(population, window, window.first_micro, apart[k],
+                     i < n_others ? other : apart[other], lists);
     }
 }
 
 template <class Dynamics>
-void Search<Dynamics>::predict_again(const Population& population, const CellGrid& grid, const Window& window, int from,
-                                double reach, std::span<const LocalIndex> hit, std::span<const WindowState> states) {
+void Search<Dynamics>::predict_again(const Population& population, const CellGrid& grid,
+                                     const Window& window, int from, double reach,
+                                     std::span<const LocalIndex> hit,
+                                     std::span<const WindowState> states) {
     const Bounds bounds(dynamics_, grid);
     const auto begin = static_cast<float>((from - window.begin()) / window.duration());
-    const auto n_batches = static_cast<std::int64_t>((hit.size() + hits_per_batch - 1) / hits_per_batch);
+    const auto n_batches = static_cast<std::int64_t>((hit.size() + hits_per_batch - 1) /
+                                                     hits_per_batch);
     const WindowState now = window.state_after(from - 1);
     SharedWork batches(equal_shares(n_batches, n_threads_), 1);
 #pragma omp parallel num_threads(n_threads_) if (n_batches > 1)
@@ -152,17 +178,20 @@ void Search<Dynamics>::predict_again(const Population& population, const CellGri
         SearchLists& lists = lists_[static_cast<std::size_t>(omp_get_thread_num())];
         batches.run(omp_get_thread_num(), [&](std::int64_t k) {
             const std::size_t first = static_cast<std::size_t>(k) * hits_per_batch;
-            const std::span<const LocalIndex> batch = hit.subspan(first, std::min(hits_per_batch, hit.size() - first));
+            const std::span<const LocalIndex> batch = hit.subspan(
+                first, std::min(hits_per_batch, hit.size() - first));
             look_around(grid, bounds, begin, half_reach(grid, reach), batch, lists);
-            for_each_ahead(lists.pairs, lists.n_pairs, [&](const DiscPair& pair) {
-                prefetch(population.discs, pair.second);
-            }, [&](const DiscPair& pair) {
-                // A pair of hit discs is predicted once.
-                if (states[pair.second] != now || pair.first < pair.second)
-                    predict_pair(population, window, from, pair.first, pair.second, lists);
-            });
+            for_each_ahead(
+                lists.pairs, lists.n_pairs,
+                [&](const DiscPair& pair) { prefetch(population.discs, pair.second); },
+                [&](const DiscPair& pair) {
+                    // A pair of hit discs is predicted once.
+                    if (states[pair.second] != now || pair.first < pair.second)
+                        predict_pair(population, window, from, pair.first, pair.second, lists);
+                });
             for (const LocalIndex index : batch) {
-                if (index < population.n_own && (bounds.reaches_wall(grid.lanes(), index) || dynamics_.has_obstacles()))
+                if (index < population.n_own &&
+                    (bounds.reaches_wall(grid.lanes(), index) || dynamics_.has_obstacles()))
                     predict_wall(population, window, from, index, lists);
             }
         });
@@ -171,20 +200,24 @@ void Search<Dynamics>::predict_again(const Population& population, const CellGri
 
 /// Fills `lists.pairs` with the discs of `hit` and those that they might touch.
 template <class Dynamics>
-void Search<Dynamics>::look_around(const CellGrid& grid, const Bounds& bounds, float from, float half_reach,
-                              std::span<const LocalIndex> hit, SearchLists& lists) const {
+void Search<Dynamics>::look_around(const CellGrid& grid, const Bounds& bounds, float from,
+                                   float half_reach, std::span<const LocalIndex> hit,
+                                   SearchLists& lists) const {
     lists.n_pairs = 0;
     for (std::size_t k = 0; k < hit.size() && Dynamics::has_pairs; ++k) {
-        // What a disc needs is spread over a dozen cache lines: ask for the cells first, then for the flights in them.
+        // What a disc needs is spread over a dozen cache lines: ask for the cells first, then for
+        // the flights in them.
         if (k + 2 * around_ahead < hit.size()) grid.prefetch_cells(hit[k + 2 * around_ahead]);
         if (k + around_ahead < hit.size()) grid.prefetch_flights(hit[k + around_ahead]);
-        if (hit[k] != wall) lists.n_pairs = filter_around(grid, hit[k], from, half_reach, bounds.touching_squared, lists.pairs, lists.n_pairs);
+        if (hit[k] != wall)
+            lists.n_pairs = filter_around(grid, hit[k], from, half_reach, bounds.touching_squared,
+                                          lists.pairs, lists.n_pairs);
     }
 }
 
 template <class Dynamics>
-void Search<Dynamics>::predict_pair(const Population& population, const Window& window, int from, LocalIndex a, LocalIndex b,
-                               SearchLists& lists) const {
+void Search<Dynamics>::predict_pair(const Population& population, const Window& window, int from,
+                                    LocalIndex a, LocalIndex b, SearchLists& lists) const {
     if (a >= population.n_own && b >= population.n_own) return;
     const Disc& first = population.discs[a];
     const Disc& second = population.discs[b];
@@ -200,7 +233,8 @@ void Search<Dynamics>::predict_pair(const Population& population, const Window& 
 }
 
 template <class Dynamics>
-void Search<Dynamics>::predict_wall(const Population& population, const Window& window, int from, LocalIndex index, SearchLists& lists) const {
+void Search<Dynamics>::predict_wall(const Population& population, const Window& window, int from,
+                                    LocalIndex index, SearchLists& lists) const {
     if (index >= population.n_own) return;
     const Disc& disc = population.discs[index];
     for (int m = from; m < window.end_micro(); ++m) {
@@ -212,7 +246,8 @@ void Search<Dynamics>::predict_wall(const Population& population, const Window& 
 }
 
 template <class Dynamics>
-void Search<Dynamics>::collect(const Window& window, int m, std::span<const WindowState> states, std::vector<Candidate>& live) {
+void Search<Dynamics>::collect(const Window& window, int m, std::span<const WindowState> states,
+                               std::vector<Candidate>& live) {
     const auto bucket = static_cast<std::size_t>(m - window.first_micro);
     if (n_threads_ == 1) {
         MicroStepList& list = lists_[0].by_micro[bucket];
@@ -234,7 +269,8 @@ void Search<Dynamics>::collect(const Window& window, int m, std::span<const Wind
             for (std::size_t t = 1; t < ends.size(); ++t) ends[t] += ends[t - 1];
             live.resize(ends.back());
         }
-        std::copy(list.candidates.begin(), list.candidates.end(), live.begin() + static_cast<std::ptrdiff_t>(ends[thread]));
+        std::copy(list.candidates.begin(), list.candidates.end(),
+                  live.begin() + static_cast<std::ptrdiff_t>(ends[thread]));
         list.clear();
     }
 }

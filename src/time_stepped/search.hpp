@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the candidates of a window: every contact that falls into it, once, filed under its micro-step.
+// Finds the candidates of a window: every contact that falls into it, once, filed under its
+// micro-step.
 //
-// A prediction is a function of two stored states, so it stays good until one of them is rewritten: after a micro-step
-// only the discs that were hit are predicted again. Threads own columns of cells and keep lists of their own; nothing
-// depends on the lists' order. Price: some 30 single-precision tests a disc and window, a double one for each survivor.
+// A prediction is a function of two stored states, so it stays good until one of them is rewritten:
+// after a micro-step only the discs that were hit are predicted again. Threads own columns of cells
+// and keep lists of their own; nothing depends on the lists' order. Price: some 30 single-precision
+// tests a disc and window, a double one for each survivor.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "time_stepped/candidate.hpp"
 #include "cell_list/cell_grid.hpp"
 #include "cell_list/population.hpp"
-#include "time_stepped/window.hpp"
 #include "core/disc.hpp"
 #include "dynamics/all_dynamics.hpp"
+#include "time_stepped/candidate.hpp"
+#include "time_stepped/window.hpp"
 
 namespace carrom {
 
-/// Candidates of one micro-step in the order in which they were predicted. When that was says which states they were predicted
-/// from: of the window's states so far none was later.
+/// Candidates of one micro-step in the order in which they were predicted. When that was says which
+/// states they were predicted from: of the window's states so far none was later.
 struct MicroStepList {
     struct Section {
         WindowState seen = 0; ///< the last state that any disc had then
@@ -30,7 +32,8 @@ struct MicroStepList {
     std::vector<Section> sections;
 
     void add(const Candidate& candidate, WindowState seen);
-    /// Takes out those of which a disc has been hit since; `states` by disc. What is left is no longer in sections.
+    /// Takes out those of which a disc has been hit since; `states` by disc. What is left is no
+    /// longer in sections.
     void drop_stale(std::span<const WindowState> states);
     void clear() {
         candidates.clear();
@@ -41,7 +44,7 @@ struct MicroStepList {
 /// One thread's lists and scratch space; they keep their memory from window to window.
 struct SearchLists {
     std::vector<MicroStepList> by_micro; ///< from the window's first micro-step on
-    std::vector<DiscPair> pairs; ///< the first n_pairs
+    std::vector<DiscPair> pairs;         ///< the first n_pairs
     std::size_t n_pairs = 0;
 };
 
@@ -49,27 +52,36 @@ template <class Dynamics> class Search {
 public:
     Search(const Dynamics& dynamics, int n_threads);
 
-    /// Predicts everything in `window`. The grid must have been built for it; `reach` is that of discs that it has not set apart.
-    void predict_all(const Population& population, const CellGrid& grid, const Window& window, double reach);
+    /// Predicts everything in `window`. The grid must have been built for it; `reach` is that of
+    /// discs that it has not set apart.
+    void predict_all(const Population& population, const CellGrid& grid, const Window& window,
+                     double reach);
 
-    /// Predicts the discs `hit` (own or halo; `wall` stands for none) by micro-step `from` - 1, for the window's micro-steps
-    /// from `from` on. The grid and `states`, by disc, must know of it; `reach` is the window's.
-    void predict_again(const Population& population, const CellGrid& grid, const Window& window, int from,
-                       double reach, std::span<const LocalIndex> hit, std::span<const WindowState> states);
+    /// Predicts the discs `hit` (own or halo; `wall` stands for none) by micro-step `from` - 1, for
+    /// the window's micro-steps from `from` on. The grid and `states`, by disc, must know of it;
+    /// `reach` is the window's.
+    void predict_again(const Population& population, const CellGrid& grid, const Window& window,
+                       int from, double reach, std::span<const LocalIndex> hit,
+                       std::span<const WindowState> states);
 
     /// Moves the candidates of micro-step m that are still current into `live`; `states` by disc.
-    void collect(const Window& window, int m, std::span<const WindowState> states, std::vector<Candidate>& live);
+    void collect(const Window& window, int m, std::span<const WindowState> states,
+                 std::vector<Candidate>& live);
 
 private:
     struct Bounds;
 
-    void predict_column(const Population&, const CellGrid&, const Window&, const Bounds&, int column, SearchLists&) const;
-    void predict_apart(const Population&, const CellGrid&, const Window&, const Bounds&, double reach, std::uint32_t k, SearchLists&) const;
-    void look_around(const CellGrid&, const Bounds&, float from, float half_reach, std::span<const LocalIndex> hit,
-                     SearchLists&) const;
+    void predict_column(const Population&, const CellGrid&, const Window&, const Bounds&,
+                        int column, SearchLists&) const;
+    void predict_apart(const Population&, const CellGrid&, const Window&, const Bounds&,
+                       double reach, std::uint32_t k, SearchLists&) const;
+    void look_around(const CellGrid&, const Bounds&, float from, float half_reach,
+                     std::span<const LocalIndex> hit, SearchLists&) const;
     float half_reach(const CellGrid&, double reach) const;
-    void predict_pair(const Population&, const Window&, int from, LocalIndex a, LocalIndex b, SearchLists&) const;
-    void predict_wall(const Population&, const Window&, int from, LocalIndex index, SearchLists&) const;
+    void predict_pair(const Population&, const Window&, int from, LocalIndex a, LocalIndex b,
+                      SearchLists&) const;
+    void predict_wall(const Population&, const Window&, int from, LocalIndex index,
+                      SearchLists&) const;
 
     Dynamics dynamics_;
     int n_threads_;

@@ -18,8 +18,10 @@ constexpr double speed_allowance = 1.02;
 /// Threads with little to do cost more than they bring.
 Tuning with_useful_threads(Tuning tuning, const Scene& scene, const Communicator& communicator) {
     const std::uint64_t per_rank = scene.n_discs / static_cast<std::uint64_t>(communicator.size());
-    const std::uint64_t useful = std::max<std::uint64_t>(1, per_rank / std::max<std::uint64_t>(1, tuning.discs_per_thread));
-    tuning.threads = static_cast<int>(std::min<std::uint64_t>(useful, static_cast<std::uint64_t>(tuning.threads)));
+    const std::uint64_t useful = std::max<std::uint64_t>(
+        1, per_rank / std::max<std::uint64_t>(1, tuning.discs_per_thread));
+    tuning.threads = static_cast<int>(
+        std::min<std::uint64_t>(useful, static_cast<std::uint64_t>(tuning.threads)));
     return tuning;
 }
 
@@ -28,18 +30,25 @@ double squared_speed_of(const Disc& disc) { return disc.vx * disc.vx + disc.vy *
 } // namespace
 
 template <class Dynamics>
-TimeSteppedEngine<Dynamics>::TimeSteppedEngine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning)
-    : communicator_(communicator), tuning_(with_useful_threads(tuning, scene, communicator)), dynamics_(dynamics_of<Dynamics>(scene)), micro_steps_(scene.micro_steps),
+TimeSteppedEngine<Dynamics>::TimeSteppedEngine(const Scene& scene, StoredState state,
+                                               const Communicator& communicator,
+                                               const Tuning& tuning)
+    : communicator_(communicator), tuning_(with_useful_threads(tuning, scene, communicator)),
+      dynamics_(dynamics_of<Dynamics>(scene)), micro_steps_(scene.micro_steps),
       sync_every_(scene.sync_every), last_micro_step_(scene.steps * scene.micro_steps),
-      discs_(communicator, scene.box_size, std::move(state.discs), scene.effects.periods(scene.box_size), Dynamics::has_spin, std::move(state.spins)),
+      discs_(communicator, scene.box_size, std::move(state.discs),
+             scene.effects.periods(scene.box_size), Dynamics::has_spin, std::move(state.spins)),
       n_micro_done_(state.micro_steps_done), micro_(static_cast<int>(n_micro_done_ % sync_every_)),
       search_(dynamics_, tuning_.threads), local_(tuning_.threads), across_strips_(communicator) {
     if constexpr (!Dynamics::is_double) {
         for (Disc& disc : discs_.all()) Dynamics::round(disc);
     }
-    for (const Disc& disc : own()) largest_speed_ = std::max(largest_speed_, std::sqrt(squared_speed_of(disc)));
-    const double density = static_cast<double>(discs_.n_total()) / (dynamics_.box_size() * dynamics_.box_size());
-    hits_per_micro_step_ = std::min(1.0, 2 * density * dynamics_.diameter() * communicator_.max(largest_speed_)); // a first guess
+    for (const Disc& disc : own())
+        largest_speed_ = std::max(largest_speed_, std::sqrt(squared_speed_of(disc)));
+    const double density = static_cast<double>(discs_.n_total()) /
+                           (dynamics_.box_size() * dynamics_.box_size());
+    hits_per_micro_step_ = std::min(1.0, 2 * density * dynamics_.diameter() *
+                                             communicator_.max(largest_speed_)); // a first guess
     set_departed_aside();
     discs_.rebalance(micro_, tuning_.rebalance_above);
     redistribute_now(); // discs come in any order
@@ -47,12 +56,14 @@ TimeSteppedEngine<Dynamics>::TimeSteppedEngine(const Scene& scene, StoredState s
     clock_ = {};
 }
 
-/// Discs that have left the box stay where they are in the arrays until those are put in order anyway.
+/// Discs that have left the box stay where they are in the arrays until those are put in order
+/// anyway.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::set_departed_aside() {
     if (dynamics_.boundaries().are_any_open()) discs_.set_departed_aside();
 }
 
-template <class Dynamics> void TimeSteppedEngine<Dynamics>::advance_towards(std::int64_t last_step) {
+template <class Dynamics>
+void TimeSteppedEngine<Dynamics>::advance_towards(std::int64_t last_step) {
     const std::int64_t next_sync = n_micro_done_ - micro_ + sync_every_;
     const std::int64_t good_stop = (next_sync + micro_steps_ - 1) / micro_steps_ * micro_steps_;
     const std::int64_t stop = std::min(last_step * micro_steps_, good_stop);
@@ -64,12 +75,14 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::advance_towards(std:
     if (n_micro_done_ == last_micro_step_) discs_.drop_grid(); // memory for what follows a run
 }
 
-/// Runs one window of at most `n_left` micro-steps: to its end, or to where discs have become too fast for it.
+/// Runs one window of at most `n_left` micro-steps: to its end, or to where discs have become too
+/// fast for it.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::run_window(int n_left) {
     const Window window = redistribute(n_left);
     {
         const PhaseClock::Scope scope(clock_, Phase::search);
-        search_.predict_all(population(), discs_.grid(), window, reach_of(window_needs(), window.duration(), usual_speed_));
+        search_.predict_all(population(), discs_.grid(), window,
+                            reach_of(window_needs(), window.duration(), usual_speed_));
     }
     int m = window.first_micro;
     while (m < window.end_micro() && run_micro_step(window, m)) ++m;
@@ -85,7 +98,8 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::run_window(int n_lef
     micro_ = m;
 }
 
-/// Brings every disc to its strip, the halo to every strip and all into cells, for the window that it chooses.
+/// Brings every disc to its strip, the halo to every strip and all into cells, for the window that
+/// it chooses.
 template <class Dynamics> Window TimeSteppedEngine<Dynamics>::redistribute(int n_left) {
     const PhaseClock::Scope scope(clock_, Phase::redistribute);
     if (part_ == 0) set_departed_aside();
@@ -95,7 +109,8 @@ template <class Dynamics> Window TimeSteppedEngine<Dynamics>::redistribute(int n
     }
     const Window window = choose(n_left);
     migrate(window.anchor());
-    const double reach = reach_of(window_needs(), window.duration()), usual_reach = reach_of(window_needs(), window.duration(), usual_speed_);
+    const double reach = reach_of(window_needs(), window.duration()),
+                 usual_reach = reach_of(window_needs(), window.duration(), usual_speed_);
     sort(window, reach, usual_reach);
     fetch_halo(window.anchor(), reach);
     if (usual_reach < reach) discs_.grid().set_apart(usual_speed_ * (1 - 1e-6));
@@ -107,17 +122,22 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::redistribute_now(dou
     set_departed_aside();
     agree_on_speed();
     migrate(micro_);
-    const double touching = reach_of({dynamics_.box_size(), dynamics_.radius() + dynamics_.slack(), static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
+    const double touching = reach_of({dynamics_.box_size(), dynamics_.radius() + dynamics_.slack(),
+                                      static_cast<double>(discs_.n_total()), 0, 0, 0},
+                                     0);
     const double reach = std::max(touching, least_reach);
-    const Extent seen = discs_.extent_seen({0, dynamics_.box_size(), 0, dynamics_.box_size()}, reach);
-    const GridFrame frame = make_sparse_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high, reach, discs_.n_own());
+    const Extent seen = discs_.extent_seen({0, dynamics_.box_size(), 0, dynamics_.box_size()},
+                                           reach);
+    const GridFrame frame = make_sparse_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high,
+                                              reach, discs_.n_own());
     discs_.sort_cells(frame, micro_, tuning_.threads);
     fetch_halo(micro_, reach);
 }
 
 template <class Dynamics> LocalView TimeSteppedEngine<Dynamics>::local_view(double reach) {
     redistribute_now(reach * (1 + 1e-6));
-    return {population(), &discs_.grid(), &discs_.strips(), static_cast<double>(micro_), frame(), discs_.periods()};
+    return {population(), &discs_.grid(),  &discs_.strips(), static_cast<double>(micro_),
+            frame(),      discs_.periods()};
 }
 
 /// Under this rule nothing falls: a frame that moves stands for places to be brought into the box.
@@ -134,15 +154,22 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::add_to(Totals& total
     totals.rejected_candidates = communicator_.sum(n_candidates_ - n_kept_);
     redistribute_now();
     if constexpr (Dynamics::has_pairs)
-        measure_overlaps(population(), discs_.grid(), micro_, touching_of(dynamics_, discs_.periods()), communicator_, tuning_.threads, totals);
+        measure_overlaps(population(), discs_.grid(), micro_,
+                         touching_of(dynamics_, discs_.periods()), communicator_, tuning_.threads,
+                         totals);
     discs_.forget_images();
 }
 
-/// Halo discs will come from within `reach`. Cells are made for `usual_reach`; discs that are too fast for it will be set apart.
-template <class Dynamics> void TimeSteppedEngine<Dynamics>::sort(const Window& window, double reach, double usual_reach) {
-    const Extent seen = discs_.extent_seen({0, dynamics_.box_size(), 0, dynamics_.box_size()}, reach);
-    const GridFrame frame = make_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high, usual_reach, discs_.n_own(), tuning_.cell_width.value_or(0));
-    discs_.sort(frame, window.anchor(), window.begin(), std::max(window.duration(), 1e-6), tuning_.threads, companion());
+/// Halo discs will come from within `reach`. Cells are made for `usual_reach`; discs that are too
+/// fast for it will be set apart.
+template <class Dynamics>
+void TimeSteppedEngine<Dynamics>::sort(const Window& window, double reach, double usual_reach) {
+    const Extent seen = discs_.extent_seen({0, dynamics_.box_size(), 0, dynamics_.box_size()},
+                                           reach);
+    const GridFrame frame = make_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high,
+                                       usual_reach, discs_.n_own(), tuning_.cell_width.value_or(0));
+    discs_.sort(frame, window.anchor(), window.begin(), std::max(window.duration(), 1e-6),
+                tuning_.threads, companion());
 }
 
 template <class Dynamics> Window TimeSteppedEngine<Dynamics>::choose(int n_left) {
@@ -151,15 +178,18 @@ template <class Dynamics> Window TimeSteppedEngine<Dynamics>::choose(int n_left)
     if (part_ == 0) {
         window_speed_ = largest_speed_ * speed_allowance;
         speed_exceeded_ = false;
-        WindowChoice choice = choose_window(window_needs(), std::min(n_left, longest_window), tuning_.window);
+        WindowChoice choice = choose_window(window_needs(), std::min(n_left, longest_window),
+                                            tuning_.window);
         if constexpr (Dynamics::is_periodic) {
             const double longest = longest_in_period(dynamics_.box_size(), window_speed_);
-            if (choice.n_micro > longest * choice.n_parts) choice = choose_window(window_needs(), std::min(n_left, longest_window), longest);
+            if (choice.n_micro > longest * choice.n_parts)
+                choice = choose_window(window_needs(), std::min(n_left, longest_window), longest);
         }
         window.n_micro = choice.n_micro;
         n_parts_ = choice.n_parts;
         in_parts_ = n_parts_ > 1;
-        usual_speed_ = in_parts_ && tuning_.usual_speed ? *tuning_.usual_speed * window_speed_ : choice.usual_speed;
+        usual_speed_ = in_parts_ && tuning_.usual_speed ? *tuning_.usual_speed * window_speed_
+                                                        : choice.usual_speed;
         if (in_parts_) outcomes_ = discs_.all();
     }
     if (n_parts_ > 1) {
@@ -170,8 +200,13 @@ template <class Dynamics> Window TimeSteppedEngine<Dynamics>::choose(int n_left)
 }
 
 template <class Dynamics> WindowNeeds TimeSteppedEngine<Dynamics>::window_needs() const {
-    return {dynamics_.box_size(), dynamics_.radius() + dynamics_.slack(), static_cast<double>(discs_.n_total()), window_speed_, hits_per_micro_step_,
-            static_cast<double>(discs_.n_total()) / communicator_.size(), spread_.largest > 0 ? &spread_ : nullptr};
+    return {dynamics_.box_size(),
+            dynamics_.radius() + dynamics_.slack(),
+            static_cast<double>(discs_.n_total()),
+            window_speed_,
+            hits_per_micro_step_,
+            static_cast<double>(discs_.n_total()) / communicator_.size(),
+            spread_.largest > 0 ? &spread_ : nullptr};
 }
 
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::agree_on_speed() {
@@ -181,11 +216,13 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::agree_on_speed() {
 }
 
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::migrate(double time) {
-    // A disc was settled where its old flight would take it; it is where the new one does, which began no earlier than
-    // the states last changed. Between the parts of a micro-step no state changes.
+    // A disc was settled where its old flight would take it; it is where the new one does, which
+    // began no earlier than the states last changed. Between the parts of a micro-step no state
+    // changes.
     const double from = part_ > 0 ? redistributed_time_ : unchanged_until_;
     const double flown = (time - from) + std::fabs(redistributed_time_ - from);
-    const double farthest = travel_speed_ * flown * (1 + 1e-6) + 64 * 0x1p-53 * dynamics_.box_size() + dynamics_.slack();
+    const double farthest = travel_speed_ * flown * (1 + 1e-6) +
+                            64 * 0x1p-53 * dynamics_.box_size() + dynamics_.slack();
     const PhaseClock::Scope scope(clock_, Phase::exchange);
     discs_.migrate(time, farthest, companion());
     redistributed_time_ = time;
@@ -197,8 +234,10 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::fetch_halo(double ti
     discs_.fetch_halo(time, reach, companion());
 }
 
-/// Decides and applies micro-step m. False, with nothing done, if discs have become faster than the window allows for.
-template <class Dynamics> bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
+/// Decides and applies micro-step m. False, with nothing done, if discs have become faster than the
+/// window allows for.
+template <class Dynamics>
+bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
     const PhaseClock::Scope resolving(clock_, Phase::resolve);
     search_.collect(window, m, states_, live_);
     const std::uint64_t n_candidates = count_ours(live_);
@@ -206,10 +245,13 @@ template <class Dynamics> bool TimeSteppedEngine<Dynamics>::run_micro_step(const
     local_.resolve(population(), live_, verdicts_);
     if (!discs_.has_no_halo()) {
         const PhaseClock::Scope scope(clock_, Phase::conflicts);
-        across_strips_.resolve_boundary(population(), discs_.neighbours(), verdicts_.undecided, verdicts_.kept);
+        across_strips_.resolve_boundary(population(), discs_.neighbours(), verdicts_.undecided,
+                                        verdicts_.kept);
     }
-    // Within a micro-step no disc flies on after its collision, so only later ones have to worry about its speed.
-    std::uint64_t updates[2] = {verdicts_.undecided.size(), speed_exceeded_ && m > window.first_micro ? 1u : 0u};
+    // Within a micro-step no disc flies on after its collision, so only later ones have to worry
+    // about its speed.
+    std::uint64_t updates[2] = {verdicts_.undecided.size(),
+                                speed_exceeded_ && m > window.first_micro ? 1u : 0u};
     if (communicator_.size() > 1) {
         const PhaseClock::Scope scope(clock_, Phase::wait);
         communicator_.sum(updates);
@@ -217,7 +259,8 @@ template <class Dynamics> bool TimeSteppedEngine<Dynamics>::run_micro_step(const
     if (updates[1] > 0) return false;
     if (updates[0] > 0) {
         const PhaseClock::Scope scope(clock_, Phase::conflicts);
-        across_strips_.decide(population(), discs_.neighbours(), verdicts_.undecided, updates[0], verdicts_.kept);
+        across_strips_.decide(population(), discs_.neighbours(), verdicts_.undecided, updates[0],
+                              verdicts_.kept);
     }
     n_candidates_ += n_candidates;
     n_kept_ += count_ours(verdicts_.kept);
@@ -226,18 +269,24 @@ template <class Dynamics> bool TimeSteppedEngine<Dynamics>::run_micro_step(const
 }
 
 /// Two ranks may know of a candidate; it is ours if its first disc is.
-template <class Dynamics> std::uint64_t TimeSteppedEngine<Dynamics>::count_ours(std::span<const Candidate> candidates) const {
+template <class Dynamics>
+std::uint64_t TimeSteppedEngine<Dynamics>::count_ours(std::span<const Candidate> candidates) const {
     if (discs_.has_no_halo()) return candidates.size();
     std::uint64_t n = 0;
     for (const Candidate& candidate : candidates) n += candidate.p < discs_.n_own();
     return n;
 }
 
-/// Candidates with a disc that an earlier part of this micro-step has taken are lost, but they were candidates.
-template <class Dynamics> void TimeSteppedEngine<Dynamics>::strike_taken(std::vector<Candidate>& live) const {
+/// Candidates with a disc that an earlier part of this micro-step has taken are lost, but they were
+/// candidates.
+template <class Dynamics>
+void TimeSteppedEngine<Dynamics>::strike_taken(std::vector<Candidate>& live) const {
     const std::span<const Disc> discs = population().discs;
-    const auto is_taken = [&](LocalIndex index) { return outcomes_[index].version() != discs[index].version(); };
-    std::erase_if(live, [&](const Candidate& c) { return is_taken(c.p) || (!c.is_wall() && is_taken(c.q)); });
+    const auto is_taken = [&](LocalIndex index) {
+        return outcomes_[index].version() != discs[index].version();
+    };
+    std::erase_if(
+        live, [&](const Candidate& c) { return is_taken(c.p) || (!c.is_wall() && is_taken(c.q)); });
 }
 
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::apply(const Window& window, int m) {
@@ -249,7 +298,8 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::apply(const Window& 
         const auto n_kept = static_cast<std::int64_t>(verdicts_.kept.size());
         double fastest = 0;
         hits_.resize(is_last ? 0 : 2 * verdicts_.kept.size());
-#pragma omp parallel for num_threads(tuning_.threads) schedule(static) reduction(max : fastest) if (n_kept > 256)
+#pragma omp parallel for num_threads(tuning_.threads) schedule(static)                             \
+    reduction(max : fastest) if (n_kept > 256)
         for (std::int64_t k = 0; k < n_kept; ++k) {
             if (k + 16 < n_kept) {
                 const Candidate& later = verdicts_.kept[static_cast<std::size_t>(k + 16)];
@@ -262,13 +312,20 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::apply(const Window& 
             const Candidate& c = verdicts_.kept[static_cast<std::size_t>(k)];
             if (c.is_wall()) {
                 dynamics_.bounce(results[c.p], m, c.time);
-                if constexpr (!Dynamics::has_mirror_walls) fastest = std::max(fastest, squared_speed_of(results[c.p]));
-                if (Dynamics::has_spin && Dynamics::may_lose_discs && results[c.p].has_departed()) discs_.spins()[c.p] = 0;
+                if constexpr (!Dynamics::has_mirror_walls)
+                    fastest = std::max(fastest, squared_speed_of(results[c.p]));
+                if (Dynamics::has_spin && Dynamics::may_lose_discs && results[c.p].has_departed())
+                    discs_.spins()[c.p] = 0;
             } else {
-                // A spin has no say in what is found, so it need not wait for the micro-step's end as states in parts do.
-                if constexpr (Dynamics::has_spin) dynamics_.collide(results[c.p], results[c.q], m, c.time, discs_.spins()[c.p], discs_.spins()[c.q]);
-                else dynamics_.collide(results[c.p], results[c.q], m, c.time);
-                fastest = std::max({fastest, squared_speed_of(results[c.p]), squared_speed_of(results[c.q])});
+                // A spin has no say in what is found, so it need not wait for the micro-step's end
+                // as states in parts do.
+                if constexpr (Dynamics::has_spin)
+                    dynamics_.collide(results[c.p], results[c.q], m, c.time, discs_.spins()[c.p],
+                                      discs_.spins()[c.q]);
+                else
+                    dynamics_.collide(results[c.p], results[c.q], m, c.time);
+                fastest = std::max(
+                    {fastest, squared_speed_of(results[c.p]), squared_speed_of(results[c.q])});
             }
             if (is_last) continue;
             const auto place = static_cast<std::size_t>(2 * k);
@@ -291,24 +348,30 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::apply(const Window& 
     search_.predict_again(population(), discs_.grid(), window, m + 1, reach, hits_, states_);
 }
 
-template <class Dynamics> void TimeSteppedEngine<Dynamics>::update_flight(LocalIndex index, const Disc& disc) {
-    if constexpr (Dynamics::is_periodic) discs_.grid().update_flight_of_image(index, disc);
-    else discs_.grid().update_flight(index, disc);
+template <class Dynamics>
+void TimeSteppedEngine<Dynamics>::update_flight(LocalIndex index, const Disc& disc) {
+    if constexpr (Dynamics::is_periodic)
+        discs_.grid().update_flight_of_image(index, disc);
+    else
+        discs_.grid().update_flight(index, disc);
 }
 
-template <class Dynamics> void TimeSteppedEngine<Dynamics>::note_velocities(std::span<const Disc> results) {
+template <class Dynamics>
+void TimeSteppedEngine<Dynamics>::note_velocities(std::span<const Disc> results) {
     unhit_.clear();
     for (const Candidate& c : verdicts_.kept) unhit_.push_back(results[c.p]);
 }
 
 /// Two ranks may know of a collision: the one that owns the first disc logs it.
-template <class Dynamics> void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const Disc> results, int m) {
+template <class Dynamics>
+void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const Disc> results, int m) {
     const auto k = static_cast<double>(micro_steps_);
     for (std::size_t i = 0; i < unhit_.size(); ++i) {
         const Candidate& c = verdicts_.kept[i];
         if (c.p >= discs_.n_own()) continue;
         if (results[c.p].has_departed()) unhit_[i].vx = unhit_[i].vy = 0; // nothing has pushed it
-        const double dx = (results[c.p].vx - unhit_[i].vx) * k, dy = (results[c.p].vy - unhit_[i].vy) * k;
+        const double dx = (results[c.p].vx - unhit_[i].vx) * k,
+                     dy = (results[c.p].vy - unhit_[i].vy) * k;
         double mass = 1;
         if constexpr (Dynamics::has_species) mass = dynamics_.species_table().of(unhit_[i].id).mass;
         if (impulses_ && c.is_wall()) {
@@ -316,13 +379,17 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::log_collisions(std::
             if (at_x) impulses_->add(0, mass * dx);
             if (at_y) impulses_->add(1, mass * dy);
         }
-        if (log_) log_->push_back({n_micro_done_ - micro_ + m, c.time, 0, unhit_[i].id,
-                         c.is_wall() ? Collision::wall : results[c.q].id, mass * std::sqrt(dx * dx + dy * dy)});
+        if (log_)
+            log_->push_back({n_micro_done_ - micro_ + m, c.time, 0, unhit_[i].id,
+                             c.is_wall() ? Collision::wall : results[c.q].id,
+                             mass * std::sqrt(dx * dx + dy * dy)});
     }
 }
 
-/// Exchanges new states with the neighbours; `hits_` grows by those discs of the halo that this rank has not struck itself.
-template <class Dynamics> void TimeSteppedEngine<Dynamics>::update_halo(const Window& window, int m) {
+/// Exchanges new states with the neighbours; `hits_` grows by those discs of the halo that this
+/// rank has not struck itself.
+template <class Dynamics>
+void TimeSteppedEngine<Dynamics>::update_halo(const Window& window, int m) {
     if (discs_.has_no_halo()) return;
     const PhaseClock::Scope scope(clock_, Phase::exchange);
     std::erase(hits_, wall);
@@ -336,12 +403,14 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::update_halo(const Wi
     }
 }
 
-/// Counts how many discs are how fast, all ranks having agreed on the largest speed. **Collective.**
+/// Counts how many discs are how fast, all ranks having agreed on the largest speed.
+/// **Collective.**
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::survey_speeds() {
     if (!(largest_speed_ > 0)) return;
     SpeedSpread::Counts counts{};
     for (const Disc& disc : own()) {
-        const double part = std::sqrt(squared_speed_of(disc)) / largest_speed_ * SpeedSpread::n_parts;
+        const double part = std::sqrt(squared_speed_of(disc)) / largest_speed_ *
+                            SpeedSpread::n_parts;
         counts[std::min(static_cast<std::size_t>(part), SpeedSpread::n_parts - 1)] += 1;
     }
     communicator_.sum(counts);
@@ -364,21 +433,29 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::sync() {
         disc.tau = 0;
         fastest = std::max(fastest, squared_speed_of(disc));
     }
-    // Discs may have moved at the old largest speed since they were last settled: the next migration allows for that.
+    // Discs may have moved at the old largest speed since they were last settled: the next
+    // migration allows for that.
     redistributed_time_ -= time;
     unchanged_until_ -= time;
     const PhaseClock::Scope wait(clock_, Phase::wait);
     refreshed_speed_ = communicator_.max(std::sqrt(fastest));
-    const std::uint64_t n_kept = communicator_.sum(n_kept_ - std::exchange(n_kept_at_sync_, n_kept_));
-    hits_per_micro_step_ = 2 * static_cast<double>(n_kept) / (std::max(static_cast<double>(discs_.n_total()), 1.0) * static_cast<double>(sync_every_));
+    const std::uint64_t n_kept = communicator_.sum(n_kept_ -
+                                                   std::exchange(n_kept_at_sync_, n_kept_));
+    hits_per_micro_step_ = 2 * static_cast<double>(n_kept) /
+                           (std::max(static_cast<double>(discs_.n_total()), 1.0) *
+                            static_cast<double>(sync_every_));
     micro_ = 0;
     ++n_syncs_;
-    if (tuning_.rebalance_every > 0 && n_syncs_ % tuning_.rebalance_every == 0) discs_.rebalance(0, tuning_.rebalance_above);
+    if (tuning_.rebalance_every > 0 && n_syncs_ % tuning_.rebalance_every == 0)
+        discs_.rebalance(0, tuning_.rebalance_above);
 }
 
-std::unique_ptr<Engine> make_time_stepped_engine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning) {
+std::unique_ptr<Engine> make_time_stepped_engine(const Scene& scene, StoredState state,
+                                                 const Communicator& communicator,
+                                                 const Tuning& tuning) {
     return with_dynamics_of(scene, [&]<class Dynamics>() -> std::unique_ptr<Engine> {
-        return std::make_unique<TimeSteppedEngine<Dynamics>>(scene, std::move(state), communicator, tuning);
+        return std::make_unique<TimeSteppedEngine<Dynamics>>(scene, std::move(state), communicator,
+                                                             tuning);
     });
 }
 

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time-stepped method on ranks and threads: windows of time, each settled, searched, resolved and applied.
+// The time-stepped method on ranks and threads: windows of time, each settled, searched, resolved
+// and applied.
 //
-//   settle   own discs to their strips and into the order of their cells, halo discs from the neighbours
-//   search   every contact of the window, from stored states alone
-//   then for each micro-step of the window, in step on all ranks:
+//   settle   own discs to their strips and into the order of their cells, halo discs from the
+//   neighbours search   every contact of the window, from stored states alone then for each
+//   micro-step of the window, in step on all ranks:
 //     resolve  local rounds; what hangs together across strips by a distributed sort
-//     apply    new states for the discs that were taken; neighbours are told of theirs; those discs are searched again
+//     apply    new states for the discs that were taken; neighbours are told of theirs; those discs
+//     are searched again
 //
-// When discs are fast a micro-step is cut into parts, each a window of its own. States then stay as they were at the
-// micro-step's start until it ends, so that every candidate is seen, and `outcomes_` holds what they will become.
+// When discs are fast a micro-step is cut into parts, each a window of its own. States then stay as
+// they were at the micro-step's start until it ends, so that every candidate is seen, and
+// `outcomes_` holds what they will become.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +19,21 @@
 #include <vector>
 
 #include "cell_list/cell_grid.hpp"
-#include "time_stepped/local_resolution.hpp"
-#include "time_stepped/search.hpp"
-#include "time_stepped/boundary_resolution.hpp"
 #include "engine/engine.hpp"
 #include "engine/phase_clock.hpp"
 #include "engine/strip_discs.hpp"
-#include "scene/scene.hpp"
 #include "engine/window_choice.hpp"
+#include "scene/scene.hpp"
+#include "time_stepped/boundary_resolution.hpp"
+#include "time_stepped/local_resolution.hpp"
+#include "time_stepped/search.hpp"
 
 namespace carrom {
 
 template <class Dynamics> class TimeSteppedEngine final : public Engine {
 public:
-    TimeSteppedEngine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning);
+    TimeSteppedEngine(const Scene& scene, StoredState state, const Communicator& communicator,
+                      const Tuning& tuning);
 
     void advance_towards(std::int64_t last_step) override;
     void add_to(Totals& totals) override;
@@ -51,7 +55,8 @@ public:
 
 private:
     Population population() const { return discs_.population(); }
-    /// Settles discs, halo and grid as they are now, for partners within a diameter or `reach`. No state changes. **Collective.**
+    /// Settles discs, halo and grid as they are now, for partners within a diameter or `reach`. No
+    /// state changes. **Collective.**
     void redistribute_now(double reach = 0);
     void set_departed_aside();
     void run_window(int n_left);
@@ -85,17 +90,18 @@ private:
     int micro_ = 0;              ///< micro-steps since the last sync
     bool in_parts_ = false;      ///< whether the present micro-step is cut
     int part_ = 0, n_parts_ = 1; ///< the next part of the present micro-step
-    double largest_speed_ = 0;   ///< of any disc since the last settling, on any rank once it is settled
-    double travel_speed_ = 0;    ///< bounds the motion since the last settling; the same on all ranks
-    double refreshed_speed_ = 0; ///< what becomes of it then, if a sync has looked at all discs
+    double largest_speed_ =
+        0; ///< of any disc since the last settling, on any rank once it is settled
+    double travel_speed_ = 0; ///< bounds the motion since the last settling; the same on all ranks
+    double refreshed_speed_ = 0;     ///< what becomes of it then, if a sync has looked at all discs
     double hits_per_micro_step_ = 0; ///< per disc, over the last sync interval
-    double window_speed_ = 0;    ///< what the window's reach allows for
-    double usual_speed_ = 0;     ///< what its cells allow for
-    SpeedSpread spread_;         ///< when the last micro-step began that was cut
+    double window_speed_ = 0;        ///< what the window's reach allows for
+    double usual_speed_ = 0;         ///< what its cells allow for
+    SpeedSpread spread_;             ///< when the last micro-step began that was cut
     bool speed_exceeded_ = false;
 
-    double redistributed_time_ = 0;    ///< whose places the discs were last settled by
-    double unchanged_until_ = 0; ///< no state has changed before this time since then
+    double redistributed_time_ = 0; ///< whose places the discs were last settled by
+    double unchanged_until_ = 0;    ///< no state has changed before this time since then
 
     Search<Dynamics> search_;
     LocalResolution local_;
@@ -103,14 +109,19 @@ private:
     std::vector<Candidate> live_;
     Verdicts verdicts_;
     std::vector<LocalIndex> hits_, updates_;
-    std::vector<Disc> unhit_; ///< while collisions are logged: the first disc of each kept one, before it
+    std::vector<Disc>
+        unhit_; ///< while collisions are logged: the first disc of each kept one, before it
     std::vector<WindowState> states_; ///< by disc
 
-    std::uint64_t n_candidates_ = 0, n_kept_ = 0, n_kept_at_sync_ = 0; ///< of those whose first disc is own
+    std::uint64_t n_candidates_ = 0, n_kept_ = 0,
+                  n_kept_at_sync_ = 0; ///< of those whose first disc is own
     PhaseClock clock_;
 };
 
-/// The engine of the time-stepped method with the law that the scene's precision and arithmetic ask for. **Collective.**
-std::unique_ptr<Engine> make_time_stepped_engine(const Scene& scene, StoredState state, const Communicator& communicator, const Tuning& tuning);
+/// The engine of the time-stepped method with the law that the scene's precision and arithmetic ask
+/// for. **Collective.**
+std::unique_ptr<Engine> make_time_stepped_engine(const Scene& scene, StoredState state,
+                                                 const Communicator& communicator,
+                                                 const Tuning& tuning);
 
 } // namespace carrom

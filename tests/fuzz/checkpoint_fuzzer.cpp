@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// libFuzzer on the reader of checkpoints, from a whole one with bytes replaced: random bytes would end at the seal.
+// libFuzzer on the reader of checkpoints, from a whole one with bytes replaced: random bytes would
+// end at the seal.
 //
-// Input: a first byte, then edits of 4 bytes and more: a place among those that are not empty (3 bytes), a length or what to do (1), the new bytes.
-// An odd first byte stands for a forged file: only values change, those of the header and of the discs, and it is sealed
-// anew, so that HDF5 and the reader's own checks are reached. (HDF5 1.10 itself takes gigabytes where its metadata is
-// forged: that is what the seal is for.) A file must end in a checkpoint that keeps its promises, or in a CollectiveError
-// of code 2; one that is not sealed anew and differs must be refused.
-// How to run it is told in docs/stability.md.
+// Input: a first byte, then edits of 4 bytes and more: a place among those that are not empty (3
+// bytes), a length or what to do (1), the new bytes. An odd first byte stands for a forged file:
+// only values change, those of the header and of the discs, and it is sealed anew, so that HDF5 and
+// the reader's own checks are reached. (HDF5 1.10 itself takes gigabytes where its metadata is
+// forged: that is what the seal is for.) A file must end in a checkpoint that keeps its promises,
+// or in a CollectiveError of code 2; one that is not sealed anew and differs must be refused. How
+// to run it is told in docs/stability.md.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -21,10 +23,10 @@
 #include "core/errors.hpp"
 #include "core/state_hash.hpp"
 #include "io/checkpoint.hpp"
-#include "io/start_io.hpp"
-#include "parallel/mpi.hpp"
 #include "io/checkpoint_fields.hpp"
 #include "io/hdf5.hpp"
+#include "io/start_io.hpp"
+#include "parallel/mpi.hpp"
 #include "sample_files.hpp"
 
 using namespace carrom;
@@ -52,7 +54,9 @@ std::vector<std::size_t> places_in(const std::vector<char>& bytes) {
     std::size_t from = 0;
     for (std::size_t i = 0; i < bytes.size(); ++i) {
         if (bytes[i] == 0) continue;
-        for (from = std::max(from, i > margin ? i - margin : 0); from < std::min(i + margin, bytes.size()); ++from) places.push_back(from);
+        for (from = std::max(from, i > margin ? i - margin : 0);
+             from < std::min(i + margin, bytes.size()); ++from)
+            places.push_back(from);
     }
     return places;
 }
@@ -67,17 +71,21 @@ std::vector<std::size_t> places_of_values() {
         demand(begin != HADDR_UNDEF);
         for (hsize_t k = 0; k < H5Dget_storage_size(dataset.id()); ++k) places.push_back(begin + k);
     };
-    for (const HeaderField& field : checkpoint_header) add(std::string("/carrom/run/") + field.name);
-    for (const Column& column : checkpoint_columns) add(std::string("/carrom/discs/") + column.name);
+    for (const HeaderField& field : checkpoint_header)
+        add(std::string("/carrom/run/") + field.name);
+    for (const Column& column : checkpoint_columns)
+        add(std::string("/carrom/discs/") + column.name);
     add(spin_column);
     return places;
 }
 
 /// The file as the input wants it.
-std::vector<char> edited(std::vector<char> bytes, const std::vector<std::size_t>& places, std::span<const std::uint8_t> input,
-                         bool may_be_cut) {
+std::vector<char> edited(std::vector<char> bytes, const std::vector<std::size_t>& places,
+                         std::span<const std::uint8_t> input, bool may_be_cut) {
     while (input.size() >= 4) {
-        const std::size_t place = places[(input[0] | std::size_t{input[1]} << 8 | std::size_t{input[2]} << 16) % places.size()];
+        const std::size_t place =
+            places[(input[0] | std::size_t{input[1]} << 8 | std::size_t{input[2]} << 16) %
+                   places.size()];
         const std::uint8_t what = input[3];
         input = input.subspan(4);
         if (place >= bytes.size()) continue; // cut off already
@@ -85,7 +93,8 @@ std::vector<char> edited(std::vector<char> bytes, const std::vector<std::size_t>
             bytes.resize(place);
             continue;
         }
-        const std::size_t n = std::min({what % most_replaced + 1, input.size(), bytes.size() - place});
+        const std::size_t n = std::min(
+            {what % most_replaced + 1, input.size(), bytes.size() - place});
         std::copy_n(input.begin(), n, bytes.begin() + static_cast<std::ptrdiff_t>(place));
         input = input.subspan(n);
     }
@@ -95,10 +104,12 @@ std::vector<char> edited(std::vector<char> bytes, const std::vector<std::size_t>
 void check(const Checkpoint& checkpoint) {
     const CheckpointHeader& header = checkpoint.header;
     demand(header.n_discs == checkpoint.discs.size() && header.n_discs > 0);
-    demand(header.micro_steps >= 1 && header.sync_every >= 1 && header.micro_steps_done == header.step * header.micro_steps);
+    demand(header.micro_steps >= 1 && header.sync_every >= 1 &&
+           header.micro_steps_done == header.step * header.micro_steps);
     demand(checkpoint.spins.size() == (header.has_spins ? checkpoint.discs.size() : 0));
     StateHash hash = hash_of(checkpoint.discs);
-    for (std::size_t i = 0; i < checkpoint.spins.size(); ++i) hash += hash_of_spin(i, checkpoint.spins[i]);
+    for (std::size_t i = 0; i < checkpoint.spins.size(); ++i)
+        hash += hash_of_spin(i, checkpoint.spins[i]);
     demand(to_string(hash) == header.state_hash);
     for (std::size_t i = 0; i < checkpoint.discs.size(); ++i) demand(checkpoint.discs[i].id == i);
 }
@@ -110,7 +121,8 @@ struct Ground {
     std::vector<std::size_t> places = places_in(whole), places_of_values = ::places_of_values();
 
     Ground(int& argc, char**& argv) : mpi(argc, argv) {
-        demand(whole[places_of_values.front()] == '0'); // of the program's version: the places are those of the values
+        demand(whole[places_of_values.front()] ==
+               '0'); // of the program's version: the places are those of the values
     }
 };
 
@@ -131,8 +143,9 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size == 0) return 0;
     const bool is_sealed_anew = data[0] % 2 == 1;
-    const std::vector<char> bytes =
-        edited(ground->whole, is_sealed_anew ? ground->places_of_values : ground->places, std::span(data, size).subspan(1), !is_sealed_anew);
+    const std::vector<char> bytes = edited(
+        ground->whole, is_sealed_anew ? ground->places_of_values : ground->places,
+        std::span(data, size).subspan(1), !is_sealed_anew);
     test::write_bytes(path(), bytes);
     if (is_sealed_anew) test::seal_anew(path(), bytes);
     try {

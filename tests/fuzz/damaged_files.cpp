@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads files whose bytes have been replaced anywhere, HDF5's own metadata included, each in a process of its own with
-// 4 GB of memory and ten seconds: checkpoints sealed anew as a forger would, trajectories and logs of collisions, which
-// have no seal, and recordings that a run is to go on with.
+// Reads files whose bytes have been replaced anywhere, HDF5's own metadata included, each in a
+// process of its own with 4 GB of memory and ten seconds: checkpoints sealed anew as a forger
+// would, trajectories and logs of collisions, which have no seal, and recordings that a run is to
+// go on with.
 //
-//   damaged_files COUNT [SEED [KIND]]      COUNT files of each kind; the numbers of those that have failed are told
-//   damaged_files 1 SEED KIND              this one, which stays where it is said to be
+//   damaged_files COUNT [SEED [KIND]]      COUNT files of each kind; the numbers of those that have
+//   failed are told damaged_files 1 SEED KIND              this one, which stays where it is said
+//   to be
 //
-// A file must be read or refused; a crash within HDF5 must end in a refusal too, and is counted. No crash, no other exception, no more memory or time than that: exit code 1 otherwise.
+// A file must be read or refused; a crash within HDF5 must end in a refusal too, and is counted. No
+// crash, no other exception, no more memory or time than that: exit code 1 otherwise.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -26,12 +29,12 @@
 #include "io/checkpoint.hpp"
 #include "io/collision_log.hpp"
 #include "io/frame_file.hpp"
+#include "io/seal.hpp"
 #include "io/start_io.hpp"
 #include "io/trajectory.hpp"
 #include "parallel/mpi.hpp"
 #include "sample_files.hpp"
 #include "scene_tools.hpp"
-#include "io/seal.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -75,26 +78,42 @@ struct Kind {
 std::vector<std::size_t> places_in(const Kind& kind) {
     std::vector<std::size_t> places;
     for (std::size_t i = kind.first; i < kind.whole.size(); ++i) {
-        const std::size_t from = i > kind.first + 8 ? i - 8 : kind.first, to = std::min(i + 8, kind.whole.size());
-        if (std::any_of(kind.whole.begin() + static_cast<std::ptrdiff_t>(from), kind.whole.begin() + static_cast<std::ptrdiff_t>(to),
+        const std::size_t from = i > kind.first + 8 ? i - 8 : kind.first,
+                          to = std::min(i + 8, kind.whole.size());
+        if (std::any_of(kind.whole.begin() + static_cast<std::ptrdiff_t>(from),
+                        kind.whole.begin() + static_cast<std::ptrdiff_t>(to),
                         [](char c) { return c != 0; }))
             places.push_back(i);
     }
     return places;
 }
 
-/// One to four places get a random byte, a flipped bit, eight bytes of a number that is likely to hurt, or bytes from elsewhere.
-std::vector<char> damaged(const Kind& kind, const std::vector<std::size_t>& places, Random& random) {
+/// One to four places get a random byte, a flipped bit, eight bytes of a number that is likely to
+/// hurt, or bytes from elsewhere.
+std::vector<char> damaged(const Kind& kind, const std::vector<std::size_t>& places,
+                          Random& random) {
     std::vector<char> bytes = kind.whole;
     for (std::size_t n = 1 + random.index(4); n > 0; --n) {
-        const std::size_t place = places[random.index(places.size())], room = std::min<std::size_t>(8, bytes.size() - place);
-        const std::array<std::uint64_t, 7> numbers = {0, ~std::uint64_t{0}, std::uint64_t{1} << 63, std::uint64_t{1} << 31, 0xffffffff, place, 4096};
+        const std::size_t place = places[random.index(places.size())],
+                          room = std::min<std::size_t>(8, bytes.size() - place);
+        const std::array<std::uint64_t, 7> numbers = {0,
+                                                      ~std::uint64_t{0},
+                                                      std::uint64_t{1} << 63,
+                                                      std::uint64_t{1} << 31,
+                                                      0xffffffff,
+                                                      place,
+                                                      4096};
         const std::uint64_t number = numbers[random.index(numbers.size())];
         switch (random.index(4)) {
         case 0: bytes[place] = static_cast<char>(random.index(256)); break;
         case 1: bytes[place] = static_cast<char>(bytes[place] ^ (1 << random.index(8))); break;
-        case 2: std::memcpy(&bytes[place], &number, std::min(room, std::size_t{1} << random.index(4))); break;
-        default: std::memmove(&bytes[place], &bytes[places[random.index(places.size())] & ~std::size_t{7}], room); break;
+        case 2:
+            std::memcpy(&bytes[place], &number, std::min(room, std::size_t{1} << random.index(4)));
+            break;
+        default:
+            std::memmove(&bytes[place],
+                         &bytes[places[random.index(places.size())] & ~std::size_t{7}], room);
+            break;
         }
     }
     return bytes;
@@ -140,30 +159,36 @@ int try_kind(const Kind& kind, std::uint64_t seed, std::uint64_t count) {
         n_read += code == is_read;
         n_crashed += code == is_refused_in_a_crash;
         if (code == is_read || code == is_refused || code == is_refused_in_a_crash) continue;
-        std::printf("%s %llu: %s %d, %ld MB\n", kind.name, static_cast<unsigned long long>(i), code < 0 ? "signal" : "exit code", std::abs(code),
-                    usage.ru_maxrss / 1024);
+        std::printf("%s %llu: %s %d, %ld MB\n", kind.name, static_cast<unsigned long long>(i),
+                    code < 0 ? "signal" : "exit code", std::abs(code), usage.ru_maxrss / 1024);
         std::fflush(stdout);
         ++n_bad;
     }
-    std::printf("%s: of %llu files %d were read, %d failed, HDF5 crashed on %d; at most %ld MB\n", kind.name,
-                static_cast<unsigned long long>(count), n_read, n_bad, n_crashed, most_kilobytes / 1024);
+    std::printf("%s: of %llu files %d were read, %d failed, HDF5 crashed on %d; at most %ld MB\n",
+                kind.name, static_cast<unsigned long long>(count), n_read, n_bad, n_crashed,
+                most_kilobytes / 1024);
     std::fflush(stdout);
     return n_bad;
 }
 
 } // namespace
 
-/// In the place of MPI's, which a process that has only been forked cannot have: what a crash within HDF5 ends in.
-extern "C" int MPI_Abort(MPI_Comm, int code) { ::_exit(code == static_cast<int>(ExitCode::bad_input) ? is_refused_in_a_crash : code); }
+/// In the place of MPI's, which a process that has only been forked cannot have: what a crash
+/// within HDF5 ends in.
+extern "C" int MPI_Abort(MPI_Comm, int code) {
+    ::_exit(code == static_cast<int>(ExitCode::bad_input) ? is_refused_in_a_crash : code);
+}
 
 int main(int argc, char** argv) {
     start_io();
     Mpi mpi(argc, argv);
     const Communicator world = Communicator::world();
-    const std::uint64_t count = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 100, seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
+    const std::uint64_t count = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 100,
+                        seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
     const auto read = [&](const std::string& file) { read_all(file, world); };
     std::vector<Kind> kinds;
-    const auto add = [&](const char* name, std::size_t first, const auto& write, std::function<void(const std::string&)> use) {
+    const auto add = [&](const char* name, std::size_t first, const auto& write,
+                         std::function<void(const std::string&)> use) {
         write();
         kinds.push_back({name, bytes_of(path()), first, std::move(use)});
     };
@@ -171,18 +196,22 @@ int main(int argc, char** argv) {
     add("trajectory", 0, [&] { write_sample_trajectory(path(), false, world); }, read);
     add("compressed_trajectory", 0, [&] { write_sample_trajectory(path(), true, world); }, read);
     add("log", 0, [&] { write_sample_log(path(), world); }, read);
-    add("trajectory_to_go_on_with", 0, [&] { write_sample_trajectory(path(), false, world); }, [&](const std::string& file) {
-        Trajectory trajectory(file, sample_layout(false), world);
-        trajectory.go_on(10);
-        trajectory.append(20, std::vector<Disc>(12), 6);
-        trajectory.commit();
-    });
-    add("log_to_go_on_with", 0, [&] { write_sample_log(path(), world); }, [&](const std::string& file) {
-        CollisionLog log(file, "0.1.0", world);
-        log.go_on(3);
-        log.append(std::vector<LoggedCollision>(5));
-        log.commit();
-    });
+    add(
+        "trajectory_to_go_on_with", 0, [&] { write_sample_trajectory(path(), false, world); },
+        [&](const std::string& file) {
+            Trajectory trajectory(file, sample_layout(false), world);
+            trajectory.go_on(10);
+            trajectory.append(20, std::vector<Disc>(12), 6);
+            trajectory.commit();
+        });
+    add(
+        "log_to_go_on_with", 0, [&] { write_sample_log(path(), world); },
+        [&](const std::string& file) {
+            CollisionLog log(file, "0.1.0", world);
+            log.go_on(3);
+            log.append(std::vector<LoggedCollision>(5));
+            log.commit();
+        });
     int n_bad = 0;
     for (const Kind& kind : kinds)
         if (argc < 4 || std::strcmp(argv[3], kind.name) == 0) n_bad += try_kind(kind, seed, count);

@@ -42,15 +42,17 @@ std::vector<char> bytes_of(const std::string& path) {
 }
 
 void write_bytes(const std::string& path, const std::vector<char>& bytes) {
-    std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    std::ofstream(path, std::ios::binary)
+        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
 void write_sample_checkpoint(const std::string& path, const Communicator& world) {
     CheckpointHeader header;
     header.program_version = "0.1.0";
     header.scene_name = "fuzz.toml";
-    header.scene_text = "[box]\nsize = 10\n[discs]\ncount = 12\nradius = 0.5\n[time]\nsteps = 100\n"
-                        "[effects.contact]\nkind = \"rough\"\nrestitution = 0.9\ntangential_restitution = 0.5\n";
+    header.scene_text =
+        "[box]\nsize = 10\n[discs]\ncount = 12\nradius = 0.5\n[time]\nsteps = 100\n"
+        "[effects.contact]\nkind = \"rough\"\nrestitution = 0.9\ntangential_restitution = 0.5\n";
     header.box_size = 10;
     header.radius = 0.5;
     header.collisions = "time-stepped";
@@ -73,7 +75,8 @@ TrajectoryLayout sample_layout(bool is_compressed) {
     return layout;
 }
 
-void write_sample_trajectory(const std::string& path, bool is_compressed, const Communicator& world) {
+void write_sample_trajectory(const std::string& path, bool is_compressed,
+                             const Communicator& world) {
     const std::vector<Disc> discs = some_discs();
     Trajectory trajectory(path, sample_layout(is_compressed), world);
     trajectory.begin();
@@ -83,7 +86,9 @@ void write_sample_trajectory(const std::string& path, bool is_compressed, const 
 
 void write_sample_log(const std::string& path, const Communicator& world) {
     std::vector<LoggedCollision> rows;
-    for (std::int64_t i = 0; i < 20; ++i) rows.push_back({1 + i / 4, 0.25 * static_cast<double>(i), i % 6, i % 3 == 0 ? -1 : 6 + i % 6, 0.5});
+    for (std::int64_t i = 0; i < 20; ++i)
+        rows.push_back(
+            {1 + i / 4, 0.25 * static_cast<double>(i), i % 6, i % 3 == 0 ? -1 : 6 + i % 6, 0.5});
     CollisionLog log(path, "0.1.0", world);
     log.begin();
     log.append(rows);
@@ -93,8 +98,10 @@ void write_sample_log(const std::string& path, const Communicator& world) {
 void seal_anew(const std::string& path, const std::vector<char>& bytes) {
     std::vector<SealedPart> parts = sealed_parts(path);
     for (SealedPart& part : parts) {
-        ensure(part.rows <= rows_per_block && part.end() <= bytes.size(), "a sample's seal names other parts");
-        part.checksum = checksum_of_block(std::as_bytes(std::span(bytes)).subspan(part.begin, part.rows * part.bytes_per_row), 0);
+        ensure(part.rows <= rows_per_block && part.end() <= bytes.size(),
+               "a sample's seal names other parts");
+        part.checksum = checksum_of_block(
+            std::as_bytes(std::span(bytes)).subspan(part.begin, part.rows * part.bytes_per_row), 0);
     }
     seal(path, parts);
 }

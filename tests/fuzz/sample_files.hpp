@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small files of each kind to be damaged, and how a damaged checkpoint is given the seal that a writer of just these bytes
-// would have given it.
+// Small files of each kind to be damaged, and how a damaged checkpoint is given the seal that a
+// writer of just these bytes would have given it.
 #pragma once
 
 #include <string>
@@ -19,9 +19,11 @@ void write_bytes(const std::string& path, const std::vector<char>& bytes);
 /// Twelve rough discs at step 70 of a scene of the time-stepped method. **Collective.**
 void write_sample_checkpoint(const std::string& path, const Communicator& world);
 
-/// Three frames of twelve discs with their counters; compressed, and with angular velocities, or not. **Collective.**
+/// Three frames of twelve discs with their counters; compressed, and with angular velocities, or
+/// not. **Collective.**
 TrajectoryLayout sample_layout(bool is_compressed);
-void write_sample_trajectory(const std::string& path, bool is_compressed, const Communicator& world);
+void write_sample_trajectory(const std::string& path, bool is_compressed,
+                             const Communicator& world);
 
 /// Twenty collisions. **Collective.**
 void write_sample_log(const std::string& path, const Communicator& world);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // libFuzzer on both readers of scenes. The first byte chooses: TOML, or the legacy text format.
 //
-// Every text must end in a scene that keeps its promises or in an InputError that names a problem; a crash, a hang, any
-// other exception and whatever the sanitizers find is a bug. How to run it is told in docs/stability.md.
+// Every text must end in a scene that keeps its promises or in an InputError that names a problem;
+// a crash, a hang, any other exception and whatever the sanitizers find is a bug. How to run it is
+// told in docs/stability.md.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Micro-benchmarks of the kernels, one core each: what a pair, a disc or a collision costs in them alone.
+// Micro-benchmarks of the kernels, one core each: what a pair, a disc or a collision costs in them
+// alone.
 //
 //   carrom_benchmarks [--benchmark_filter=...] [--benchmark_format=json] ...
 //
-// Gases of packing 0.2 with speeds evenly up to half a radius per step, 1e4 discs (in the second level of cache) and 1e6.
-// Items are what is named; the counters flops and bytes are what the source says of an item: each operation of the formula
-// (a fused one is two), each number that is read or written once. page.py makes the roofline of them.
+// Gases of packing 0.2 with speeds evenly up to half a radius per step, 1e4 discs (in the second
+// level of cache) and 1e6. Items are what is named; the counters flops and bytes are what the
+// source says of an item: each operation of the formula (a fused one is two), each number that is
+// read or written once. page.py makes the roofline of them.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -15,16 +17,16 @@
 #include <benchmark/benchmark.h>
 
 #include "cell_list/cell_grid.hpp"
-#include "time_stepped/local_resolution.hpp"
-#include "time_stepped/search.hpp"
 #include "core/state_hash.hpp"
 #include "dynamics/plain_dynamics.hpp"
 #include "event_driven/block_run.hpp"
+#include "event_driven/block_window.hpp"
 #include "geometry/pair_contact.hpp"
 #include "parallel/received.hpp"
 #include "parallel/sample_sort.hpp"
 #include "time_stepped/contact_filter.hpp"
-#include "event_driven/block_window.hpp"
+#include "time_stepped/local_resolution.hpp"
+#include "time_stepped/search.hpp"
 
 using namespace carrom;
 
@@ -32,7 +34,8 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846, packing = 0.2, largest_speed = 0.5;
 
-/// Discs of radius 1 on a square lattice, each moved a little: no two overlap. In the order of rows.
+/// Discs of radius 1 on a square lattice, each moved a little: no two overlap. In the order of
+/// rows.
 struct Gas {
     double size;
     std::vector<Disc> discs;
@@ -41,7 +44,9 @@ struct Gas {
         const auto side = static_cast<std::int64_t>(std::ceil(std::sqrt(static_cast<double>(n))));
         const double spacing = (size - 2) / static_cast<double>(side);
         std::mt19937_64 random(3210);
-        const auto even = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+        const auto even = [&](double low, double high) {
+            return std::uniform_real_distribution<double>(low, high)(random);
+        };
         for (std::int64_t k = 0; k < n; ++k) {
             Disc& disc = discs.emplace_back();
             disc.id = static_cast<DiscId>(k);
@@ -54,8 +59,12 @@ struct Gas {
         }
     }
 
-    void sort_into(CellGrid& grid, double reach, double duration) { grid.sort(discs, frame(reach), 0, 0, duration, 1); }
-    GridFrame frame(double reach) const { return make_frame(0, size, 0, size, reach, discs.size(), 0); }
+    void sort_into(CellGrid& grid, double reach, double duration) {
+        grid.sort(discs, frame(reach), 0, 0, duration, 1);
+    }
+    GridFrame frame(double reach) const {
+        return make_frame(0, size, 0, size, reach, discs.size(), 0);
+    }
     Population population() const { return {discs, discs.size()}; }
 };
 
@@ -64,12 +73,14 @@ double reach_of_window() { return 2 + 2 * largest_speed * window_steps; }
 
 /// Rates from items of one iteration, and what the source says an item takes.
 void print_message(benchmark::State& state, double items, double flops, double bytes) {
-    state.SetItemsProcessed(static_cast<std::int64_t>(items * static_cast<double>(state.iterations())));
+    state.SetItemsProcessed(
+        static_cast<std::int64_t>(items * static_cast<double>(state.iterations())));
     state.counters["flops"] = flops;
     state.counters["bytes"] = bytes;
 }
 
-/// Item: a pair about to collide, so that the predicate goes to its end: 50 operations (a root or a quotient is one), two discs.
+/// Item: a pair about to collide, so that the predicate goes to its end: 50 operations (a root or a
+/// quotient is one), two discs.
 void contact_predicate(benchmark::State& state) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> even(-1, 1);
@@ -83,7 +94,8 @@ void contact_predicate(benchmark::State& state) {
     }
     for (auto _ : state) {
         double sum = 0;
-        for (std::size_t k = 0; k < discs.size(); k += 2) sum += pair_contact(discs[k], discs[k + 1], 2.0, 1e-12).delay;
+        for (std::size_t k = 0; k < discs.size(); k += 2)
+            sum += pair_contact(discs[k], discs[k + 1], 2.0, 1e-12).delay;
         benchmark::DoNotOptimize(sum);
     }
     print_message(state, static_cast<double>(discs.size() / 2), 50, 2 * sizeof(Disc));
@@ -97,9 +109,11 @@ double tested_pairs(const CellGrid& grid) {
     for (int column = 0; column < grid.frame().n_columns; ++column) {
         for (int row = 0; row < grid.frame().n_rows; ++row) {
             const SlotRange cell = grid.run(column, row, row);
-            const double n = cell.end - cell.begin, n_own = grid.run(column, row, row + reach).end - cell.begin;
+            const double n = cell.end - cell.begin,
+                         n_own = grid.run(column, row, row + reach).end - cell.begin;
             pairs += n * (n_own - (n + 1) / 2);
-            for (int other = column + 1; other <= std::min(column + reach, grid.frame().n_columns - 1); ++other) {
+            for (int other = column + 1;
+                 other <= std::min(column + reach, grid.frame().n_columns - 1); ++other) {
                 const SlotRange run = grid.run(other, row - reach, row + reach);
                 pairs += n * static_cast<double>(run.end - run.begin);
             }
@@ -108,7 +122,8 @@ double tested_pairs(const CellGrid& grid) {
     return pairs;
 }
 
-/// Item: a pair in the stencil: 27 operations in single precision, and the four numbers of the second disc.
+/// Item: a pair in the stencil: 27 operations in single precision, and the four numbers of the
+/// second disc.
 void vector_filter(benchmark::State& state) {
     Gas gas(state.range(0));
     CellGrid grid;
@@ -117,7 +132,8 @@ void vector_filter(benchmark::State& state) {
     std::vector<DiscPair> pairs;
     for (auto _ : state) {
         std::size_t n = 0;
-        for (int column = 0; column < grid.frame().n_columns; ++column) n += filter_column(grid, column, touching, pairs);
+        for (int column = 0; column < grid.frame().n_columns; ++column)
+            n += filter_column(grid, column, touching, pairs);
         benchmark::DoNotOptimize(n);
     }
     print_message(state, tested_pairs(grid), 27, 16);
@@ -125,8 +141,9 @@ void vector_filter(benchmark::State& state) {
 }
 BENCHMARK(vector_filter)->Arg(10'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
 
-/// Item: a disc: its cell and flight take 14 operations; its state is read twice and written once, 24 bytes of order and flight
-/// are written, and the counts of its cell are changed twice. Discs fly a window on and back by turns, as far as in a run.
+/// Item: a disc: its cell and flight take 14 operations; its state is read twice and written once,
+/// 24 bytes of order and flight are written, and the counts of its cell are changed twice. Discs
+/// fly a window on and back by turns, as far as in a run.
 void cell_grid_sort(benchmark::State& state) {
     Gas gas(state.range(0));
     CellGrid grid;
@@ -171,7 +188,8 @@ struct Record {
     DiscId p, q;
 };
 
-/// Item: a record: sorted among 8 ranks' worth on its own, then merged, as a rank does before and after records travel.
+/// Item: a record: sorted among 8 ranks' worth on its own, then merged, as a rank does before and
+/// after records travel.
 void sort_records(benchmark::State& state) {
     constexpr std::size_t n_ranks = 8;
     std::mt19937_64 random(5);
@@ -183,7 +201,9 @@ void sort_records(benchmark::State& state) {
         in.items = all;
         for (std::size_t k = 0; k < n_ranks; ++k) {
             in.offsets.push_back(all.size() * (k + 1) / n_ranks);
-            const auto at = [&](std::size_t place) { return in.items.begin() + static_cast<std::ptrdiff_t>(place); };
+            const auto at = [&](std::size_t place) {
+                return in.items.begin() + static_cast<std::ptrdiff_t>(place);
+            };
             std::stable_sort(at(in.offsets[k]), at(in.offsets[k + 1]), before);
         }
         const std::vector<Record> sorted = detail::merge_groups(std::move(in), before);
@@ -194,11 +214,13 @@ void sort_records(benchmark::State& state) {
 }
 BENCHMARK(sort_records)->Arg(8'000)->Arg(800'000)->Unit(benchmark::kMillisecond);
 
-/// Item: a collision of the event-driven method, in one block without a halo, of as many discs as a block has with its halo.
+/// Item: a collision of the event-driven method, in one block without a halo, of as many discs as a
+/// block has with its halo.
 void block_run(benchmark::State& state) {
     Gas gas(state.range(0));
     const PlainDynamics dynamics(gas.size, 1);
-    BlockNeeds needs{gas.size, 1, static_cast<double>(gas.discs.size()), 1.08 * largest_speed, 0, 0, 3, true};
+    BlockNeeds needs{
+        gas.size, 1, static_cast<double>(gas.discs.size()), 1.08 * largest_speed, 0, 0, 3, true};
     needs.collision_rate = guessed_collision_rate(needs);
     const BlockChoice choice = choose_block_window(needs, 64, {});
     const BlockWindow window{0, choice.duration, true, needs.speed_bound};
@@ -208,13 +230,16 @@ void block_run(benchmark::State& state) {
     std::vector<std::uint64_t> histories(gas.discs.size());
     BlockRun<PlainDynamics> run_blocks(dynamics);
     BlockOutcome outcome;
-    const BlockGround ground{gas.discs, gas.discs.size(), &grid, 0, frame.n_columns, 0, frame.n_rows, window, false};
+    const BlockGround ground{gas.discs, gas.discs.size(), &grid,  0,    frame.n_columns,
+                             0,         frame.n_rows,     window, false};
     for (auto _ : state) {
         run_blocks.run(ground, {0, frame.n_columns, 0, frame.n_rows}, 0, false, histories, outcome);
         benchmark::DoNotOptimize(outcome.n_events);
     }
     print_message(state, static_cast<double>(outcome.n_events), 0, 0);
-    state.counters["discs_per_event"] = static_cast<double>(gas.discs.size()) / static_cast<double>(std::max<std::uint64_t>(1, outcome.n_events));
+    state.counters["discs_per_event"] = static_cast<double>(gas.discs.size()) /
+                                        static_cast<double>(
+                                            std::max<std::uint64_t>(1, outcome.n_events));
 }
 BENCHMARK(block_run)->Arg(3'000)->Arg(10'000)->Unit(benchmark::kMillisecond);
 
@@ -226,7 +251,8 @@ void state_hash(benchmark::State& state) {
 }
 BENCHMARK(state_hash)->Arg(10'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
 
-/// Item: a disc taken apart into the columns of a checkpoint, a piece at a time, by ids that lie at random.
+/// Item: a disc taken apart into the columns of a checkpoint, a piece at a time, by ids that lie at
+/// random.
 void pack_columns(benchmark::State& state) {
     const Gas gas(state.range(0));
     std::vector<LocalIndex> places(gas.discs.size());

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps a scene on the ranks of a simulated cluster: SimGrid (SMPI) stands in for the MPI library and the network, all ranks
-// take turns in this one process. Says what is sent and how long it would take. Discs are stepped for real, so messages
-// are the ones that a real run sends; what computing takes is told to the simulation instead of measured, so that the
-// same run gives the same numbers on any machine.
+// Steps a scene on the ranks of a simulated cluster: SimGrid (SMPI) stands in for the MPI library
+// and the network, all ranks take turns in this one process. Says what is sent and how long it
+// would take. Discs are stepped for real, so messages are the ones that a real run sends; what
+// computing takes is told to the simulation instead of measured, so that the same run gives the
+// same numbers on any machine.
 //
 //   simulated_cluster PLATFORM RANKS SCENE STEPS NS_OWN NS_HALO STANDS_FOR WINDOW
 //
-// The first interval between two syncs is left out of the tallies; then STEPS steps count. A rank computes for NS_OWN
-// nanoseconds per own disc and micro-step and for NS_HALO per disc that it has sent (as many come). A disc may stand for
-// several: then all this takes so many times as long, and so does a byte on its way, and WINDOW says how many micro-steps a
-// window has (0: as the engine chooses), for it would choose longer ones where discs meet less often. One line on standard output, as in the
-// heading that `simulated_cluster` alone prints: per rank and step, means over ranks where nothing else is said.
+// The first interval between two syncs is left out of the tallies; then STEPS steps count. A rank
+// computes for NS_OWN nanoseconds per own disc and micro-step and for NS_HALO per disc that it has
+// sent (as many come). A disc may stand for several: then all this takes so many times as long, and
+// so does a byte on its way, and WINDOW says how many micro-steps a window has (0: as the engine
+// chooses), for it would choose longer ones where discs meet less often. One line on standard
+// output, as in the heading that `simulated_cluster` alone prints: per rank and step, means over
+// ranks where nothing else is said.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -25,9 +28,9 @@
 
 #include "core/disc.hpp"
 #include "core/errors.hpp"
+#include "initial_state/initial_state.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/read_scene.hpp"
-#include "initial_state/initial_state.hpp"
 #include "simulation/simulation.hpp"
 
 using namespace carrom;
@@ -38,23 +41,29 @@ std::uint64_t n_any_to_any = 0; ///< calls so far, by all ranks
 
 } // namespace
 
-// The linker puts this in the place of MPI_Alltoall (CMakeLists.txt): to count calls whose messages grow with the ranks.
-extern "C" int __real_MPI_Alltoall(const void*, int, MPI_Datatype, void*, int, MPI_Datatype, MPI_Comm); // NOLINT
-extern "C" int __wrap_MPI_Alltoall(const void* out, int n_out, MPI_Datatype out_type, void* in, int n_in, MPI_Datatype in_type, MPI_Comm comm) { // NOLINT
+// The linker puts this in the place of MPI_Alltoall (CMakeLists.txt): to count calls whose messages
+// grow with the ranks.
+extern "C" int __real_MPI_Alltoall(const void*, int, MPI_Datatype, void*, int, MPI_Datatype,
+                                   MPI_Comm); // NOLINT
+extern "C" int __wrap_MPI_Alltoall(const void* out, int n_out, MPI_Datatype out_type, void* in,
+                                   int n_in, MPI_Datatype in_type, MPI_Comm comm) { // NOLINT
     ++n_any_to_any;
     return __real_MPI_Alltoall(out, n_out, out_type, in, n_in, in_type, comm);
 }
 
 namespace {
 
-constexpr double simulated_flops = 1e9; ///< of every host in the platform file: a nanosecond is an operation
+constexpr double simulated_flops =
+    1e9; ///< of every host in the platform file: a nanosecond is an operation
 
 /// What one rank has sent and computed while steps counted.
 struct Tally {
     Traffic traffic;
-    double own_seconds = 0, seconds = 0; ///< computing for own discs; all of it, communication included
-    std::uint64_t network_messages = 0; ///< of all ranks, those inside collective operations included
-    std::uint64_t any_to_any = 0;       ///< calls of all ranks
+    double own_seconds = 0,
+           seconds = 0; ///< computing for own discs; all of it, communication included
+    std::uint64_t network_messages =
+        0;                        ///< of all ranks, those inside collective operations included
+    std::uint64_t any_to_any = 0; ///< calls of all ranks
     std::int64_t steps = 0;
     std::string hash;
 };
@@ -70,17 +79,22 @@ struct Job {
 };
 
 Traffic difference(const Traffic& after, const Traffic& before) {
-    return {after.messages - before.messages, after.bytes - before.bytes, after.collectives - before.collectives};
+    return {after.messages - before.messages, after.bytes - before.bytes,
+            after.collectives - before.collectives};
 }
 
 void compute_for(double nanoseconds) { smpi_execute_flops(nanoseconds * 1e-9 * simulated_flops); }
 
-/// The scene's discs that begin in this rank's strip. They get there through memory, not the network: a million flows at once of 1024
-/// ranks would take the simulation hours, and a run's start is not what is studied. **Collective.**
-std::vector<InputDisc> discs_of_strip(Job& job, int rank, const Scene& scene, const Communicator& world) {
+/// The scene's discs that begin in this rank's strip. They get there through memory, not the
+/// network: a million flows at once of 1024 ranks would take the simulation hours, and a run's
+/// start is not what is studied. **Collective.**
+std::vector<InputDisc> discs_of_strip(Job& job, int rank, const Scene& scene,
+                                      const Communicator& world) {
     const auto n_ranks = static_cast<double>(job.dealt.size());
     for (const InputDisc& disc : initial_state(scene, nullptr, world))
-        job.dealt[static_cast<std::size_t>(std::clamp(disc.x / scene.box_size * n_ranks, 0.0, n_ranks - 1))].push_back(disc);
+        job.dealt[static_cast<std::size_t>(
+                      std::clamp(disc.x / scene.box_size * n_ranks, 0.0, n_ranks - 1))]
+            .push_back(disc);
     world.barrier();
     return std::move(job.dealt[static_cast<std::size_t>(rank)]);
 }
@@ -97,13 +111,16 @@ void step(Job& job, int rank) {
     Tally& tally = job.tallies[static_cast<std::size_t>(rank)];
     const double start = MPI_Wtime();
     const Traffic at_start = world.traffic();
-    const std::uint64_t messages_at_start = job.network_messages, any_to_any_at_start = n_any_to_any;
+    const std::uint64_t messages_at_start = job.network_messages,
+                        any_to_any_at_start = n_any_to_any;
     while (simulation.step() < last) {
         const std::int64_t micro_steps = simulation.micro_steps_done();
         const std::uint64_t bytes = world.traffic().bytes;
         simulation.advance_towards(last);
-        const double own = job.ns_own * static_cast<double>(simulation.discs().size()) * static_cast<double>(simulation.micro_steps_done() - micro_steps);
-        compute_for(own + job.ns_halo * static_cast<double>(world.traffic().bytes - bytes) / sizeof(Disc));
+        const double own = job.ns_own * static_cast<double>(simulation.discs().size()) *
+                           static_cast<double>(simulation.micro_steps_done() - micro_steps);
+        compute_for(own + job.ns_halo * static_cast<double>(world.traffic().bytes - bytes) /
+                              sizeof(Disc));
         tally.own_seconds += own * 1e-9;
     }
     tally.traffic = difference(world.traffic(), at_start);
@@ -135,15 +152,18 @@ void print_row(const Job& job, std::uint64_t n_discs) {
         most_messages = std::max(most_messages, static_cast<double>(tally.traffic.messages));
         most_bytes = std::max(most_bytes, static_cast<double>(tally.traffic.bytes));
     }
-    std::printf("%zu,%llu,%lld,%.4f,%.4f,%.1f,%.1f,%.4f,%.4f,%.4f,%.4g,%.4g,%.4f,%s\n", job.tallies.size(),
-                static_cast<unsigned long long>(n_discs), static_cast<long long>(first.steps), messages / n_ranks / n_steps, most_messages / n_steps,
-                bytes / n_ranks / n_steps, most_bytes / n_steps, static_cast<double>(first.traffic.collectives) / n_steps,
-                static_cast<double>(first.any_to_any) / n_ranks / n_steps, static_cast<double>(first.network_messages) / n_ranks / n_steps,
-                first.seconds / n_steps, own_seconds / n_ranks / n_steps,
-                own_seconds / n_ranks / first.seconds, first.hash.c_str());
+    std::printf(
+        "%zu,%llu,%lld,%.4f,%.4f,%.1f,%.1f,%.4f,%.4f,%.4f,%.4g,%.4g,%.4f,%s\n", job.tallies.size(),
+        static_cast<unsigned long long>(n_discs), static_cast<long long>(first.steps),
+        messages / n_ranks / n_steps, most_messages / n_steps, bytes / n_ranks / n_steps,
+        most_bytes / n_steps, static_cast<double>(first.traffic.collectives) / n_steps,
+        static_cast<double>(first.any_to_any) / n_ranks / n_steps,
+        static_cast<double>(first.network_messages) / n_ranks / n_steps, first.seconds / n_steps,
+        own_seconds / n_ranks / n_steps, own_seconds / n_ranks / first.seconds, first.hash.c_str());
 }
 
-constexpr const char* heading = "ranks,n_discs,steps,messages,most_messages,bytes,most_bytes,collectives,any_to_any,network_messages,"
+constexpr const char* heading = "ranks,n_discs,steps,messages,most_messages,bytes,most_bytes,"
+                                "collectives,any_to_any,network_messages,"
                                 "step_seconds,own_seconds,efficiency,state_hash";
 
 } // namespace
@@ -155,31 +175,42 @@ int main(int argc, char** argv) {
     }
     simgrid::s4u::Engine engine(&argc, argv); // takes its own options out
     if (argc != 9) {
-        std::fprintf(stderr, "simulated_cluster PLATFORM RANKS SCENE STEPS NS_OWN NS_HALO STANDS_FOR WINDOW\n");
+        std::fprintf(
+            stderr,
+            "simulated_cluster PLATFORM RANKS SCENE STEPS NS_OWN NS_HALO STANDS_FOR WINDOW\n");
         return 2;
     }
     const int n_ranks = std::stoi(argv[2]);
     const double stands_for = std::stod(argv[7]);
-    Job job{argv[3], std::stoll(argv[4]), std::stod(argv[5]) * stands_for, std::stod(argv[6]) * stands_for, {}, {}};
+    Job job{argv[3],
+            std::stoll(argv[4]),
+            std::stod(argv[5]) * stands_for,
+            std::stod(argv[6]) * stands_for,
+            {},
+            {}};
     if (const double window = std::stod(argv[8]); window > 0) job.tuning.window = window;
     job.tallies.resize(static_cast<std::size_t>(n_ranks));
     job.dealt.resize(job.tallies.size());
     SMPI_init(); // knows the settings from here on
     simgrid::s4u::Engine::set_config("smpi/simulate-computation:no");
-    simgrid::s4u::Engine::set_config("network/model:CM02"); // latency + bytes / bandwidth, shared by what meets on a link
+    simgrid::s4u::Engine::set_config(
+        "network/model:CM02"); // latency + bytes / bandwidth, shared by what meets on a link
     simgrid::s4u::Engine::set_config("network/TCP-gamma:0");
     simgrid::s4u::Engine::set_config("network/bandwidth-factor:" + std::to_string(1 / stands_for));
     simgrid::s4u::Engine::set_config("smpi/coll-selector:ompi");
     simgrid::s4u::Engine::set_config("smpi/host-speed:1Gf");
-    simgrid::s4u::Engine::set_config("smpi/privatization:no"); // no variable of the program differs between ranks
+    simgrid::s4u::Engine::set_config(
+        "smpi/privatization:no"); // no variable of the program differs between ranks
     engine.load_platform(argv[1]);
     simgrid::s4u::Link::on_communication_state_change_cb(
-        [&job](const simgrid::kernel::resource::NetworkAction&, simgrid::kernel::resource::Action::State before) {
+        [&job](const simgrid::kernel::resource::NetworkAction&,
+               simgrid::kernel::resource::Action::State before) {
             if (before == simgrid::kernel::resource::Action::State::STARTED) ++job.network_messages;
         });
     SMPI_app_instance_register("carrom", nullptr, n_ranks);
     for (int rank = 0; rank < n_ranks; ++rank) {
-        const simgrid::s4u::ActorPtr actor = simgrid::s4u::Actor::init("rank-" + std::to_string(rank), engine.host_by_name("node-" + std::to_string(rank)));
+        const simgrid::s4u::ActorPtr actor = simgrid::s4u::Actor::init(
+            "rank-" + std::to_string(rank), engine.host_by_name("node-" + std::to_string(rank)));
         actor->set_property("instance_id", "carrom");
         actor->set_property("rank", std::to_string(rank));
         actor->start([&job, rank] { live(job, rank); });

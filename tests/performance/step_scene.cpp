@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps a scene from its start to its end and does nothing else: no output, no progress that depends on the clock. So the
-// same scene is the same instructions every time, to count (instructions.py), and this program needs no HDF5.
+// Steps a scene from its start to its end and does nothing else: no output, no progress that
+// depends on the clock. So the same scene is the same instructions every time, to count
+// (instructions.py), and this program needs no HDF5.
 //
 //   step_scene SCENE
 #include <cstdio>
 #include <fstream>
 
 #include "core/errors.hpp"
+#include "initial_state/initial_state.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/mpi.hpp"
 #include "scene/read_scene.hpp"
-#include "initial_state/initial_state.hpp"
 #include "simulation/simulation.hpp"
 
 using namespace carrom;
@@ -18,7 +19,9 @@ using namespace carrom;
 int main(int argc, char** argv) {
     Mpi mpi(argc, argv);
     return run_on_all(Communicator::world(), [&](const Communicator& world) {
-        if (argc != 2) throw InputError({{"step_scene", 0, "needs one argument: a scene that generates its discs"}});
+        if (argc != 2)
+            throw InputError(
+                {{"step_scene", 0, "needs one argument: a scene that generates its discs"}});
         std::ifstream file = open_input(argv[1]); // every rank reads
         const Scene scene = read_scene(read_scene_text(file, argv[1]));
         Simulation simulation(scene, initial_state(scene, nullptr, world), world, Tuning{});

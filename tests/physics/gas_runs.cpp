@@ -15,7 +15,8 @@ TestScene crystal(std::size_t n, double packing, std::uint64_t seed) {
     const auto k = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(n))));
     const double spacing = size / static_cast<double>(k);
     for (std::size_t i = 0; i < n; ++i) {
-        add_disc(scene, (static_cast<double>(i % k) + 0.5) * spacing, (static_cast<double>(i / k) + 0.5) * spacing);
+        add_disc(scene, (static_cast<double>(i % k) + 0.5) * spacing,
+                 (static_cast<double>(i / k) + 0.5) * spacing);
     }
     set_speeds(scene, 2, random);
     return scene;
@@ -37,12 +38,16 @@ void run_until(Simulation& simulation, double n_collisions) {
         const Totals totals = simulation.totals();
         done = static_cast<double>(totals.wall_collisions + totals.pair_collisions);
         const double per_step = std::max(done, 1.0) / static_cast<double>(simulation.step());
-        stride = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min((n_collisions - done) / per_step, 4.0 * static_cast<double>(simulation.step()))));
+        stride = std::max<std::int64_t>(
+            1, static_cast<std::int64_t>(std::min((n_collisions - done) / per_step,
+                                                  4.0 * static_cast<double>(simulation.step()))));
     }
 }
 
-GasProperties measure_gas(std::size_t n, double packing, double n_early, double n_collisions, const Communicator& world) {
-    const TestScene scene = crystal(n, packing, 1000 * n + static_cast<std::uint64_t>(100 * packing));
+GasProperties measure_gas(std::size_t n, double packing, double n_early, double n_collisions,
+                          const Communicator& world) {
+    const TestScene scene = crystal(n, packing,
+                                    1000 * n + static_cast<std::uint64_t>(100 * packing));
     Simulation simulation = event_driven_simulation(scene, world);
     run_until(simulation, n_early);
     simulation.average_anew();
@@ -51,8 +56,11 @@ GasProperties measure_gas(std::size_t n, double packing, double n_early, double 
     const double energy = simulation.totals().kinetic_energy;
     const double area = scene.setting.box_size * scene.setting.box_size;
     const double thermal_speed = std::sqrt(energy / static_cast<double>(n));
-    const auto scaled = [](const Estimate& estimate, double factor) { return Estimate{estimate.value * factor, estimate.error * factor}; };
-    return {scaled(averages.wall_pressure, area / energy), scaled(averages.virial_pressure, area / energy),
+    const auto scaled = [](const Estimate& estimate, double factor) {
+        return Estimate{estimate.value * factor, estimate.error * factor};
+    };
+    return {scaled(averages.wall_pressure, area / energy),
+            scaled(averages.virial_pressure, area / energy),
             scaled(averages.collision_frequency, 2 / thermal_speed), averages.speed_kurtosis};
 }
 
@@ -60,6 +68,8 @@ double deviation(const Estimate& a, const Estimate& b) {
     return std::fabs(a.value - b.value) / std::hypot(a.error, b.error);
 }
 
-double deviation(const Estimate& measured, double known) { return std::fabs(measured.value - known) / measured.error; }
+double deviation(const Estimate& measured, double known) {
+    return std::fabs(measured.value - known) / measured.error;
+}
 
 } // namespace carrom::test

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gases in a walled box in the event-driven method, brought to equilibrium, and what is measured of them.
+// Gases in a walled box in the event-driven method, brought to equilibrium, and what is measured of
+// them.
 #pragma once
 
 #include <cstdint>
 
-#include "simulation/simulation.hpp"
 #include "scene_tools.hpp"
+#include "simulation/simulation.hpp"
 
 namespace carrom::test {
 
-/// n discs of radius 1 on the first places of a square lattice, with speeds of one diameter per step, on rank 0.
+/// n discs of radius 1 on the first places of a square lattice, with speeds of one diameter per
+/// step, on rank 0.
 TestScene crystal(std::size_t n, double packing, std::uint64_t seed);
 
 /// Ready to run in the event-driven method.
 Simulation event_driven_simulation(const TestScene& scene, const Communicator& world);
 
-/// Steps until so many collisions, of pairs and with walls, have happened in all since the start. **Collective.**
+/// Steps until so many collisions, of pairs and with walls, have happened in all since the start.
+/// **Collective.**
 void run_until(Simulation& simulation, double n_collisions);
 
 /// In units of disc diameter and thermal speed sqrt(kT).
@@ -26,13 +29,13 @@ struct GasProperties {
     Estimate kurtosis;
 };
 
-/// Of a gas that has had `n_early` collisions to come to equilibrium, over about `n_collisions` more. **Collective.**
-GasProperties measure_gas(std::size_t n, double packing, double n_early, double n_collisions, const Communicator& world);
+/// Of a gas that has had `n_early` collisions to come to equilibrium, over about `n_collisions`
+/// more. **Collective.**
+GasProperties measure_gas(std::size_t n, double packing, double n_early, double n_collisions,
+                          const Communicator& world);
 
 /// How many standard errors two estimates are apart; `known` has none.
 double deviation(const Estimate& a, const Estimate& b);
 double deviation(const Estimate& measured, double known);
-
-
 
 } // namespace carrom::test

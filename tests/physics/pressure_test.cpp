@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Collision rates and pressures of hard discs between hard walls against exact results and equations of state.
-// Sources and measured figures: docs/validation.md.
+// Collision rates and pressures of hard discs between hard walls against exact results and
+// equations of state. Sources and measured figures: docs/validation.md.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -16,14 +16,16 @@ using namespace carrom::test;
 
 namespace {
 
-/// Mean rates of collisions of two discs in a square box: Zapfe, Sanders, Rodriguez-Mota, arXiv:1908.04749.
+/// Mean rates of collisions of two discs in a square box: Zapfe, Sanders, Rodriguez-Mota,
+/// arXiv:1908.04749.
 struct TwoDiscRates {
     double disc, wall;
 };
 
 TwoDiscRates two_disc_rates(double box_size, double sigma, double total_speed) {
     const double a = box_size - sigma, d = sigma, pi = std::numbers::pi;
-    const double volume = a * a * a * a - pi * a * a * d * d + 8.0 / 3 * a * d * d * d - d * d * d * d / 2;
+    const double volume = a * a * a * a - pi * a * a * d * d + 8.0 / 3 * a * d * d * d -
+                          d * d * d * d / 2;
     const double scale = 2 * total_speed / (3 * pi) / volume;
     return {scale * std::numbers::sqrt2 * (2 * pi * a * a * d - 8 * a * d * d + 2 * d * d * d),
             scale * (8 * a * a * a - 4 * pi * a * d * d + 16.0 / 3 * d * d * d)};
@@ -32,7 +34,8 @@ TwoDiscRates two_disc_rates(double box_size, double sigma, double total_speed) {
 /// Virial series to the tenth coefficient: Clisby and McCoy, J. Stat. Phys. 122, 15 (2006).
 double virial_factor(double eta) {
     double sum = 0;
-    for (const double coefficient : {10.216294, 9.272141, 8.319104, 7.351859, 6.36296, 5.336897, 4.257854, 3.128018, 2.0, 1.0}) {
+    for (const double coefficient : {10.216294, 9.272141, 8.319104, 7.351859, 6.36296, 5.336897,
+                                     4.257854, 3.128018, 2.0, 1.0}) {
         sum = sum * eta + coefficient;
     }
     return sum;
@@ -40,10 +43,13 @@ double virial_factor(double eta) {
 
 /// Liu, arXiv:2010.10624, and Luding, Phys. Rev. E 63, 042201 (2001).
 double liu_factor(double eta) {
-    return (1 + eta * eta / 8 + std::pow(eta, 3) / 18 - 4 * std::pow(eta, 4) / 21) / std::pow(1 - eta, 2);
+    return (1 + eta * eta / 8 + std::pow(eta, 3) / 18 - 4 * std::pow(eta, 4) / 21) /
+           std::pow(1 - eta, 2);
 }
 double luding_factor(double eta) {
-    return 1 + 2 * eta * ((1 - 7 * eta / 16) / std::pow(1 - eta, 2) - std::pow(eta, 3) / 16 / (8 * std::pow(1 - eta, 4)));
+    return 1 + 2 * eta *
+                   ((1 - 7 * eta / 16) / std::pow(1 - eta, 2) -
+                    std::pow(eta, 3) / 16 / (8 * std::pow(1 - eta, 4)));
 }
 
 struct KnownFactor {
@@ -51,7 +57,8 @@ struct KnownFactor {
 };
 KnownFactor known_factor(double eta) {
     if (eta < 0.35) return {virial_factor(eta), 3e-4};
-    return {(liu_factor(eta) + luding_factor(eta)) / 2, std::fabs(liu_factor(eta) - luding_factor(eta))};
+    return {(liu_factor(eta) + luding_factor(eta)) / 2,
+            std::fabs(liu_factor(eta) - luding_factor(eta))};
 }
 
 /// The value at 1/sqrt(N) = 0 of the parabola through three sizes, or of the best one through more.
@@ -67,7 +74,8 @@ Estimate extrapolated(const std::vector<double>& sizes, const std::vector<Estima
         }
     }
     const auto determinant = [&m](std::size_t a, std::size_t b, std::size_t c) {
-        return m[0][a] * (m[1][b] * m[2][c] - m[1][c] * m[2][b]) - m[0][b] * (m[1][a] * m[2][c] - m[1][c] * m[2][a]) +
+        return m[0][a] * (m[1][b] * m[2][c] - m[1][c] * m[2][b]) -
+               m[0][b] * (m[1][a] * m[2][c] - m[1][c] * m[2][a]) +
                m[0][c] * (m[1][a] * m[2][b] - m[1][b] * m[2][a]);
     };
     const double all = determinant(0, 1, 2);
@@ -86,50 +94,65 @@ void check_two_discs(double n_collisions) {
         run_until(simulation, n_collisions);
         const Totals after = simulation.totals();
         const Averages averages = simulation.averages();
-        const TwoDiscRates known = two_disc_rates(scene.setting.box_size, 2, std::sqrt(2 * after.kinetic_energy));
+        const TwoDiscRates known = two_disc_rates(scene.setting.box_size, 2,
+                                                  std::sqrt(2 * after.kinetic_energy));
         const Estimate disc = averages.collision_frequency; // of one disc, and so of the pair
-        const double wall_rate = static_cast<double>(after.wall_collisions - before.wall_collisions) / static_cast<double>(averages.steps);
-        const Estimate wall{wall_rate, wall_rate * averages.wall_pressure.error / averages.wall_pressure.value};
-        fmt::print("| {} | {:.6f} | {:.6f} +- {:.6f} | {:.6f} | {:.6f} +- {:.6f} |\n", eta, known.disc, disc.value, disc.error,
-                   known.wall, wall.value, wall.error);
+        const double wall_rate = static_cast<double>(after.wall_collisions -
+                                                     before.wall_collisions) /
+                                 static_cast<double>(averages.steps);
+        const Estimate wall{wall_rate, wall_rate * averages.wall_pressure.error /
+                                           averages.wall_pressure.value};
+        fmt::print("| {} | {:.6f} | {:.6f} +- {:.6f} | {:.6f} | {:.6f} +- {:.6f} |\n", eta,
+                   known.disc, disc.value, disc.error, known.wall, wall.value, wall.error);
         CHECK(deviation(disc, known.disc) < 4);
         CHECK(deviation(wall, known.wall) < 4);
-        CHECK(disc.error < 6 / std::sqrt(n_collisions) * disc.value); // thrice that of as many independent collisions of the pair
+        CHECK(disc.error <
+              6 / std::sqrt(n_collisions) *
+                  disc.value); // thrice that of as many independent collisions of the pair
     }
 }
 
 void check_estimators(std::size_t n, const std::vector<double>& packings, double n_collisions) {
     const Communicator world = Communicator::world();
     for (const double eta : packings) {
-        const GasProperties gas = measure_gas(n, eta, 100 * static_cast<double>(n), n_collisions, world);
-        fmt::print("| {} | {} | {:.5f} +- {:.5f} | {:.5f} +- {:.5f} | {:+.1e} |\n", n, eta, gas.wall_factor.value, gas.wall_factor.error,
-                   gas.virial_factor.value, gas.virial_factor.error, gas.wall_factor.value / gas.virial_factor.value - 1);
+        const GasProperties gas = measure_gas(n, eta, 100 * static_cast<double>(n), n_collisions,
+                                              world);
+        fmt::print("| {} | {} | {:.5f} +- {:.5f} | {:.5f} +- {:.5f} | {:+.1e} |\n", n, eta,
+                   gas.wall_factor.value, gas.wall_factor.error, gas.virial_factor.value,
+                   gas.virial_factor.error, gas.wall_factor.value / gas.virial_factor.value - 1);
         INFO("N = " << n << ", eta = " << eta);
         CHECK(deviation(gas.wall_factor, gas.virial_factor) < 4);
         CHECK(gas.wall_factor.error < 0.02 * gas.wall_factor.value);
     }
 }
 
-void check_bulk(const std::vector<double>& packings, const std::vector<double>& sizes, double n_collisions) {
+void check_bulk(const std::vector<double>& packings, const std::vector<double>& sizes,
+                double n_collisions) {
     const Communicator world = Communicator::world();
     for (const double eta : packings) {
         std::vector<Estimate> factors, frequencies;
         for (const double n : sizes) {
-            const GasProperties gas = measure_gas(static_cast<std::size_t>(n), eta, 100 * n, n_collisions, world);
+            const GasProperties gas = measure_gas(static_cast<std::size_t>(n), eta, 100 * n,
+                                                  n_collisions, world);
             factors.push_back(gas.virial_factor);
             frequencies.push_back(gas.frequency);
-            fmt::print("| {} | {} | {:.5f} +- {:.5f} | | {:.5f} +- {:.5f} | |\n", eta, n, gas.virial_factor.value,
-                       gas.virial_factor.error, gas.frequency.value, gas.frequency.error);
+            fmt::print("| {} | {} | {:.5f} +- {:.5f} | | {:.5f} +- {:.5f} | |\n", eta, n,
+                       gas.virial_factor.value, gas.virial_factor.error, gas.frequency.value,
+                       gas.frequency.error);
         }
-        const Estimate factor = extrapolated(sizes, factors), frequency = extrapolated(sizes, frequencies);
+        const Estimate factor = extrapolated(sizes, factors),
+                       frequency = extrapolated(sizes, frequencies);
         const KnownFactor known = known_factor(eta);
         // Enskog: nu sigma / sqrt(kT/m) = 4 (Z - 1) / sqrt(pi), exact in equilibrium.
-        const double per_factor = 4 / std::sqrt(std::numbers::pi), known_frequency = per_factor * (known.value - 1);
-        fmt::print("| {} | bulk | {:.4f} +- {:.4f} | {:.4f} | {:.4f} +- {:.4f} | {:.4f} |\n", eta, factor.value, factor.error,
-                   known.value, frequency.value, frequency.error, known_frequency);
+        const double per_factor = 4 / std::sqrt(std::numbers::pi),
+                     known_frequency = per_factor * (known.value - 1);
+        fmt::print("| {} | bulk | {:.4f} +- {:.4f} | {:.4f} | {:.4f} +- {:.4f} | {:.4f} |\n", eta,
+                   factor.value, factor.error, known.value, frequency.value, frequency.error,
+                   known_frequency);
         INFO("eta = " << eta);
         CHECK(std::fabs(factor.value - known.value) < 4 * factor.error + known.error);
-        CHECK(std::fabs(frequency.value - known_frequency) < 4 * frequency.error + per_factor * known.error);
+        CHECK(std::fabs(frequency.value - known_frequency) <
+              4 * frequency.error + per_factor * known.error);
         CHECK(factor.error < 0.03 * factor.value);
     }
 }
@@ -144,16 +167,22 @@ TEST_CASE("physics: both estimators of the pressure agree") {
     check_estimators(1000, {0.3}, 1000000);
 }
 
-TEST_CASE("physics: pressure and collision frequency without walls") { check_bulk({0.3}, {64, 256, 1024}, 500000); }
+TEST_CASE("physics: pressure and collision frequency without walls") {
+    check_bulk({0.3}, {64, 256, 1024}, 500000);
+}
 
-TEST_CASE("physics: two discs collide as often as they must, long", "[.long]") { check_two_discs(2e7); }
+TEST_CASE("physics: two discs collide as often as they must, long", "[.long]") {
+    check_two_discs(2e7);
+}
 
 TEST_CASE("physics: both estimators of the pressure agree, long", "[.long]") {
     fmt::print("| N | eta | Z (13c) | Z (19a) | difference |\n|---|---|---|---|---|\n");
-    for (const std::size_t n : {4u, 64u, 1000u}) check_estimators(n, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6}, n == 4 ? 5e6 : 2e7);
+    for (const std::size_t n : {4u, 64u, 1000u})
+        check_estimators(n, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6}, n == 4 ? 5e6 : 2e7);
 }
 
 TEST_CASE("physics: pressure and collision frequency without walls, long", "[.long]") {
-    fmt::print("| eta | N | Z | known | nu sigma / sqrt(kT) | known |\n|---|---|---|---|---|---|\n");
+    fmt::print(
+        "| eta | N | Z | known | nu sigma / sqrt(kT) | known |\n|---|---|---|---|---|---|\n");
     check_bulk({0.1, 0.2, 0.3, 0.4, 0.5, 0.6}, {256, 1024, 4096}, 5e6);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Speeds of hard discs between hard walls: the microcanonical distribution, and how others come to it.
+// Speeds of hard discs between hard walls: the microcanonical distribution, and how others come to
+// it.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -30,8 +31,10 @@ double kolmogorov_distance(std::vector<double> values, double n) {
     std::sort(values.begin(), values.end());
     double largest = 0;
     for (std::size_t k = 0; k < values.size(); ++k) {
-        const double known = 1 - std::pow(1 - values[k], n - 1), count = static_cast<double>(values.size());
-        largest = std::max({largest, known - static_cast<double>(k) / count, static_cast<double>(k + 1) / count - known});
+        const double known = 1 - std::pow(1 - values[k], n - 1),
+                     count = static_cast<double>(values.size());
+        largest = std::max({largest, known - static_cast<double>(k) / count,
+                            static_cast<double>(k + 1) / count - known});
     }
     return largest;
 }
@@ -55,21 +58,25 @@ void check_distribution(std::size_t n, double n_looks) {
             }
         }
     }
-    const double distance = kolmogorov_distance(shares, static_cast<double>(n)) * std::sqrt(n_looks);
+    const double distance = kolmogorov_distance(shares, static_cast<double>(n)) *
+                            std::sqrt(n_looks);
     fmt::print("| {} | {} | {:.3f} |\n", n, n_looks, distance);
     CHECK(shares.size() == static_cast<std::size_t>(n_looks));
     CHECK(distance < 1.95); // passed by one sample in a thousand (Kolmogorov)
 }
 
 void check_kurtosis(std::size_t n, double n_collisions) {
-    const GasProperties gas = measure_gas(n, 0.3, 100 * static_cast<double>(n), n_collisions, Communicator::world());
+    const GasProperties gas = measure_gas(n, 0.3, 100 * static_cast<double>(n), n_collisions,
+                                          Communicator::world());
     const double known = 2 * static_cast<double>(n) / static_cast<double>(n + 1);
-    fmt::print("| {} | {:.4f} +- {:.4f} | {:.4f} |\n", n, gas.kurtosis.value, gas.kurtosis.error, known);
+    fmt::print("| {} | {:.4f} +- {:.4f} | {:.4f} |\n", n, gas.kurtosis.value, gas.kurtosis.error,
+               known);
     CHECK(deviation(gas.kurtosis, known) < 4);
     CHECK(gas.kurtosis.error < 0.1);
 }
 
-/// Velocities with speeds spread evenly between 1 and 2, as the legacy generator has them but for a factor.
+/// Velocities with speeds spread evenly between 1 and 2, as the legacy generator has them but for a
+/// factor.
 std::vector<std::pair<double, double>> legacy_velocities(std::size_t n, Random& random) {
     std::vector<std::pair<double, double>> velocities;
     for (std::size_t i = 0; i < n; ++i) {
@@ -80,9 +87,11 @@ std::vector<std::pair<double, double>> legacy_velocities(std::size_t n, Random& 
     return velocities;
 }
 
-/// The kurtosis after so many collisions per disc, each in `per_disc`, if discs that meet know nothing of each other:
-/// Boltzmann's equation without space, by Bird's direct simulation (partners at random, accepted as they are fast).
-std::vector<double> kurtosis_without_correlations(std::size_t n, const std::vector<double>& per_disc) {
+/// The kurtosis after so many collisions per disc, each in `per_disc`, if discs that meet know
+/// nothing of each other: Boltzmann's equation without space, by Bird's direct simulation (partners
+/// at random, accepted as they are fast).
+std::vector<double> kurtosis_without_correlations(std::size_t n,
+                                                  const std::vector<double>& per_disc) {
     Random random(14);
     std::vector<Disc> discs(n);
     std::size_t i = 0;
@@ -99,7 +108,8 @@ std::vector<double> kurtosis_without_correlations(std::size_t n, const std::vect
             const double wx = q.vx - p.vx, wy = q.vy - p.vy, speed = std::sqrt(wx * wx + wy * wy);
             if (!(random.uniform(0, 12) < speed)) continue; // none is ever as fast as 12
             const double miss = random.uniform(-1, 1), head_on = std::sqrt(1 - miss * miss);
-            const double ex = (wx * head_on - wy * miss) / speed, ey = (wy * head_on + wx * miss) / speed;
+            const double ex = (wx * head_on - wy * miss) / speed,
+                         ey = (wy * head_on + wx * miss) / speed;
             const double along = wx * ex + wy * ey;
             p.vx += along * ex;
             p.vy += along * ey;
@@ -112,7 +122,8 @@ std::vector<double> kurtosis_without_correlations(std::size_t n, const std::vect
     return kurtoses;
 }
 
-/// From the course program's speeds, of kurtosis 1.1388, to equilibrium as Boltzmann's equation says.
+/// From the course program's speeds, of kurtosis 1.1388, to equilibrium as Boltzmann's equation
+/// says.
 void check_relaxation(std::size_t n, double packing) {
     TestScene scene = crystal(n, packing, 12);
     Random random(13);
@@ -122,15 +133,19 @@ void check_relaxation(std::size_t n, double packing) {
         scene.discs[i++].vy = 0.1 * vy;
     }
     Simulation simulation = event_driven_simulation(scene, Communicator::world());
-    const double discs = static_cast<double>(n), final = 2 * discs / (discs + 1), noise = 2 / std::sqrt(discs);
+    const double discs = static_cast<double>(n), final = 2 * discs / (discs + 1),
+                 noise = 2 / std::sqrt(discs);
     const double start = kurtosis_of(simulation.discs());
     CHECK(std::fabs(start - 31.0 / 5 / (49.0 / 9)) < 4 / std::sqrt(discs));
-    fmt::print("| collisions per disc | kurtosis | Boltzmann's |\n|---|---|---|\n| 0 | {:.4f} | {:.4f} |\n", start, 279.0 / 245);
+    fmt::print("| collisions per disc | kurtosis | Boltzmann's |\n|---|---|---|\n| 0 | {:.4f} | "
+               "{:.4f} |\n",
+               start, 279.0 / 245);
     const std::vector<double> numbers = {1, 2, 4, 6, 10, 25};
     const std::vector<double> known = kurtosis_without_correlations(4 * n, numbers);
     double last = 0;
     for (std::size_t k = 0; k < numbers.size(); ++k) {
-        while (2 * static_cast<double>(simulation.totals().pair_collisions) < numbers[k] * discs) simulation.advance_towards(simulation.step() + 1);
+        while (2 * static_cast<double>(simulation.totals().pair_collisions) < numbers[k] * discs)
+            simulation.advance_towards(simulation.step() + 1);
         last = kurtosis_of(simulation.discs());
         fmt::print("| {} | {:.4f} | {:.4f} |\n", numbers[k], last, known[k]);
         CHECK(std::fabs(last - known[k]) < 4 * 1.2 * noise); // both have some
@@ -145,7 +160,9 @@ TEST_CASE("physics: speeds have the microcanonical distribution") { check_distri
 TEST_CASE("physics: the kurtosis of speeds is that of finitely many discs") {
     for (const std::size_t n : {4u, 64u}) check_kurtosis(n, 100000);
 }
-TEST_CASE("physics: the course program's speeds relax to Maxwell's") { check_relaxation(10000, 0.1); }
+TEST_CASE("physics: the course program's speeds relax to Maxwell's") {
+    check_relaxation(10000, 0.1);
+}
 
 TEST_CASE("physics: speeds have the microcanonical distribution, long", "[.long]") {
     for (const std::size_t n : {4u, 64u}) check_distribution(n, 20000);
@@ -153,4 +170,6 @@ TEST_CASE("physics: speeds have the microcanonical distribution, long", "[.long]
 TEST_CASE("physics: the kurtosis of speeds is that of finitely many discs, long", "[.long]") {
     for (const std::size_t n : {4u, 16u, 64u, 1000u}) check_kurtosis(n, 5e6);
 }
-TEST_CASE("physics: the course program's speeds relax to Maxwell's, long", "[.long]") { check_relaxation(100000, 0.02); }
+TEST_CASE("physics: the course program's speeds relax to Maxwell's, long", "[.long]") {
+    check_relaxation(100000, 0.02);
+}

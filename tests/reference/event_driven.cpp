@@ -10,16 +10,19 @@
 
 namespace carrom::reference {
 
-EventDrivenReference::EventDrivenReference(const Setting& setting, std::span<const InputDisc> discs, std::size_t most_events)
-    : setting_(setting), species_(std::make_shared<FixedBodies>(setting)), discs_(stored_states(setting, discs)),
-      spins_(stored_spins(setting, discs.size())), history_of_(discs.size()), most_events_(most_events) {
+EventDrivenReference::EventDrivenReference(const Setting& setting, std::span<const InputDisc> discs,
+                                           std::size_t most_events)
+    : setting_(setting), species_(std::make_shared<FixedBodies>(setting)),
+      discs_(stored_states(setting, discs)), spins_(stored_spins(setting, discs.size())),
+      history_of_(discs.size()), most_events_(most_events) {
     predict_all();
 }
 
 void EventDrivenReference::run_micro_steps(std::int64_t count) {
     const std::int64_t last = micro_step_ + count;
     while (micro_step_ < last) {
-        const std::int64_t next_sync = (micro_step_ / setting_.sync_every + 1) * setting_.sync_every;
+        const std::int64_t next_sync = (micro_step_ / setting_.sync_every + 1) *
+                                       setting_.sync_every;
         const std::int64_t until = std::min(last, next_sync);
         run_until(setting_.clock_at(until - (next_sync - setting_.sync_every)));
         micro_step_ = until;
@@ -40,7 +43,9 @@ void EventDrivenReference::run_micro_steps(std::int64_t count) {
 }
 
 bool EventDrivenReference::comes_later(const Prediction& a, const Prediction& b) {
-    const auto key = [](const Event& e) { return std::make_tuple(e.time, e.generation, e.p, e.is_pair, !e.is_obstacle, e.q); };
+    const auto key = [](const Event& e) {
+        return std::make_tuple(e.time, e.generation, e.p, e.is_pair, !e.is_obstacle, e.q);
+    };
     return key(a.event) > key(b.event);
 }
 
@@ -69,7 +74,8 @@ void EventDrivenReference::predict_all() {
 void EventDrivenReference::predict_walls(DiscId p) {
     const Disc& disc = discs_[p];
     if (has_left(disc)) return;
-    for (const DiscId axis : {Event::wall_x, Event::wall_y}) push({meeting(disc, axis).time, 0, p, false, axis, 0});
+    for (const DiscId axis : {Event::wall_x, Event::wall_y})
+        push({meeting(disc, axis).time, 0, p, false, axis, 0});
     predict_obstacle(p);
 }
 
@@ -77,8 +83,9 @@ void EventDrivenReference::predict_obstacle(DiscId p) {
     if (species_->are_none()) return;
     const EventHistory& past_events = history_of_[p];
     const bool has_just_left = past_events.time == discs_[p].tau;
-    const BodyMeeting first = species_->first_meeting(discs_[p], discs_[p].tau, setting_.clock_at(setting_.sync_every),
-                                                      {0, has_just_left ? past_events.body : FixedBodies::none, past_events.copy});
+    const BodyMeeting first = species_->first_meeting(
+        discs_[p], discs_[p].tau, setting_.clock_at(setting_.sync_every),
+        {0, has_just_left ? past_events.body : FixedBodies::none, past_events.copy});
     if (first.body == FixedBodies::none) return;
     Event event{first.time, 0, p, false, first.body, 0};
     event.is_obstacle = true;
@@ -86,16 +93,21 @@ void EventDrivenReference::predict_obstacle(DiscId p) {
     push(event);
 }
 
-/// Where the low or the high wall of an axis is for a disc's centre, and how fast, in the frame that falls since the sync.
-EventDrivenReference::Wall EventDrivenReference::wall_at(DiscId disc, DiscId axis, bool is_high, double time) const {
+/// Where the low or the high wall of an axis is for a disc's centre, and how fast, in the frame
+/// that falls since the sync.
+EventDrivenReference::Wall EventDrivenReference::wall_at(DiscId disc, DiscId axis, bool is_high,
+                                                         double time) const {
     const double k = static_cast<double>(setting_.micro_steps), g = gravity(axis);
     const double speed = setting_.effects.boundaries[2 * axis + (is_high ? 1 : 0)].speed / k;
-    const bool is_open = setting_.effects.boundaries[2 * axis + (is_high ? 1 : 0)].kind == BoundaryKind::open;
+    const bool is_open = setting_.effects.boundaries[2 * axis + (is_high ? 1 : 0)].kind ==
+                         BoundaryKind::open;
     const double from_line = is_open ? -setting_.radius_of(disc) : setting_.radius_of(disc);
     const double start = is_high ? setting_.box_size - from_line : from_line;
-    const double at_sync = start + speed * static_cast<double>(micro_step_ / setting_.sync_every * setting_.sync_every);
+    const double at_sync = start + speed * static_cast<double>(micro_step_ / setting_.sync_every *
+                                                               setting_.sync_every);
     const double pull = g - setting_.effects.drag / k * speed;
-    return {(at_sync + speed * time) - fallen(pull, time), speed - pull * (setting_.drag_clock ? time / setting_.slowing_at(time) : time)};
+    return {(at_sync + speed * time) - fallen(pull, time),
+            speed - pull * (setting_.drag_clock ? time / setting_.slowing_at(time) : time)};
 }
 
 double EventDrivenReference::fallen(double pull, double time) const {
@@ -105,21 +117,27 @@ double EventDrivenReference::fallen(double pull, double time) const {
 
 double EventDrivenReference::gravity(DiscId axis) const {
     const double k = static_cast<double>(setting_.micro_steps);
-    return (axis == Event::wall_x ? setting_.effects.gravity.x : setting_.effects.gravity.y) / (k * k);
+    return (axis == Event::wall_x ? setting_.effects.gravity.x : setting_.effects.gravity.y) /
+           (k * k);
 }
 
 /// The first time at which the disc is at one of the two walls, or beyond, and comes nearer.
 EventDrivenReference::Meeting EventDrivenReference::meeting(const Disc& disc, DiscId axis) const {
     constexpr double never = std::numeric_limits<double>::infinity();
     Meeting first{never, false};
-    if (axis == Event::wall_x ? setting_.effects.is_periodic_x() : setting_.effects.is_periodic_y()) return first;
+    if (axis == Event::wall_x ? setting_.effects.is_periodic_x() : setting_.effects.is_periodic_y())
+        return first;
     for (const bool is_high : {false, true}) {
         const Wall wall = wall_at(disc.id, axis, is_high, disc.tau);
-        const double x = axis == Event::wall_x ? disc.x : disc.y, v = axis == Event::wall_x ? disc.vx : disc.vy;
+        const double x = axis == Event::wall_x ? disc.x : disc.y,
+                     v = axis == Event::wall_x ? disc.vx : disc.vy;
         const double gap = is_high ? wall.place - x : x - wall.place;
         const double rate = is_high ? wall.speed - v : v - wall.speed;
-        const double moving = setting_.effects.boundaries[2 * axis + (is_high ? 1 : 0)].speed / static_cast<double>(setting_.micro_steps);
-        const double at_wall = gravity(axis) - setting_.effects.drag / static_cast<double>(setting_.micro_steps) * moving;
+        const double moving = setting_.effects.boundaries[2 * axis + (is_high ? 1 : 0)].speed /
+                              static_cast<double>(setting_.micro_steps);
+        const double at_wall = gravity(axis) - setting_.effects.drag /
+                                                   static_cast<double>(setting_.micro_steps) *
+                                                   moving;
         const double pull = is_high ? -at_wall : at_wall;
         double delay = never;
         if (setting_.drag_clock && pull != 0) {
@@ -141,23 +159,31 @@ EventDrivenReference::Meeting EventDrivenReference::meeting(const Disc& disc, Di
     return first;
 }
 
-/// Turns the velocity round at the wall that it has come to; `disc` is there, and was `is_touched` a short time ago.
-void EventDrivenReference::rebound(Disc& disc, DiscId axis, bool is_high, double time, bool is_touched) const {
+/// Turns the velocity round at the wall that it has come to; `disc` is there, and was `is_touched`
+/// a short time ago.
+void EventDrivenReference::rebound(Disc& disc, DiscId axis, bool is_high, double time,
+                                   bool is_touched) const {
     double& v = axis == Event::wall_x ? disc.vx : disc.vy;
     const Wall wall = wall_at(disc.id, axis, is_high, time);
-    const double restitution = is_touched ? 1 : setting_.effects.boundaries[2 * axis + (is_high ? 1 : 0)].restitution;
+    const double restitution =
+        is_touched ? 1 : setting_.effects.boundaries[2 * axis + (is_high ? 1 : 0)].restitution;
     double away = restitution * std::fabs(v - wall.speed);
     const std::size_t number = 2 * axis + (is_high ? 1 : 0);
     if (setting_.effects.boundaries[number].kind == BoundaryKind::thermal) {
         const auto [fast, sideways] = setting_.leaving(disc, number);
         const double left = setting_.slowing_at(time);
         away = fast / left;
-        (axis == Event::wall_x ? disc.vy : disc.vx) = sideways / left - gravity(1 - axis) * (setting_.drag_clock ? time / left : time);
+        (axis == Event::wall_x ? disc.vy : disc.vx) =
+            sideways / left - gravity(1 - axis) * (setting_.drag_clock ? time / left : time);
     }
-    const double moving = setting_.effects.boundaries[number].speed / static_cast<double>(setting_.micro_steps);
-    const double at_wall = gravity(axis) - setting_.effects.drag / static_cast<double>(setting_.micro_steps) * moving;
+    const double moving = setting_.effects.boundaries[number].speed /
+                          static_cast<double>(setting_.micro_steps);
+    const double at_wall = gravity(axis) - setting_.effects.drag /
+                                               static_cast<double>(setting_.micro_steps) * moving;
     const double pull_back = is_high ? at_wall : -at_wall;
-    if (pull_back > 0) away = std::max(away, 0.5 * pull_back * setting_.contact_time() / setting_.slowing_at(time));
+    if (pull_back > 0)
+        away = std::max(away,
+                        0.5 * pull_back * setting_.contact_time() / setting_.slowing_at(time));
     v = is_high ? wall.speed - away : wall.speed + away;
 }
 
@@ -175,14 +201,19 @@ void EventDrivenReference::predict_pair(DiscId p, DiscId q) {
     if (!setting_.discs_meet() || has_left(discs_[p]) || has_left(discs_[q])) return;
     if (p > q) std::swap(p, q);
     const auto look = [&](Copy copy) {
-        const Contact found = contact(discs_[p], discs_[q], setting_.radius_of(p) + setting_.radius_of(q), std::numeric_limits<double>::infinity(), copy, setting_.box_size);
+        const Contact found = contact(
+            discs_[p], discs_[q], setting_.radius_of(p) + setting_.radius_of(q),
+            std::numeric_limits<double>::infinity(), copy, setting_.box_size);
         if (found.delay < 0) return;
         const double time = found.base + found.delay;
-        if (history_of_[p].partner == q && history_of_[q].partner == p && time == history_of_[p].time) return;
+        if (history_of_[p].partner == q && history_of_[q].partner == p &&
+            time == history_of_[p].time)
+            return;
         push({time, 0, p, true, q, 0, false, copy});
     };
     if (!setting_.effects.are_periodic()) return look({});
-    const double begin = std::max(discs_[p].tau, discs_[q].tau), end = static_cast<double>(setting_.sync_every);
+    const double begin = std::max(discs_[p].tau, discs_[q].tau),
+                 end = static_cast<double>(setting_.sync_every);
     for (const Copy copy : copies_near(setting_, discs_[p], discs_[q], begin, end)) look(copy);
 }
 
@@ -190,11 +221,13 @@ void EventDrivenReference::predict_pair(DiscId p, DiscId q) {
 void EventDrivenReference::push(Event event) {
     if (!(event.time <= static_cast<double>(setting_.sync_every))) return;
     const auto raise = [&event, this](DiscId id) {
-        if (history_of_[id].time == event.time) event.generation = std::max(event.generation, history_of_[id].generation + 1);
+        if (history_of_[id].time == event.time)
+            event.generation = std::max(event.generation, history_of_[id].generation + 1);
     };
     raise(event.p);
     if (event.is_pair) raise(event.q);
-    heap_.push_back({event, history_of_[event.p].version, event.is_pair ? history_of_[event.q].version : 0});
+    heap_.push_back(
+        {event, history_of_[event.p].version, event.is_pair ? history_of_[event.q].version : 0});
     std::push_heap(heap_.begin(), heap_.end(), comes_later);
     if (heap_.size() > most_predictions_) forget_invalid();
 }
@@ -213,9 +246,11 @@ bool EventDrivenReference::is_valid(const Prediction& prediction) const {
 }
 
 void EventDrivenReference::happen(const Event& event) {
-    if (log_.size() >= most_events_) throw std::runtime_error("more collisions than a test should have");
+    if (log_.size() >= most_events_)
+        throw std::runtime_error("more collisions than a test should have");
     const Disc& first = discs_[event.p];
-    const bool is_corner = !event.is_pair && !event.is_obstacle && event.q == Event::wall_x && meeting(first, Event::wall_y).time == event.time;
+    const bool is_corner = !event.is_pair && !event.is_obstacle && event.q == Event::wall_x &&
+                           meeting(first, Event::wall_y).time == event.time;
     const double vy_before = first.vy;
     carry_out(event);
     if (is_corner && !has_left(first) && first.vy == vy_before) {
@@ -234,15 +269,21 @@ void EventDrivenReference::happen(const Event& event) {
 
 void EventDrivenReference::carry_out(const Event& event) {
     Disc& p = discs_[event.p];
-    const auto is_recent = [&](const Disc& disc) { return event.time - disc.tau < setting_.contact_time(); };
+    const auto is_recent = [&](const Disc& disc) {
+        return event.time - disc.tau < setting_.contact_time();
+    };
     const bool is_touched = is_recent(p) || (event.is_pair && is_recent(discs_[event.q]));
     const bool is_high = !event.is_pair && !event.is_obstacle && meeting(p, event.q).is_high;
     advance(p, event.time);
     if (event.is_pair) {
         Disc& q = discs_[event.q];
         advance(q, event.time);
-        if (setting_.are_rough()) collide_rough(setting_, p, q, spins_[event.p], spins_[event.q], is_touched, event.copy, setting_.box_size);
-        else exchange_momentum(setting_, p, q, is_touched ? 1 : setting_.restitution(), event.copy, setting_.box_size);
+        if (setting_.are_rough())
+            collide_rough(setting_, p, q, spins_[event.p], spins_[event.q], is_touched, event.copy,
+                          setting_.box_size);
+        else
+            exchange_momentum(setting_, p, q, is_touched ? 1 : setting_.restitution(), event.copy,
+                              setting_.box_size);
         p.pair_collisions += 1;
         q.pair_collisions += 1;
         pair_collisions_ += 1;
@@ -250,11 +291,13 @@ void EventDrivenReference::carry_out(const Event& event) {
     } else {
         if (event.is_obstacle) {
             species_->reflect(p, {event.time, event.q, event.copy}, event.time, is_touched);
-        } else if (setting_.effects.boundaries[2 * event.q + (is_high ? 1 : 0)].kind == BoundaryKind::open) {
+        } else if (setting_.effects.boundaries[2 * event.q + (is_high ? 1 : 0)].kind ==
+                   BoundaryKind::open) {
             restart_frame(p, event.time);
             set_left(setting_, p, 2 * event.q + (is_high ? 1 : 0));
             if (setting_.are_rough()) spins_[event.p] = 0;
-        } else rebound(p, event.q, is_high, event.time, is_touched);
+        } else
+            rebound(p, event.q, is_high, event.time, is_touched);
         p.wall_collisions += 1;
         wall_collisions_ += 1;
     }

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The event-driven method said plainly (docs/method.md, section 3, second half): every collision at its time, one after another.
+// The event-driven method said plainly (docs/method.md, section 3, second half): every collision at
+// its time, one after another.
 //
-// One heap, brute-force prediction: after each collision its discs are predicted anew against all others. The order is
-// time, generation, id of P, wall before pair, id of Q, x before y. Price: N predicates per collision and N^2/2 a sync.
+// One heap, brute-force prediction: after each collision its discs are predicted anew against all
+// others. The order is time, generation, id of P, wall before pair, id of Q, x before y. Price: N
+// predicates per collision and N^2/2 a sync.
 //
-// Four readings where the page is silent. The two sides of a corner that are met at one time follow each other with
-// nothing between them, so that x and y are alike. A pair that has just collided cannot collide again at the same time until
-// one of the two has met something else: in a touching cluster rounding can leave b = -1e-18, which the impulse is too
-// small to mend, and the pair would collide for ever. (Later it may: that needs no memory beyond the stored states.) A sync forgets generations and partners, for they are no part of the stored state.
-// And more than `most_events` collisions throw std::runtime_error: a disc that fills its box has them without end.
+// Four readings where the page is silent. The two sides of a corner that are met at one time follow
+// each other with nothing between them, so that x and y are alike. A pair that has just collided
+// cannot collide again at the same time until one of the two has met something else: in a touching
+// cluster rounding can leave b = -1e-18, which the impulse is too small to mend, and the pair would
+// collide for ever. (Later it may: that needs no memory beyond the stored states.) A sync forgets
+// generations and partners, for they are no part of the stored state. And more than `most_events`
+// collisions throw std::runtime_error: a disc that fills its box has them without end.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +26,8 @@
 
 namespace carrom::reference {
 
-/// One collision that happened. `time` counts from sync number `sync`; for walls, `q` is wall_x or wall_y, for obstacles the body.
+/// One collision that happened. `time` counts from sync number `sync`; for walls, `q` is wall_x or
+/// wall_y, for obstacles the body.
 struct Event {
     static constexpr DiscId wall_x = 0, wall_y = 1;
 
@@ -33,14 +38,15 @@ struct Event {
     DiscId q = wall_x;
     std::int64_t sync = 0;
     bool is_obstacle = false; ///< comes before walls
-    Copy copy{}; ///< which image of q it is, be that a disc or an obstacle
+    Copy copy{};              ///< which image of q it is, be that a disc or an obstacle
 
     friend bool operator==(const Event&, const Event&) = default;
 };
 
 class EventDrivenReference {
 public:
-    EventDrivenReference(const Setting& setting, std::span<const InputDisc> discs, std::size_t most_events = 1000000);
+    EventDrivenReference(const Setting& setting, std::span<const InputDisc> discs,
+                         std::size_t most_events = 1000000);
 
     void run_micro_steps(std::int64_t count);
     void run_steps(std::int64_t count) { run_micro_steps(count * setting_.micro_steps); }

@@ -18,7 +18,8 @@ FixedBodies::FixedBodies(const Setting& setting) : setting_(setting) {
     const double k = static_cast<double>(setting.micro_steps);
     gx_ = setting.effects.gravity.x / (k * k);
     gy_ = setting.effects.gravity.y / (k * k);
-    for (const FixedDisc& disc : setting.effects.obstacles.discs) species_.push_back({disc.x, disc.y, disc.radius});
+    for (const FixedDisc& disc : setting.effects.obstacles.discs)
+        species_.push_back({disc.x, disc.y, disc.radius});
     for (const Segment& s : setting.effects.obstacles.segments) {
         const double x = s.x1 - s.x0, y = s.y1 - s.y0, length = std::sqrt(x * x + y * y);
         species_.push_back({s.x0, s.y0, 0, x / length, y / length, length});
@@ -33,24 +34,29 @@ std::vector<Copy> FixedBodies::copies(const Disc& disc, const Body& body, double
     const auto range = [&](bool is_periodic, double from, double to) {
         if (!is_periodic) return std::pair(0, 0);
         const double away = 1.5 * (body.radius + setting_.radius) + body.length;
-        return std::pair(static_cast<int>(std::floor((std::min(from, to) - away) / length)) - 1, static_cast<int>(std::ceil((std::max(from, to) + away) / length)));
+        return std::pair(static_cast<int>(std::floor((std::min(from, to) - away) / length)) - 1,
+                         static_cast<int>(std::ceil((std::max(from, to) + away) / length)));
     };
     const double time = until - disc.tau;
-    const auto [x_low, x_high] = range(setting_.effects.is_periodic_x(), disc.x, disc.x + disc.vx * time);
-    const auto [y_low, y_high] = range(setting_.effects.is_periodic_y(), disc.y, disc.y + disc.vy * time);
+    const auto [x_low, x_high] = range(setting_.effects.is_periodic_x(), disc.x,
+                                       disc.x + disc.vx * time);
+    const auto [y_low, y_high] = range(setting_.effects.is_periodic_y(), disc.y,
+                                       disc.y + disc.vy * time);
     std::vector<Copy> all;
     for (int x = x_low; x <= x_high; ++x)
         for (int y = y_low; y <= y_high; ++y) all.push_back({x, y});
     return all;
 }
 
-/// Where the disc would be in the box at its own time, and how fast; then the distance from there on.
+/// Where the disc would be in the box at its own time, and how fast; then the distance from there
+/// on.
 double FixedBodies::meeting_time(const Disc& disc, const Body& body, Copy copy) const {
     const double length = setting_.box_size, reach = body.radius + setting_.radius_of(disc.id);
     const double x = ((disc.x + (0.5 * gx_ * disc.tau) * disc.tau) - body.x) - copy.x * length;
     const double y = ((disc.y + (0.5 * gy_ * disc.tau) * disc.tau) - body.y) - copy.y * length;
     const double vx = disc.vx + gx_ * disc.tau, vy = disc.vy + gy_ * disc.tau;
-    if (body.length == 0 && (gx_ != 0 || gy_ != 0)) return disc.tau + setting_.falling_contact(x, y, vx, vy, gx_, gy_, reach);
+    if (body.length == 0 && (gx_ != 0 || gy_ != 0))
+        return disc.tau + setting_.falling_contact(x, y, vx, vy, gx_, gy_, reach);
     if (body.length == 0) {
         Disc fixed;
         fixed.x = body.x;
@@ -60,11 +66,14 @@ double FixedBodies::meeting_time(const Disc& disc, const Body& body, Copy copy) 
         return found.delay < 0 ? never : found.base + found.delay;
     }
     // Off the line to its left, along it, and what changes both.
-    const double off = body.ux * y - body.uy * x, off_rate = body.ux * vy - body.uy * vx, off_pull = body.ux * gy_ - body.uy * gx_;
-    const double along = body.ux * x + body.uy * y, along_rate = body.ux * vx + body.uy * vy, along_pull = body.ux * gx_ + body.uy * gy_;
+    const double off = body.ux * y - body.uy * x, off_rate = body.ux * vy - body.uy * vx,
+                 off_pull = body.ux * gy_ - body.uy * gx_;
+    const double along = body.ux * x + body.uy * y, along_rate = body.ux * vx + body.uy * vy,
+                 along_pull = body.ux * gx_ + body.uy * gy_;
     double first = never;
     for (const bool is_left : {true, false}) {
-        const double gap = (is_left ? off : -off) - reach, rate = is_left ? off_rate : -off_rate, pull = is_left ? off_pull : -off_pull;
+        const double gap = (is_left ? off : -off) - reach, rate = is_left ? off_rate : -off_rate,
+                     pull = is_left ? off_pull : -off_pull;
         const bool is_here = is_left ? off >= 0 : off <= 0;
         const double square = rate * rate - 2 * pull * gap;
         double s = never;
@@ -84,7 +93,8 @@ double FixedBodies::meeting_time(const Disc& disc, const Body& body, Copy copy) 
     return disc.tau + first;
 }
 
-BodyMeeting FixedBodies::first_meeting(const Disc& disc, double from, double until, const BodyMeeting& left) const {
+BodyMeeting FixedBodies::first_meeting(const Disc& disc, double from, double until,
+                                       const BodyMeeting& left) const {
     BodyMeeting first{never, none};
     for (std::size_t k = 0; k < species_.size(); ++k) {
         for (const Copy copy : copies(disc, species_[k], until)) {
@@ -103,12 +113,14 @@ void FixedBodies::reflect(Disc& disc, const BodyMeeting& at, double time, bool i
     const double y = ((disc.y + (0.5 * gy_ * time) * time) - body.y) - at.copy.y * length;
     const bool is_line = body.length > 0, is_left = body.ux * y - body.uy * x >= 0;
     const double distance = std::sqrt(x * x + y * y);
-    const double nx = is_line ? (is_left ? -body.uy : body.uy) : x / distance, ny = is_line ? (is_left ? body.ux : -body.ux) : y / distance;
+    const double nx = is_line ? (is_left ? -body.uy : body.uy) : x / distance,
+                 ny = is_line ? (is_left ? body.ux : -body.ux) : y / distance;
     const double normal = nx * (disc.vx + gx_ * time) + ny * (disc.vy + gy_ * time);
     const double restitution = is_touched ? 1 : setting_.effects.obstacles.restitution;
     double away = restitution * std::fabs(normal);
     const double pull_back = -(nx * gx_ + ny * gy_);
-    if (pull_back > 0 && away < 0.5 * pull_back * setting_.contact_time()) away = 0.5 * pull_back * setting_.contact_time();
+    if (pull_back > 0 && away < 0.5 * pull_back * setting_.contact_time())
+        away = 0.5 * pull_back * setting_.contact_time();
     disc.vx += (away - normal) * nx;
     disc.vy += (away - normal) * ny;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Obstacles said plainly: bodies one by one, their formulas written a second time, from docs/method.md.
+// Obstacles said plainly: bodies one by one, their formulas written a second time, from
+// docs/method.md.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,8 @@
 
 namespace carrom::reference {
 
-/// A fixed disc, or the line of a segment from (x, y) in the direction (ux, uy); its ends are fixed discs of radius 0.
+/// A fixed disc, or the line of a segment from (x, y) in the direction (ux, uy); its ends are fixed
+/// discs of radius 0.
 struct Body {
     double x = 0, y = 0, radius = 0;
     double ux = 0, uy = 0, length = 0;
@@ -26,9 +28,10 @@ public:
     explicit FixedBodies(const Setting& setting);
 
     bool are_none() const { return species_.empty(); }
-    /// The first meeting from `from` on, that with `left` at the disc's own time left out. Infinite if there is none. Images of bodies are
-    /// looked at as far as the disc gets until `until`.
-    BodyMeeting first_meeting(const Disc& disc, double from, double until, const BodyMeeting& left) const;
+    /// The first meeting from `from` on, that with `left` at the disc's own time left out. Infinite
+    /// if there is none. Images of bodies are looked at as far as the disc gets until `until`.
+    BodyMeeting first_meeting(const Disc& disc, double from, double until,
+                              const BodyMeeting& left) const;
     /// Turns the velocity of a disc round that is at the body at `time`.
     void reflect(Disc& disc, const BodyMeeting& at, double time, bool is_touched) const;
 

@@ -41,8 +41,8 @@ void move(Disc& disc, double elapsed) {
 } // namespace
 
 LegacyReference::LegacyReference(const Setting& setting, std::span<const InputDisc> discs)
-    : setting_(setting), low_(setting.radius), high_(setting.box_size - setting.radius), band_(1e-8 * setting.radius),
-      discs_(stored_states(setting, discs)) {}
+    : setting_(setting), low_(setting.radius), high_(setting.box_size - setting.radius),
+      band_(1e-8 * setting.radius), discs_(stored_states(setting, discs)) {}
 
 void LegacyReference::run_micro_steps(std::int64_t count) {
     for (std::int64_t i = 0; i < count; ++i) run_micro_step();

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time-stepped method with the formulas of the program it comes from: a check of one_rule.hpp by other arithmetic.
+// The time-stepped method with the formulas of the program it comes from: a check of one_rule.hpp
+// by other arithmetic.
 //
-// Every position is advanced to the end of every micro-step, contact times are (-B - sqrt(B^2 - 4AC)) / 2A from the
-// positions at its start, and velocities are split into normal and tangential parts. Order, corners, band and stops are
-// the same. It agrees with one_rule.hpp to rounding until chaos takes over, and exactly where every number is exact in
-// binary. It has no tolerance: touching pairs whose rounding makes them overlap pass through each other here.
+// Every position is advanced to the end of every micro-step, contact times are (-B - sqrt(B^2 -
+// 4AC)) / 2A from the positions at its start, and velocities are split into normal and tangential
+// parts. Order, corners, band and stops are the same. It agrees with one_rule.hpp to rounding until
+// chaos takes over, and exactly where every number is exact in binary. It has no tolerance:
+// touching pairs whose rounding makes them overlap pass through each other here.
 #pragma once
 
 #include <cstdint>

@@ -17,13 +17,16 @@ namespace {
 constexpr double never = std::numeric_limits<double>::infinity();
 
 bool before(const Collision& a, const Collision& b) {
-    const auto key = [](const Collision& c) { return std::make_tuple(c.t, c.p, c.q != Collision::wall, c.q); };
+    const auto key = [](const Collision& c) {
+        return std::make_tuple(c.t, c.p, c.q != Collision::wall, c.q);
+    };
     return key(a) < key(b);
 }
 
 } // namespace
 
-Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance, Copy copy, double period) {
+Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance, Copy copy,
+                double period) {
     const double base = p.tau > q.tau ? p.tau : q.tau;
     const double px = p.x + p.vx * (base - p.tau), py = p.y + p.vy * (base - p.tau);
     const double qx = q.x + q.vx * (base - q.tau), qy = q.y + q.vy * (base - q.tau);
@@ -50,7 +53,8 @@ Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance, Co
 bool has_left(const Disc& disc) { return disc.tau == -1; }
 
 void set_left(const Setting& setting, Disc& disc, std::size_t side) {
-    const double radius = setting.radius_of(disc.id), line = side % 2 == 0 ? -radius : setting.box_size + radius;
+    const double radius = setting.radius_of(disc.id),
+                 line = side % 2 == 0 ? -radius : setting.box_size + radius;
     (side < 2 ? disc.x : disc.y) = line;
     disc.vx = disc.vy = 0;
     disc.tau = -1;
@@ -63,13 +67,18 @@ void advance(Disc& disc, double time) {
     disc.tau = time;
 }
 
-std::vector<Copy> copies_near(const Setting& setting, const Disc& p, const Disc& q, double begin, double end) {
+std::vector<Copy> copies_near(const Setting& setting, const Disc& p, const Disc& q, double begin,
+                              double end) {
     const double length = setting.box_size, sigma = 2 * setting.radius;
     const bool is_x = setting.effects.is_periodic_x(), is_y = setting.effects.is_periodic_y();
-    const double away = (std::fabs(p.vx) + std::fabs(q.vx) + std::fabs(p.vy) + std::fabs(q.vy)) * (end - begin) + 1.01 * sigma;
-    const auto range = [&](bool is_periodic, double distance) { // of n with |distance + n L| within reach
+    const double away = (std::fabs(p.vx) + std::fabs(q.vx) + std::fabs(p.vy) + std::fabs(q.vy)) *
+                            (end - begin) +
+                        1.01 * sigma;
+    const auto range = [&](bool is_periodic,
+                           double distance) { // of n with |distance + n L| within reach
         if (!is_periodic) return std::pair(0, 0);
-        return std::pair(static_cast<int>(std::floor((-away - distance) / length)), static_cast<int>(std::ceil((away - distance) / length)));
+        return std::pair(static_cast<int>(std::floor((-away - distance) / length)),
+                         static_cast<int>(std::ceil((away - distance) / length)));
     };
     const auto place = [begin](double x, double v, double tau) { return x + v * (begin - tau); };
     const auto [x_low, x_high] = range(is_x, place(q.x, q.vx, q.tau) - place(p.x, p.vx, p.tau));
@@ -94,7 +103,8 @@ void bring_inside(const Setting& setting, Disc& disc) {
     if (setting.effects.is_periodic_y()) disc.y = inside(disc.y);
 }
 
-void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitution, Copy copy, double period) {
+void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitution, Copy copy,
+                       double period) {
     const double ex = (q.x - p.x) + copy.x * period, ey = (q.y - p.y) + copy.y * period;
     const double wx = q.vx - p.vx, wy = q.vy - p.vy;
     const double k = (1 + restitution) / 2 * ((wx * ex + wy * ey) / (ex * ex + ey * ey));
@@ -105,7 +115,8 @@ void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitut
     q.vy -= k * (mp / mean) * ey;
 }
 
-void collide_rough(const Setting& setting, Disc& p, Disc& q, double& p_spin, double& q_spin, bool is_touched, Copy copy, double period) {
+void collide_rough(const Setting& setting, Disc& p, Disc& q, double& p_spin, double& q_spin,
+                   bool is_touched, Copy copy, double period) {
     const ContactEffect& contact = setting.effects.contact;
     const double ex = (q.x - p.x) + copy.x * period, ey = (q.y - p.y) + copy.y * period;
     const double wx = q.vx - p.vx, wy = q.vy - p.vy;
@@ -116,7 +127,8 @@ void collide_rough(const Setting& setting, Disc& p, Disc& q, double& p_spin, dou
     if (!is_touched) {
         k = (1 + contact.restitution) / 2 * k;
         const double slip = (wy * ex - wx * ey) / square - (p_spin * rp + q_spin * rq) / distance;
-        s = (1 + contact.tangential_restitution) / 2 * (contact.inertia / (1 + contact.inertia)) * slip;
+        s = (1 + contact.tangential_restitution) / 2 * (contact.inertia / (1 + contact.inertia)) *
+            slip;
         const double most = contact.friction * std::fabs(k);
         if (s > most) s = most;
         if (s < -most) s = -most;
@@ -150,7 +162,8 @@ std::vector<Disc> stored_states(const Setting& setting, std::span<const InputDis
     std::vector<Disc> states(discs.size());
     std::vector<bool> is_given(discs.size(), false);
     for (const InputDisc& disc : discs) {
-        if (disc.id >= discs.size() || is_given[disc.id]) throw std::invalid_argument("ids are not 0 .. N-1");
+        if (disc.id >= discs.size() || is_given[disc.id])
+            throw std::invalid_argument("ids are not 0 .. N-1");
         is_given[disc.id] = true;
         Disc& state = states[disc.id];
         state.id = disc.id;
@@ -164,12 +177,14 @@ std::vector<Disc> stored_states(const Setting& setting, std::span<const InputDis
 
 std::vector<double> stored_spins(const Setting& setting, std::size_t n_discs) {
     std::vector<double> spins(setting.are_rough() ? n_discs : 0, 0.0);
-    for (std::size_t i = 0; i < setting.first_spins.size(); ++i) spins.at(i) = setting.first_spins[i] / static_cast<double>(setting.micro_steps);
+    for (std::size_t i = 0; i < setting.first_spins.size(); ++i)
+        spins.at(i) = setting.first_spins[i] / static_cast<double>(setting.micro_steps);
     return spins;
 }
 
 TimeSteppedReference::TimeSteppedReference(const Setting& setting, std::span<const InputDisc> discs)
-    : setting_(setting), species_(std::make_shared<FixedBodies>(setting)), band_(1e-8 * setting.radius),
+    : setting_(setting), species_(std::make_shared<FixedBodies>(setting)),
+      band_(1e-8 * setting.radius),
       tolerance_(std::max(1e-12 * (2 * setting.radius), 32 * 0x1p-53 * setting.box_size)),
       discs_(stored_states(setting, discs)), spins_(stored_spins(setting, discs.size())) {}
 
@@ -208,13 +223,18 @@ void TimeSteppedReference::find_candidates(double m) {
         for (DiscId id = p.id + 1; id < discs_.size() && setting_.discs_meet(); ++id) {
             if (has_left(discs_[id])) continue;
             const auto look = [&](Copy copy) {
-                const Contact found = contact(p, discs_[id], setting_.radius_of(p.id) + setting_.radius_of(id), tolerance_, copy, setting_.box_size);
+                const Contact found = contact(p, discs_[id],
+                                              setting_.radius_of(p.id) + setting_.radius_of(id),
+                                              tolerance_, copy, setting_.box_size);
                 if (found.delay < 0) return;
                 const double in_step = (found.base - m) + found.delay;
-                if (in_step >= 0 && in_step <= 1) candidates_.push_back({micro_step_, in_step, p.id, id, copy});
+                if (in_step >= 0 && in_step <= 1)
+                    candidates_.push_back({micro_step_, in_step, p.id, id, copy});
             };
-            if (!setting_.effects.are_periodic()) look({});
-            else for (const Copy copy : copies_near(setting_, p, discs_[id], m, m + 1)) look(copy);
+            if (!setting_.effects.are_periodic())
+                look({});
+            else
+                for (const Copy copy : copies_near(setting_, p, discs_[id], m, m + 1)) look(copy);
         }
     }
 }
@@ -235,8 +255,12 @@ void TimeSteppedReference::keep(const Collision& candidate, double m) {
     Disc& q = discs_[candidate.q];
     advance(p, m + candidate.t);
     advance(q, m + candidate.t);
-    if (setting_.are_rough()) collide_rough(setting_, p, q, spins_[p.id], spins_[q.id], false, candidate.copy, setting_.box_size);
-    else exchange_momentum(setting_, p, q, setting_.restitution(), candidate.copy, setting_.box_size);
+    if (setting_.are_rough())
+        collide_rough(setting_, p, q, spins_[p.id], spins_[q.id], false, candidate.copy,
+                      setting_.box_size);
+    else
+        exchange_momentum(setting_, p, q, setting_.restitution(), candidate.copy,
+                          setting_.box_size);
     p.pair_collisions += 1;
     q.pair_collisions += 1;
     counters_.pair_collisions += 1;
@@ -265,7 +289,8 @@ bool TimeSteppedReference::leads_out(double v, std::size_t low_side) const {
     return v != 0 && setting_.effects.boundaries[low_side + (v > 0)].kind == BoundaryKind::open;
 }
 
-double TimeSteppedReference::axis_time(DiscId id, double x, double v, double tau, double m, std::size_t low_side) const {
+double TimeSteppedReference::axis_time(DiscId id, double x, double v, double tau, double m,
+                                       std::size_t low_side) const {
     double wall = 0;
     if (leads_out(v, low_side)) {
         wall = v < 0 ? -setting_.radius_of(id) : setting_.box_size + setting_.radius_of(id);
@@ -290,8 +315,12 @@ double TimeSteppedReference::wall_time(const Disc& disc, double m) const {
 }
 
 double TimeSteppedReference::axes_time(const Disc& disc, double m) const {
-    const double tx = setting_.effects.is_periodic_x() ? never : axis_time(disc.id, disc.x, disc.vx, disc.tau, m, 0);
-    const double ty = setting_.effects.is_periodic_y() ? never : axis_time(disc.id, disc.y, disc.vy, disc.tau, m, 2);
+    const double tx = setting_.effects.is_periodic_x()
+                          ? never
+                          : axis_time(disc.id, disc.x, disc.vx, disc.tau, m, 0);
+    const double ty = setting_.effects.is_periodic_y()
+                          ? never
+                          : axis_time(disc.id, disc.y, disc.vy, disc.tau, m, 2);
     return tx < ty ? tx : ty;
 }
 
@@ -315,15 +344,18 @@ void TimeSteppedReference::bounce(Disc& disc, double m, double t) const {
             const auto [fast, sideways] = setting_.leaving(disc, number);
             normal = away * fast;
             along = sideways;
-        } else normal = -(boundaries[number].restitution * normal);
+        } else
+            normal = -(boundaries[number].restitution * normal);
     };
     const double vy = disc.vy;
     if (x_reverses) reverse(disc.vx < 0 ? 0 : 1, disc.vx, disc.vy);
-    const bool still_comes = vy < 0 ? disc.vy < 0 : disc.vy > 0; // unless the first wall has changed that
+    const bool still_comes = vy < 0 ? disc.vy < 0
+                                    : disc.vy > 0; // unless the first wall has changed that
     if (y_reverses && still_comes) reverse(disc.vy < 0 ? 2 : 3, disc.vy, disc.vx);
 }
 
-double TimeSteppedReference::stop_time(DiscId id, double x, double v, double t, std::size_t low_side) const {
+double TimeSteppedReference::stop_time(DiscId id, double x, double v, double t,
+                                       std::size_t low_side) const {
     double ts = never;
     if (leads_out(v, low_side)) return never;
     if (v < 0 && x + v * (1 - t) < low(id)) ts = (low(id) - x) / v;
@@ -332,9 +364,12 @@ double TimeSteppedReference::stop_time(DiscId id, double x, double v, double t, 
 }
 
 /// `left` is the body that it has just been reflected from.
-void TimeSteppedReference::stop_at_wall(Disc& disc, double m, double t, const BodyMeeting& left) const {
-    const double sx = setting_.effects.is_periodic_x() ? never : stop_time(disc.id, disc.x, disc.vx, t, 0);
-    const double sy = setting_.effects.is_periodic_y() ? never : stop_time(disc.id, disc.y, disc.vy, t, 2);
+void TimeSteppedReference::stop_at_wall(Disc& disc, double m, double t,
+                                        const BodyMeeting& left) const {
+    const double sx = setting_.effects.is_periodic_x() ? never
+                                                       : stop_time(disc.id, disc.x, disc.vx, t, 0);
+    const double sy = setting_.effects.is_periodic_y() ? never
+                                                       : stop_time(disc.id, disc.y, disc.vy, t, 2);
     const double ts = sx < sy ? sx : sy;
     const BodyMeeting meeting = species_->first_meeting(disc, disc.tau, m + 1, left);
     if (meeting.time < m + 1 && meeting.time - disc.tau < ts) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time-stepped method said plainly (docs/method.md, sections 1 to 4): what the engine is held to, bit for bit.
+// The time-stepped method said plainly (docs/method.md, sections 1 to 4): what the engine is held
+// to, bit for bit.
 //
-// Every micro-step looks at all pairs, sorts all candidates by the total order and walks them. No cells, no windows, no
-// filters, no strips, and none of the engine's arithmetic: the formulas are written here a second time, from the page.
-// Price: N^2/2 predicates a micro-step, some 5 ns each.
+// Every micro-step looks at all pairs, sorts all candidates by the total order and walks them. No
+// cells, no windows, no filters, no strips, and none of the engine's arithmetic: the formulas are
+// written here a second time, from the page. Price: N^2/2 predicates a micro-step, some 5 ns each.
 #pragma once
 
 #include <array>
@@ -26,24 +27,34 @@ struct Setting {
     std::int64_t micro_steps = 1;
     std::int64_t sync_every = 64;
     Effects effects{}; ///< times in steps
-    std::vector<double> first_spins{}; ///< of rough discs by id, per step; empty where all begin without
-    /// What leaves a thermal wall: the velocity away from it and along it, in the unit of the side's temperature.
-    std::function<std::array<double, 2>(const Boundary& side, DiscId id, std::uint64_t wall_collisions, std::size_t number)> thermal_draw{};
+    std::vector<double>
+        first_spins{}; ///< of rough discs by id, per step; empty where all begin without
+    /// What leaves a thermal wall: the velocity away from it and along it, in the unit of the
+    /// side's temperature.
+    std::function<std::array<double, 2>(const Boundary& side, DiscId id,
+                                        std::uint64_t wall_collisions, std::size_t number)>
+        thermal_draw{};
 
     /// Under drag: what its clock shows so many micro-steps after a sync.
     std::function<double(double micro_steps)> drag_clock{};
-    /// Gravity under drag, or a wall that moves: how far from rest what falls is, over its acceleration, and when it meets a wall, all in
-    /// the clock and per micro-step (fall.hpp). Handed in, and held to their own path elsewhere.
+    /// Gravity under drag, or a wall that moves: how far from rest what falls is, over its
+    /// acceleration, and when it meets a wall, all in the clock and per micro-step (fall.hpp).
+    /// Handed in, and held to their own path elsewhere.
     std::function<double(double clock)> dragged_fall{};
     std::function<double(double distance, double velocity, double pull)> dragged_fall_delay{};
-    /// With obstacles under gravity: see FixedBodies::meeting_time. Handed in, and held to its own path elsewhere.
-    std::function<double(double dx, double dy, double wx, double wy, double gx, double gy, double reach)> falling_contact{};
+    /// With obstacles under gravity: see FixedBodies::meeting_time. Handed in, and held to its own
+    /// path elsewhere.
+    std::function<double(double dx, double dy, double wx, double wy, double gx, double gy,
+                         double reach)>
+        falling_contact{};
     double clock_at(std::int64_t count) const {
         const auto time = static_cast<double>(count);
         return drag_clock ? drag_clock(time) : time;
     }
     /// What the velocity of the clock is times to be that of the box.
-    double slowing_at(double clock) const { return 1 - effects.drag / static_cast<double>(micro_steps) * clock; }
+    double slowing_at(double clock) const {
+        return 1 - effects.drag / static_cast<double>(micro_steps) * clock;
+    }
 
     /// The same in micro-steps for a disc at the wall `number`.
     std::array<double, 2> leaving(const Disc& disc, std::size_t number) const;
@@ -52,8 +63,12 @@ struct Setting {
     Species species_of(DiscId id) const;
     bool are_rough() const { return effects.contact.kind == ContactKind::rough; }
     bool discs_meet() const { return effects.contact.kind != ContactKind::none; }
-    double restitution() const { return effects.contact.kind == ContactKind::restitution ? effects.contact.restitution : 1; }
-    double contact_time() const { return effects.contact.contact_time * static_cast<double>(micro_steps); }
+    double restitution() const {
+        return effects.contact.kind == ContactKind::restitution ? effects.contact.restitution : 1;
+    }
+    double contact_time() const {
+        return effects.contact.contact_time * static_cast<double>(micro_steps);
+    }
 };
 
 class FixedBodies;
@@ -75,7 +90,8 @@ struct Copy {
     friend bool operator==(const Copy&, const Copy&) = default;
 };
 
-/// One kept collision: disc p with a wall, or the pair p < q. Sorted by (t, p, wall before pair, q) in a micro-step.
+/// One kept collision: disc p with a wall, or the pair p < q. Sorted by (t, p, wall before pair, q)
+/// in a micro-step.
 struct Collision {
     static constexpr DiscId wall = ~DiscId{0};
 
@@ -94,27 +110,34 @@ struct Contact {
     double delay = -1;
 };
 
-/// The predicate of section 4, of p and that copy of q in a box of the given periods. `tolerance` is the deepest overlap that
-/// still collides; infinity in the event-driven method.
-Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance, Copy copy = {}, double period = 0);
+/// The predicate of section 4, of p and that copy of q in a box of the given periods. `tolerance`
+/// is the deepest overlap that still collides; infinity in the event-driven method.
+Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance, Copy copy = {},
+                double period = 0);
 
-/// The copies of q that p may come near until `end`, both flying on from their states: all others stay farther than sigma.
-std::vector<Copy> copies_near(const Setting& setting, const Disc& p, const Disc& q, double begin, double end);
+/// The copies of q that p may come near until `end`, both flying on from their states: all others
+/// stay farther than sigma.
+std::vector<Copy> copies_near(const Setting& setting, const Disc& p, const Disc& q, double begin,
+                              double end);
 
 /// Of a sync: the state's place in the box where sides are periodic, one rounding away.
 void bring_inside(const Setting& setting, Disc& disc);
 
-/// What stands for a disc that has left the box: at rest where it left, with a time that no other has.
+/// What stands for a disc that has left the box: at rest where it left, with a time that no other
+/// has.
 bool has_left(const Disc& disc);
 void set_left(const Setting& setting, Disc& disc, std::size_t side);
 
 /// The two states' positions at `time`, the impulse of a pair; p has the lower id.
 void advance(Disc& disc, double time);
-void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitution, Copy copy = {}, double period = 0);
+void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitution, Copy copy = {},
+                       double period = 0);
 /// The same of rough discs, by the page's formulas; `is_touched` ones part as elastic and smooth.
-void collide_rough(const Setting& setting, Disc& p, Disc& q, double& p_spin, double& q_spin, bool is_touched, Copy copy = {}, double period = 0);
+void collide_rough(const Setting& setting, Disc& p, Disc& q, double& p_spin, double& q_spin,
+                   bool is_touched, Copy copy = {}, double period = 0);
 
-/// Numbers the discs 0 .. N-1 as given (ids must be a permutation of that) and divides velocities by `micro_steps`.
+/// Numbers the discs 0 .. N-1 as given (ids must be a permutation of that) and divides velocities
+/// by `micro_steps`.
 std::vector<Disc> stored_states(const Setting& setting, std::span<const InputDisc> discs);
 /// By id, per micro-step; empty where discs are not rough.
 std::vector<double> stored_spins(const Setting& setting, std::size_t n_discs);
@@ -143,7 +166,8 @@ private:
 
     double wall_time(const Disc& disc, double m) const;
     double axes_time(const Disc& disc, double m) const;
-    double axis_time(DiscId id, double x, double v, double tau, double m, std::size_t low_side) const;
+    double axis_time(DiscId id, double x, double v, double tau, double m,
+                     std::size_t low_side) const;
     void bounce(Disc& disc, double m, double t) const;
     void bounce_off(Disc& disc, double m, double t) const;
     void stop_at_wall(Disc& disc, double m, double t, const BodyMeeting& left) const;

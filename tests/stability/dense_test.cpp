@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Family 7, dense: gaps that are a few hundred ulp, ten thousand collisions a disc, in the event-driven method.
+// Family 7, dense: gaps that are a few hundred ulp, ten thousand collisions a disc, in the
+// event-driven method.
 //
-// Why hard: the time between collisions is the time for 1e-12 diameters, every contact is decided by its last digits,
-// and an overlap once made is fed back ten thousand times. Sources: Lubachevsky, Stillinger, J. Stat. Phys. 60, 561
-// (1990); Donev, Torquato, Stillinger, J. Comput. Phys. 202, 737 (2005); Bannerman et al. 2014. Bounds: no overlap
-// deeper than 64 ulp(L) at any look, energy to 1e-12, no disc outside by more than 4 ulp(L), and an end.
+// Why hard: the time between collisions is the time for 1e-12 diameters, every contact is decided
+// by its last digits, and an overlap once made is fed back ten thousand times. Sources:
+// Lubachevsky, Stillinger, J. Stat. Phys. 60, 561 (1990); Donev, Torquato, Stillinger, J. Comput.
+// Phys. 202, 737 (2005); Bannerman et al. 2014. Bounds: no overlap deeper than 64 ulp(L) at any
+// look, energy to 1e-12, no disc outside by more than 4 ulp(L), and an end.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -19,15 +21,18 @@ using namespace carrom::test;
 
 namespace {
 
-/// Rows of discs that touch the rows above and below to within `gap`, from wall to wall: jammed. The box is solved for;
-/// within a row the discs have room where the geometry of a square asks for it.
+/// Rows of discs that touch the rows above and below to within `gap`, from wall to wall: jammed.
+/// The box is solved for; within a row the discs have room where the geometry of a square asks for
+/// it.
 TestScene jammed_rows(std::size_t n_rows, std::size_t n_columns, double gap) {
-    const double across = 2 * static_cast<double>(n_columns) - 1, up = static_cast<double>(n_rows) - 1;
+    const double across = 2 * static_cast<double>(n_columns) - 1,
+                 up = static_cast<double>(n_rows) - 1;
     const double side = (1 + gap) / std::sqrt(1 / (across * across) + 1 / (up * up));
     TestScene scene = empty_scene("jammed rows", 1 + gap + side, 0.5, 0);
     for (std::size_t row = 0; row < n_rows; ++row) {
         for (std::size_t column = 0; column < n_columns; ++column) {
-            add_disc(scene, 0.5 + 0.5 * gap + side / across * static_cast<double>(2 * column + row % 2),
+            add_disc(scene,
+                     0.5 + 0.5 * gap + side / across * static_cast<double>(2 * column + row % 2),
                      0.5 + 0.5 * gap + side / up * static_cast<double>(row));
         }
     }
@@ -36,19 +41,23 @@ TestScene jammed_rows(std::size_t n_rows, std::size_t n_columns, double gap) {
 
 /// k x k discs with the same gap to each other and to the walls.
 TestScene jammed_square(std::size_t k, double gap) {
-    TestScene scene = empty_scene("jammed square", static_cast<double>(k) * (1 + gap) + gap, 0.5, 0);
+    TestScene scene = empty_scene("jammed square", static_cast<double>(k) * (1 + gap) + gap, 0.5,
+                                  0);
     for (std::size_t i = 0; i < k * k; ++i) {
-        add_disc(scene, 0.5 + gap + static_cast<double>(i % k) * (1 + gap), 0.5 + gap + static_cast<double>(i / k) * (1 + gap));
+        add_disc(scene, 0.5 + gap + static_cast<double>(i % k) * (1 + gap),
+                 0.5 + gap + static_cast<double>(i / k) * (1 + gap));
     }
     return scene;
 }
 
-/// Hexagonal cluster with the same gap between all neighbours, in a box that leaves it room all around.
+/// Hexagonal cluster with the same gap between all neighbours, in a box that leaves it room all
+/// around.
 TestScene open_cluster(std::size_t k, double gap) {
     TestScene scene = empty_scene("open cluster", static_cast<double>(k) + 8, 0.5, 0);
     for (std::size_t i = 0; i < k * k; ++i) {
         const double row = static_cast<double>(i / k), column = static_cast<double>(i % k);
-        add_disc(scene, 4 + (1 + gap) * (column + 0.5 * (i / k % 2 == 0 ? 0 : 1)), 4 + (1 + gap) * std::sqrt(0.75) * row * (1 + 1e-15));
+        add_disc(scene, 4 + (1 + gap) * (column + 0.5 * (i / k % 2 == 0 ? 0 : 1)),
+                 4 + (1 + gap) * std::sqrt(0.75) * row * (1 + 1e-15));
     }
     return scene;
 }
@@ -60,7 +69,8 @@ void cascade(TestScene scene, const std::string& what, double gap, double collis
     scene.steps = 1 << 30;
     Simulation simulation = start(scene, Method::event_driven);
     const Outcome before = outcome_of(simulation);
-    const double n = static_cast<double>(scene.discs.size()), ulp = ulp_of(scene.setting.box_size / 2);
+    const double n = static_cast<double>(scene.discs.size()),
+                 ulp = ulp_of(scene.setting.box_size / 2);
     double overlap = 0, outside = 0, energy = 0, done = 0;
     for (int look = 0; look < 2000 && done < collisions; ++look) {
         run_to(simulation, simulation.step() + (look < 8 ? 1 : 64));
@@ -80,15 +90,20 @@ void cascade(TestScene scene, const std::string& what, double gap, double collis
 } // namespace
 
 TEST_CASE("dense: jammed rows, gap 1e-12, 1e4 collisions a disc", "[dense]") {
-    cascade(jammed_rows(6, 4, 1e-12), "24 discs in jammed rows, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
+    cascade(jammed_rows(6, 4, 1e-12),
+            "24 discs in jammed rows, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
 }
 
 TEST_CASE("dense: a jammed square lattice, gap 1e-12, 1e4 collisions a disc", "[dense]") {
-    cascade(jammed_square(8, 1e-12), "64 discs in a jammed square lattice, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
+    cascade(jammed_square(8, 1e-12),
+            "64 discs in a jammed square lattice, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12,
+            10000);
 }
 
 TEST_CASE("dense: gaps of an ulp or two of the box", "[dense]") {
-    cascade(jammed_square(6, 0x1p-50), "36 discs in a jammed square lattice, gap 1 ulp(L), 1e3 collisions a disc", 0x1p-50, 1000);
+    cascade(jammed_square(6, 0x1p-50),
+            "36 discs in a jammed square lattice, gap 1 ulp(L), 1e3 collisions a disc", 0x1p-50,
+            1000);
 }
 
 TEST_CASE("dense: an open hexagonal cluster with gap 1e-12 flies apart", "[dense]") {
@@ -96,14 +111,17 @@ TEST_CASE("dense: an open hexagonal cluster with gap 1e-12 flies apart", "[dense
 }
 
 TEST_CASE("dense: 120 discs, 1e4 collisions a disc", "[dense][.hours]") {
-    cascade(jammed_rows(12, 10, 1e-12), "120 discs in jammed rows, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
+    cascade(jammed_rows(12, 10, 1e-12),
+            "120 discs in jammed rows, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
 }
 
 TEST_CASE("dense: 1512 discs at packing 0.89, 1e4 collisions a disc", "[dense][.hours]") {
-    cascade(jammed_rows(42, 36, 1e-12), "1512 discs at packing 0.89, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
+    cascade(jammed_rows(42, 36, 1e-12),
+            "1512 discs at packing 0.89, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
 }
 
 // Walls cost packing: in a box it takes this many discs to come to 0.9.
 TEST_CASE("dense: 10246 discs at packing 0.9, 1e4 collisions a disc", "[dense][.hours]") {
-    cascade(jammed_rows(109, 94, 1e-12), "10246 discs at packing 0.9, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
+    cascade(jammed_rows(109, 94, 1e-12),
+            "10246 discs at packing 0.9, gap 1e-12 sigma, 1e4 collisions a disc", 1e-12, 10000);
 }

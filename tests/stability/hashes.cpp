@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints one fingerprint of many runs of both rules: what every compiler and instruction set must agree on.
+// Prints one fingerprint of many runs of both rules: what every compiler and instruction set must
+// agree on.
 //
-// With an argument, only for scenes whose name contains it, and one line per run: to find the first that differs.
+// With an argument, only for scenes whose name contains it, and one line per run: to find the first
+// that differs.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
 
 #include "core/errors.hpp"
+#include "event_driven.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/mpi.hpp"
-#include "event_driven.hpp"
 #include "runs.hpp"
 #include "scene_tools.hpp"
 #include "troubled_effects.hpp"
@@ -27,7 +29,8 @@ std::string text_of(const TestScene& scene, Method method) {
     }
 }
 
-/// Hundreds of discs on one line, hundreds of diameters a step: millions of collisions that show nothing new.
+/// Hundreds of discs on one line, hundreds of diameters a step: millions of collisions that show
+/// nothing new.
 bool is_long_under_all(const TestScene& scene) {
     const bool is_line = scene.name.rfind("chain", 0) == 0 || scene.name.rfind("cradle", 0) == 0;
     return scene.cascades_when_event_driven || (is_line && scene.discs.size() >= 400);
@@ -35,7 +38,9 @@ bool is_long_under_all(const TestScene& scene) {
 
 /// A gas, a crowd and a triangle that is hit, with effects drawn at random.
 TestScene scene_with_effects(std::uint64_t seed, Method method) {
-    TestScene scene = seed % 3 == 0 ? gas(60, 0.3, 0.5, 900 + seed) : seed % 3 == 1 ? gas(64, 0.6, 0.1, 900 + seed) : break_shot(5, 0.5, 3, 0.1);
+    TestScene scene = seed % 3 == 0   ? gas(60, 0.3, 0.5, 900 + seed)
+                      : seed % 3 == 1 ? gas(64, 0.6, 0.1, 900 + seed)
+                                      : break_shot(5, 0.5, 3, 0.1);
     scene.steps = 10;
     scene.setting.sync_every = seed % 2 == 0 ? 3 : 64;
     scene.setting.micro_steps = seed % 4 == 0 ? 2 : 1;
@@ -60,17 +65,21 @@ int main(int argc, char** argv) {
             scenes.push_back(scene);
         }
         const auto add_run = [&](const TestScene& scene, Method method) {
-            const std::string line = text_of(scene, method) + "  " + name_of(method) + "  " + scene.name;
+            const std::string line = text_of(scene, method) + "  " + name_of(method) + "  " +
+                                     scene.name;
             add(sum, line);
             ++n_runs;
             if (argc > 1 && world.is_root()) std::printf("%s\n", line.c_str());
         };
-        const auto is_asked_for = [&](const TestScene& scene) { return argc < 2 || scene.name.find(argv[1]) != std::string::npos; };
+        const auto is_asked_for = [&](const TestScene& scene) {
+            return argc < 2 || scene.name.find(argv[1]) != std::string::npos;
+        };
         for (TestScene& scene : scenes) {
             if (!is_asked_for(scene)) continue;
             for (const Method method : {Method::time_stepped, Method::event_driven}) {
                 if (method == Method::event_driven && is_long_under_all(scene)) continue;
-                if (method == Method::event_driven) scene.steps = std::min<std::int64_t>(scene.steps, 4);
+                if (method == Method::event_driven)
+                    scene.steps = std::min<std::int64_t>(scene.steps, 4);
                 add_run(scene, method);
             }
         }
@@ -80,7 +89,8 @@ int main(int argc, char** argv) {
                 if (is_asked_for(scene)) add_run(scene, method);
             }
         }
-        if (world.is_root()) std::printf("%016llx %zu runs\n", static_cast<unsigned long long>(sum), n_runs);
+        if (world.is_root())
+            std::printf("%016llx %zu runs\n", static_cast<unsigned long long>(sum), n_runs);
         return 0;
     });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Worst values against their bounds. The command tests/stability/table.sh makes docs/stability.md of them.
+// Worst values against their bounds. The command tests/stability/table.sh makes docs/stability.md
+// of them.
 #pragma once
 
 #include "catch.hpp"
@@ -10,16 +11,19 @@
 
 namespace carrom::test {
 
-/// Checks that `worst` <= `bound`. If $CARROM_STABILITY_TABLE names a file, appends a line to it: family, case, rule
+/// Checks that `worst` <= `bound`. If $CARROM_STABILITY_TABLE names a file, appends a line to it:
+/// family, case, rule
 /// ("one", "all", or "both" where the rule has no say), bound, worst value.
-inline void hold(const char* family, const std::string& what, const std::string& method, double worst, double bound) {
+inline void hold(const char* family, const std::string& what, const std::string& method,
+                 double worst, double bound) {
     INFO(family << ": " << what << ", rule " << method);
     CHECK(worst <= bound);
     const char* const path = std::getenv("CARROM_STABILITY_TABLE");
     if (path == nullptr) return;
     std::FILE* const file = std::fopen(path, "a");
     REQUIRE(file != nullptr);
-    std::fprintf(file, "%s\t%s\t%s\t%.3g\t%.3g\n", family, what.c_str(), method.c_str(), bound, worst);
+    std::fprintf(file, "%s\t%s\t%s\t%.3g\t%.3g\n", family, what.c_str(), method.c_str(), bound,
+                 worst);
     std::fclose(file);
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Family 8, long: what bites only after many steps or collisions.
 //
-// Why hard: counters of 32 bits wrap after hours; a time that counts from the start of the run loses a digit with every
-// tenfold, until t + dt == t and time stands still; energies creep. Sources: the trackers' threads on long runs
-// (counters, negative times after a restart); Bannerman et al. 2014. Bounds: energy to 1e-12 after 1e9 collisions, the
-// same bits after a restart and wherever the count of steps starts.
+// Why hard: counters of 32 bits wrap after hours; a time that counts from the start of the run
+// loses a digit with every tenfold, until t + dt == t and time stands still; energies creep.
+// Sources: the trackers' threads on long runs (counters, negative times after a restart); Bannerman
+// et al. 2014. Bounds: energy to 1e-12 after 1e9 collisions, the same bits after a restart and
+// wherever the count of steps starts.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -39,7 +40,8 @@ TestScene some_gas() {
     return scene;
 }
 
-/// Like some_gas, from `micro_steps` on, the counters `counted` ahead; what comes of it in 20 steps.
+/// Like some_gas, from `micro_steps` on, the counters `counted` ahead; what comes of it in 20
+/// steps.
 Outcome later(Method method, std::int64_t micro_steps, std::uint64_t counted) {
     const TestScene scene = some_gas();
     StoredState state = stored(start(scene, method));
@@ -59,7 +61,9 @@ Outcome later(Method method, std::int64_t micro_steps, std::uint64_t counted) {
     return outcome;
 }
 
-bool has_same_bits(const Outcome& a, const Outcome& b) { return hash_of(a.discs) == hash_of(b.discs); }
+bool has_same_bits(const Outcome& a, const Outcome& b) {
+    return hash_of(a.discs) == hash_of(b.discs);
+}
 
 /// The state 20 steps on, by a run that is stopped and started again on the way.
 Outcome with_restart(const TestScene& scene, Method method, StoredState state) {
@@ -71,7 +75,8 @@ Outcome with_restart(const TestScene& scene, Method method, StoredState state) {
     return outcome_of(second);
 }
 
-/// `most` collisions in `parts` parts; energy, and the hash after a restart, are looked at after each.
+/// `most` collisions in `parts` parts; energy, and the hash after a restart, are looked at after
+/// each.
 void many_collisions(Method method, std::size_t n, double most, int parts) {
     TestScene scene = gas(n, 0.3, 0.5, 803);
     scene.steps = std::int64_t{1} << 40;
@@ -79,7 +84,8 @@ void many_collisions(Method method, std::size_t n, double most, int parts) {
     const double energy = squared_speeds(outcome_of(simulation));
     double worst = 0, n_different = 0;
     for (int part = 1; part <= parts; ++part) {
-        while (static_cast<double>(simulation.totals().pair_collisions) < most * part / parts) run_to(simulation, simulation.step() + 50);
+        while (static_cast<double>(simulation.totals().pair_collisions) < most * part / parts)
+            run_to(simulation, simulation.step() + 50);
         const Outcome again = with_restart(scene, method, stored(simulation));
         run_to(simulation, simulation.step() + 20);
         const Outcome now = outcome_of(simulation);
@@ -99,9 +105,11 @@ TEST_CASE("long: steps above 2^32 and up to 2^53 have the bits of the first ones
         double n_different = 0;
         for (const int bits : {31, 32, 40, 52}) {
             // From 16 micro-steps before the boundary across it.
-            n_different += !has_same_bits(later(method, (std::int64_t{1} << bits) - 16, 0), expected);
+            n_different += !has_same_bits(later(method, (std::int64_t{1} << bits) - 16, 0),
+                                          expected);
         }
-        hold("long", "steps across 2^31, 2^32, 2^40, 2^52: runs with other bits", name_of(method), n_different, 0);
+        hold("long", "steps across 2^31, 2^32, 2^40, 2^52: runs with other bits", name_of(method),
+             n_different, 0);
     }
 }
 
@@ -109,14 +117,17 @@ TEST_CASE("long: counters above 2^32 go on counting", "[long]") {
     for (const Method method : both) {
         const Outcome expected = later(method, 0, 0);
         double n_different = 0;
-        for (const std::uint64_t counted : {(std::uint64_t{1} << 31) - 2, (std::uint64_t{1} << 32) - 2, std::uint64_t{1} << 50}) {
+        for (const std::uint64_t counted :
+             {(std::uint64_t{1} << 31) - 2, (std::uint64_t{1} << 32) - 2, std::uint64_t{1} << 50}) {
             n_different += !has_same_bits(later(method, 0, counted), expected);
         }
-        hold("long", "counters across 2^31, 2^32, at 2^50: runs with other bits", name_of(method), n_different, 0);
+        hold("long", "counters across 2^31, 2^32, at 2^50: runs with other bits", name_of(method),
+             n_different, 0);
     }
 }
 
-// Times count from the last sync, so that t + dt == t does not depend on how long the run is, but on sync_every.
+// Times count from the last sync, so that t + dt == t does not depend on how long the run is, but
+// on sync_every.
 TEST_CASE("long: contacts late in a long sync interval are not lost", "[long]") {
     for (const Method method : both) {
         for (const int bits : {10, 20, 30}) {
@@ -126,23 +137,28 @@ TEST_CASE("long: contacts late in a long sync interval are not lost", "[long]") 
             const double speed = 0.125;
             for (int cell = 0; cell < 64; ++cell) {
                 const auto [ex, ey] = random.direction();
-                const double x = 10 + 20 * (cell % 8), y = 10 + 20 * (cell / 8), gap = 0.5 * random.uniform(0, 1);
+                const double x = 10 + 20 * (cell % 8), y = 10 + 20 * (cell / 8),
+                             gap = 0.5 * random.uniform(0, 1);
                 add_disc(scene, x, y, speed * ex, speed * ey);
                 add_disc(scene, x + (1 + gap) * ex, y + (1 + gap) * ey, -speed * ex, -speed * ey);
             }
             StoredState state = stored(start(scene, method));
-            state.micro_steps_done = (std::int64_t{1} << bits) - 6; // the discs fly from here, over the sync
+            state.micro_steps_done = (std::int64_t{1} << bits) -
+                                     6; // the discs fly from here, over the sync
             for (Disc& disc : state.discs) disc.tau = static_cast<double>(state.micro_steps_done);
             Simulation simulation = resume(scene, method, state);
             run_to(simulation, simulation.step() + 12);
             const auto met = static_cast<double>(simulation.totals().pair_collisions);
-            hold("long", "contacts before and after a sync at 2^" + std::to_string(bits) + ": lost or repeated, of 64", name_of(method),
-                 std::fabs(met - 64), 0);
+            hold("long",
+                 "contacts before and after a sync at 2^" + std::to_string(bits) +
+                     ": lost or repeated, of 64",
+                 name_of(method), std::fabs(met - 64), 0);
         }
     }
 }
 
-// A time is rounded to an ulp of its size, and a disc flies on in that: no deeper may an overlap be.
+// A time is rounded to an ulp of its size, and a disc flies on in that: no deeper may an overlap
+// be.
 TEST_CASE("long: late in a long sync interval overlaps are as deep as times are coarse", "[long]") {
     for (const int bits : {6, 20, 30}) {
         TestScene scene = gas(64, 0.4, 0.3, 805);
@@ -156,26 +172,35 @@ TEST_CASE("long: late in a long sync interval overlaps are as deep as times are 
             run_to(simulation, simulation.step() + 1);
             const Outcome now = outcome_of(simulation);
             const double speed = std::sqrt(squared_speeds(now));
-            const double bound = 64 * ulp_of(scene.setting.box_size) + 2 * speed * ulp_of(std::ldexp(0.5, bits));
+            const double bound = 64 * ulp_of(scene.setting.box_size) +
+                                 2 * speed * ulp_of(std::ldexp(0.5, bits));
             worst = std::max(worst, deepest_overlap(now, 2) / bound);
         }
-        hold("long", "sync_every 2^" + std::to_string(bits) + ": deepest overlap over 64 ulp(L) + 2 |v| ulp(time)", "all", worst, 1);
+        hold("long",
+             "sync_every 2^" + std::to_string(bits) +
+                 ": deepest overlap over 64 ulp(L) + 2 |v| ulp(time)",
+             "all", worst, 1);
     }
 }
 
-// So fast that a flight from wall to wall takes less than an ulp of the time: t + dt == t. One collision a step goes on.
-TEST_CASE("long: discs faster than times can tell end in finite time, with their energy", "[long]") {
+// So fast that a flight from wall to wall takes less than an ulp of the time: t + dt == t. One
+// collision a step goes on.
+TEST_CASE("long: discs faster than times can tell end in finite time, with their energy",
+          "[long]") {
     double worst = 0, outside = 0;
     for (const double speed : {0x1p30, 0x1p52, 0x1p60, 0x1p200}) {
         TestScene scene = gas(16, 0.2, speed, 806);
         scene.steps = 130;
-        const Outcome before = outcome_of(start(scene, Method::time_stepped)), after = run(scene, Method::time_stepped);
+        const Outcome before = outcome_of(start(scene, Method::time_stepped)),
+                      after = run(scene, Method::time_stepped);
         worst = std::max(worst, std::fabs(squared_speeds(after) / squared_speeds(before) - 1));
-        const double allowed = 4 * ulp_of(scene.setting.box_size) + std::sqrt(squared_speeds(after)) * ulp_of(32);
+        const double allowed = 4 * ulp_of(scene.setting.box_size) +
+                               std::sqrt(squared_speeds(after)) * ulp_of(32);
         outside = std::max(outside, farthest_outside(after, scene.setting) / allowed);
     }
     hold("long", "2^30 to 2^200 diameters a step: change of the energy", "one", worst, 1e-12);
-    hold("long", "2^30 to 2^200 diameters a step: farthest outside over 4 ulp(L) + |v| ulp(64)", "one", outside, 1);
+    hold("long", "2^30 to 2^200 diameters a step: farthest outside over 4 ulp(L) + |v| ulp(64)",
+         "one", outside, 1);
 }
 
 TEST_CASE("long: energy and restarts over 2e5 collisions", "[long]") {
@@ -183,6 +208,10 @@ TEST_CASE("long: energy and restarts over 2e5 collisions", "[long]") {
     many_collisions(Method::event_driven, 400, 1e5, 4);
 }
 
-TEST_CASE("long: energy and restarts over 1e9 collisions, rule all", "[long][.hours]") { many_collisions(Method::event_driven, 10000, 1e9, 10); }
+TEST_CASE("long: energy and restarts over 1e9 collisions, rule all", "[long][.hours]") {
+    many_collisions(Method::event_driven, 10000, 1e9, 10);
+}
 
-TEST_CASE("long: energy and restarts over 1e9 collisions, rule one", "[long][.hours]") { many_collisions(Method::time_stepped, 10000, 1e9, 10); }
+TEST_CASE("long: energy and restarts over 1e9 collisions, rule one", "[long][.hours]") {
+    many_collisions(Method::time_stepped, 10000, 1e9, 10);
+}

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Properties that hold for every scene, on random ones drawn for trouble (troubled_scenes.hpp), for both rules:
-// the reference's bits; no disc lost; energy to 1e-12; nothing outside the box; counters that agree with the log; the
-// log in order; transposed scenes have transposed bits; another storage order has the same bits. With effects drawn as well
-// (troubled_effects.hpp): the reference's bits, no disc lost, a log that agrees, another storage order. With discs that differ, turn, leave
-// and meet obstacles (troubled_bodies.hpp): the same, each disc's own counters, energy, what the self-check holds
-// a run to, and a restart.
+// Properties that hold for every scene, on random ones drawn for trouble (troubled_scenes.hpp), for
+// both rules: the reference's bits; no disc lost; energy to 1e-12; nothing outside the box;
+// counters that agree with the log; the log in order; transposed scenes have transposed bits;
+// another storage order has the same bits. With effects drawn as well (troubled_effects.hpp): the
+// reference's bits, no disc lost, a log that agrees, another storage order. With discs that differ,
+// turn, leave and meet obstacles (troubled_bodies.hpp): the same, each disc's own counters, energy,
+// what the self-check holds a run to, and a restart.
 //
-// A scene that fails is made small and printed; kept in tests/stability/regressions it is tried for ever after.
-// $CARROM_TEST_SCENES sets how many scenes are drawn, $CARROM_TEST_SEED where they begin.
+// A scene that fails is made small and printed; kept in tests/stability/regressions it is tried for
+// ever after. $CARROM_TEST_SCENES sets how many scenes are drawn, $CARROM_TEST_SEED where they
+// begin.
 #include "catch.hpp"
 #include <omp.h>
 
@@ -50,14 +52,18 @@ struct State {
 
 template <class Reference> State state_after(Reference reference, std::int64_t steps) {
     reference.run_steps(steps);
-    return {{reference.discs().begin(), reference.discs().end()}, {reference.spins().begin(), reference.spins().end()}};
+    return {{reference.discs().begin(), reference.discs().end()},
+            {reference.spins().begin(), reference.spins().end()}};
 }
 
 /// The state that the rule's reference ends in; none if it is in collisions without end.
 std::optional<State> reference_state(const TestScene& scene, Method method) {
-    if (method == Method::time_stepped) return state_after(reference::TimeSteppedReference(scene.setting, scene.discs), scene.steps);
+    if (method == Method::time_stepped)
+        return state_after(reference::TimeSteppedReference(scene.setting, scene.discs),
+                           scene.steps);
     try {
-        return state_after(reference::EventDrivenReference(scene.setting, scene.discs, 20000), scene.steps);
+        return state_after(reference::EventDrivenReference(scene.setting, scene.discs, 20000),
+                           scene.steps);
     } catch (const std::runtime_error&) {
         ++n_cascades;
         return std::nullopt;
@@ -65,8 +71,8 @@ std::optional<State> reference_state(const TestScene& scene, Method method) {
 }
 
 bool is_transposed(const Disc& a, const Disc& b) {
-    return a.x == b.y && a.y == b.x && a.vx == b.vy && a.vy == b.vx && a.tau == b.tau && a.wall_collisions == b.wall_collisions &&
-           a.pair_collisions == b.pair_collisions;
+    return a.x == b.y && a.y == b.x && a.vx == b.vy && a.vy == b.vx && a.tau == b.tau &&
+           a.wall_collisions == b.wall_collisions && a.pair_collisions == b.pair_collisions;
 }
 
 /// Whether the log counts what the discs count, in times that are in order and in range.
@@ -75,7 +81,8 @@ bool log_agrees(const TestScene& scene, Method method, const Totals& totals) {
     double last = 0;
     for (const Collision& collision : collisions_of(scene, method)) {
         const double time = static_cast<double>(collision.micro_step) + collision.time;
-        if (time < last || time > static_cast<double>(scene.steps * scene.setting.micro_steps)) return false;
+        if (time < last || time > static_cast<double>(scene.steps * scene.setting.micro_steps))
+            return false;
         if (collision.q != Collision::wall && collision.p >= collision.q) return false;
         last = time;
         ++(collision.q == Collision::wall ? n_walls : n_pairs);
@@ -83,7 +90,8 @@ bool log_agrees(const TestScene& scene, Method method, const Totals& totals) {
     return n_walls == totals.wall_collisions && n_pairs == totals.pair_collisions;
 }
 
-bool has_same_bits_in_another_order(const TestScene& scene, Method method, const Outcome& end, double window = 0.37) {
+bool has_same_bits_in_another_order(const TestScene& scene, Method method, const Outcome& end,
+                                    double window = 0.37) {
     Tuning tuning;
     tuning.window = window;
     tuning.cell_width = 0.5;
@@ -98,7 +106,8 @@ std::string broken_with_effects(const TestScene& scene, Method method) {
     if (end.discs.size() != scene.discs.size()) return "discs are lost";
     if (end.totals.hash != expected->hash()) return "other bits than the reference";
     if (!log_agrees(scene, method, end.totals)) return "log and counters do not agree";
-    if (!has_same_bits_in_another_order(scene, method, end)) return "other bits in another storage order";
+    if (!has_same_bits_in_another_order(scene, method, end))
+        return "other bits in another storage order";
     return {};
 }
 
@@ -109,40 +118,62 @@ bool counters_agree(const TestScene& scene, Method method, const std::vector<Dis
         ++n[collision.p][collision.q != Collision::wall];
         if (collision.q != Collision::wall) ++n[collision.q][1];
     }
-    return std::all_of(discs.begin(), discs.end(), [&n](const Disc& disc) { return n[disc.id] == std::array{disc.wall_collisions, disc.pair_collisions}; });
+    return std::all_of(discs.begin(), discs.end(), [&n](const Disc& disc) {
+        return n[disc.id] == std::array{disc.wall_collisions, disc.pair_collisions};
+    });
 }
 
 /// Of motion and of spins, twice.
 long double energy_of(const State& state, const reference::Setting& setting) {
     long double sum = 0;
     for (const Disc& disc : state.discs) {
-        const long double turning = state.spins.empty() ? 0 : setting.radius_of(disc.id) * state.spins[disc.id];
+        const long double turning = state.spins.empty()
+                                        ? 0
+                                        : setting.radius_of(disc.id) * state.spins[disc.id];
         const long double vx = disc.vx, vy = disc.vy;
-        sum += setting.mass_of(disc.id) * (vx * vx + vy * vy + setting.effects.contact.inertia * turning * turning);
+        sum += setting.mass_of(disc.id) *
+               (vx * vx + vy * vy + setting.effects.contact.inertia * turning * turning);
     }
     return sum;
 }
 
-/// Energy never grows where nothing gives any, and stays where nothing takes any either. (With gravity the self-check looks at it.)
+/// Energy never grows where nothing gives any, and stays where nothing takes any either. (With
+/// gravity the self-check looks at it.)
 bool energy_is_right(const TestScene& scene, const State& end) {
     const Effects& effects = scene.setting.effects;
-    const auto has_side = [&effects](auto is_so) { return std::any_of(effects.boundaries.begin(), effects.boundaries.end(), is_so); };
-    if (effects.gravity.is_any() || has_side([](const Boundary& side) { return side.kind == BoundaryKind::thermal || side.speed != 0; })) return true;
-    const State start{reference::stored_states(scene.setting, scene.discs), reference::stored_spins(scene.setting, scene.discs.size())};
-    const long double before = energy_of(start, scene.setting), growth = energy_of(end, scene.setting) - before;
+    const auto has_side = [&effects](auto is_so) {
+        return std::any_of(effects.boundaries.begin(), effects.boundaries.end(), is_so);
+    };
+    if (effects.gravity.is_any() || has_side([](const Boundary& side) {
+            return side.kind == BoundaryKind::thermal || side.speed != 0;
+        }))
+        return true;
+    const State start{reference::stored_states(scene.setting, scene.discs),
+                      reference::stored_spins(scene.setting, scene.discs.size())};
+    const long double before = energy_of(start, scene.setting),
+                      growth = energy_of(end, scene.setting) - before;
     const ContactEffect& contact = effects.contact;
-    const bool keeps_slip = contact.tangential_restitution == -1 || contact.friction == 0 || (contact.tangential_restitution == 1 && std::isinf(contact.friction));
-    const bool are_lossy = contact.restitution < 1 || (contact.kind == ContactKind::rough && !keeps_slip) || effects.drag > 0 || effects.obstacles.restitution < 1;
-    const bool may_take = are_lossy || has_side([](const Boundary& side) { return side.restitution < 1 || side.kind == BoundaryKind::open; });
+    const bool keeps_slip = contact.tangential_restitution == -1 || contact.friction == 0 ||
+                            (contact.tangential_restitution == 1 && std::isinf(contact.friction));
+    const bool are_lossy = contact.restitution < 1 ||
+                           (contact.kind == ContactKind::rough && !keeps_slip) ||
+                           effects.drag > 0 || effects.obstacles.restitution < 1;
+    const bool may_take = are_lossy || has_side([](const Boundary& side) {
+                              return side.restitution < 1 || side.kind == BoundaryKind::open;
+                          });
     return (may_take ? growth : std::fabs(growth)) <= 1e-12L * before;
 }
 
 /// Whether the scene written as TOML is one that the program takes, and the same one.
 bool reads_back(const TestScene& scene, Method method) {
     const auto [read, methods] = regression_of(toml_of(scene, method), "drawn.toml");
-    const auto has_no_spin = [](const std::vector<double>& spins) { return std::all_of(spins.begin(), spins.end(), [](double spin) { return spin == 0; }); };
-    const std::vector<double>&spins = scene.setting.first_spins, &spins_read = read.setting.first_spins;
-    return read.discs == scene.discs && read.setting.effects == scene.setting.effects && read.setting.radius == scene.setting.radius &&
+    const auto has_no_spin = [](const std::vector<double>& spins) {
+        return std::all_of(spins.begin(), spins.end(), [](double spin) { return spin == 0; });
+    };
+    const std::vector<double>&spins = scene.setting.first_spins,
+          &spins_read = read.setting.first_spins;
+    return read.discs == scene.discs && read.setting.effects == scene.setting.effects &&
+           read.setting.radius == scene.setting.radius &&
            (spins_read == spins || (has_no_spin(spins) && has_no_spin(spins_read)));
 }
 
@@ -155,7 +186,11 @@ bool has_same_bits_begun_again(const TestScene& scene, Method method, const Outc
     tuning.discs_per_thread = 1;
     Simulation first = start(scene, method);
     run_to(first, scene.steps / 2);
-    Simulation second(again, {{first.discs().begin(), first.discs().end()}, first.micro_steps_done(), {first.spins().begin(), first.spins().end()}}, Communicator::world(), tuning);
+    Simulation second(again,
+                      {{first.discs().begin(), first.discs().end()},
+                       first.micro_steps_done(),
+                       {first.spins().begin(), first.spins().end()}},
+                      Communicator::world(), tuning);
     run_to(second, scene.steps);
     return second.totals().hash == end.totals.hash;
 }
@@ -170,7 +205,8 @@ Outcome run_checked(const TestScene& scene, Method method) {
     return outcome_of(simulation);
 }
 
-/// The same for discs that differ, turn and leave, among obstacles. What follows a colon is told, and not compared. **Collective.**
+/// The same for discs that differ, turn and leave, among obstacles. What follows a colon is told,
+/// and not compared. **Collective.**
 std::string broken_among_bodies(const TestScene& scene, Method method) {
     if (!is_clear(scene)) return "drawn with an overlap";
     try {
@@ -181,8 +217,11 @@ std::string broken_among_bodies(const TestScene& scene, Method method) {
         if (end.discs.size() != scene.discs.size()) return "discs are lost";
         if (end.totals.hash != expected->hash()) return "other bits than the reference";
         if (!energy_is_right(scene, *expected)) return "the energy has changed";
-        if (!log_agrees(scene, method, end.totals) || !counters_agree(scene, method, end.discs)) return "log and counters do not agree";
-        if (!has_same_bits_in_another_order(scene, method, end) || !has_same_bits_in_another_order(scene, method, end, 2.7)) return "other bits in another storage order";
+        if (!log_agrees(scene, method, end.totals) || !counters_agree(scene, method, end.discs))
+            return "log and counters do not agree";
+        if (!has_same_bits_in_another_order(scene, method, end) ||
+            !has_same_bits_in_another_order(scene, method, end, 2.7))
+            return "other bits in another storage order";
         if (!has_same_bits_begun_again(scene, method, end)) return "other bits after a restart";
     } catch (const InputError& error) {
         return std::string("refused: ") + error.what();
@@ -201,12 +240,18 @@ std::string broken_property(const TestScene& scene, Method method) {
     if (end.totals.hash != expected->hash()) return "other bits than the reference";
     const double energy = squared_speeds(start_of_run), speed = std::sqrt(energy);
     if (std::fabs(squared_speeds(end) - energy) > 1e-12 * energy) return "the energy has changed";
-    const double latest = std::max(64.0, static_cast<double>(std::min(scene.setting.sync_every, scene.steps * scene.setting.micro_steps)));
-    if (farthest_outside(end, scene.setting) > 4 * ulp_of(scene.setting.box_size) + speed * ulp_of(latest / 2)) return "a disc is outside";
+    const double latest = std::max(
+        64.0, static_cast<double>(
+                  std::min(scene.setting.sync_every, scene.steps * scene.setting.micro_steps)));
+    if (farthest_outside(end, scene.setting) >
+        4 * ulp_of(scene.setting.box_size) + speed * ulp_of(latest / 2))
+        return "a disc is outside";
     if (!log_agrees(scene, method, end.totals)) return "log and counters do not agree";
-    if (!has_same_bits_in_another_order(scene, method, end)) return "other bits in another storage order";
+    if (!has_same_bits_in_another_order(scene, method, end))
+        return "other bits in another storage order";
     const Outcome mirror = run(transposed(scene), method);
-    if (!std::equal(end.discs.begin(), end.discs.end(), mirror.discs.begin(), is_transposed)) return "not bitwise transposed";
+    if (!std::equal(end.discs.begin(), end.discs.end(), mirror.discs.begin(), is_transposed))
+        return "not bitwise transposed";
     return {};
 }
 
@@ -215,7 +260,8 @@ std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
     return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
 }
 
-/// `draw(seed, rule)` makes the scenes, which are drawn `how`; `broken(scene, rule)` says what is wrong with one.
+/// `draw(seed, rule)` makes the scenes, which are drawn `how`; `broken(scene, rule)` says what is
+/// wrong with one.
 template <class Draw>
 void try_scenes(const std::string& how, std::uint64_t first, std::uint64_t count, const Draw& draw,
                 std::string (*broken_in)(const TestScene&, Method) = broken_property) {
@@ -227,7 +273,9 @@ void try_scenes(const std::string& how, std::uint64_t first, std::uint64_t count
             const std::string broken = broken_in(scene, method);
             if (broken.empty()) continue;
             n_broken += 1;
-            const auto kind = [](const std::string& text) { return text.substr(0, text.find(':')); };
+            const auto kind = [](const std::string& text) {
+                return text.substr(0, text.find(':'));
+            };
             const TestScene small = shrunk(scene, [&](const TestScene& trial) {
                 try {
                     return kind(broken_in(trial, method)) == kind(broken);
@@ -235,38 +283,48 @@ void try_scenes(const std::string& how, std::uint64_t first, std::uint64_t count
                     return false;
                 }
             });
-            FAIL_CHECK(scene.name << ", rule " << name_of(method) << ": " << broken << "; small:\n" << toml_of(small, method));
+            FAIL_CHECK(scene.name << ", rule " << name_of(method) << ": " << broken << "; small:\n"
+                                  << toml_of(small, method));
         }
         CHECK(n_cascades <= count / 4);
-        hold("property", std::to_string(count) + " random scenes drawn " + how + ": a property broken", name_of(method), n_broken, 0);
+        hold("property",
+             std::to_string(count) + " random scenes drawn " + how + ": a property broken",
+             name_of(method), n_broken, 0);
     }
 }
 
 TestScene troubled(std::uint64_t seed, Method) { return troubled_scene(seed); }
-TestScene troubled_with_effects(std::uint64_t seed, Method method) { return with_effects(troubled_scene(seed), method, seed); }
-TestScene wildly_troubled(std::uint64_t seed, Method method) { return wildly_troubled_scene(seed, method == Method::time_stepped); }
+TestScene troubled_with_effects(std::uint64_t seed, Method method) {
+    return with_effects(troubled_scene(seed), method, seed);
+}
+TestScene wildly_troubled(std::uint64_t seed, Method method) {
+    return wildly_troubled_scene(seed, method == Method::time_stepped);
+}
 
 } // namespace
 
 TEST_CASE("property: random scenes drawn for trouble", "[property]") {
     const std::uint64_t few = Communicator::world().size() == 1 ? 200 : 8;
-    try_scenes("for trouble", number_from("CARROM_TEST_SEED", 1), number_from("CARROM_TEST_SCENES", few), troubled);
+    try_scenes("for trouble", number_from("CARROM_TEST_SEED", 1),
+               number_from("CARROM_TEST_SCENES", few), troubled);
 }
 
 TEST_CASE("property: random scenes drawn wildly", "[property]") {
     const std::uint64_t few = Communicator::world().size() == 1 ? 100 : 6;
-    try_scenes("wildly", number_from("CARROM_TEST_SEED", 1), number_from("CARROM_TEST_SCENES", few), wildly_troubled);
+    try_scenes("wildly", number_from("CARROM_TEST_SEED", 1), number_from("CARROM_TEST_SCENES", few),
+               wildly_troubled);
 }
 
 TEST_CASE("property: random scenes drawn for trouble, with effects", "[property]") {
     const std::uint64_t few = Communicator::world().size() == 1 ? 50 : 4;
-    try_scenes("for trouble, with effects", number_from("CARROM_TEST_SEED", 1), number_from("CARROM_TEST_SCENES", few), troubled_with_effects,
-               broken_with_effects);
+    try_scenes("for trouble, with effects", number_from("CARROM_TEST_SEED", 1),
+               number_from("CARROM_TEST_SCENES", few), troubled_with_effects, broken_with_effects);
 }
 
 TEST_CASE("property: random scenes of bodies drawn for trouble", "[property]") {
     const std::uint64_t few = Communicator::world().size() == 1 ? 100 : 6;
-    try_scenes("of bodies, for trouble", number_from("CARROM_TEST_SEED", 1), number_from("CARROM_TEST_SCENES", few), troubled_bodies, broken_among_bodies);
+    try_scenes("of bodies, for trouble", number_from("CARROM_TEST_SEED", 1),
+               number_from("CARROM_TEST_SCENES", few), troubled_bodies, broken_among_bodies);
 }
 
 TEST_CASE("property: fifty thousand random scenes of bodies", "[property][.hours]") {
@@ -274,10 +332,13 @@ TEST_CASE("property: fifty thousand random scenes of bodies", "[property][.hours
 }
 
 TEST_CASE("property: fifty thousand random scenes with effects", "[property][.hours]") {
-    try_scenes("for trouble, with effects", 1000000, 50000, troubled_with_effects, broken_with_effects);
+    try_scenes("for trouble, with effects", 1000000, 50000, troubled_with_effects,
+               broken_with_effects);
 }
 
-TEST_CASE("property: a million random scenes", "[property][.hours]") { try_scenes("for trouble", 1000000, 1000000, troubled); }
+TEST_CASE("property: a million random scenes", "[property][.hours]") {
+    try_scenes("for trouble", 1000000, 1000000, troubled);
+}
 
 TEST_CASE("property: twenty thousand random scenes drawn wildly", "[property][.hours]") {
     try_scenes("wildly", 1000000, 20000, wildly_troubled);
@@ -289,7 +350,8 @@ TEST_CASE("property: scenes that have failed before", "[property]") {
         const auto [scene, methods] = read_regression(entry.path().string());
         for (const Method method : methods) {
             INFO(scene.name << ", rule " << name_of(method));
-            CHECK((scene.setting.effects.are_any() ? broken_among_bodies : broken_property)(scene, method) == "");
+            CHECK((scene.setting.effects.are_any() ? broken_among_bodies
+                                                   : broken_property)(scene, method) == "");
         }
         ++n_scenes;
     }

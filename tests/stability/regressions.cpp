@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "scene/read_scene.hpp"
 #include "runs.hpp"
+#include "scene/read_scene.hpp"
 #include "scene_tools.hpp"
 #include "troubled_effects.hpp"
 
@@ -21,7 +21,8 @@ namespace {
 using Fails = std::function<bool(const TestScene&)>;
 
 /// Calls `change(scene)` on a copy and keeps it if it still fails.
-template <class Change> bool keep_if_it_fails(TestScene& scene, const Fails& fails, const Change& change) {
+template <class Change>
+bool keep_if_it_fails(TestScene& scene, const Fails& fails, const Change& change) {
     TestScene trial = scene;
     change(trial);
     if (!fails(trial)) return false;
@@ -49,31 +50,47 @@ void leave_out(TestScene& scene, std::size_t place) {
     if (!spins.empty()) spins.erase(spins.begin() + static_cast<std::ptrdiff_t>(departed));
 }
 
-/// One effect fewer, or one that is simpler: each is tried by itself. A change that changes nothing is no success.
+/// One effect fewer, or one that is simpler: each is tried by itself. A change that changes nothing
+/// is no success.
 bool shrink_effects(TestScene& scene, const Fails& fails) {
     bool has_changed = false;
     const auto without = [&](const auto& change) {
         TestScene trial = scene;
         change(trial.setting);
-        if (trial.setting.effects == scene.setting.effects && trial.setting.first_spins == scene.setting.first_spins) return;
+        if (trial.setting.effects == scene.setting.effects &&
+            trial.setting.first_spins == scene.setting.first_spins)
+            return;
         hand_to_reference(trial.setting);
         has_changed |= keep_if_it_fails(scene, fails, [&trial](TestScene& copy) { copy = trial; });
     };
     const ObstacleList& obstacles = scene.setting.effects.obstacles;
-    const auto nth = [](auto& list, std::size_t i) { return list.begin() + static_cast<std::ptrdiff_t>(i); };
-    for (std::size_t i = obstacles.discs.size(); i-- > 0;) without([&](reference::Setting& s) { s.effects.obstacles.discs.erase(nth(s.effects.obstacles.discs, i)); });
-    for (std::size_t i = obstacles.segments.size(); i-- > 0;) without([&](reference::Setting& s) { s.effects.obstacles.segments.erase(nth(s.effects.obstacles.segments, i)); });
+    const auto nth = [](auto& list, std::size_t i) {
+        return list.begin() + static_cast<std::ptrdiff_t>(i);
+    };
+    for (std::size_t i = obstacles.discs.size(); i-- > 0;)
+        without([&](reference::Setting& s) {
+            s.effects.obstacles.discs.erase(nth(s.effects.obstacles.discs, i));
+        });
+    for (std::size_t i = obstacles.segments.size(); i-- > 0;)
+        without([&](reference::Setting& s) {
+            s.effects.obstacles.segments.erase(nth(s.effects.obstacles.segments, i));
+        });
     without([](reference::Setting& s) { s.effects.obstacles.restitution = 1; });
     for (const std::size_t low : {0u, 2u}) {
-        without([low](reference::Setting& s) { s.effects.boundaries[low] = s.effects.boundaries[low + 1] = {}; });
+        without([low](reference::Setting& s) {
+            s.effects.boundaries[low] = s.effects.boundaries[low + 1] = {};
+        });
         if (scene.setting.effects.boundaries[low].kind == BoundaryKind::periodic) continue;
-        for (const std::size_t side : {low, low + 1}) without([side](reference::Setting& s) { s.effects.boundaries[side] = {}; });
+        for (const std::size_t side : {low, low + 1})
+            without([side](reference::Setting& s) { s.effects.boundaries[side] = {}; });
     }
     without([](reference::Setting& s) { s.effects.gravity = {}; });
     without([](reference::Setting& s) { s.effects.drag = 0; });
     without([](reference::Setting& s) { s.effects.contact = {}, s.first_spins.clear(); });
     without([](reference::Setting& s) { s.first_spins.clear(); });
-    without([](reference::Setting& s) { for (Species& one : s.effects.species) one.mass = 1; });
+    without([](reference::Setting& s) {
+        for (Species& one : s.effects.species) one.mass = 1;
+    });
     return has_changed;
 }
 
@@ -87,8 +104,12 @@ std::string toml_of(const Effects& effects, Method method) {
         if (side.is_plain()) continue;
         text += fmt::format("[box.{}]\n", boundary_names[k]);
         switch (side.kind) {
-        case BoundaryKind::thermal: text += fmt::format("kind = \"thermal\"\ntemperature = {:.17g}\n", side.temperature); break;
-        case BoundaryKind::moving: text += fmt::format("kind = \"moving\"\nspeed = {:.17g}\n", side.speed); break;
+        case BoundaryKind::thermal:
+            text += fmt::format("kind = \"thermal\"\ntemperature = {:.17g}\n", side.temperature);
+            break;
+        case BoundaryKind::moving:
+            text += fmt::format("kind = \"moving\"\nspeed = {:.17g}\n", side.speed);
+            break;
         case BoundaryKind::open: text += "kind = \"open\"\n"; break;
         case BoundaryKind::periodic: text += "kind = \"periodic\"\n"; break;
         case BoundaryKind::fixed: break;
@@ -96,22 +117,34 @@ std::string toml_of(const Effects& effects, Method method) {
         if (side.restitution < 1) text += fmt::format("restitution = {:.17g}\n", side.restitution);
     }
     const ContactEffect& contact = effects.contact;
-    const bool is_rough = contact.kind == ContactKind::rough, is_dull = is_rough || contact.kind == ContactKind::restitution;
+    const bool is_rough = contact.kind == ContactKind::rough,
+               is_dull = is_rough || contact.kind == ContactKind::restitution;
     if (contact.kind != ContactKind::elastic || is_lossy) text += "[effects.contact]\n";
     if (contact.kind == ContactKind::none) text += "kind = \"none\"\n";
-    if (is_dull) text += fmt::format("kind = \"{}\"\nrestitution = {:.17g}\n", is_rough ? "rough" : "restitution", contact.restitution);
-    if (is_rough) text += fmt::format("tangential_restitution = {:.17g}\nmoment_of_inertia = {:.17g}\n", contact.tangential_restitution, contact.inertia);
-    if (is_rough && std::isfinite(contact.friction)) text += fmt::format("friction = {:.17g}\n", contact.friction);
+    if (is_dull)
+        text += fmt::format("kind = \"{}\"\nrestitution = {:.17g}\n",
+                            is_rough ? "rough" : "restitution", contact.restitution);
+    if (is_rough)
+        text += fmt::format("tangential_restitution = {:.17g}\nmoment_of_inertia = {:.17g}\n",
+                            contact.tangential_restitution, contact.inertia);
+    if (is_rough && std::isfinite(contact.friction))
+        text += fmt::format("friction = {:.17g}\n", contact.friction);
     if (is_dull || is_lossy) text += fmt::format("contact_time = {:.17g}\n", contact.contact_time);
-    if (effects.gravity.is_any()) text += fmt::format("[effects.gravity]\nx = {:.17g}\ny = {:.17g}\n", effects.gravity.x, effects.gravity.y);
+    if (effects.gravity.is_any())
+        text += fmt::format("[effects.gravity]\nx = {:.17g}\ny = {:.17g}\n", effects.gravity.x,
+                            effects.gravity.y);
     if (effects.drag > 0) text += fmt::format("[effects.drag]\nrate = {:.17g}\n", effects.drag);
-    const bool is_thermal = std::any_of(effects.boundaries.begin(), effects.boundaries.end(), [](const Boundary& side) { return side.kind == BoundaryKind::thermal; });
+    const bool is_thermal = std::any_of(
+        effects.boundaries.begin(), effects.boundaries.end(),
+        [](const Boundary& side) { return side.kind == BoundaryKind::thermal; });
     if (is_thermal) text += fmt::format("[effects.thermal]\nseed = {}\n", effects.thermal_seed);
     if (!effects.obstacles.are_any()) return text;
     text += "[effects.obstacles]\ndiscs = [\n";
-    for (const FixedDisc& disc : effects.obstacles.discs) text += fmt::format("  [{:.17g}, {:.17g}, {:.17g}],\n", disc.x, disc.y, disc.radius);
+    for (const FixedDisc& disc : effects.obstacles.discs)
+        text += fmt::format("  [{:.17g}, {:.17g}, {:.17g}],\n", disc.x, disc.y, disc.radius);
     text += "]\nsegments = [\n";
-    for (const Segment& s : effects.obstacles.segments) text += fmt::format("  [{:.17g}, {:.17g}, {:.17g}, {:.17g}],\n", s.x0, s.y0, s.x1, s.y1);
+    for (const Segment& s : effects.obstacles.segments)
+        text += fmt::format("  [{:.17g}, {:.17g}, {:.17g}, {:.17g}],\n", s.x0, s.y0, s.x1, s.y1);
     return text + fmt::format("]\nrestitution = {:.17g}\n", effects.obstacles.restitution);
 }
 
@@ -121,15 +154,22 @@ TestScene shrunk(TestScene scene, const Fails& fails) {
     for (bool has_changed = true; has_changed;) {
         has_changed = false;
         for (std::size_t i = scene.discs.size(); i-- > 0 && scene.discs.size() > 1;)
-            has_changed |= keep_if_it_fails(scene, fails, [i](TestScene& trial) { leave_out(trial, i); });
-        while (scene.steps > 1 && keep_if_it_fails(scene, fails, [](TestScene& trial) { trial.steps -= 1; })) has_changed = true;
+            has_changed |= keep_if_it_fails(scene, fails,
+                                            [i](TestScene& trial) { leave_out(trial, i); });
+        while (scene.steps > 1 &&
+               keep_if_it_fails(scene, fails, [](TestScene& trial) { trial.steps -= 1; }))
+            has_changed = true;
         has_changed |= shrink_effects(scene, fails);
         for (InputDisc& disc : scene.discs) {
-            for (double InputDisc::*const number : {&InputDisc::vx, &InputDisc::vy, &InputDisc::x, &InputDisc::y}) {
-                const double unit = scene.setting.radius / 16, rounded = std::round(disc.*number / unit) * unit;
+            for (double InputDisc::* const number :
+                 {&InputDisc::vx, &InputDisc::vy, &InputDisc::x, &InputDisc::y}) {
+                const double unit = scene.setting.radius / 16,
+                             rounded = std::round(disc.*number / unit) * unit;
                 const bool is_place = number == &InputDisc::x || number == &InputDisc::y;
                 if (rounded == disc.*number) continue;
-                if (is_place && !(rounded >= scene.setting.radius && rounded <= scene.setting.box_size - scene.setting.radius)) continue;
+                if (is_place && !(rounded >= scene.setting.radius &&
+                                  rounded <= scene.setting.box_size - scene.setting.radius))
+                    continue;
                 const auto place = &disc - scene.discs.data();
                 has_changed |= keep_if_it_fails(scene, fails, [&](TestScene& trial) {
                     trial.discs[static_cast<std::size_t>(place)].*number = rounded;
@@ -143,17 +183,27 @@ TestScene shrunk(TestScene scene, const Fails& fails) {
 std::string toml_of(const TestScene& scene, Method method) {
     const reference::Setting& setting = scene.setting;
     std::vector<InputDisc> discs = scene.discs;
-    std::sort(discs.begin(), discs.end(), [](const InputDisc& a, const InputDisc& b) { return a.id < b.id; });
+    std::sort(discs.begin(), discs.end(),
+              [](const InputDisc& a, const InputDisc& b) { return a.id < b.id; });
     std::string rows;
     for (const InputDisc& disc : discs) {
-        rows += fmt::format("  [{:.17g}, {:.17g}, {:.17g}, {:.17g}", disc.x, disc.y, disc.vx, disc.vy);
-        if (!setting.effects.species.empty()) rows += fmt::format(", {:.17g}, {:.17g}", setting.radius_of(disc.id), setting.mass_of(disc.id));
-        if (!setting.first_spins.empty()) rows += fmt::format(", {:.17g}", setting.first_spins[disc.id]);
+        rows += fmt::format("  [{:.17g}, {:.17g}, {:.17g}, {:.17g}", disc.x, disc.y, disc.vx,
+                            disc.vy);
+        if (!setting.effects.species.empty())
+            rows += fmt::format(", {:.17g}, {:.17g}", setting.radius_of(disc.id),
+                                setting.mass_of(disc.id));
+        if (!setting.first_spins.empty())
+            rows += fmt::format(", {:.17g}", setting.first_spins[disc.id]);
         rows += "],\n";
     }
-    const std::string radius = setting.effects.species.empty() ? fmt::format("radius = {:.17g}\n", setting.radius) : "";
-    return fmt::format("[box]\nsize = {:.17g}\n[discs]\n{}list = [\n{}]\n[time]\nsteps = {}\nmicro_steps = {}\nsync_every = {}\n{}", setting.box_size, radius,
-                       rows, scene.steps, setting.micro_steps, setting.sync_every, setting.effects.are_any() ? toml_of(setting.effects, method) : "");
+    const std::string radius = setting.effects.species.empty()
+                                   ? fmt::format("radius = {:.17g}\n", setting.radius)
+                                   : "";
+    return fmt::format("[box]\nsize = {:.17g}\n[discs]\n{}list = [\n{}]\n[time]\nsteps = "
+                       "{}\nmicro_steps = {}\nsync_every = {}\n{}",
+                       setting.box_size, radius, rows, scene.steps, setting.micro_steps,
+                       setting.sync_every,
+                       setting.effects.are_any() ? toml_of(setting.effects, method) : "");
 }
 
 Regression regression_of(const std::string& text, const std::string& name) {
@@ -163,7 +213,8 @@ Regression regression_of(const std::string& text, const std::string& name) {
     scene.setting.sync_every = read.sync_every;
     scene.setting.effects = read.effects;
     scene.discs = read.listed_discs;
-    for (std::size_t id = 0; id < scene.discs.size() && !read.spins.empty(); ++id) scene.setting.first_spins.push_back(first_spin(read, id));
+    for (std::size_t id = 0; id < scene.discs.size() && !read.spins.empty(); ++id)
+        scene.setting.first_spins.push_back(first_spin(read, id));
     if (!read.effects.are_any()) return {scene, {Method::time_stepped, Method::event_driven}};
     hand_to_reference(scene.setting);
     return {scene, {read.method}};
@@ -171,7 +222,8 @@ Regression regression_of(const std::string& text, const std::string& name) {
 
 Regression read_regression(const std::string& path) {
     std::ifstream file(path);
-    return regression_of({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()}, path);
+    return regression_of({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()},
+                         path);
 }
 
 } // namespace carrom::test

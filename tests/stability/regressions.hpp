@@ -11,10 +11,12 @@
 
 namespace carrom::test {
 
-/// The smallest scene found, by leaving out discs, effects, steps and digits, for which `fails` still holds.
+/// The smallest scene found, by leaving out discs, effects, steps and digits, for which `fails`
+/// still holds.
 TestScene shrunk(TestScene scene, const std::function<bool(const TestScene&)>& fails);
 
-/// The scene as TOML that reads back to the same bits, to be kept in tests/stability/regressions; one with effects is for that rule.
+/// The scene as TOML that reads back to the same bits, to be kept in tests/stability/regressions;
+/// one with effects is for that rule.
 std::string toml_of(const TestScene& scene, Method method);
 
 /// A scene kept there. With effects it is for its own rule, else for both.

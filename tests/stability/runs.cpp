@@ -19,9 +19,12 @@ namespace carrom::test {
 namespace {
 
 /// Everybody's items on every rank.
-template <class Item> std::vector<Item> gathered(std::span<const Item> mine, const Communicator& world) {
+template <class Item>
+std::vector<Item> gathered(std::span<const Item> mine, const Communicator& world) {
     std::vector<Item> all;
-    const auto take = [&](std::span<const Item> some) { all.insert(all.end(), some.begin(), some.end()); };
+    const auto take = [&](std::span<const Item> some) {
+        all.insert(all.end(), some.begin(), some.end());
+    };
     stream_to_root(world, mine, take, 10000);
     world.broadcast(all);
     return all;
@@ -36,7 +39,8 @@ Simulation start(const TestScene& scene, Method method, Tuning tuning, unsigned 
     std::mt19937 random(seed);
     std::vector<InputDisc> mine;
     for (const InputDisc& disc : scene.discs) {
-        if (static_cast<int>(random() % static_cast<unsigned>(world.size())) == world.rank()) mine.push_back(disc);
+        if (static_cast<int>(random() % static_cast<unsigned>(world.size())) == world.rank())
+            mine.push_back(disc);
     }
     std::shuffle(mine.begin(), mine.end(), random);
     Scene checked = scene_of(scene);
@@ -51,8 +55,10 @@ void run_to(Simulation& simulation, std::int64_t step) {
 }
 
 Outcome outcome_of(const Simulation& simulation) {
-    Outcome outcome{gathered(simulation.discs(), Communicator::world()), simulation.clock(), simulation.totals()};
-    std::sort(outcome.discs.begin(), outcome.discs.end(), [](const Disc& a, const Disc& b) { return a.id < b.id; });
+    Outcome outcome{gathered(simulation.discs(), Communicator::world()), simulation.clock(),
+                    simulation.totals()};
+    std::sort(outcome.discs.begin(), outcome.discs.end(),
+              [](const Disc& a, const Disc& b) { return a.id < b.id; });
     return outcome;
 }
 
@@ -81,34 +87,44 @@ std::vector<Collision> collisions_of(const TestScene& scene, Method method) {
     std::vector<Collision> all = gathered(std::span<const Collision>(mine), Communicator::world());
     std::sort(all.begin(), all.end(), [](const Collision& a, const Collision& b) {
         const auto key = [](const Collision& c) {
-            return std::make_tuple(c.micro_step, c.time, c.generation, c.p, c.q != Collision::wall, c.q);
+            return std::make_tuple(c.micro_step, c.time, c.generation, c.p, c.q != Collision::wall,
+                                   c.q);
         };
         return key(a) < key(b);
     });
     return all;
 }
 
-double ulp_of(double size) { return std::nextafter(size, std::numeric_limits<double>::max()) - size; }
+double ulp_of(double size) {
+    return std::nextafter(size, std::numeric_limits<double>::max()) - size;
+}
 
 double deepest_overlap(const Outcome& outcome, double sigma) {
     // Sorted by x, only neighbours within a diameter count.
     std::vector<std::pair<double, double>> places;
-    for (const Disc& disc : outcome.discs) places.emplace_back(disc.x_at(outcome.clock), disc.y_at(outcome.clock));
+    for (const Disc& disc : outcome.discs)
+        places.emplace_back(disc.x_at(outcome.clock), disc.y_at(outcome.clock));
     std::sort(places.begin(), places.end());
     double deepest = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < places.size(); ++i) {
-        for (std::size_t j = i + 1; j < places.size() && places[j].first - places[i].first < 1.01 * sigma; ++j) {
-            const double dx = places[j].first - places[i].first, dy = places[j].second - places[i].second;
+        for (std::size_t j = i + 1;
+             j < places.size() && places[j].first - places[i].first < 1.01 * sigma; ++j) {
+            const double dx = places[j].first - places[i].first,
+                         dy = places[j].second - places[i].second;
             deepest = std::max(deepest, sigma - std::sqrt(dx * dx + dy * dy));
         }
     }
-    // Discs of one local time may have collided with each other at that time: how deep were they then?
+    // Discs of one local time may have collided with each other at that time: how deep were they
+    // then?
     std::vector<const Disc*> by_time;
     for (const Disc& disc : outcome.discs) by_time.push_back(&disc);
-    std::sort(by_time.begin(), by_time.end(), [](const Disc* a, const Disc* b) { return a->tau < b->tau; });
+    std::sort(by_time.begin(), by_time.end(),
+              [](const Disc* a, const Disc* b) { return a->tau < b->tau; });
     for (std::size_t i = 1; i < by_time.size(); ++i) {
         const Disc &a = *by_time[i - 1], &b = *by_time[i];
-        if (a.tau == b.tau) deepest = std::max(deepest, sigma - std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y)));
+        if (a.tau == b.tau)
+            deepest = std::max(
+                deepest, sigma - std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y)));
     }
     return deepest;
 }
@@ -117,7 +133,8 @@ double farthest_outside(const Outcome& outcome, const reference::Setting& settin
     double farthest = -std::numeric_limits<double>::infinity();
     for (const Disc& disc : outcome.discs) {
         for (const double centre : {disc.x_at(outcome.clock), disc.y_at(outcome.clock)}) {
-            farthest = std::max({farthest, setting.radius - centre, centre - (setting.box_size - setting.radius)});
+            farthest = std::max(
+                {farthest, setting.radius - centre, centre - (setting.box_size - setting.radius)});
         }
     }
     return farthest;

@@ -7,8 +7,8 @@
 
 #include "core/disc.hpp"
 #include "parallel/communicator.hpp"
-#include "simulation/simulation.hpp"
 #include "scenes.hpp"
+#include "simulation/simulation.hpp"
 
 namespace carrom::test {
 
@@ -22,7 +22,8 @@ struct Outcome {
 /// "one" or "all".
 std::string name_of(Method method);
 
-/// The scene's start, dealt to the ranks at random and in an arbitrary order. As many threads as OpenMP has.
+/// The scene's start, dealt to the ranks at random and in an arbitrary order. As many threads as
+/// OpenMP has.
 /// **Collective.**
 Simulation start(const TestScene& scene, Method method, Tuning tuning = {}, unsigned seed = 1);
 
@@ -44,8 +45,8 @@ std::vector<Collision> collisions_of(const TestScene& scene, Method method);
 /// One ulp of the box: the spacing of doubles just below `box_size` doubles at most.
 double ulp_of(double size);
 
-/// Depth of the deepest overlap of any two discs at `outcome.clock`, or of two at the time they collided last, if that
-/// was with each other; negative if none touch.
+/// Depth of the deepest overlap of any two discs at `outcome.clock`, or of two at the time they
+/// collided last, if that was with each other; negative if none touch.
 double deepest_overlap(const Outcome& outcome, double sigma);
 
 /// How far the centre that is farthest out lies beyond [r, L-r]; negative if all are inside.

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Family 3, ties: several collisions of one disc at one time, to the bit.
 //
-// Why hard: what a three-body hit does is undefined by mechanics, so the order decides, and an order that depends on
-// storage, threads or arrival gives other results on other machines; comparing times with a tolerance is not transitive.
-// Sources: the DynamO and SMASH trackers (coincident particles loop for ever); Rapier's and Unity's notes on sorting.
-// Bounds: the bits of the plain references for every storage order, window and machine shape; momentum handed on exactly
-// where the numbers are exact; no end only where there is none, and then said so.
+// Why hard: what a three-body hit does is undefined by mechanics, so the order decides, and an
+// order that depends on storage, threads or arrival gives other results on other machines;
+// comparing times with a tolerance is not transitive. Sources: the DynamO and SMASH trackers
+// (coincident particles loop for ever); Rapier's and Unity's notes on sorting. Bounds: the bits of
+// the plain references for every storage order, window and machine shape; momentum handed on
+// exactly where the numbers are exact; no end only where there is none, and then said so.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -41,7 +42,8 @@ double count_differences(const TestScene& scene, Method method) {
     const StateHash expected = reference_hash(scene, method);
     double n_different = 0;
     unsigned seed = 0;
-    for (const std::optional<double> window : {std::optional<double>(), std::optional<double>(0.3), std::optional<double>(1.0)}) {
+    for (const std::optional<double> window :
+         {std::optional<double>(), std::optional<double>(0.3), std::optional<double>(1.0)}) {
         Tuning tuning;
         tuning.window = window;
         tuning.rebalance_above = seed % 2 == 0 ? 0 : 1.05;
@@ -55,7 +57,8 @@ double count_differences(const TestScene& scene, Method method) {
 
 /// `n` discs around one at rest, all arriving at it at the same time.
 TestScene symmetric_hit(const std::vector<std::pair<double, double>>& directions) {
-    TestScene scene = empty_scene(std::to_string(directions.size()) + " discs hit one at the same time", 32, 0.5, 20);
+    TestScene scene = empty_scene(
+        std::to_string(directions.size()) + " discs hit one at the same time", 32, 0.5, 20);
     add_disc(scene, 16, 16);
     for (const auto& [ex, ey] : directions) add_disc(scene, 16 + 5 * ex, 16 + 5 * ey, -ex, -ey);
     return scene;
@@ -63,9 +66,10 @@ TestScene symmetric_hit(const std::vector<std::pair<double, double>>& directions
 
 std::vector<TestScene> symmetric_hits() {
     const double h = std::sqrt(0.75);
-    std::vector<TestScene> scenes = {symmetric_hit({{1, 0}, {-1, 0}}), symmetric_hit({{1, 0}, {-1, 0}, {0, 1}, {0, -1}}),
-                                     symmetric_hit({{1, 0}, {-0.5, h}, {-0.5, -h}}),
-                                     symmetric_hit({{0.6, 0.8}, {-0.6, 0.8}, {0.6, -0.8}, {-0.6, -0.8}})};
+    std::vector<TestScene> scenes = {
+        symmetric_hit({{1, 0}, {-1, 0}}), symmetric_hit({{1, 0}, {-1, 0}, {0, 1}, {0, -1}}),
+        symmetric_hit({{1, 0}, {-0.5, h}, {-0.5, -h}}),
+        symmetric_hit({{0.6, 0.8}, {-0.6, 0.8}, {0.6, -0.8}, {-0.6, -0.8}})};
     TestScene four = empty_scene("four discs meet in a square", 16, 0.5, 20);
     for (const double x : {-1.0, 1.0}) {
         for (const double y : {-1.0, 1.0}) add_disc(four, 8 + 4 * x, 8 + 4 * y, -x, -y);
@@ -111,31 +115,44 @@ void check_family(const char* what, const std::vector<TestScene>& scenes, bool i
             n_different += count_differences(scene, method);
             n_different += count_differences(shuffled(transposed(scene), ++seed), method);
         }
-        hold("ties", std::string(what) + ": runs with other bits than the reference", name_of(method), n_different, 0);
+        hold("ties", std::string(what) + ": runs with other bits than the reference",
+             name_of(method), n_different, 0);
     }
 }
 
 } // namespace
 
-TEST_CASE("ties: symmetric hits of three to five discs", "[ties]") { check_family("symmetric hits of 3 to 5 discs", symmetric_hits()); }
+TEST_CASE("ties: symmetric hits of three to five discs", "[ties]") {
+    check_family("symmetric hits of 3 to 5 discs", symmetric_hits());
+}
 
-TEST_CASE("ties: wall and pair at one time, pairs at walls", "[ties]") { check_family("wall and pair at one time", walls_and_pairs()); }
+TEST_CASE("ties: wall and pair at one time, pairs at walls", "[ties]") {
+    check_family("wall and pair at one time", walls_and_pairs());
+}
 
 TEST_CASE("ties: the break of a triangle of touching discs", "[ties]") {
-    std::vector<TestScene> scenes = {break_shot(5, 0.5, 11, 0), break_shot(5, 0.3, 1.7, 0.3), break_shot(10, 0.5, 3, 0)};
+    std::vector<TestScene> scenes = {break_shot(5, 0.5, 11, 0), break_shot(5, 0.3, 1.7, 0.3),
+                                     break_shot(10, 0.5, 3, 0)};
     for (TestScene& scene : scenes) scene.steps = 25;
     check_family("triangular break", scenes);
 }
 
-TEST_CASE("ties: a lattice in which all discs touch", "[ties]") { check_family("all-touching lattice", {touching_lattice()}); }
+TEST_CASE("ties: a lattice in which all discs touch", "[ties]") {
+    check_family("all-touching lattice", {touching_lattice()});
+}
 
 TEST_CASE("ties: Newton's cradle, with gaps and touching", "[ties]") {
-    std::vector<TestScene> scenes = {cradle(7, 0.5, 0.125, 0.25), cradle(20, 0.5, 1, 5), cradle(15, 0.3, 0.07, 0.9)};
+    std::vector<TestScene> scenes = {cradle(7, 0.5, 0.125, 0.25), cradle(20, 0.5, 1, 5),
+                                     cradle(15, 0.3, 0.07, 0.9)};
     check_family("cradle with gaps", scenes);
-    // Touching from wall to wall: one collision per disc and step is a wave; every collision at its time has no end.
+    // Touching from wall to wall: one collision per disc and step is a wave; every collision at its
+    // time has no end.
     check_family("cradle touching from wall to wall", {cradle(9, 0.5, 0, 0.25)}, false);
-    const bool is_reported = failure_of(cradle(9, 0.5, 0, 1), Method::event_driven).find("collides without end") != std::string::npos;
-    hold("ties", "cradle touching from wall to wall: runs that do not end with a message", "all", !is_reported, 0);
+    const bool is_reported =
+        failure_of(cradle(9, 0.5, 0, 1), Method::event_driven).find("collides without end") !=
+        std::string::npos;
+    hold("ties", "cradle touching from wall to wall: runs that do not end with a message", "all",
+         !is_reported, 0);
 }
 
 TEST_CASE("ties: a touching cradle in the open hands on its speed exactly", "[ties]") {
@@ -145,7 +162,10 @@ TEST_CASE("ties: a touching cradle in the open hands on its speed exactly", "[ti
         for (int i = 0; i < 12; ++i) add_disc(scene, 8 + i, 32);
         const Outcome outcome = run(scene, method);
         double wrong = 0;
-        for (const Disc& disc : outcome.discs) wrong = std::max(wrong, std::fabs(disc.vx - (disc.id == 12 ? 1 : 0)) + std::fabs(disc.vy));
-        hold("ties", "open touching cradle of 12: largest error of a velocity", name_of(method), wrong, 0);
+        for (const Disc& disc : outcome.discs)
+            wrong = std::max(wrong,
+                             std::fabs(disc.vx - (disc.id == 12 ? 1 : 0)) + std::fabs(disc.vy));
+        hold("ties", "open touching cradle of 12: largest error of a velocity", name_of(method),
+             wrong, 0);
     }
 }

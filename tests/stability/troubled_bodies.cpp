@@ -32,7 +32,8 @@ struct Room {
     bool is_periodic_x, is_periodic_y;
 
     explicit Room(const TestScene& scene)
-        : size(scene.setting.box_size), is_periodic_x(scene.setting.effects.is_periodic_x()), is_periodic_y(scene.setting.effects.is_periodic_y()) {}
+        : size(scene.setting.box_size), is_periodic_x(scene.setting.effects.is_periodic_x()),
+          is_periodic_y(scene.setting.effects.is_periodic_y()) {}
 
     Point nearest(Point d) const {
         if (is_periodic_x) d.x -= size * std::round(d.x / size);
@@ -47,12 +48,16 @@ struct Room {
         return {is_periodic_x ? wrapped(p.x) : p.x, is_periodic_y ? wrapped(p.y) : p.y};
     }
     bool holds(Point p, double radius) const {
-        const auto is_within = [&](double x, bool is_periodic) { return is_periodic ? x >= 0 && x < size : x >= radius && x <= size - radius; };
+        const auto is_within = [&](double x, bool is_periodic) {
+            return is_periodic ? x >= 0 && x < size : x >= radius && x <= size - radius;
+        };
         return is_within(p.x, is_periodic_x) && is_within(p.y, is_periodic_y);
     }
     /// What two bodies may overlap by: some roundings of their places.
     double slack(double reach) const { return 0x1p-50 * reach + 0x1p-50 * size; }
-    bool are_apart(Point d, double reach) const { return length(nearest(d)) >= reach - slack(reach); }
+    bool are_apart(Point d, double reach) const {
+        return length(nearest(d)) >= reach - slack(reach);
+    }
 };
 
 double distance_to(const Segment& segment, Point p, const Room& room) {
@@ -60,8 +65,12 @@ double distance_to(const Segment& segment, Point p, const Room& room) {
     const Point along{segment.x1 - segment.x0, segment.y1 - segment.y0};
     for (const double i : {-1.0, 0.0, 1.0}) {
         for (const double j : {-1.0, 0.0, 1.0}) {
-            const Point d = p - Point{segment.x0, segment.y0} + Point{room.is_periodic_x ? i * room.size : 0, room.is_periodic_y ? j * room.size : 0};
-            const double share = std::clamp((d.x * along.x + d.y * along.y) / (along.x * along.x + along.y * along.y), 0.0, 1.0);
+            const Point d = p - Point{segment.x0, segment.y0} +
+                            Point{room.is_periodic_x ? i * room.size : 0,
+                                  room.is_periodic_y ? j * room.size : 0};
+            const double share = std::clamp((d.x * along.x + d.y * along.y) /
+                                                (along.x * along.x + along.y * along.y),
+                                            0.0, 1.0);
             least = std::min(least, length(d - share * along));
         }
     }
@@ -71,15 +80,23 @@ double distance_to(const Segment& segment, Point p, const Room& room) {
 bool is_clear_of_obstacles(const TestScene& scene, Point p, double radius) {
     const Room room(scene);
     const ObstacleList& list = scene.setting.effects.obstacles;
-    return std::all_of(list.discs.begin(), list.discs.end(), [&](const FixedDisc& fixed) { return room.are_apart(p - Point{fixed.x, fixed.y}, radius + fixed.radius); }) &&
-           std::all_of(list.segments.begin(), list.segments.end(), [&](const Segment& segment) { return distance_to(segment, p, room) >= radius - room.slack(radius); });
+    return std::all_of(list.discs.begin(), list.discs.end(),
+                       [&](const FixedDisc& fixed) {
+                           return room.are_apart(p - Point{fixed.x, fixed.y},
+                                                 radius + fixed.radius);
+                       }) &&
+           std::all_of(list.segments.begin(), list.segments.end(), [&](const Segment& segment) {
+               return distance_to(segment, p, room) >= radius - room.slack(radius);
+           });
 }
 
 class Drawing {
 public:
     Drawing(std::uint64_t seed, Method method)
-        : random_(seed ^ 0x517cc1b727220a95u), is_all_(method == Method::event_driven), largest_(of({0.5, 0.25, 0.3, 1})),
-          scene_(empty_scene("troubled bodies " + std::to_string(seed), largest_ * of({8, 8, 12, 14.6, 30}), largest_, 6)) {
+        : random_(seed ^ 0x517cc1b727220a95u), is_all_(method == Method::event_driven),
+          largest_(of({0.5, 0.25, 0.3, 1})),
+          scene_(empty_scene("troubled bodies " + std::to_string(seed),
+                             largest_ * of({8, 8, 12, 14.6, 30}), largest_, 6)) {
         scene_.setting.sync_every = std::array{1, 2, 3, 64}[random_.index(4)];
         scene_.setting.micro_steps = std::array{1, 1, 2, 3, 4}[random_.index(5)];
     }
@@ -92,31 +109,41 @@ public:
         for (int tries = 0; tries < 150 && scene_.discs.size() < most; ++tries) try_disc();
         if (scene_.discs.empty()) {
             effects().obstacles = {};
-            add({scene_.setting.box_size / 2, scene_.setting.box_size / 2}, {0, largest_}, kinds_[0]);
+            add({scene_.setting.box_size / 2, scene_.setting.box_size / 2}, {0, largest_},
+                kinds_[0]);
         }
         decide_species();
         hand_to_reference(scene_.setting);
-        scene_.name += ", with " + (description(effects()).empty() ? "no effect" : description(effects()));
+        scene_.name += ", with " +
+                       (description(effects()).empty() ? "no effect" : description(effects()));
         return std::move(scene_);
     }
 
 private:
     /// One draw to an expression: compilers evaluate in different orders.
-    double of(std::initializer_list<double> choices) { return choices.begin()[random_.index(choices.size())]; }
+    double of(std::initializer_list<double> choices) {
+        return choices.begin()[random_.index(choices.size())];
+    }
     bool one_in(std::size_t n) { return random_.index(n) == 0; }
     Effects& effects() { return scene_.setting.effects; }
-    double interval() const { return static_cast<double>(scene_.setting.sync_every) / static_cast<double>(scene_.setting.micro_steps); }
+    double interval() const {
+        return static_cast<double>(scene_.setting.sync_every) /
+               static_cast<double>(scene_.setting.micro_steps);
+    }
 
     /// The axes, exact diagonals, hexagonal neighbours, or anything.
     Point direction() {
         const double h = std::sqrt(0.75);
-        const std::array<Point, 8> known = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {0.6, 0.8}, {-0.8, 0.6}, {0.5, h}, {-h, -0.5}}};
+        const std::array<Point, 8> known = {
+            {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {0.6, 0.8}, {-0.8, 0.6}, {0.5, h}, {-h, -0.5}}};
         if (!one_in(4)) return known[random_.index(known.size())];
         const auto [x, y] = random_.direction();
         return {x, y};
     }
     /// Between a fraction more than touching and a rounding less.
-    double touching(double reach) { return reach * (1 + of({0, 0, 0, 0x1p-52, 0x1p-50, 1e-12, 1e-9, 0.25})); }
+    double touching(double reach) {
+        return reach * (1 + of({0, 0, 0, 0x1p-52, 0x1p-50, 1e-12, 1e-9, 0.25}));
+    }
     Point anywhere(double radius) {
         const double low = radius, high = scene_.setting.box_size - radius;
         const auto one = [&] {
@@ -124,7 +151,10 @@ private:
             case 0: return low;
             case 1: return high;
             case 2: return random_.uniform(low, high);
-            default: return std::clamp(largest_ / 2 * std::floor(2 * random_.uniform(low, high) / largest_), low, high);
+            default:
+                return std::clamp(largest_ / 2 *
+                                      std::floor(2 * random_.uniform(low, high) / largest_),
+                                  low, high);
             }
         };
         const double x = one();
@@ -133,19 +163,25 @@ private:
 
     void draw_kinds() {
         kinds_ = {{1, largest_, 1}};
-        if (one_in(5)) return; // all alike
+        if (one_in(5)) return;            // all alike
         const bool are_heavy = one_in(2); // masses 1 to 1e6
         kinds_[0].mass = are_heavy ? of({1, 1, 1e6}) : of({1, 1, 0.3});
         for (std::size_t n = one_in(6) ? 12 : 1 + random_.index(4); kinds_.size() < n;) {
-            const double mass = are_heavy ? of({1, 1, 2, 1e3, 1e6}) : of({1, 1, 2, 0.5, 0.3, 1e-3, 1e3});
-            kinds_.push_back({1, largest_ * of({1, 1, 0.5, 0.25, 0.3, 1.0 / 3, 0.1, 1e-2, 1e-3}), mass});
+            const double mass = are_heavy ? of({1, 1, 2, 1e3, 1e6})
+                                          : of({1, 1, 2, 0.5, 0.3, 1e-3, 1e3});
+            kinds_.push_back(
+                {1, largest_ * of({1, 1, 0.5, 0.25, 0.3, 1.0 / 3, 0.1, 1e-2, 1e-3}), mass});
         }
         has_species_ = true;
     }
 
     void add_segment(Point from, Point to) {
-        const auto is_inside = [&](Point p) { return p.x >= 0 && p.x <= scene_.setting.box_size && p.y >= 0 && p.y <= scene_.setting.box_size; };
-        if (is_inside(from) && is_inside(to)) effects().obstacles.segments.push_back({from.x, from.y, to.x, to.y});
+        const auto is_inside = [&](Point p) {
+            return p.x >= 0 && p.x <= scene_.setting.box_size && p.y >= 0 &&
+                   p.y <= scene_.setting.box_size;
+        };
+        if (is_inside(from) && is_inside(to))
+            effects().obstacles.segments.push_back({from.x, from.y, to.x, to.y});
     }
     void draw_obstacles() {
         if (one_in(3)) return;
@@ -154,13 +190,21 @@ private:
             const double reach = largest_ * of({1, 2, 3, 4});
             switch (random_.index(5)) {
             case 0:
-            case 1: effects().obstacles.discs.push_back({at.x, at.y, largest_ * of({0, 0, 1e-3, 0.5, 1, 2})}); break;
+            case 1:
+                effects().obstacles.discs.push_back(
+                    {at.x, at.y, largest_ * of({0, 0, 1e-3, 0.5, 1, 2})});
+                break;
             case 2: add_segment(at, at + reach * direction()); break;
             case 3: draw_wedge(at, reach); break;
             default: { // two bodies with a gap between, through which a disc fits or does not
-                const double radius = largest_ * of({0, 0.5, 1}), apart = 2 * radius + largest_ * of({1, 2, 2 * (1 + 0x1p-50), 2 * (1 - 1e-9), 3});
+                const double radius = largest_ * of({0, 0.5, 1}),
+                             apart = 2 * radius +
+                                     largest_ * of({1, 2, 2 * (1 + 0x1p-50), 2 * (1 - 1e-9), 3});
                 const Point other = at + apart * direction();
-                if (Room(scene_).holds(other, 0)) effects().obstacles.discs.insert(effects().obstacles.discs.end(), {{at.x, at.y, radius}, {other.x, other.y, radius}});
+                if (Room(scene_).holds(other, 0))
+                    effects().obstacles.discs.insert(
+                        effects().obstacles.discs.end(),
+                        {{at.x, at.y, radius}, {other.x, other.y, radius}});
             }
             }
         }
@@ -168,10 +212,12 @@ private:
     }
     /// Two segments from one point, up or down.
     void draw_wedge(Point apex, double reach) {
-        const Point a = std::array<Point, 4>{{{0.6, 0.8}, {1, 0}, {0.8, 0.6}, {0.5, std::sqrt(0.75)}}}[random_.index(4)];
+        const Point a = std::array<Point, 4>{
+            {{0.6, 0.8}, {1, 0}, {0.8, 0.6}, {0.5, std::sqrt(0.75)}}}[random_.index(4)];
         const Point b = one_in(3) ? Point{0, 1} : Point{-a.x, a.y};
         const double up = of({1, 1, -1});
-        const Point tip_a = apex + reach * Point{a.x, up * a.y}, tip_b = apex + reach * Point{b.x, up * b.y};
+        const Point tip_a = apex + reach * Point{a.x, up * a.y},
+                    tip_b = apex + reach * Point{b.x, up * b.y};
         if (!Room(scene_).holds(tip_a, 0) || !Room(scene_).holds(tip_b, 0)) return;
         add_segment(apex, tip_a);
         add_segment(tip_b, apex);
@@ -185,22 +231,35 @@ private:
     void draw_effects() {
         ContactEffect& contact = effects().contact;
         const bool is_rough = !one_in(3);
-        if (is_rough) contact = {ContactKind::rough, of({0, 0.5, 1 - 0x1p-53, 1, 1}), 0.001, of({-1, 0, 0.5, 1, 1}), std::numeric_limits<double>::infinity(), of({0.5, 0.5, 1, 0.1, 1e-6})};
-        else if (one_in(2)) contact = {ContactKind::restitution, of({0, 0.5, 0.9, 1 - 0x1p-53, 1}), 0.001};
-        else if (!has_species_ && one_in(2)) contact.kind = ContactKind::none;
+        if (is_rough)
+            contact = {ContactKind::rough,
+                       of({0, 0.5, 1 - 0x1p-53, 1, 1}),
+                       0.001,
+                       of({-1, 0, 0.5, 1, 1}),
+                       std::numeric_limits<double>::infinity(),
+                       of({0.5, 0.5, 1, 0.1, 1e-6})};
+        else if (one_in(2))
+            contact = {ContactKind::restitution, of({0, 0.5, 0.9, 1 - 0x1p-53, 1}), 0.001};
+        else if (!has_species_ && one_in(2))
+            contact.kind = ContactKind::none;
         if (is_rough && one_in(3)) contact.friction = of({0, 0.3});
         draw_sides();
         if (effects().are_periodic()) tame_masses();
         const double most = 0.2 * scene_.setting.box_size / (interval() * interval());
         if (is_all_ && one_in(2)) {
-            if (!effects().is_periodic_y()) effects().gravity.y = -std::min(largest_ * of({0.1, 1}), most);
-            if (!effects().is_periodic_x() && one_in(2)) effects().gravity.x = of({-1, 1}) * std::min(largest_ * 0.1, most);
+            if (!effects().is_periodic_y())
+                effects().gravity.y = -std::min(largest_ * of({0.1, 1}), most);
+            if (!effects().is_periodic_x() && one_in(2))
+                effects().gravity.x = of({-1, 1}) * std::min(largest_ * 0.1, most);
         }
-        if (is_all_ && !is_rough && one_in(4) && !(effects().gravity.is_any() && effects().obstacles.are_any())) effects().drag = std::min(0.2, 1 / interval());
+        if (is_all_ && !is_rough && one_in(4) &&
+            !(effects().gravity.is_any() && effects().obstacles.are_any()))
+            effects().drag = std::min(0.2, 1 / interval());
         if (effects().gravity.is_any()) contact.contact_time = of({0.01, 0.05});
         contact.contact_time = std::min(contact.contact_time, interval() / 4);
     }
-    /// Heavy discs may make light ones faster by the root of their masses' ratio, and in periodic boxes every image that one passes costs.
+    /// Heavy discs may make light ones faster by the root of their masses' ratio, and in periodic
+    /// boxes every image that one passes costs.
     void tame_masses() {
         double least = 1, most = 1;
         for (Species& kind : kinds_) {
@@ -208,17 +267,24 @@ private:
             least = std::min(least, kind.mass);
             most = std::max(most, kind.mass);
         }
-        for (Boundary& side : effects().boundaries) side.temperature = std::min(side.temperature, largest_ * largest_ * least);
-        if (most > 10 * least) scene_.setting.sync_every = std::min<std::int64_t>(scene_.setting.sync_every, 3);
+        for (Boundary& side : effects().boundaries)
+            side.temperature = std::min(side.temperature, largest_ * largest_ * least);
+        if (most > 10 * least)
+            scene_.setting.sync_every = std::min<std::int64_t>(scene_.setting.sync_every, 3);
     }
     double lightest() const {
-        return std::min_element(kinds_.begin(), kinds_.end(), [](const Species& a, const Species& b) { return a.mass < b.mass; })->mass;
+        return std::min_element(kinds_.begin(), kinds_.end(),
+                                [](const Species& a, const Species& b) { return a.mass < b.mass; })
+            ->mass;
     }
     void draw_sides() {
         const bool has_open = one_in(3);
         for (const std::size_t low : {0u, 2u}) {
             const bool is_periodic = !has_open && one_in(3);
-            for (const std::size_t number : {low, low + 1}) effects().boundaries[number] = is_periodic ? Boundary{BoundaryKind::periodic, 1, 0, 0} : drawn_side(number, has_open);
+            for (const std::size_t number : {low, low + 1})
+                effects().boundaries[number] = is_periodic
+                                                   ? Boundary{BoundaryKind::periodic, 1, 0, 0}
+                                                   : drawn_side(number, has_open);
         }
     }
     Boundary drawn_side(std::size_t number, bool has_open) {
@@ -226,8 +292,15 @@ private:
         const bool may_move = is_all_ && !has_open && !effects().obstacles.are_any();
         switch (random_.index(6)) {
         case 0: return {BoundaryKind::fixed, of({0, 0.5, 0.9}), 0, 0};
-        case 1: return {BoundaryKind::thermal, 1, largest_ * largest_ * lightest(), 0}; // a light disc must not fly through the box hundreds of times
-        case 2: if (may_move) return {BoundaryKind::moving, of({1, 0.5}), 0, largest_ * (number % 2 == 0 ? of({0.01, 0.125}) : of({-0.125, -0.01, 0.01}))}; break;
+        case 1:
+            return {BoundaryKind::thermal, 1, largest_ * largest_ * lightest(),
+                    0}; // a light disc must not fly through the box hundreds of times
+        case 2:
+            if (may_move)
+                return {BoundaryKind::moving, of({1, 0.5}), 0,
+                        largest_ *
+                            (number % 2 == 0 ? of({0.01, 0.125}) : of({-0.125, -0.01, 0.01}))};
+            break;
         default: break;
         }
         return {};
@@ -237,8 +310,12 @@ private:
         const double size = largest_ * of({0.5, 1, 2, 6, 1e-9});
         switch (random_.index(5)) {
         case 0: return {0, 0};
-        case 1: if (!scene_.discs.empty()) return {scene_.discs.back().vx, scene_.discs.back().vy}; break;
-        case 2: if (!scene_.discs.empty()) return {-scene_.discs.back().vx, -scene_.discs.back().vy}; break;
+        case 1:
+            if (!scene_.discs.empty()) return {scene_.discs.back().vx, scene_.discs.back().vy};
+            break;
+        case 2:
+            if (!scene_.discs.empty()) return {-scene_.discs.back().vx, -scene_.discs.back().vy};
+            break;
         case 3: return {random_.uniform(-size, size), random_.uniform(-size, size)};
         default: break;
         }
@@ -252,35 +329,49 @@ private:
     };
     Round round_thing() {
         const ObstacleList& list = effects().obstacles;
-        std::size_t k = random_.index(scene_.discs.size() + list.discs.size() + list.segments.size());
+        std::size_t k = random_.index(scene_.discs.size() + list.discs.size() +
+                                      list.segments.size());
         if (k < scene_.discs.size()) {
             const InputDisc& disc = scene_.discs[k];
             return {place_of(disc), {disc.vx, disc.vy}, species_list_[k].radius};
         }
         k -= scene_.discs.size();
-        if (k < list.discs.size()) return {{list.discs[k].x, list.discs[k].y}, {}, list.discs[k].radius};
+        if (k < list.discs.size())
+            return {{list.discs[k].x, list.discs[k].y}, {}, list.discs[k].radius};
         const Segment& segment = list.segments[k - list.discs.size()];
-        return one_in(2) ? Round{{segment.x0, segment.y0}, {}, 0} : Round{{segment.x1, segment.y1}, {}, 0};
+        return one_in(2) ? Round{{segment.x0, segment.y0}, {}, 0}
+                         : Round{{segment.x1, segment.y1}, {}, 0};
     }
     bool has_round_things() { return !scene_.discs.empty() || effects().obstacles.are_any(); }
 
     void try_disc() {
-        const Species kind = !species_list_.empty() && one_in(2) ? species_list_.back() : kinds_[random_.index(kinds_.size())];
+        const Species kind = !species_list_.empty() && one_in(2)
+                                 ? species_list_.back()
+                                 : kinds_[random_.index(kinds_.size())];
         Point at = anywhere(kind.radius), going = velocity();
         switch (random_.index(8)) {
         case 0: break;
         case 1:
-        case 2: if (has_round_things()) beside_one(kind.radius, at); break;
-        case 3: if (has_round_things()) beside_two(kind.radius, at); break;
+        case 2:
+            if (has_round_things()) beside_one(kind.radius, at);
+            break;
+        case 3:
+            if (has_round_things()) beside_two(kind.radius, at);
+            break;
         case 4: on_segment(kind.radius, at); break;
-        case 5: if (has_round_things()) on_its_way(kind.radius, at, going); break;
+        case 5:
+            if (has_round_things()) on_its_way(kind.radius, at, going);
+            break;
         case 6: leaving(kind.radius, at, going); break;
         default: in_wedge(kind.radius, at, going); break;
         }
         at = Room(scene_).inside(at);
-        if (!Room(scene_).holds(at, kind.radius) || !is_clear_of_obstacles(scene_, at, kind.radius)) return;
+        if (!Room(scene_).holds(at, kind.radius) || !is_clear_of_obstacles(scene_, at, kind.radius))
+            return;
         for (std::size_t k = 0; k < scene_.discs.size(); ++k)
-            if (!Room(scene_).are_apart(place_of(scene_.discs[k]) - at, kind.radius + species_list_[k].radius)) return;
+            if (!Room(scene_).are_apart(place_of(scene_.discs[k]) - at,
+                                        kind.radius + species_list_[k].radius))
+                return;
         add(at, going, kind);
     }
     void beside_one(double radius, Point& at) {
@@ -289,7 +380,8 @@ private:
         at = other.at + away * direction();
         if (!one_in(4)) return; // on the floor or the ceiling as well
         at.y = one_in(2) ? radius : scene_.setting.box_size - radius;
-        const double reach = radius + other.radius, square = reach * reach - (at.y - other.at.y) * (at.y - other.at.y);
+        const double reach = radius + other.radius,
+                     square = reach * reach - (at.y - other.at.y) * (at.y - other.at.y);
         if (square >= 0) at.x = other.at.x + of({-1, 1}) * std::sqrt(square);
     }
     /// At the distances from both that touching is.
@@ -299,32 +391,45 @@ private:
         const Point d = Room(scene_).nearest(b.at - a.at);
         const double apart = length(d);
         if (!(apart > 0)) return;
-        const double along = (apart * apart + ra * ra - rb * rb) / (2 * apart), square = ra * ra - along * along;
-        if (square >= 0) at = a.at + (along / apart) * d + (of({-1, 1}) * std::sqrt(square) / apart) * Point{-d.y, d.x};
+        const double along = (apart * apart + ra * ra - rb * rb) / (2 * apart),
+                     square = ra * ra - along * along;
+        if (square >= 0)
+            at = a.at + (along / apart) * d +
+                 (of({-1, 1}) * std::sqrt(square) / apart) * Point{-d.y, d.x};
     }
     void on_segment(double radius, Point& at) {
         const auto& segments = effects().obstacles.segments;
         if (segments.empty()) return;
         const Segment& s = segments[random_.index(segments.size())];
         const Point along{s.x1 - s.x0, s.y1 - s.y0};
-        const double share = of({0, 1, 0.5, 0.25, random_.uniform(-0.1, 1.1)}), off = touching(radius), side = of({-1, 1});
-        at = Point{s.x0, s.y0} + share * along + (side * off / length(along)) * Point{-along.y, along.x};
+        const double share = of({0, 1, 0.5, 0.25, random_.uniform(-0.1, 1.1)}),
+                     off = touching(radius), side = of({-1, 1});
+        at = Point{s.x0, s.y0} + share * along +
+             (side * off / length(along)) * Point{-along.y, along.x};
     }
-    /// At a boundary of micro-steps it meets what is there, head-on or nearly; or grazes it, or flies along it.
+    /// At a boundary of micro-steps it meets what is there, head-on or nearly; or grazes it, or
+    /// flies along it.
     void on_its_way(double radius, Point& at, Point& going) {
         const Round other = round_thing();
         const Point e = direction();
-        const double reach = radius + other.radius, speed = largest_ * of({0.5, 1, 2}), steps = of({0, 1, 1, 2, 0.5}) / static_cast<double>(scene_.setting.micro_steps);
+        const double reach = radius + other.radius, speed = largest_ * of({0.5, 1, 2}),
+                     steps = of({0, 1, 1, 2, 0.5}) /
+                             static_cast<double>(scene_.setting.micro_steps);
         const bool is_graze = one_in(2);
-        const double off = is_graze ? reach * (1 + of({0, 0, -0x1p-52, 0x1p-52, -1e-12, 1e-9, -1e-9})) : 0, before = is_graze ? 0 : reach;
+        const double off = is_graze
+                               ? reach * (1 + of({0, 0, -0x1p-52, 0x1p-52, -1e-12, 1e-9, -1e-9}))
+                               : 0,
+                     before = is_graze ? 0 : reach;
         at = other.at + (before + speed * steps) * e + off * Point{-e.y, e.x};
         going = other.velocity - speed * e;
     }
     /// Through a side, where it is wholly outside at a boundary of micro-steps or an ulp beside it.
     void leaving(double radius, Point& at, Point& going) {
         const std::size_t number = random_.index(4);
-        const double time = of({1, 2, 3}) / static_cast<double>(scene_.setting.micro_steps), size = scene_.setting.box_size;
-        double speed = std::max(largest_ * of({0.5, 1, 2}), 2 * radius / time); // it must not be outside at the start
+        const double time = of({1, 2, 3}) / static_cast<double>(scene_.setting.micro_steps),
+                     size = scene_.setting.box_size;
+        double speed = std::max(largest_ * of({0.5, 1, 2}),
+                                2 * radius / time); // it must not be outside at the start
         double place = number % 2 == 0 ? speed * time - radius : size + radius - speed * time;
         if (one_in(3)) place = std::nextafter(place, of({-1, 1}) * 2 * size);
         if (number % 2 == 0) speed = -speed;
@@ -345,7 +450,8 @@ private:
         species_list_.push_back({1, kind.radius, kind.mass});
         const double speed = length(going);
         const double spin = of({0, 0, 1, -1, 0.5}) * (speed > 0 ? speed : largest_) / kind.radius;
-        if (effects().contact.kind == ContactKind::rough) scene_.setting.first_spins.push_back(spin);
+        if (effects().contact.kind == ContactKind::rough)
+            scene_.setting.first_spins.push_back(spin);
     }
     void decide_species() {
         if (!has_species_) return;
@@ -353,8 +459,10 @@ private:
         for (const Species& one : species_list_) {
             auto& all = effects().species;
             scene_.setting.radius = std::max(scene_.setting.radius, one.radius);
-            if (!all.empty() && all.back().radius == one.radius && all.back().mass == one.mass) ++all.back().count;
-            else all.push_back(one);
+            if (!all.empty() && all.back().radius == one.radius && all.back().mass == one.mass)
+                ++all.back().count;
+            else
+                all.push_back(one);
         }
     }
 
@@ -367,7 +475,7 @@ private:
     bool is_all_;
     double largest_; ///< radius
     TestScene scene_;
-    std::vector<Species> kinds_;   ///< to choose from
+    std::vector<Species> kinds_;        ///< to choose from
     std::vector<Species> species_list_; ///< of each disc
     bool has_species_ = false;
     std::vector<Wedge> wedges_;
@@ -375,15 +483,21 @@ private:
 
 } // namespace
 
-TestScene troubled_bodies(std::uint64_t seed, Method method) { return Drawing(seed, method).drawn(); }
+TestScene troubled_bodies(std::uint64_t seed, Method method) {
+    return Drawing(seed, method).drawn();
+}
 
 bool is_clear(const TestScene& scene) {
     const Room room(scene);
     for (const InputDisc& disc : scene.discs) {
         const double radius = scene.setting.radius_of(disc.id);
-        if (!room.holds(place_of(disc), radius) || !is_clear_of_obstacles(scene, place_of(disc), radius)) return false;
+        if (!room.holds(place_of(disc), radius) ||
+            !is_clear_of_obstacles(scene, place_of(disc), radius))
+            return false;
         for (const InputDisc& other : scene.discs)
-            if (other.id < disc.id && !room.are_apart(place_of(other) - place_of(disc), radius + scene.setting.radius_of(other.id))) return false;
+            if (other.id < disc.id && !room.are_apart(place_of(other) - place_of(disc),
+                                                      radius + scene.setting.radius_of(other.id)))
+                return false;
     }
     return true;
 }

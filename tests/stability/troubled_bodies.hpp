@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random scenes drawn for trouble, of discs that differ, that rub and turn, among obstacles, in boxes that let discs out.
+// Random scenes drawn for trouble, of discs that differ, that rub and turn, among obstacles, in
+// boxes that let discs out.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +10,10 @@
 
 namespace carrom::test {
 
-/// Up to 12 discs of radii 1 to 1e-3 and masses 1 to 1e6, smooth or rough, with spins; fixed discs, points, segments and wedges of
-/// them; open sides; and of the other effects what goes together with them (docs/user.md). Discs touch each other (by their own
-/// radii), walls and obstacles, rest in wedges, graze, and meet or leave at the boundaries of micro-steps. None overlaps by more than
+/// Up to 12 discs of radii 1 to 1e-3 and masses 1 to 1e6, smooth or rough, with spins; fixed discs,
+/// points, segments and wedges of them; open sides; and of the other effects what goes together
+/// with them (docs/user.md). Discs touch each other (by their own radii), walls and obstacles, rest
+/// in wedges, graze, and meet or leave at the boundaries of micro-steps. None overlaps by more than
 /// rounding. The same arguments give the same bits on every machine.
 TestScene troubled_bodies(std::uint64_t seed, Method method);
 

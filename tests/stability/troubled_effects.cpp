@@ -17,7 +17,9 @@ namespace {
 ContactEffect troubled_contact(Random& random) {
     switch (random.index(4)) {
     case 0: return {ContactKind::none, 1, 0.001};
-    case 1: return {ContactKind::restitution, std::array{0.0, 0.5, 0.9, 1 - 0x1p-53}[random.index(4)], 0.001};
+    case 1:
+        return {ContactKind::restitution, std::array{0.0, 0.5, 0.9, 1 - 0x1p-53}[random.index(4)],
+                0.001};
     default: return {};
     }
 }
@@ -28,7 +30,11 @@ Boundary troubled_wall(std::size_t number, bool may_move, Random& random) {
     switch (random.index(5)) {
     case 0: return {BoundaryKind::fixed, std::array{0.0, 0.5, 0.9}[random.index(3)], 0, 0};
     case 1: return {BoundaryKind::thermal, 1, 0.25, 0};
-    case 2: if (may_move) return {BoundaryKind::moving, std::array{1.0, 0.5}[random.index(2)], 0, inwards * std::array{-0.25, -0.01, 0.01}[random.index(3)]}; break;
+    case 2:
+        if (may_move)
+            return {BoundaryKind::moving, std::array{1.0, 0.5}[random.index(2)], 0,
+                    inwards * std::array{-0.25, -0.01, 0.01}[random.index(3)]};
+        break;
     default: break;
     }
     return {};
@@ -44,7 +50,9 @@ void hand_to_reference(reference::Setting& setting) {
     if (!(c > 0)) return;
     setting.drag_clock = [c](double n) { return drag_clock(c, n); };
     setting.dragged_fall = [c](double clock) { return dragged_fall(c, clock); };
-    setting.dragged_fall_delay = [c](double distance, double velocity, double pull) { return dragged_fall_delay(distance, velocity, pull, c); };
+    setting.dragged_fall_delay = [c](double distance, double velocity, double pull) {
+        return dragged_fall_delay(distance, velocity, pull, c);
+    };
 }
 
 TestScene with_effects(TestScene scene, Method method, std::uint64_t seed) {
@@ -52,16 +60,19 @@ TestScene with_effects(TestScene scene, Method method, std::uint64_t seed) {
     reference::Setting& setting = scene.setting;
     Effects& effects = setting.effects;
     const bool is_all = method == Method::event_driven;
-    const double interval = static_cast<double>(setting.sync_every) / static_cast<double>(setting.micro_steps);
+    const double interval = static_cast<double>(setting.sync_every) /
+                            static_cast<double>(setting.micro_steps);
     effects.contact = troubled_contact(random);
     effects.contact.contact_time = std::min(effects.contact.contact_time, interval / 4);
     const bool has_drag = is_all && random.index(4) == 0;
     for (const std::size_t low : {0u, 2u}) {
         if (!has_drag && random.index(3) == 0) {
-            effects.boundaries[low] = effects.boundaries[low + 1] = {BoundaryKind::periodic, 1, 0, 0};
+            effects.boundaries[low] = effects.boundaries[low + 1] = {BoundaryKind::periodic, 1, 0,
+                                                                     0};
             continue;
         }
-        for (const std::size_t number : {low, low + 1}) effects.boundaries[number] = troubled_wall(number, is_all, random);
+        for (const std::size_t number : {low, low + 1})
+            effects.boundaries[number] = troubled_wall(number, is_all, random);
     }
     if (has_drag) effects.drag = std::min(0.2, 1 / interval);
     // A frame that falls by half the box between syncs is refused.

@@ -15,7 +15,8 @@ namespace {
 /// Of the unit circle: the axes, exact diagonals, hexagonal neighbours, or anything.
 std::pair<double, double> troubled_direction(Random& random) {
     const double h = std::sqrt(0.75);
-    const std::array<std::pair<double, double>, 6> directions = {{{1, 0}, {0, 1}, {0.6, 0.8}, {-0.8, 0.6}, {0.5, h}, {-h, 0.5}}};
+    const std::array<std::pair<double, double>, 6> directions = {
+        {{1, 0}, {0, 1}, {0.6, 0.8}, {-0.8, 0.6}, {0.5, h}, {-h, 0.5}}};
     if (random.index(4) == 0) return random.direction();
     const auto [x, y] = directions[random.index(directions.size())];
     return random.index(2) == 0 ? std::pair(x, y) : std::pair(-x, -y);
@@ -35,8 +36,12 @@ std::pair<double, double> troubled_velocity(const TestScene& scene, Random& rand
     const double size = std::array{0.25, 0.5, 1.0, 3.0, 1e-9}[random.index(5)];
     switch (random.index(6)) {
     case 0: return {0, 0};
-    case 1: if (!scene.discs.empty()) return {scene.discs.back().vx, scene.discs.back().vy}; break;
-    case 2: if (!scene.discs.empty()) return {-scene.discs.back().vx, -scene.discs.back().vy}; break;
+    case 1:
+        if (!scene.discs.empty()) return {scene.discs.back().vx, scene.discs.back().vy};
+        break;
+    case 2:
+        if (!scene.discs.empty()) return {-scene.discs.back().vx, -scene.discs.back().vy};
+        break;
     case 3: return {random.uniform(-size, size), random.uniform(-size, size)};
     default: break;
     }
@@ -48,7 +53,8 @@ bool is_free(const TestScene& scene, double x, double y) {
     const double low = scene.setting.radius, high = scene.setting.box_size - low, sigma = 2 * low;
     if (x < low || x > high || y < low || y > high) return false;
     return std::none_of(scene.discs.begin(), scene.discs.end(), [&](const InputDisc& disc) {
-        return std::sqrt((disc.x - x) * (disc.x - x) + (disc.y - y) * (disc.y - y)) < sigma * (1 - 0x1p-50);
+        return std::sqrt((disc.x - x) * (disc.x - x) + (disc.y - y) * (disc.y - y)) <
+               sigma * (1 - 0x1p-50);
     });
 }
 
@@ -57,7 +63,8 @@ bool is_free(const TestScene& scene, double x, double y) {
 TestScene troubled_scene(std::uint64_t seed) {
     Random random(seed);
     const double radius = std::array{0.5, 0.25, 0.3}[random.index(3)];
-    TestScene scene = empty_scene("troubled scene " + std::to_string(seed), std::array{4.0, 6.0, 7.3}[random.index(3)], radius, 8);
+    TestScene scene = empty_scene("troubled scene " + std::to_string(seed),
+                                  std::array{4.0, 6.0, 7.3}[random.index(3)], radius, 8);
     scene.setting.sync_every = std::array{1, 2, 3, 64}[random.index(4)];
     scene.setting.micro_steps = std::array{1, 1, 2, 4}[random.index(4)];
     const std::size_t most = 1 + random.index(10);
@@ -66,7 +73,9 @@ TestScene troubled_scene(std::uint64_t seed) {
         if (!scene.discs.empty() && random.index(2) == 0) { // touch another one, or all but
             const InputDisc& other = scene.discs[random.index(scene.discs.size())];
             const auto [ex, ey] = troubled_direction(random);
-            const double distance = 2 * radius * (1 + std::array{0.0, 0.0, 0x1p-50, 1e-9, 0.25}[random.index(5)]);
+            const double distance = 2 * radius *
+                                    (1 +
+                                     std::array{0.0, 0.0, 0x1p-50, 1e-9, 0.25}[random.index(5)]);
             x = other.x + distance * ex;
             y = other.y + distance * ey;
         }
@@ -83,7 +92,8 @@ namespace {
 void add_patch(TestScene& scene, double x, double y, double spacing, double vx, double vy) {
     for (const double row : {0.0, 1.0, -1.0}) {
         for (const double column : {0.0, 1.0, -1.0}) {
-            const double px = x + spacing * (column + 0.5 * std::fabs(row)), py = y + spacing * std::sqrt(0.75) * row;
+            const double px = x + spacing * (column + 0.5 * std::fabs(row)),
+                         py = y + spacing * std::sqrt(0.75) * row;
             if (is_free(scene, px, py)) add_disc(scene, px, py, vx, vy);
         }
     }
@@ -103,33 +113,43 @@ double wild_box_size(double radius, Random& random) {
 TestScene wildly_troubled_scene(std::uint64_t seed, bool may_overlap) {
     Random random(seed);
     const double radius = std::array{0.5, 0.3, 1.0}[random.index(3)], sigma = 2 * radius;
-    TestScene scene = empty_scene("wildly troubled scene " + std::to_string(seed), wild_box_size(radius, random), radius, 6);
+    TestScene scene = empty_scene("wildly troubled scene " + std::to_string(seed),
+                                  wild_box_size(radius, random), radius, 6);
     scene.setting.sync_every = std::array<std::int64_t, 5>{1, 3, 5, 64, 100000}[random.index(5)];
     scene.setting.micro_steps = std::array<std::int64_t, 5>{1, 1, 2, 3, 7}[random.index(5)];
     const double gap = std::array{0.0, 0x1p-52, 0x1p-48, 1e-12, 1e-6, 0.1}[random.index(6)];
-    const double speed = sigma * std::array{1e-12, 1e-3, 0.3, 1.0, 10.0, 1e3, 1e9}[random.index(7)]; // what velocities are multiplied by
+    const double speed = sigma * std::array{1e-12, 1e-3, 0.3, 1.0, 10.0, 1e3, 1e9}[random.index(
+                                     7)]; // what velocities are multiplied by
     const std::size_t most = 1 + random.index(random.index(3) == 0 ? 40 : 8);
     for (int tries = 0; tries < 200 && scene.discs.size() < most; ++tries) {
         double x = troubled_place(scene, random), y = troubled_place(scene, random);
         auto [vx, vy] = troubled_velocity(scene, random);
-        if (!scene.discs.empty() && random.index(3) != 0) { // beside another one, aimed at it, or inside it
+        if (!scene.discs.empty() &&
+            random.index(3) != 0) { // beside another one, aimed at it, or inside it
             const InputDisc& other = scene.discs[random.index(scene.discs.size())];
             const auto [ex, ey] = troubled_direction(random);
             const bool is_aimed = random.index(2) == 0;
-            const double distance = may_overlap && random.index(8) == 0 ? sigma * random.uniform(0, 1)
-                                    : is_aimed                          ? sigma * (1 + gap) + 3 * speed * random.uniform(0, 1)
-                                                                        : sigma * (1 + gap);
+            const double distance = may_overlap && random.index(8) == 0
+                                        ? sigma * random.uniform(0, 1)
+                                    : is_aimed
+                                        ? sigma * (1 + gap) + 3 * speed * random.uniform(0, 1)
+                                        : sigma * (1 + gap);
             x = other.x + distance * ex;
             y = other.y + distance * ey;
             if (is_aimed) std::tie(vx, vy) = std::pair(other.vx - ex, other.vy - ey);
-            if (random.index(4) == 0) std::tie(vx, vy) = std::pair(std::nextafter(other.vx, 1e300), other.vy);
+            if (random.index(4) == 0)
+                std::tie(vx, vy) = std::pair(std::nextafter(other.vx, 1e300), other.vy);
         }
         const double low = radius, high = scene.setting.box_size - radius;
-        if (may_overlap ? x < low || x > high || y < low || y > high : !is_free(scene, x, y)) continue;
-        if (random.index(6) == 0) add_patch(scene, x, y, sigma * (1 + gap), vx, vy);
-        else add_disc(scene, x, y, vx, vy);
+        if (may_overlap ? x < low || x > high || y < low || y > high : !is_free(scene, x, y))
+            continue;
+        if (random.index(6) == 0)
+            add_patch(scene, x, y, sigma * (1 + gap), vx, vy);
+        else
+            add_disc(scene, x, y, vx, vy);
     }
-    if (scene.discs.empty()) add_disc(scene, scene.setting.box_size / 2, scene.setting.box_size / 2, 1, 0);
+    if (scene.discs.empty())
+        add_disc(scene, scene.setting.box_size / 2, scene.setting.box_size / 2, 1, 0);
     for (InputDisc& disc : scene.discs) {
         disc.vx *= speed;
         disc.vy *= speed;

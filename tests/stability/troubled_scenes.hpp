@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random scenes drawn for trouble: touching, aligned, at walls and in corners, equal and opposite speeds, exact binary
-// fractions beside numbers that are not.
+// Random scenes drawn for trouble: touching, aligned, at walls and in corners, equal and opposite
+// speeds, exact binary fractions beside numbers that are not.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,14 @@
 
 namespace carrom::test {
 
-/// Up to 10 discs that do not overlap by more than rounding. The same seed gives the same bits on every machine.
+/// Up to 10 discs that do not overlap by more than rounding. The same seed gives the same bits on
+/// every machine.
 TestScene troubled_scene(std::uint64_t seed);
 
-/// The same in further ways: up to 40 discs, patches of a hexagonal lattice with gaps of some ulp, boxes that hardly fit and
-/// boxes of up to 1e6 radii, speeds from 1e-12 to 1e3 diameters a step, velocities that differ by an ulp, overlaps (under the rule
-/// "one" only), micro-steps that are no power of two, long sync intervals, all lengths times a power of two.
+/// The same in further ways: up to 40 discs, patches of a hexagonal lattice with gaps of some ulp,
+/// boxes that hardly fit and boxes of up to 1e6 radii, speeds from 1e-12 to 1e3 diameters a step,
+/// velocities that differ by an ulp, overlaps (under the rule "one" only), micro-steps that are no
+/// power of two, long sync intervals, all lengths times a power of two.
 TestScene wildly_troubled_scene(std::uint64_t seed, bool may_overlap);
 
 } // namespace carrom::test

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Catch2 by one name, whichever of its two versions is installed: 2.13 (Debian 12) or 3 (Debian 13, Ubuntu 24.04).
+// Catch2 by one name, whichever of its two versions is installed: 2.13 (Debian 12) or 3 (Debian 13,
+// Ubuntu 24.04).
 #pragma once
 
 #if __has_include(<catch2/catch_all.hpp>)

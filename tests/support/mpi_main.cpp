@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The main of every MPI test: all ranks run the same Catch2 cases; one rank's failure fails the run.
+// The main of every MPI test: all ranks run the same Catch2 cases; one rank's failure fails the
+// run.
 //
-// Rank 0 prints Catch2's report; the other ranks print a line for each failed assertion, at once, so that it is seen
-// even if the run hangs afterwards. A run that takes longer than $CARROM_TEST_SECONDS is killed by its own alarm.
+// Rank 0 prints Catch2's report; the other ranks print a line for each failed assertion, at once,
+// so that it is seen even if the run hangs afterwards. A run that takes longer than
+// $CARROM_TEST_SECONDS is killed by its own alarm.
 #define CATCH_CONFIG_RUNNER
 #include <catch2/catch.hpp>
 
@@ -30,8 +32,8 @@ public:
         if (test_rank == 0 || result.isOk()) return false;
         std::ostringstream line;
         line << "rank " << test_rank << ": " << case_ << ": " << result.getSourceInfo().file << ':'
-             << result.getSourceInfo().line << ": " << result.getExpression() << " is " << result.getExpandedExpression()
-             << ' ' << result.getMessage() << '\n';
+             << result.getSourceInfo().line << ": " << result.getExpression() << " is "
+             << result.getExpandedExpression() << ' ' << result.getMessage() << '\n';
         std::cerr << line.str() << std::flush;
         return false;
     }
@@ -48,13 +50,14 @@ int main(int argc, char** argv) {
     alarm(seconds != nullptr ? static_cast<unsigned>(std::atoi(seconds)) : 120);
 
     carrom::Mpi mpi(argc, argv);
-    return carrom::run_on_all(carrom::Communicator::world(), [&](const carrom::Communicator& communicator) {
-        test_rank = communicator.rank();
-        std::ostringstream unseen;
-        std::streambuf* const seen = std::cout.rdbuf();
-        if (!communicator.is_root()) std::cout.rdbuf(unseen.rdbuf());
-        const int n_failed = Catch::Session().run(argc, argv);
-        std::cout.rdbuf(seen);
-        return n_failed == 0 ? 0 : 1;
-    });
+    return carrom::run_on_all(carrom::Communicator::world(),
+                              [&](const carrom::Communicator& communicator) {
+                                  test_rank = communicator.rank();
+                                  std::ostringstream unseen;
+                                  std::streambuf* const seen = std::cout.rdbuf();
+                                  if (!communicator.is_root()) std::cout.rdbuf(unseen.rdbuf());
+                                  const int n_failed = Catch::Session().run(argc, argv);
+                                  std::cout.rdbuf(seen);
+                                  return n_failed == 0 ? 0 : 1;
+                              });
 }

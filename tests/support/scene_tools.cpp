@@ -43,7 +43,8 @@ Scene scene_of(const TestScene& test_scene) {
     scene.micro_steps = test_scene.setting.micro_steps;
     scene.sync_every = test_scene.setting.sync_every;
     scene.effects = test_scene.setting.effects;
-    for (const double spin : test_scene.setting.first_spins) scene.spins.push_back({scene.spins.size() + 1, spin});
+    for (const double spin : test_scene.setting.first_spins)
+        scene.spins.push_back({scene.spins.size() + 1, spin});
     return scene;
 }
 
@@ -98,11 +99,14 @@ void add_disc(TestScene& scene, double x, double y, double vx, double vy) {
 
 void add_gas(TestScene& scene, std::size_t n, Random& random) {
     const double size = scene.setting.box_size, radius = scene.setting.radius;
-    const double packing_of_centres = static_cast<double>(n) * pi * radius * radius / ((size - radius) * (size - radius));
+    const double packing_of_centres = static_cast<double>(n) * pi * radius * radius /
+                                      ((size - radius) * (size - radius));
     if (packing_of_centres < 0.4) {
         for (std::size_t tries = 0; scene.discs.size() < n; ++tries) {
-            if (tries > 1000 * n + 100000) throw std::logic_error("no room for the gas of " + scene.name);
-            const double x = random.uniform(radius, size - radius), y = random.uniform(radius, size - radius);
+            if (tries > 1000 * n + 100000)
+                throw std::logic_error("no room for the gas of " + scene.name);
+            const double x = random.uniform(radius, size - radius),
+                         y = random.uniform(radius, size - radius);
             if (is_free(scene, x, y)) add_disc(scene, x, y);
         }
         return;
@@ -111,8 +115,10 @@ void add_gas(TestScene& scene, std::size_t n, Random& random) {
     const double spacing = size / static_cast<double>(k);
     const double shake = 0.499 * (spacing - 2 * radius);
     for (std::size_t i = 0; i < k * k; ++i) {
-        const double x = (static_cast<double>(i % k) + 0.5) * spacing + random.uniform(-shake, shake);
-        const double y = (static_cast<double>(i / k) + 0.5) * spacing + random.uniform(-shake, shake);
+        const double x = (static_cast<double>(i % k) + 0.5) * spacing +
+                         random.uniform(-shake, shake);
+        const double y = (static_cast<double>(i / k) + 0.5) * spacing +
+                         random.uniform(-shake, shake);
         add_disc(scene, x, y);
     }
 }
@@ -128,8 +134,8 @@ void set_speeds(TestScene& scene, double speed, Random& random) {
 TestScene gas(std::size_t n, double packing, double speed, std::uint64_t seed) {
     Random random(seed);
     const double box_size = std::max(2.5, std::sqrt(static_cast<double>(n) * pi / packing));
-    TestScene scene = empty_scene("gas of " + std::to_string(n) + ", packing " + number(packing) + ", speed " +
-                                      number(speed),
+    TestScene scene = empty_scene("gas of " + std::to_string(n) + ", packing " + number(packing) +
+                                      ", speed " + number(speed),
                                   box_size, 1, 40);
     add_gas(scene, n, random);
     set_speeds(scene, 2 * speed, random);
@@ -138,9 +144,11 @@ TestScene gas(std::size_t n, double packing, double speed, std::uint64_t seed) {
 
 TestScene chain(std::size_t n, const std::string& times_kind, std::uint64_t seed) {
     Random random(seed);
-    // Every pair closes in at two units a step, so a gap of g is a contact at g/2; all gaps are below 2.
+    // Every pair closes in at two units a step, so a gap of g is a contact at g/2; all gaps are
+    // below 2.
     const double count = static_cast<double>(n);
-    TestScene scene = empty_scene("chain of " + std::to_string(n) + ", times " + times_kind, 4 * count, 0.5, 12);
+    TestScene scene = empty_scene("chain of " + std::to_string(n) + ", times " + times_kind,
+                                  4 * count, 0.5, 12);
     double x = count / 2;
     for (std::size_t i = 0; i < n; ++i) {
         const double place = static_cast<double>(i);
@@ -159,7 +167,8 @@ TestScene zigzag(std::size_t n, const std::string& times_kind, std::uint64_t see
     Random random(seed);
     const double count = static_cast<double>(n);
     const double box_size = 2 + count;
-    TestScene scene = empty_scene("zigzag of " + std::to_string(n) + ", times " + times_kind, box_size, 0.5, 12);
+    TestScene scene = empty_scene("zigzag of " + std::to_string(n) + ", times " + times_kind,
+                                  box_size, 0.5, 12);
     double x = 1;
     for (std::size_t i = 0; i < n; ++i) {
         const double side = i % 2 == 0 ? -1 : 1;
@@ -178,20 +187,23 @@ TestScene zigzag(std::size_t n, const std::string& times_kind, std::uint64_t see
 TestScene cradle(std::size_t n, double radius, double gap, double speed) {
     const double pitch = 2 * radius + gap;
     const double box_size = static_cast<double>(n) * pitch + gap;
-    TestScene scene = empty_scene("cradle of " + std::to_string(n) + ", radius " + number(radius) + ", gap " +
-                                      number(gap) + ", speed " + number(speed),
+    TestScene scene = empty_scene("cradle of " + std::to_string(n) + ", radius " + number(radius) +
+                                      ", gap " + number(gap) + ", speed " + number(speed),
                                   box_size, radius, 30);
     for (std::size_t i = 0; i < n; ++i) {
-        add_disc(scene, (gap + radius) + static_cast<double>(i) * pitch, box_size / 2, i == 0 ? speed : 0, 0);
+        add_disc(scene, (gap + radius) + static_cast<double>(i) * pitch, box_size / 2,
+                 i == 0 ? speed : 0, 0);
     }
     return scene;
 }
 
 TestScene lattice(std::size_t k, double spacing) {
-    TestScene scene = empty_scene("lattice of " + std::to_string(k * k) + ", spacing " + number(spacing),
+    TestScene scene = empty_scene("lattice of " + std::to_string(k * k) + ", spacing " +
+                                      number(spacing),
                                   spacing * static_cast<double>(k), 0.5, 24);
     for (std::size_t i = 0; i < k * k; ++i) {
-        add_disc(scene, (static_cast<double>(i % k) + 0.5) * spacing, (static_cast<double>(i / k) + 0.5) * spacing);
+        add_disc(scene, (static_cast<double>(i % k) + 0.5) * spacing,
+                 (static_cast<double>(i / k) + 0.5) * spacing);
     }
     return scene;
 }
@@ -199,8 +211,9 @@ TestScene lattice(std::size_t k, double spacing) {
 TestScene break_shot(std::size_t rows, double radius, double speed, double aim) {
     const double width = 2 * radius * static_cast<double>(rows);
     const double box_size = 4 * width;
-    TestScene scene = empty_scene("break of " + std::to_string(rows) + " rows, radius " + number(radius) +
-                                      ", speed " + number(speed) + ", aim " + number(aim),
+    TestScene scene = empty_scene("break of " + std::to_string(rows) + " rows, radius " +
+                                      number(radius) + ", speed " + number(speed) + ", aim " +
+                                      number(aim),
                                   box_size, radius, 40);
     add_disc(scene, width, box_size / 2 + aim * radius, speed * radius, 0);
     for (std::size_t row = 0; row < rows; ++row) {
@@ -215,8 +228,8 @@ TestScene break_shot(std::size_t rows, double radius, double speed, double aim) 
 
 TestScene legacy_like(std::size_t n, double box_size, double radius, std::uint64_t seed) {
     Random random(seed);
-    TestScene scene = empty_scene("legacy's speeds, " + std::to_string(n) + " discs, L " + number(box_size) +
-                                      ", r " + number(radius),
+    TestScene scene = empty_scene("legacy's speeds, " + std::to_string(n) + " discs, L " +
+                                      number(box_size) + ", r " + number(radius),
                                   box_size, radius, 50);
     add_gas(scene, n, random);
     for (InputDisc& disc : scene.discs) {
@@ -230,7 +243,8 @@ TestScene legacy_like(std::size_t n, double box_size, double radius, std::uint64
 
 void set_thermal_seed(reference::Setting& setting, std::uint64_t seed) {
     setting.effects.thermal_seed = seed;
-    setting.thermal_draw = [seed](const Boundary& side, DiscId id, std::uint64_t count, std::size_t number) {
+    setting.thermal_draw = [seed](const Boundary& side, DiscId id, std::uint64_t count,
+                                  std::size_t number) {
         DiscRandom random(seed, Purpose::thermal_wall, id, 4 * count + number);
         const double away = std::sqrt(2 * side.temperature * random_exponential(random));
         const double speed = std::sqrt(2 * side.temperature * random_exponential(random));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the families of scenes are built with: portable random numbers and a few ways to place discs.
+// What the families of scenes are built with: portable random numbers and a few ways to place
+// discs.
 #pragma once
 
 #include <cmath>
@@ -18,7 +19,9 @@ class Random {
 public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}
 
-    double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53); }
+    double uniform(double low, double high) {
+        return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+    }
     std::size_t index(std::size_t count) { return static_cast<std::size_t>(engine_() % count); }
 
     /// A point of the unit circle, to within rounding.
@@ -47,7 +50,8 @@ TestScene empty_scene(std::string name, double box_size, double radius, std::int
 /// Appends a disc with the next id.
 void add_disc(TestScene& scene, double x, double y, double vx = 0, double vy = 0);
 
-/// Appends n still discs: at random where there is room, else on a shaken square lattice (n must be a square number).
+/// Appends n still discs: at random where there is room, else on a shaken square lattice (n must be
+/// a square number).
 void add_gas(TestScene& scene, std::size_t n, Random& random);
 
 /// Each component uniform, root mean square speed as given.
@@ -56,10 +60,12 @@ void set_speeds(TestScene& scene, double speed, Random& random);
 /// A gas of n discs of radius 1, speeds in diameters per step.
 TestScene gas(std::size_t n, double packing, double speed, std::uint64_t seed);
 
-/// Each disc's neighbours in x both reach it in the first micro-step; times_kind of "rising", "falling", "tied", "mixed".
+/// Each disc's neighbours in x both reach it in the first micro-step; times_kind of "rising",
+/// "falling", "tied", "mixed".
 TestScene chain(std::size_t n, const std::string& times_kind, std::uint64_t seed);
 
-/// The same in a zigzag of bounded speed and length: two rows that close in, conflicts between neighbours only.
+/// The same in a zigzag of bounded speed and length: two rows that close in, conflicts between
+/// neighbours only.
 TestScene zigzag(std::size_t n, const std::string& times_kind, std::uint64_t seed);
 
 /// n discs of radius r from wall to wall with equal gaps; the first one moves with `speed`.
@@ -74,7 +80,8 @@ TestScene break_shot(std::size_t rows, double radius, double speed, double aim);
 /// The course program's generated scene with our own random numbers.
 TestScene legacy_like(std::size_t n, double box_size, double radius, std::uint64_t seed);
 
-/// Thermal walls of this seed, and to the reference what they draw: it is told, not stated a second time.
+/// Thermal walls of this seed, and to the reference what they draw: it is told, not stated a second
+/// time.
 void set_thermal_seed(reference::Setting& setting, std::uint64_t seed);
 
 } // namespace carrom::test

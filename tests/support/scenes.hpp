@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes that tests share, as plain data: ordinary gases, and everything that has ever broken a simulation of this kind.
+// Scenes that tests share, as plain data: ordinary gases, and everything that has ever broken a
+// simulation of this kind.
 //
-// Every family has a fixed seed and uses + - * / sqrt only, so a scene has the same bits on every machine. The small
-// scenes are meant to be looped over against the brute-force reference; all of them together take a second or two.
+// Every family has a fixed seed and uses + - * / sqrt only, so a scene has the same bits on every
+// machine. The small scenes are meant to be looped over against the brute-force reference; all of
+// them together take a second or two.
 #pragma once
 
 #include <cstdint>
@@ -39,17 +41,19 @@ TestScene scaled(const TestScene& scene, int exponent);
 /// Ids dealt anew and the list in another order; a different scene wherever ids break ties.
 TestScene shuffled(TestScene scene, std::uint64_t seed);
 
-std::vector<TestScene> gases();              ///< packing 0.05 to 0.7, 0.001 to 40 diameters per step
-std::vector<TestScene> still_gases();        ///< still discs and one fast one, or none
-std::vector<TestScene> fast_scenes();        ///< the course program's speeds, L/8r to L/4 per step
-std::vector<TestScene> cradles();            ///< lines from wall to wall, touching or not, along x and y
-std::vector<TestScene> chains();             ///< every disc in conflict with both neighbours, across the box
-std::vector<TestScene> lattices();           ///< square lattices with many equal contact times
-std::vector<TestScene> breaks();             ///< a triangle of touching discs and a cue disc
-std::vector<TestScene> wall_scenes();        ///< corners, discs at walls and in the band, boxes that hardly fit
-std::vector<TestScene> boundary_contacts();  ///< contacts on micro-step and sync boundaries to within k ulp
-std::vector<TestScene> overlaps();           ///< coincident and overlapping discs
-std::vector<TestScene> tiny_velocities();    ///< denormal, zero and minus zero
+std::vector<TestScene> gases();       ///< packing 0.05 to 0.7, 0.001 to 40 diameters per step
+std::vector<TestScene> still_gases(); ///< still discs and one fast one, or none
+std::vector<TestScene> fast_scenes(); ///< the course program's speeds, L/8r to L/4 per step
+std::vector<TestScene> cradles();     ///< lines from wall to wall, touching or not, along x and y
+std::vector<TestScene> chains();   ///< every disc in conflict with both neighbours, across the box
+std::vector<TestScene> lattices(); ///< square lattices with many equal contact times
+std::vector<TestScene> breaks();   ///< a triangle of touching discs and a cue disc
+std::vector<TestScene> wall_scenes();       ///< corners, discs at walls and in the band, boxes that
+                                            ///< hardly fit
+std::vector<TestScene> boundary_contacts(); ///< contacts on micro-step and sync boundaries to
+                                            ///< within k ulp
+std::vector<TestScene> overlaps();          ///< coincident and overlapping discs
+std::vector<TestScene> tiny_velocities();   ///< denormal, zero and minus zero
 
 /// All of the above. N <= 60 in most, 400 in a few.
 std::vector<TestScene> small_scenes();

@@ -66,13 +66,15 @@ std::vector<TestScene> overlaps() {
     Random random(500);
     for (const std::size_t n : {std::size_t{2}, std::size_t{5}, std::size_t{20}, std::size_t{60}}) {
         for (const double speed : {0.05, 1.0, 6.0}) {
-            TestScene scene = empty_scene("overlaps of " + std::to_string(n) + ", speed " + number(speed), 12, 1, 40);
+            TestScene scene = empty_scene(
+                "overlaps of " + std::to_string(n) + ", speed " + number(speed), 12, 1, 40);
             for (std::size_t i = 0; i < n; ++i) {
                 const double x = random.uniform(1, 11), y = random.uniform(1, 11);
                 add_disc(scene, x, y);
             }
             set_speeds(scene, speed, random);
-            // Every third disc lies exactly on the one before it, every sixth moves exactly with it.
+            // Every third disc lies exactly on the one before it, every sixth moves exactly with
+            // it.
             for (std::size_t i = 2; i < n; i += 3) {
                 scene.discs[i].x = scene.discs[i - 1].x;
                 scene.discs[i].y = scene.discs[i - 1].y;
@@ -98,7 +100,9 @@ std::vector<TestScene> overlaps() {
 
 std::vector<TestScene> tiny_velocities() {
     std::vector<TestScene> scenes;
-    const std::array<double, 8> speeds = {0.0, -0.0, std::numeric_limits<double>::denorm_min(), 1e-310, 1e-300, 1e-160, 1e-20, 0x1p-30};
+    const std::array<double, 8> speeds = {0.0,    -0.0,   std::numeric_limits<double>::denorm_min(),
+                                          1e-310, 1e-300, 1e-160,
+                                          1e-20,  0x1p-30};
     std::uint64_t seed = 600;
     for (const double largest : speeds) {
         Random random(++seed);

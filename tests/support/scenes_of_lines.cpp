@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines and lattices: cradles, chains of conflicts, ties and breaks. They cross every strip and block there is.
+// Lines and lattices: cradles, chains of conflicts, ties and breaks. They cross every strip and
+// block there is.
 #include <algorithm>
 #include <array>
 
@@ -69,12 +70,14 @@ std::vector<TestScene> lattices() {
     std::uint64_t seed = 900;
     for (const std::size_t k : {std::size_t{4}, std::size_t{7}, std::size_t{20}}) {
         for (const double spacing : {1.0, 1.25, 2.0}) {
-            // Columns towards each other: every contact of a column pair, and every wall, at the same time.
+            // Columns towards each other: every contact of a column pair, and every wall, at the
+            // same time.
             TestScene columns = lattice(k, spacing);
             columns.name += ", columns in turn";
             columns.is_exact = true;
             columns.cascades_when_event_driven = spacing == 1;
-            for (std::size_t i = 0; i < k * k; ++i) columns.discs[i].vx = i % k % 2 == 0 ? 0.25 : -0.25;
+            for (std::size_t i = 0; i < k * k; ++i)
+                columns.discs[i].vx = i % k % 2 == 0 ? 0.25 : -0.25;
             scenes.push_back(columns);
             scenes.push_back(shuffled(transposed(columns), ++seed));
 

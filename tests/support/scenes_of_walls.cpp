@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walls and boundaries in time: corners, bands, boxes that hardly fit, contacts at the very end of a micro-step.
+// Walls and boundaries in time: corners, bands, boxes that hardly fit, contacts at the very end of
+// a micro-step.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -45,7 +46,8 @@ void add_tight_boxes(std::vector<TestScene>& scenes) {
         }
     }
     for (const double speed : {0.125, 3.0}) {
-        TestScene scene = empty_scene("four discs that fill the box, speed " + number(speed), 4, 1, 30);
+        TestScene scene = empty_scene("four discs that fill the box, speed " + number(speed), 4, 1,
+                                      30);
         scene.cascades_when_event_driven = true;
         add_disc(scene, 1, 1, speed, 0.5 * speed);
         add_disc(scene, 3, 1, 0, -speed);
@@ -55,11 +57,13 @@ void add_tight_boxes(std::vector<TestScene>& scenes) {
     }
 }
 
-/// Discs exactly at walls, in the band before them, and beyond them by an ulp; slow ones need never touch.
+/// Discs exactly at walls, in the band before them, and beyond them by an ulp; slow ones need never
+/// touch.
 void add_wall_huggers(std::vector<TestScene>& scenes) {
     const double radius = 0.7, box_size = 30.1;
     for (const double speed : {1e-12, 1e-9, 0.01, 2.0, 60.0}) {
-        TestScene scene = empty_scene("discs at the walls, speed " + number(speed), box_size, radius, 30);
+        TestScene scene = empty_scene("discs at the walls, speed " + number(speed), box_size,
+                                      radius, 30);
         const double band = 1e-8 * radius;
         const std::array<double, 5> distances = {0, 0.5 * band, band, 1.5 * band, 1e-16};
         for (std::size_t i = 0; i < distances.size(); ++i) {
@@ -83,10 +87,13 @@ double by_ulps(double value, int ulps) {
     return value;
 }
 
-/// Sixteen lone pairs whose contact falls at micro-step `boundary` to within `ulps` of their coordinates.
-TestScene boundary_pairs(double ratio, std::int64_t boundary, std::int64_t sync_every, int ulps, Random& random) {
-    TestScene scene = empty_scene("contacts at " + std::to_string(boundary) + " to within " + std::to_string(ulps) +
-                                      " ulp, sync every " + std::to_string(sync_every) + ", L/r " + number(ratio),
+/// Sixteen lone pairs whose contact falls at micro-step `boundary` to within `ulps` of their
+/// coordinates.
+TestScene boundary_pairs(double ratio, std::int64_t boundary, std::int64_t sync_every, int ulps,
+                         Random& random) {
+    TestScene scene = empty_scene("contacts at " + std::to_string(boundary) + " to within " +
+                                      std::to_string(ulps) + " ulp, sync every " +
+                                      std::to_string(sync_every) + ", L/r " + number(ratio),
                                   ratio, 1, boundary + 2);
     scene.setting.sync_every = sync_every;
     const double cell = ratio / 4, time = static_cast<double>(boundary);
@@ -96,7 +103,8 @@ TestScene boundary_pairs(double ratio, std::int64_t boundary, std::int64_t sync_
         const auto [fx, fy] = random.direction();
         const double speed = fastest * std::pow(2.0, -static_cast<double>(random.index(8)));
         const double drift = 0.3 * speed;
-        const double x = (static_cast<double>(i % 4) + 0.5) * cell, y = (static_cast<double>(i / 4) + 0.5) * cell;
+        const double x = (static_cast<double>(i % 4) + 0.5) * cell,
+                     y = (static_cast<double>(i / 4) + 0.5) * cell;
         const double px = x - ex, py = y - ey, qx = x + ex, qy = y + ey;
         const double pvx = speed * ex + drift * fx, pvy = speed * ey + drift * fy;
         const double qvx = -0.5 * speed * ex + drift * fy, qvy = -0.5 * speed * ey + drift * fx;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How tests that run on several machine shapes share their runs out (tests/functions.cmake, IN_PARTS).
+// How tests that run on several machine shapes share their runs out (tests/functions.cmake,
+// IN_PARTS).
 #pragma once
 
 #include <cstdlib>
@@ -21,7 +22,8 @@ inline std::optional<ShapePart> shape_part() {
     return ShapePart{number, std::strtoul(slash + 1, nullptr, 10)};
 }
 
-/// Whether the `run`-th run is another shape's: of `n_sharing` that follow each other each makes every n-th.
+/// Whether the `run`-th run is another shape's: of `n_sharing` that follow each other each makes
+/// every n-th.
 inline bool is_left_to_others(std::size_t run, std::size_t n_sharing) {
     const std::optional<ShapePart> part = shape_part();
     return part && (run + part->number) % n_sharing != 0;

@@ -4,21 +4,23 @@
 
 #include <string>
 
+#include "apps/trial.hpp"
 #include "core/errors.hpp"
 #include "scene/read_scene.hpp"
-#include "apps/trial.hpp"
 
 using namespace carrom;
 
 namespace {
 
-/// A disc that flies to and fro between two walls, 2^20 times in a step. All its numbers are sums of few powers of two, in single
-/// precision too, so that the number of its collisions is known.
+/// A disc that flies to and fro between two walls, 2^20 times in a step. All its numbers are sums
+/// of few powers of two, in single precision too, so that the number of its collisions is known.
 constexpr double room = 0x1p-20;
 constexpr std::uint64_t n_bounces = 1 << 20;
 
 Scene narrow_room() {
-    Scene scene = read_scene("[box]\nsize = 3\n[discs]\nradius = 1\nlist = [[1, 1, 1, 0]]\n[time]\nsteps = 1\n", "narrow.toml");
+    Scene scene = read_scene(
+        "[box]\nsize = 3\n[discs]\nradius = 1\nlist = [[1, 1, 1, 0]]\n[time]\nsteps = 1\n",
+        "narrow.toml");
     scene.box_size = 2 + room;
     return scene;
 }
@@ -39,7 +41,8 @@ std::string end_of(const RunSetting& setting, const Communicator& world, Totals&
 
 } // namespace
 
-TEST_CASE("Collisions at a rounding of time from each other have no end where settings cannot tell, and are told of") {
+TEST_CASE("Collisions at a rounding of time from each other have no end where settings cannot "
+          "tell, and are told of") {
     const Communicator world = Communicator::world();
     Totals totals;
     CHECK(end_of({Method::event_driven}, world, totals) == "");
@@ -47,13 +50,16 @@ TEST_CASE("Collisions at a rounding of time from each other have no end where se
     for (const Precision precision : {Precision::double_, Precision::single}) {
         for (const Arithmetic arithmetic : {Arithmetic::stable, Arithmetic::naive}) {
             if (precision == Precision::double_ && arithmetic == Arithmetic::stable) continue;
-            const std::string text = end_of({Method::event_driven, 1, precision, arithmetic}, world, totals);
+            const std::string text = end_of({Method::event_driven, 1, precision, arithmetic}, world,
+                                            totals);
             INFO(text);
             CHECK(text.starts_with("disc 0 collides without end at step 0."));
-            CHECK(text.find("the scene's precision and arithmetic do not tell when it moves") != std::string::npos);
+            CHECK(text.find("the scene's precision and arithmetic do not tell when it moves") !=
+                  std::string::npos);
         }
     }
     // The time-stepped method has an end always: a collision a step.
-    CHECK(end_of({Method::time_stepped, 1, Precision::single, Arithmetic::naive}, world, totals) == "");
+    CHECK(end_of({Method::time_stepped, 1, Precision::single, Arithmetic::naive}, world, totals) ==
+          "");
     CHECK(totals.wall_collisions == 1);
 }

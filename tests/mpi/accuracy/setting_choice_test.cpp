@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/errors.hpp"
-#include "scene/read_scene.hpp"
-#include "initial_state/initial_state.hpp"
 #include "apps/setting_choice.hpp"
+#include "core/errors.hpp"
+#include "initial_state/initial_state.hpp"
+#include "scene/read_scene.hpp"
 
 using namespace carrom;
 
@@ -19,21 +19,26 @@ Scene unknown_gas(const std::string& more) {
 }
 
 /// The errors of a chosen setting, over several starts that the pilot has not seen.
-void check_delivery(Scene scene, double accuracy, const Communicator& world, int n_starts = 3, double pairs = 1e5) {
+void check_delivery(Scene scene, double accuracy, const Communicator& world, int n_starts = 3,
+                    double pairs = 1e5) {
     scene.accuracy = accuracy;
     choose_setting(scene, initial_state(scene, nullptr, world), true, world, {});
     CHECK_FALSE(scene.accuracy);
     const RunSetting setting{scene.method, scene.micro_steps};
-    CAPTURE(scene.n_discs, scene.packing(), accuracy, setting.micro_steps, setting.method == Method::event_driven);
+    CAPTURE(scene.n_discs, scene.packing(), accuracy, setting.micro_steps,
+            setting.method == Method::event_driven);
     double frequency = 0, pressure = 0, error = 0;
     for (int start = 0; start < n_starts; ++start) {
         Scene other = scene;
         other.seed = 900 + static_cast<std::uint64_t>(start);
-        const TrialStart begin = bring_to_equilibrium(other, initial_state(other, nullptr, world), 10, world, {});
+        const TrialStart begin = bring_to_equilibrium(other, initial_state(other, nullptr, world),
+                                                      10, world, {});
         TrialLength length;
-        length.steps = std::max<std::int64_t>(1, std::llround(pairs / (begin.frequency * static_cast<double>(scene.n_discs) / 2)));
-        const TrialError here = error_of(run_trial(other, setting, begin, length, world, {}),
-                                         run_trial(other, {Method::event_driven}, begin, length, world, {}));
+        length.steps = std::max<std::int64_t>(
+            1, std::llround(pairs / (begin.frequency * static_cast<double>(scene.n_discs) / 2)));
+        const TrialError here = error_of(
+            run_trial(other, setting, begin, length, world, {}),
+            run_trial(other, {Method::event_driven}, begin, length, world, {}));
         frequency += here.frequency / n_starts;
         pressure += here.pressure / n_starts;
         error += here.error / n_starts;
@@ -47,30 +52,47 @@ void check_delivery(Scene scene, double accuracy, const Communicator& world, int
 
 TEST_CASE("An accuracy is delivered on three scenes that the choice was not made for") {
     const Communicator world = Communicator::world();
-    check_delivery(unknown_gas("count = 300\npacking = 0.05\nspeed = 0.3\nvelocities = 'uniform'\nseed = 5\n"), 0.1, world);
-    check_delivery(unknown_gas("count = 1000\npacking = 0.4\nspeed = 0.02\ngenerator = 'lattice'\n"), 0.05, world);
-    check_delivery(unknown_gas("count = 600\npacking = 0.2\nspeed = 0.9\n[[discs.streams]]\nregion = [0, 0, 25, 50]\nvelocity = [0.2, 0]\n"), 0.3, world);
+    check_delivery(
+        unknown_gas("count = 300\npacking = 0.05\nspeed = 0.3\nvelocities = 'uniform'\nseed = 5\n"),
+        0.1, world);
+    check_delivery(
+        unknown_gas("count = 1000\npacking = 0.4\nspeed = 0.02\ngenerator = 'lattice'\n"), 0.05,
+        world);
+    check_delivery(unknown_gas("count = 600\npacking = 0.2\nspeed = 0.9\n[[discs.streams]]\nregion "
+                               "= [0, 0, 25, 50]\nvelocity = [0.2, 0]\n"),
+                   0.3, world);
 }
 
-TEST_CASE("An accuracy is delivered where errors are small at first and grow for hundreds of collisions") {
+TEST_CASE("An accuracy is delivered where errors are small at first and grow for hundreds of "
+          "collisions") {
     const Communicator world = Communicator::world();
-    check_delivery(unknown_gas("count = 16384\npacking = 0.7\nspeed = 0.006\ngenerator = 'lattice'\n"), 0.1, world, 1, 60 * 16384 / 2.0);
+    check_delivery(
+        unknown_gas("count = 16384\npacking = 0.7\nspeed = 0.006\ngenerator = 'lattice'\n"), 0.1,
+        world, 1, 60 * 16384 / 2.0);
 }
 
-TEST_CASE("What no pilot can see is left to the event-driven method, and the choice is written over the question") {
+TEST_CASE("What no pilot can see is left to the event-driven method, and the choice is written "
+          "over the question") {
     const Communicator world = Communicator::world();
     Scene scene = unknown_gas("count = 300\npacking = 0.1\nspeed = 0.3\n");
     scene.overrides = {"time.accuracy=1e-6", "time.steps=9"};
     scene.accuracy = 1e-6;
     choose_setting(scene, initial_state(scene, nullptr, world), true, world, {});
     CHECK(scene.method == Method::event_driven);
-    CHECK(scene.overrides == std::vector<std::string>{"time.steps=9", "time.method=event-driven", "time.micro_steps=1"});
-    const Scene again = read_scene({"gas.toml", "[box]\nsize = 50\n[discs]\ncount = 300\npacking = 0.1\n[time]\nsteps = 1\naccuracy = 0.1\n", 0, false}, scene.overrides);
+    CHECK(scene.overrides == std::vector<std::string>{"time.steps=9", "time.method=event-driven",
+                                                      "time.micro_steps=1"});
+    const Scene again = read_scene({"gas.toml",
+                                    "[box]\nsize = 50\n[discs]\ncount = 300\npacking = "
+                                    "0.1\n[time]\nsteps = 1\naccuracy = 0.1\n",
+                                    0, false},
+                                   scene.overrides);
     CHECK((again.method == Method::event_driven && !again.accuracy && again.steps == 9));
 }
 
 TEST_CASE("Discs that never meet have no error to choose by") {
     const Communicator world = Communicator::world();
-    Scene scene = read_scene("[box]\nsize = 9\n[discs]\nradius = 1\nlist = [[2, 2, 0, 1], [5, 2, 0, 1]]\n[time]\nsteps = 5\naccuracy = 0.1\n", "two.toml");
+    Scene scene = read_scene("[box]\nsize = 9\n[discs]\nradius = 1\nlist = [[2, 2, 0, 1], [5, 2, "
+                             "0, 1]]\n[time]\nsteps = 5\naccuracy = 0.1\n",
+                             "two.toml");
     CHECK_THROWS_AS(choose_setting(scene, scene.listed_discs, true, world, {}), InputError);
 }

@@ -6,21 +6,30 @@ namespace carrom::test {
 void LocalDiscs::sort_into_cells(double box_size, double radius) {
     const double reach = 2 * radius * (1 + 1e-6);
     const std::span<Disc> all(discs);
-    grid.sort(all.first(n_own), make_frame(0, box_size, 0, box_size, reach, discs.size(), 0), time, time, 1, 1);
+    grid.sort(all.first(n_own), make_frame(0, box_size, 0, box_size, reach, discs.size(), 0), time,
+              time, 1, 1);
     grid.add_halo(all.subspan(n_own));
 }
 
 LocalDiscs copy_of(const LocalView& local_view) {
     const std::span<const Disc> discs = local_view.population.discs;
-    return {{discs.begin(), discs.end()}, local_view.population.n_own, *local_view.grid, *local_view.strips, local_view.time, local_view.frame};
+    return {{discs.begin(), discs.end()},
+            local_view.population.n_own,
+            *local_view.grid,
+            *local_view.strips,
+            local_view.time,
+            local_view.frame};
 }
 
-LocalDiscs view_by_hand(const std::vector<Disc>& discs, double time, double box_size, double radius, int rank, int n_ranks) {
+LocalDiscs view_by_hand(const std::vector<Disc>& discs, double time, double box_size, double radius,
+                        int rank, int n_ranks) {
     std::vector<double> cuts;
     for (int k = 1; k < n_ranks; ++k) cuts.push_back(box_size * k / n_ranks);
     LocalDiscs local_view{{}, 0, {}, Strips(cuts), time, {}};
     std::vector<Disc> halo;
-    for (const Disc& disc : discs) (local_view.strips.owner(disc.x_at(time)) == rank ? local_view.discs : halo).push_back(disc);
+    for (const Disc& disc : discs)
+        (local_view.strips.owner(disc.x_at(time)) == rank ? local_view.discs : halo)
+            .push_back(disc);
     local_view.n_own = local_view.discs.size();
     local_view.discs.insert(local_view.discs.end(), halo.begin(), halo.end());
     local_view.sort_into_cells(box_size, radius);

@@ -19,7 +19,8 @@ struct LocalDiscs {
     Frame frame;
 
     LocalView view() const { return {{discs, n_own}, &grid, &strips, time, frame}; }
-    /// Puts the discs into the cells they are in now, the own ones into their order; partners within a diameter are within reach.
+    /// Puts the discs into the cells they are in now, the own ones into their order; partners
+    /// within a diameter are within reach.
     void sort_into_cells(double box_size, double radius);
 };
 
@@ -27,6 +28,7 @@ struct LocalDiscs {
 LocalDiscs copy_of(const LocalView& local_view);
 
 /// All of the few `discs`, those in this rank's equal strip as its own, the others as its halo.
-LocalDiscs view_by_hand(const std::vector<Disc>& discs, double time, double box_size, double radius, int rank, int n_ranks);
+LocalDiscs view_by_hand(const std::vector<Disc>& discs, double time, double box_size, double radius,
+                        int rank, int n_ranks);
 
 } // namespace carrom::test

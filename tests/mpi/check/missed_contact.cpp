@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ends like a run whose search has missed a contact: disc 5 has flown into disc 9, and nobody has collided.
+// Ends like a run whose search has missed a contact: disc 5 has flown into disc 9, and nobody has
+// collided.
 //
-// missed_contact RULE: writes the neighbourhood to where it runs and leaves with code 70 on every rank. In the event-driven method discs are rough and of two masses.
+// missed_contact RULE: writes the neighbourhood to where it runs and leaves with code 70 on every
+// rank. In the event-driven method discs are rough and of two masses.
 #include <cstdio>
 #include <string>
 
-#include "parallel/mpi.hpp"
-#include "check/check_failure.hpp"
 #include "apps/failure_scene.hpp"
-#include "local_discs.hpp"
+#include "check/check_failure.hpp"
 #include "check/state_check.hpp"
+#include "local_discs.hpp"
+#include "parallel/mpi.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
 
 namespace {
 
-/// Thirty discs in rows, still but for disc 5, which reaches disc 9 half-way through the second step.
+/// Thirty discs in rows, still but for disc 5, which reaches disc 9 half-way through the second
+/// step.
 std::vector<Disc> thirty_discs() {
     std::vector<Disc> discs;
     for (DiscId id = 0; id < 30; ++id) {
@@ -41,20 +44,27 @@ int main(int argc, char** argv) {
         scene.box_size = 60;
         scene.radius = 1;
         scene.n_discs = 30;
-        scene.method = argc > 1 && std::string(argv[1]) == "all" ? Method::event_driven : Method::time_stepped;
+        scene.method = argc > 1 && std::string(argv[1]) == "all" ? Method::event_driven
+                                                                 : Method::time_stepped;
         if (scene.method == Method::event_driven) {
             scene.effects.species = {{9, 1, 2.5}, {21, 1, 0.5}};
             scene.effects.contact = {ContactKind::rough, 0.9, 0.001, 0.5, 0.25, 0.5};
         }
         const std::vector<Disc> discs = thirty_discs();
-        const auto at = [&](double time) { return view_by_hand(discs, time, scene.box_size, scene.radius, world.rank(), world.size()); };
+        const auto at = [&](double time) {
+            return view_by_hand(discs, time, scene.box_size, scene.radius, world.rank(),
+                                world.size());
+        };
         const LocalDiscs start = at(0);
         const auto spins_of = [&](const LocalDiscs& local_view) {
             std::vector<double> spins;
-            for (std::size_t i = 0; i < local_view.n_own && scene.method == Method::event_driven; ++i) spins.push_back(0.125 * static_cast<double>(local_view.discs[i].id));
+            for (std::size_t i = 0; i < local_view.n_own && scene.method == Method::event_driven;
+                 ++i)
+                spins.push_back(0.125 * static_cast<double>(local_view.discs[i].id));
             return spins;
         };
-        StateCheck check(scene, std::span(start.discs).first(start.n_own), 0, world, {}, 0, spins_of(start));
+        StateCheck check(scene, std::span(start.discs).first(start.n_own), 0, world, {}, 0,
+                         spins_of(start));
         try {
             for (const std::int64_t step : {1, 2}) {
                 const LocalDiscs now = at(static_cast<double>(step));

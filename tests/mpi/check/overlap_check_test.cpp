@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the self-check says of two discs that fly into each other, as if an engine had missed their contact.
+// What the self-check says of two discs that fly into each other, as if an engine had missed their
+// contact.
 #include "check/state_check.hpp"
 
 #include <memory>
@@ -17,7 +18,8 @@ namespace {
 
 constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 
-/// Two discs of radius 1 in a box of 20, as if no contact had been found: 0 flies to the right, 1 rests or flies.
+/// Two discs of radius 1 in a box of 20, as if no contact had been found: 0 flies to the right, 1
+/// rests or flies.
 struct Passing {
     Communicator world = Communicator::world();
     Scene scene;
@@ -37,11 +39,15 @@ struct Passing {
         discs[1].id = 1;
         discs[0].y = discs[1].y = 10;
         const LocalDiscs local_view = at(0);
-        check = std::make_unique<StateCheck>(scene, std::span(local_view.discs).first(local_view.n_own), 0, world);
+        check = std::make_unique<StateCheck>(
+            scene, std::span(local_view.discs).first(local_view.n_own), 0, world);
     }
-    LocalDiscs at(double time) const { return view_by_hand(discs, time, 20, 1, world.rank(), world.size()); }
+    LocalDiscs at(double time) const {
+        return view_by_hand(discs, time, 20, 1, world.rank(), world.size());
+    }
 
-    /// Whether the end of the next step is found right; `walls` of disc 0 are counted and logged in it.
+    /// Whether the end of the next step is found right; `walls` of disc 0 are counted and logged in
+    /// it.
     bool is_right(std::uint64_t walls = 0) {
         std::vector<Collision> log;
         discs[0].wall_collisions += walls;
@@ -79,14 +85,16 @@ TEST_CASE("check: a contact lost at the boundary of two steps is not explained")
     }
 }
 
-TEST_CASE("check: discs so slow that an overlap deepens by less than its bound a step are found all the same") {
+TEST_CASE("check: discs so slow that an overlap deepens by less than its bound a step are found "
+          "all the same") {
     Passing passing(Method::time_stepped, 7.5 - 1e-11, 5e-14);
     bool is_right = true;
     while (is_right && passing.step < 3000) is_right = passing.is_right();
     CHECK(!is_right);
 }
 
-TEST_CASE("check: the rule one explains overlaps with a disc that has had its collision, the rule all none") {
+TEST_CASE("check: the rule one explains overlaps with a disc that has had its collision, the rule "
+          "all none") {
     Passing one(Method::time_stepped, 6.7, 1);
     CHECK(one.is_right(1));
     CHECK(one.is_right()); // they go on through each other

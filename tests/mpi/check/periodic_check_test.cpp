@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The self-check in boxes with periodic sides: silent on what is right, and it sees an overlap across a seam.
+// The self-check in boxes with periodic sides: silent on what is right, and it sees an overlap
+// across a seam.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,9 +14,10 @@
 #include "catch.hpp"
 
 #include "check/check_failure.hpp"
-#include "time_stepped/time_stepped_engine.hpp"
-#include "scene_tools.hpp"
 #include "check/state_check.hpp"
+#include "scene_tools.hpp"
+#include "simulation/simulation.hpp"
+#include "time_stepped/time_stepped_engine.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -27,7 +29,8 @@ constexpr Boundary periodic{BoundaryKind::periodic, 1, 0, 0};
 std::vector<InputDisc> share_of(const std::vector<InputDisc>& discs, const Communicator& world) {
     std::vector<InputDisc> mine;
     for (const InputDisc& disc : discs)
-        if (disc.id % static_cast<DiscId>(world.size()) == static_cast<DiscId>(world.rank())) mine.push_back(disc);
+        if (disc.id % static_cast<DiscId>(world.size()) == static_cast<DiscId>(world.rank()))
+            mine.push_back(disc);
     return mine;
 }
 
@@ -37,7 +40,8 @@ Scene scene_of(const TestScene& test, Method method) {
     return scene;
 }
 
-StateHash hash_after(const TestScene& test, Method method, bool is_checked, const Communicator& world) {
+StateHash hash_after(const TestScene& test, Method method, bool is_checked,
+                     const Communicator& world) {
     const Scene scene = scene_of(test, method);
     Simulation simulation(scene, share_of(test.discs, world), world, {});
     if (is_checked) simulation.check_every_step(scene);
@@ -45,7 +49,8 @@ StateHash hash_after(const TestScene& test, Method method, bool is_checked, cons
     return simulation.totals().hash;
 }
 
-/// What the check finds as discs that have flown on for a micro-step meet nobody, whatever is there.
+/// What the check finds as discs that have flown on for a micro-step meet nobody, whatever is
+/// there.
 std::optional<CheckFailure> failure_of_flight(const TestScene& test, const Communicator& world) {
     const Scene scene = scene_of(test, Method::time_stepped);
     std::vector<Disc> before, now;
@@ -72,8 +77,11 @@ std::optional<CheckFailure> failure_of_flight(const TestScene& test, const Commu
 TEST_CASE("check: runs in periodic boxes break no invariant, and have their bits") {
     const Communicator world = Communicator::world();
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
-        for (const auto& [is_along_x, are_rough] : {std::pair(false, false), {true, false}, {false, true}, {true, true}}) {
-            TestScene test = gas(60, 0.4, 1.5, 61); // flies through the box once between syncs, some discs more often
+        for (const auto& [is_along_x, are_rough] :
+             {std::pair(false, false), {true, false}, {false, true}, {true, true}}) {
+            TestScene test = gas(
+                60, 0.4, 1.5,
+                61); // flies through the box once between syncs, some discs more often
             test.setting.effects.boundaries = {periodic, periodic, periodic, periodic};
             if (is_along_x) {
                 test.setting.effects.boundaries[2] = {BoundaryKind::fixed, 0.9, 0, 0};
@@ -81,22 +89,31 @@ TEST_CASE("check: runs in periodic boxes break no invariant, and have their bits
                 test.setting.effects.contact = {ContactKind::restitution, 0.95, 0.001};
                 if (method == Method::event_driven) test.setting.effects.gravity = {0, -0.01};
             }
-            test.setting.effects.obstacles = {{{0, 0, 1}, {test.setting.box_size, 9, 0.5}}, {{0, 15, 5, 18}}, 1};
+            test.setting.effects.obstacles = {
+                {{0, 0, 1}, {test.setting.box_size, 9, 0.5}}, {{0, 15, 5, 18}}, 1};
             std::erase_if(test.discs, [&](const InputDisc& disc) { // those that are in the way
                 const auto far = [&](double x, double y, double reach) {
-                    return std::hypot(std::remainder(disc.x - x, test.setting.box_size), std::remainder(disc.y - y, test.setting.box_size)) > reach;
+                    return std::hypot(std::remainder(disc.x - x, test.setting.box_size),
+                                      std::remainder(disc.y - y, test.setting.box_size)) > reach;
                 };
                 return !(far(0, 0, 2.01) && far(0, 9, 1.51) && far(2.5, 16.5, 4.01));
             });
             for (std::size_t k = 0; k < test.discs.size(); ++k) test.discs[k].id = k;
             if (are_rough) {
                 test.setting.effects.species = {{20, 1, 5}, {test.discs.size() - 20, 0.7, 0.3}};
-                test.setting.effects.contact = {ContactKind::rough, is_along_x ? 0.95 : 1, 0.001, is_along_x ? 0.3 : 1, std::numeric_limits<double>::infinity(), 0.5};
+                test.setting.effects.contact = {ContactKind::rough,
+                                                is_along_x ? 0.95 : 1,
+                                                0.001,
+                                                is_along_x ? 0.3 : 1,
+                                                std::numeric_limits<double>::infinity(),
+                                                0.5};
             }
             test.setting.sync_every = 12;
             test.steps = 30;
-            INFO((method == Method::time_stepped ? "rule one" : "rule all") << (is_along_x ? ", along x" : ", all round") << (are_rough ? ", rough" : ""));
-            CHECK(to_string(hash_after(test, method, true, world)) == to_string(hash_after(test, method, false, world)));
+            INFO((method == Method::time_stepped ? "rule one" : "rule all")
+                 << (is_along_x ? ", along x" : ", all round") << (are_rough ? ", rough" : ""));
+            CHECK(to_string(hash_after(test, method, true, world)) ==
+                  to_string(hash_after(test, method, false, world)));
         }
     }
 }

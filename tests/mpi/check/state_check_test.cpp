@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The self-check on data that it sees at the end of a step: as the engines leave it, on every scene the tests have, and
-// with one thing made wrong. Spoilt is a copy: the engines have no way to fail on purpose.
+// The self-check on data that it sees at the end of a step: as the engines leave it, on every scene
+// the tests have, and with one thing made wrong. Spoilt is a copy: the engines have no way to fail
+// on purpose.
 #include "check/state_check.hpp"
 
 #include <algorithm>
@@ -12,12 +13,13 @@
 #include "catch.hpp"
 
 #include "event_driven/event_driven_engine.hpp"
-#include "time_stepped/time_stepped_engine.hpp"
-#include "time_stepped.hpp"
+#include "local_discs.hpp"
 #include "scene_tools.hpp"
 #include "scenes.hpp"
 #include "shape_parts.hpp"
-#include "local_discs.hpp"
+#include "simulation/simulation.hpp"
+#include "time_stepped.hpp"
+#include "time_stepped/time_stepped_engine.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -29,7 +31,8 @@ constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 std::vector<Disc> share_of(const TestScene& scene, const Communicator& world) {
     std::vector<Disc> mine;
     for (const Disc& disc : reference::stored_states(scene.setting, scene.discs)) {
-        if (static_cast<int>(disc.id % static_cast<DiscId>(world.size())) == world.rank()) mine.push_back(disc);
+        if (static_cast<int>(disc.id % static_cast<DiscId>(world.size())) == world.rank())
+            mine.push_back(disc);
     }
     return mine;
 }
@@ -40,22 +43,29 @@ Scene checked_scene(const TestScene& test_scene, Method method) {
     return scene;
 }
 
-std::unique_ptr<Engine> engine_of(const Scene& scene, StoredState state, const Communicator& world) {
-    if (scene.method == Method::event_driven) return make_event_driven_engine(scene, std::move(state), world, {});
+std::unique_ptr<Engine> engine_of(const Scene& scene, StoredState state,
+                                  const Communicator& world) {
+    if (scene.method == Method::event_driven)
+        return make_event_driven_engine(scene, std::move(state), world, {});
     return make_time_stepped_engine(scene, std::move(state), world, {});
 }
 
-/// The text of a failure in the first steps of a scene; empty if there is none, or the engine refuses the scene.
+/// The text of a failure in the first steps of a scene; empty if there is none, or the engine
+/// refuses the scene.
 std::string failure_of(const TestScene& test_scene, Method method, const Communicator& world) {
     Scene scene = checked_scene(test_scene, method);
     try {
         std::vector<InputDisc> mine;
         for (const InputDisc& disc : test_scene.discs) {
-            if (static_cast<int>(disc.id % static_cast<DiscId>(world.size())) == world.rank()) mine.push_back(disc);
+            if (static_cast<int>(disc.id % static_cast<DiscId>(world.size())) == world.rank())
+                mine.push_back(disc);
         }
         Simulation simulation(scene, std::move(mine), world, {});
         simulation.check_every_step(scene);
-        const std::int64_t last = std::min<std::int64_t>(test_scene.steps, method == Method::event_driven ? 4 : world.size() == 1 ? 70 : 6);
+        const std::int64_t last = std::min<std::int64_t>(test_scene.steps,
+                                                         method == Method::event_driven ? 4
+                                                         : world.size() == 1            ? 70
+                                                                                        : 6);
         while (simulation.step() < last) simulation.advance_towards(last);
     } catch (const CheckFailure& failure) {
         return failure.what();
@@ -99,19 +109,31 @@ std::vector<NamedEffects> all_effects() {
     heaps.species = mixed.species;
     rubbing.contact = {ContactKind::rough, 0.9, 0.001, 0.3, 0.4, 0.5};
     rolling = mixed;
-    rolling.contact = {ContactKind::rough, 1, 0.001, 1, std::numeric_limits<double>::infinity(), 0.3};
-    return {{"no contact", none, true},  {"restitution", lossy, true},  {"lossy walls", lossy_walls, true}, {"a thermal wall", thermal, true},
-            {"pistons", piston, false}, {"gravity", falling, false}, {"a pile", pile, false},            {"drag", slowed, false},
-            {"gravity and drag", sinking, false}, {"several classes", mixed, true}, {"a pile of several classes", heaps, false},
-            {"rough discs", rubbing, true}, {"perfectly rough discs of several classes", rolling, true}};
+    rolling.contact = {
+        ContactKind::rough, 1, 0.001, 1, std::numeric_limits<double>::infinity(), 0.3};
+    return {{"no contact", none, true},
+            {"restitution", lossy, true},
+            {"lossy walls", lossy_walls, true},
+            {"a thermal wall", thermal, true},
+            {"pistons", piston, false},
+            {"gravity", falling, false},
+            {"a pile", pile, false},
+            {"drag", slowed, false},
+            {"gravity and drag", sinking, false},
+            {"several classes", mixed, true},
+            {"a pile of several classes", heaps, false},
+            {"rough discs", rubbing, true},
+            {"perfectly rough discs of several classes", rolling, true}};
 }
 
 /// What the check sees after the first step of a gas, and what it says when that has been spoilt.
 class OneStep {
 public:
     explicit OneStep(Method method, const Effects& effects = {})
-        : world_(Communicator::world()), test_scene_(gas_of(effects)), scene_(checked_scene(test_scene_, method)),
-          engine_(engine_of(scene_, {share_of(test_scene_, world_), 0}, world_)), check_(scene_, engine_->own(), 0, world_, {}, 0, engine_->spins()) {
+        : world_(Communicator::world()), test_scene_(gas_of(effects)),
+          scene_(checked_scene(test_scene_, method)),
+          engine_(engine_of(scene_, {share_of(test_scene_, world_), 0}, world_)),
+          check_(scene_, engine_->own(), 0, world_, {}, 0, engine_->spins()) {
         engine_->log_to(&log);
         engine_->advance_towards(1);
         local_view = copy_of(engine_->local_view());
@@ -149,7 +171,8 @@ public:
             if (collision.q != Collision::wall) ++n_collisions[collision.q];
         }
         world_.sum(n_collisions);
-        return static_cast<DiscId>(std::find(n_collisions.begin(), n_collisions.end(), 0) - n_collisions.begin());
+        return static_cast<DiscId>(std::find(n_collisions.begin(), n_collisions.end(), 0) -
+                                   n_collisions.begin());
     }
 
     /// The failure, after a check that all ranks have met the same one.
@@ -178,7 +201,8 @@ private:
     StateCheck check_;
 };
 
-/// Spoils a step under both rules and checks what is said of it: the invariant, the step, and the disc if `disc` is given.
+/// Spoils a step under both rules and checks what is said of it: the invariant, the step, and the
+/// disc if `disc` is given.
 void expect(Invariant invariant, const std::function<std::optional<DiscId>(OneStep&)>& spoil) {
     for (const Method method : both) {
         INFO("rule " << (method == Method::time_stepped ? "one" : "all"));
@@ -195,10 +219,12 @@ void expect(Invariant invariant, const std::function<std::optional<DiscId>(OneSt
         if (!disc) continue;
         CHECK(failure->disc == *disc);
         const bool is_own = step.own(*disc) != nullptr;
-        if (is_own && invariant != Invariant::owned_once) CHECK(failure->rank == step.world().rank());
+        if (is_own && invariant != Invariant::owned_once)
+            CHECK(failure->rank == step.world().rank());
         const auto& around = failure->discs_around;
         CHECK(around.size() == 12);
-        CHECK(std::any_of(around.begin(), around.end(), [&](const InputDisc& d) { return d.id == *disc; }));
+        CHECK(std::any_of(around.begin(), around.end(),
+                          [&](const InputDisc& d) { return d.id == *disc; }));
     }
 }
 
@@ -211,7 +237,9 @@ TEST_CASE("check: nothing is wrong in the scenes of the tests") {
         ++number;
         for (const Method method : both) {
             if (is_left_to_others(number + (method == Method::time_stepped))) continue;
-            if (method == Method::event_driven && (scene.cascades_when_event_driven || scene.discs.size() > 100)) continue;
+            if (method == Method::event_driven &&
+                (scene.cascades_when_event_driven || scene.discs.size() > 100))
+                continue;
             INFO(scene.name << (method == Method::time_stepped ? ", one" : ", all"));
             CHECK(failure_of(scene, method, world) == "");
         }
@@ -237,19 +265,24 @@ TEST_CASE("check: nothing is wrong in scenes with effects") {
             Scene checked = checked_scene(scene, method);
             std::vector<InputDisc> mine;
             for (const InputDisc& disc : scene.discs)
-                if (static_cast<int>(disc.id % static_cast<DiscId>(world.size())) == world.rank()) mine.push_back(disc);
+                if (static_cast<int>(disc.id % static_cast<DiscId>(world.size())) == world.rank())
+                    mine.push_back(disc);
             Simulation simulation(checked, std::move(mine), world, {});
             simulation.check_every_step(checked);
             INFO(named.name << (method == Method::time_stepped ? ", one" : ", all"));
-            CHECK_NOTHROW([&] { while (simulation.step() < scene.steps) simulation.advance_towards(scene.steps); }());
+            CHECK_NOTHROW([&] {
+                while (simulation.step() < scene.steps) simulation.advance_towards(scene.steps);
+            }());
         }
     }
 }
 
 namespace {
 
-/// The invariant that a check of a step with effects finds broken once `spoil` has had its way; none if it finds nothing.
-std::optional<Invariant> found_in(const Effects& effects, const std::function<void(OneStep&)>& spoil) {
+/// The invariant that a check of a step with effects finds broken once `spoil` has had its way;
+/// none if it finds nothing.
+std::optional<Invariant> found_in(const Effects& effects,
+                                  const std::function<void(OneStep&)>& spoil) {
     OneStep step(Method::event_driven, effects);
     spoil(step);
     const auto failure = step.look();
@@ -267,29 +300,43 @@ TEST_CASE("check: with effects, what is wrong is found all the same") {
             disc->vx *= factor;
         };
     };
-    const auto free_disc_faster = [&](double factor) { return [=](OneStep& step) { faster(step.free_disc(), factor)(step); }; };
-    const auto collided_disc_faster = [&](double factor) { return [=](OneStep& step) { faster(step.first_pair().p, factor)(step); }; };
+    const auto free_disc_faster = [&](double factor) {
+        return [=](OneStep& step) { faster(step.free_disc(), factor)(step); };
+    };
+    const auto collided_disc_faster = [&](double factor) {
+        return [=](OneStep& step) { faster(step.first_pair().p, factor)(step); };
+    };
     for (const NamedEffects& named : all_effects()) {
         INFO(named.name);
         CHECK(found_in(named.effects, [](OneStep&) {}) == std::nullopt);
         CHECK(found_in(named.effects, free_disc_faster(1 + 1e-9)) == Invariant::motion);
-        CHECK(found_in(named.effects, [](OneStep& step) { if (step.own(7)) ++step.own(7)->wall_collisions; }) == Invariant::counters);
+        CHECK(found_in(named.effects, [](OneStep& step) {
+                  if (step.own(7)) ++step.own(7)->wall_collisions;
+              }) == Invariant::counters);
         if (named.effects.contact.kind == ContactKind::none) continue;
         CHECK(found_in(named.effects, collided_disc_faster(3)) == Invariant::energy);
     }
     const auto turns_faster = [](OneStep& step, DiscId id) {
-        if (const Disc* const disc = step.own(id)) step.spins[static_cast<std::size_t>(disc - step.local_view.discs.data())] += 0.2;
+        if (const Disc* const disc = step.own(id))
+            step.spins[static_cast<std::size_t>(disc - step.local_view.discs.data())] += 0.2;
     };
     for (const NamedEffects& named : all_effects()) {
         if (named.effects.contact.kind != ContactKind::rough) continue;
-        CHECK(found_in(named.effects, [&](OneStep& step) { turns_faster(step, step.free_disc()); }) == Invariant::motion);
-        CHECK(found_in(named.effects, [&](OneStep& step) { turns_faster(step, step.first_pair().p); }) ==
-              (named.effects.contact.restitution == 1 ? std::optional(Invariant::energy) : std::nullopt)); // else it might be what is lost
+        CHECK(found_in(named.effects, [&](OneStep& step) {
+                  turns_faster(step, step.free_disc());
+              }) == Invariant::motion);
+        CHECK(found_in(named.effects,
+                       [&](OneStep& step) { turns_faster(step, step.first_pair().p); }) ==
+              (named.effects.contact.restitution == 1
+                   ? std::optional(Invariant::energy)
+                   : std::nullopt)); // else it might be what is lost
     }
     Effects piston;
     piston.boundaries[1] = {BoundaryKind::moving, 1, 0, -0.5};
     CHECK(found_in(piston, [](OneStep& step) { // inside the box as it was, outside as it is
-              if (Disc* const disc = step.own(7)) disc->x += step.scene().box_size - step.scene().radius - 0.2 - disc->x_at(step.local_view.time);
+              if (Disc* const disc = step.own(7))
+                  disc->x += step.scene().box_size - step.scene().radius - 0.2 -
+                             disc->x_at(step.local_view.time);
           }) == Invariant::in_box);
     Effects falling;
     falling.gravity.y = -0.03;
@@ -330,7 +377,9 @@ TEST_CASE("check: a disc that does not exist") {
 TEST_CASE("check: a disc outside the box, by little") {
     expect(Invariant::in_box, [](OneStep& step) {
         const double size = step.scene().box_size;
-        if (Disc* const disc = step.own(7)) disc->y += (size - step.scene().radius) * (1 + 1e-12) - disc->y_at(step.local_view.time);
+        if (Disc* const disc = step.own(7))
+            disc->y += (size - step.scene().radius) * (1 + 1e-12) -
+                       disc->y_at(step.local_view.time);
         return 7;
     });
 }
@@ -339,7 +388,8 @@ TEST_CASE("check: a disc in another rank's strip") {
     if (Communicator::world().size() == 1) return;
     expect(Invariant::in_strip, [](OneStep& step) {
         if (Disc* const disc = step.own(7)) {
-            const double from_left = step.scene().radius, from_right = step.scene().box_size - step.scene().radius;
+            const double from_left = step.scene().radius,
+                         from_right = step.scene().box_size - step.scene().radius;
             const bool is_left = step.local_view.strips.owner(from_left) == step.world().rank();
             disc->x += (is_left ? from_right : from_left) - disc->x_at(step.local_view.time);
         }
@@ -350,7 +400,8 @@ TEST_CASE("check: a disc in another rank's strip") {
 TEST_CASE("check: a disc in another cell than it is filed under") {
     expect(Invariant::in_cell, [](OneStep& step) {
         if (Disc* const disc = step.own(7)) {
-            const double y = disc->y_at(step.local_view.time), width = step.local_view.grid.frame().cell_width;
+            const double y = disc->y_at(step.local_view.time),
+                         width = step.local_view.grid.frame().cell_width;
             disc->y += y > step.scene().box_size / 2 ? -width : width;
         }
         return 7;
@@ -379,7 +430,9 @@ TEST_CASE("check: a pair's collision that one of the two has not counted") {
 TEST_CASE("check: a collision that is not in the log") {
     expect(Invariant::counters, [](OneStep& step) {
         const Collision lost = step.first_pair();
-        std::erase_if(step.log, [&](const Collision& c) { return c.p == lost.p && c.q == lost.q && c.time == lost.time; });
+        std::erase_if(step.log, [&](const Collision& c) {
+            return c.p == lost.p && c.q == lost.q && c.time == lost.time;
+        });
         return lost.p;
     });
 }

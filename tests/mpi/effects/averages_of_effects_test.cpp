@@ -46,7 +46,8 @@ TEST_CASE("effects: averages of speeds over a thermal floor under gravity are Ma
     simulation.average_anew();
     advance_to(simulation, 4000);
     const Averages averages = simulation.averages();
-    CHECK(averages.mean_speed.value == Approx(std::sqrt(std::numbers::pi * temperature / 2)).epsilon(0.03));
+    CHECK(averages.mean_speed.value ==
+          Approx(std::sqrt(std::numbers::pi * temperature / 2)).epsilon(0.03));
     CHECK(averages.speed_kurtosis.value == Approx(2).epsilon(0.06));
     CHECK(averages.collision_frequency.value == 0);
     CHECK(std::isnan(averages.wall_pressure.value));
@@ -57,7 +58,8 @@ TEST_CASE("effects: averages of what is slowed down, leaves, or flies among obst
     TestScene slowed = swarm(0.5, 320);
     set_drag(slowed, 0.005);
     const Averages of_slowed = averages_of(slowed);
-    CHECK(of_slowed.mean_speed.value == Approx(0.5 * -std::expm1(-1.6) / 1.6).epsilon(2e-3)); // trapezoids of 8 to 16 steps
+    CHECK(of_slowed.mean_speed.value ==
+          Approx(0.5 * -std::expm1(-1.6) / 1.6).epsilon(2e-3)); // trapezoids of 8 to 16 steps
     CHECK(of_slowed.speed_kurtosis.value == Approx(1).epsilon(1e-12));
 
     // Leaving: those that are in the box are as fast as ever, however many have left.
@@ -72,7 +74,9 @@ TEST_CASE("effects: averages of what is slowed down, leaves, or flies among obst
 
     TestScene lorentz = swarm(0.5, 160);
     const double size = lorentz.setting.box_size;
-    lorentz.setting.effects.obstacles = {{{0.3 * size, 0.4 * size, 0.1 * size}}, {{0.5 * size, 0.8 * size, 0.8 * size, 0.6 * size}}, 1};
+    lorentz.setting.effects.obstacles = {{{0.3 * size, 0.4 * size, 0.1 * size}},
+                                         {{0.5 * size, 0.8 * size, 0.8 * size, 0.6 * size}},
+                                         1};
     make_room_for_obstacles(lorentz);
     const Averages among_obstacles = averages_of(lorentz);
     CHECK(among_obstacles.mean_speed.value == Approx(0.5).epsilon(1e-12));
@@ -91,5 +95,6 @@ TEST_CASE("effects: the frequency of collisions is what is counted, whatever the
     advance_to(simulation, scene.steps);
     const Totals totals = simulation.totals();
     CHECK(totals.pair_collisions > 300);
-    CHECK(simulation.averages().collision_frequency.value == Approx(2 * static_cast<double>(totals.pair_collisions) / (300.0 * 96)).epsilon(1e-12));
+    CHECK(simulation.averages().collision_frequency.value ==
+          Approx(2 * static_cast<double>(totals.pair_collisions) / (300.0 * 96)).epsilon(1e-12));
 }

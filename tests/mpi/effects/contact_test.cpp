@@ -6,8 +6,8 @@
 
 #include "catch.hpp"
 
-#include "parallel/exchange.hpp"
 #include "effect_runs.hpp"
+#include "parallel/exchange.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -16,12 +16,15 @@ namespace {
 
 std::vector<Disc> gathered(std::span<const Disc> own, const Communicator& world) {
     std::vector<Disc> all;
-    stream_to_root(world, own, [&](std::span<const Disc> some) { all.insert(all.end(), some.begin(), some.end()); }, 1000);
+    stream_to_root(
+        world, own,
+        [&](std::span<const Disc> some) { all.insert(all.end(), some.begin(), some.end()); }, 1000);
     world.broadcast(all);
     return all;
 }
 
-/// Where a point between walls is after `way`, by unfolding its reflections; the sign of its velocity, too.
+/// Where a point between walls is after `way`, by unfolding its reflections; the sign of its
+/// velocity, too.
 std::pair<long double, int> reflected(long double start, long double way, long double length) {
     const long double unfolded = start + way;
     const long double turns = std::floor(unfolded / length);
@@ -32,9 +35,10 @@ std::pair<long double, int> reflected(long double start, long double way, long d
 
 } // namespace
 
-// A pair's energy in the frame of its own falls by (1 - e^2) of its normal part. In a Maxwellian gas those that collide
-// have <g_n^2> = 4 kT / m, so each collision takes (1 - e^2) kT in the mean; E = N kT: ln(T / T0) = -(1 - e^2) pairs / N. With
-// nu ~ sqrt(T) that is Haff's law, 1 / sqrt(T) growing evenly (Haff, J. Fluid Mech. 134, 401 (1983)).
+// A pair's energy in the frame of its own falls by (1 - e^2) of its normal part. In a Maxwellian
+// gas those that collide have <g_n^2> = 4 kT / m, so each collision takes (1 - e^2) kT in the mean;
+// E = N kT: ln(T / T0) = -(1 - e^2) pairs / N. With nu ~ sqrt(T) that is Haff's law, 1 / sqrt(T)
+// growing evenly (Haff, J. Fluid Mech. 134, 401 (1983)).
 TEST_CASE("effects: a thin gas cools by Haff's law") {
     const Communicator world = Communicator::world();
     TestScene scene = gas(2500, 0.03, 0.1, 601);
@@ -53,15 +57,17 @@ TEST_CASE("effects: a thin gas cools by Haff's law") {
     const double pairs = static_cast<double>(end.pair_collisions - start.pair_collisions);
     const double cooling = std::log(start.kinetic_energy / end.kinetic_energy);
     CHECK(pairs > 4 * n);
-    CHECK(cooling == Approx(loss * pairs / n).epsilon(0.03)); // 4 standard errors of some 1e4 collisions
+    CHECK(cooling ==
+          Approx(loss * pairs / n).epsilon(0.03)); // 4 standard errors of some 1e4 collisions
     const double first = slownesses[1] - slownesses[0], last = slownesses[3] - slownesses[2];
     CHECK(last == Approx(first).epsilon(0.08));
     CHECK(slownesses[3] > 1.25 * slownesses[0]);
     CHECK(end.overlapping_pairs == 0);
 }
 
-// Three and more discs in a line with little restitution come to rest relative to each other after infinitely many
-// collisions (McNamara and Young, Phys. Fluids A 4, 496 (1992)): the contact time ends that.
+// Three and more discs in a line with little restitution come to rest relative to each other after
+// infinitely many collisions (McNamara and Young, Phys. Fluids A 4, 496 (1992)): the contact time
+// ends that.
 TEST_CASE("effects: inelastic collapse comes to an end, and energy only falls") {
     const Communicator world = Communicator::world();
     for (const std::size_t n : {3u, 30u}) {
@@ -95,11 +101,14 @@ TEST_CASE("effects: discs that do not meet fly as if each were alone") {
         const InputDisc& first = start[disc.id];
         const auto [x, x_sign] = reflected(first.x - r, 100.0L * first.vx, length);
         const auto [y, y_sign] = reflected(first.y - r, 100.0L * first.vy, length);
-        farthest = std::max({farthest, std::fabs(static_cast<double>(disc.x_at(simulation.clock()) - r - x)),
-                             std::fabs(static_cast<double>(disc.y_at(simulation.clock()) - r - y))});
+        farthest = std::max(
+            {farthest, std::fabs(static_cast<double>(disc.x_at(simulation.clock()) - r - x)),
+             std::fabs(static_cast<double>(disc.y_at(simulation.clock()) - r - y))});
         CHECK(disc.vx == x_sign * first.vx);
         CHECK(disc.vy == y_sign * first.vy);
         CHECK(disc.pair_collisions == 0);
     }
-    CHECK(farthest < 100 * 4 * 0x1p-53 * scene.setting.box_size); // a rounding of place and time for each of some ten bounces
+    CHECK(farthest <
+          100 * 4 * 0x1p-53 *
+              scene.setting.box_size); // a rounding of place and time for each of some ten bounces
 }

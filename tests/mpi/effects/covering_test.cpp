@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Effects in pairs: runs that together meet every two choices of different rows of the table below (pairwise covering), each
-// with the bits of the rule's plain statement. A new effect is a choice more, and what excludes it a line of `excluded`.
+// Effects in pairs: runs that together meet every two choices of different rows of the table below
+// (pairwise covering), each with the bits of the rule's plain statement. A new effect is a choice
+// more, and what excludes it a line of `excluded`.
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -13,8 +14,8 @@
 
 #include "dynamics/falling_contact.hpp"
 #include "effect_runs.hpp"
-#include "scene_tools.hpp"
 #include "event_driven.hpp"
+#include "scene_tools.hpp"
 #include "time_stepped.hpp"
 
 using namespace carrom;
@@ -37,13 +38,16 @@ struct Choice {
 using Row = std::vector<Choice>;
 
 Choice side_choice(std::size_t number, const char* kind, const Boundary& side) {
-    return {std::string(boundary_names[number]) + " " + kind, [=](Plan& plan) { plan.scene.setting.effects.boundaries[number] = side; }};
+    return {std::string(boundary_names[number]) + " " + kind,
+            [=](Plan& plan) { plan.scene.setting.effects.boundaries[number] = side; }};
 }
 
 Row sides_of(std::size_t number) {
     const double inwards = number % 2 == 0 ? 0.02 : -0.02;
-    Row row{side_choice(number, "wall", {}), side_choice(number, "lossy", {BoundaryKind::fixed, 0.7, 0, 0}),
-            side_choice(number, "thermal", {BoundaryKind::thermal, 1, 0.2, 0}), side_choice(number, "moving", {BoundaryKind::moving, 0.9, 0, inwards})};
+    Row row{side_choice(number, "wall", {}),
+            side_choice(number, "lossy", {BoundaryKind::fixed, 0.7, 0, 0}),
+            side_choice(number, "thermal", {BoundaryKind::thermal, 1, 0.2, 0}),
+            side_choice(number, "moving", {BoundaryKind::moving, 0.9, 0, inwards})};
     if (number % 2 == 0) row.push_back(side_choice(number, "open", {BoundaryKind::open, 1, 0, 0}));
     return row;
 }
@@ -51,7 +55,8 @@ Row sides_of(std::size_t number) {
 /// Two opposite sides periodic, in place of what they are.
 Choice seams(const char* name, std::size_t low_side) {
     return {name, [=](Plan& plan) {
-                for (const std::size_t side : {low_side, low_side + 1}) plan.scene.setting.effects.boundaries[side] = {BoundaryKind::periodic, 1, 0, 0};
+                for (const std::size_t side : {low_side, low_side + 1})
+                    plan.scene.setting.effects.boundaries[side] = {BoundaryKind::periodic, 1, 0, 0};
             }};
 }
 
@@ -86,24 +91,33 @@ Choice window(const char* name, std::optional<double> length) {
 void split_into_species(Plan& plan) {
     const double radius = plan.scene.setting.radius;
     const std::uint64_t n = plan.scene.discs.size();
-    plan.scene.setting.effects.species = {{n / 4, radius, 2}, {n / 4, 0.7 * radius, 0.6}, {n / 4, radius, 2}, {n - 3 * (n / 4), 0.7 * radius, 0.6}};
+    plan.scene.setting.effects.species = {{n / 4, radius, 2},
+                                          {n / 4, 0.7 * radius, 0.6},
+                                          {n / 4, radius, 2},
+                                          {n - 3 * (n / 4), 0.7 * radius, 0.6}};
 }
 
 /// A few bodies, which the discs that are in their place leave.
 void put_obstacles(Plan& plan) {
     reference::Setting& setting = plan.scene.setting;
     const double size = setting.box_size;
-    setting.effects.obstacles = {{{0.3 * size, 0.4 * size, 0.05 * size}, {0.7 * size, 0.6 * size, 0}},
-                                 {{0, 0.3 * size, 0.25 * size, 0.2 * size}, {0.55 * size, 0.8 * size, 0.7 * size, 0.75 * size}}, 0.8};
+    setting.effects.obstacles = {
+        {{0.3 * size, 0.4 * size, 0.05 * size}, {0.7 * size, 0.6 * size, 0}},
+        {{0, 0.3 * size, 0.25 * size, 0.2 * size},
+         {0.55 * size, 0.8 * size, 0.7 * size, 0.75 * size}},
+        0.8};
     make_room_for_obstacles(plan.scene);
     if (!setting.effects.species.empty()) split_into_species(plan); // of those that are left
 }
 
 /// The first row makes the scene that the others change.
 std::vector<Row> table() {
-    return {{shape(gas(200, 0.05, 0.8, 701)), shape(gas(144, 0.6, 0.3, 702)), shape(break_shot(5, 0.5, 3, 0.1))},
-            {{"rule one", [](Plan& plan) { plan.method = Method::time_stepped; }}, {"rule all", [](Plan& plan) { plan.method = Method::event_driven; }}},
-            {contact("elastic", {}), contact("no contact", {ContactKind::none, 1, 0.001}), contact("restitution", {ContactKind::restitution, 0.85, 0.002}),
+    return {{shape(gas(200, 0.05, 0.8, 701)), shape(gas(144, 0.6, 0.3, 702)),
+             shape(break_shot(5, 0.5, 3, 0.1))},
+            {{"rule one", [](Plan& plan) { plan.method = Method::time_stepped; }},
+             {"rule all", [](Plan& plan) { plan.method = Method::event_driven; }}},
+            {contact("elastic", {}), contact("no contact", {ContactKind::none, 1, 0.001}),
+             contact("restitution", {ContactKind::restitution, 0.85, 0.002}),
              contact("rough", {ContactKind::rough, 0.9, 0.002, 0.4, 0.3, 0.5})},
             {{"one size", [](Plan&) {}}, {"several classes", split_into_species}},
             sides_of(0),
@@ -111,33 +125,55 @@ std::vector<Row> table() {
             sides_of(2),
             sides_of(3),
             {{"no seams", [](Plan&) {}}, seams("seams along x", 0), seams("seams along y", 2)},
-            {motion("free", 0, 0, 0), motion("gravity down", 0, -0.04, 0), motion("gravity aslant", 0.02, -0.03, 0), motion("drag", 0, 0, 0.2),
+            {motion("free", 0, 0, 0), motion("gravity down", 0, -0.04, 0),
+             motion("gravity aslant", 0.02, -0.03, 0), motion("drag", 0, 0, 0.2),
              motion("both down", 0, -0.04, 0.2), motion("both aslant", 0.02, -0.03, 0.2)},
             {{"nothing in the way", [](Plan&) {}}, {"obstacles", put_obstacles}},
             {window("own windows", {}), window("short windows", 0.3), window("long windows", 2.7)},
-            {{"uninterrupted", [](Plan&) {}}, {"restarted", [](Plan& plan) { plan.is_restarted = true; }}}};
+            {{"uninterrupted", [](Plan&) {}},
+             {"restarted", [](Plan& plan) { plan.is_restarted = true; }}}};
 }
 
 /// A periodic side is nothing else.
 bool takes_the_place_of(const std::string& a, const std::string& b) {
     const bool is_side = a == "seams along x" ? b.starts_with("left ") || b.starts_with("right ")
-                                              : a == "seams along y" && (b.starts_with("bottom ") || b.starts_with("top "));
+                                              : a == "seams along y" && (b.starts_with("bottom ") ||
+                                                                         b.starts_with("top "));
     return is_side && !b.ends_with(" wall");
 }
 
 /// Pairs of choices that the reader of scenes refuses, by the ends of their names.
 bool is_excluded(const std::string& a, const std::string& b) {
     static const std::vector<std::pair<std::string, std::string>> excluded = {
-        {"rule one", "moving"}, {"rule one", "gravity down"}, {"rule one", "gravity aslant"}, {"rule one", "drag"},
-        {"rule one", "both down"}, {"rough", "drag"}, {"rough", "both down"}, {"rough", "both aslant"},
-        {"several classes", "no contact"}, {"rule one", "both aslant"}, {"obstacles", "both down"}, {"obstacles", "both aslant"}, {"obstacles", "moving"},
-        {"open", "moving"}, {"seams along x", "open"}, {"seams along y", "open"},
-        {"seams along y", "both down"}, {"seams along x", "both aslant"}, {"seams along y", "both aslant"}, {"seams along x", "gravity aslant"}, {"seams along y", "gravity aslant"},
+        {"rule one", "moving"},
+        {"rule one", "gravity down"},
+        {"rule one", "gravity aslant"},
+        {"rule one", "drag"},
+        {"rule one", "both down"},
+        {"rough", "drag"},
+        {"rough", "both down"},
+        {"rough", "both aslant"},
+        {"several classes", "no contact"},
+        {"rule one", "both aslant"},
+        {"obstacles", "both down"},
+        {"obstacles", "both aslant"},
+        {"obstacles", "moving"},
+        {"open", "moving"},
+        {"seams along x", "open"},
+        {"seams along y", "open"},
+        {"seams along y", "both down"},
+        {"seams along x", "both aslant"},
+        {"seams along y", "both aslant"},
+        {"seams along x", "gravity aslant"},
+        {"seams along y", "gravity aslant"},
         {"seams along y", "gravity down"}};
-    const auto is = [](const std::string& name, const std::string& end) { return name == end || name.ends_with(' ' + end); };
+    const auto is = [](const std::string& name, const std::string& end) {
+        return name == end || name.ends_with(' ' + end);
+    };
     if (takes_the_place_of(a, b) || takes_the_place_of(b, a)) return true;
     return std::any_of(excluded.begin(), excluded.end(), [&](const auto& pair) {
-        return (is(a, pair.first) && is(b, pair.second)) || (is(b, pair.first) && is(a, pair.second));
+        return (is(a, pair.first) && is(b, pair.second)) ||
+               (is(b, pair.first) && is(a, pair.second));
     });
 }
 
@@ -152,23 +188,27 @@ public:
             for (std::size_t j = i + 1; j < rows.size(); ++j)
                 for (std::size_t a = 0; a < rows[i].size(); ++a)
                     for (std::size_t b = 0; b < rows[j].size(); ++b)
-                        if (!is_excluded(rows[i][a].name, rows[j][b].name)) missing_.push_back({i, a, j, b});
+                        if (!is_excluded(rows[i][a].name, rows[j][b].name))
+                            missing_.push_back({i, a, j, b});
     }
 
-    /// Greedy: of runs that begin with pairs that are missing the one that meets most of what is missing.
+    /// Greedy: of runs that begin with pairs that are missing the one that meets most of what is
+    /// missing.
     std::vector<Picked> runs() {
         constexpr std::size_t most_tries = 16;
         std::vector<Picked> all;
         while (!missing_.empty()) {
             Picked picked;
             std::size_t most = 0;
-            for (std::size_t k = 0; k < missing_.size(); k += (missing_.size() + most_tries - 1) / most_tries) {
+            for (std::size_t k = 0; k < missing_.size();
+                 k += (missing_.size() + most_tries - 1) / most_tries) {
                 const Picked tried = run_with(missing_[k]);
                 const std::size_t n = n_met(tried);
                 if (n > most) picked = tried;
                 most = std::max(n, most);
             }
-            std::erase_if(missing_, [&](const Pair& p) { return picked[p.i] == p.a && picked[p.j] == p.b; });
+            std::erase_if(missing_,
+                          [&](const Pair& p) { return picked[p.i] == p.a && picked[p.j] == p.b; });
             all.push_back(picked);
         }
         return all;
@@ -189,20 +229,26 @@ private:
         return picked;
     }
     std::size_t n_met(const Picked& picked) const {
-        return static_cast<std::size_t>(std::count_if(missing_.begin(), missing_.end(), [&](const Pair& p) { return picked[p.i] == p.a && picked[p.j] == p.b; }));
+        return static_cast<std::size_t>(
+            std::count_if(missing_.begin(), missing_.end(),
+                          [&](const Pair& p) { return picked[p.i] == p.a && picked[p.j] == p.b; }));
     }
     bool fits(const Picked& picked, std::size_t row, std::size_t choice) const {
         for (std::size_t i = 0; i < rows_.size(); ++i)
-            if (i != row && picked[i] != open && is_excluded(rows_[i][picked[i]].name, rows_[row][choice].name)) return false;
+            if (i != row && picked[i] != open &&
+                is_excluded(rows_[i][picked[i]].name, rows_[row][choice].name))
+                return false;
         return true;
     }
     std::size_t best(const Picked& picked, std::size_t row) const {
         std::size_t found = open, most = 0;
         for (std::size_t choice = 0; choice < rows_[row].size(); ++choice) {
             if (!fits(picked, row, choice)) continue;
-            const auto n = static_cast<std::size_t>(std::count_if(missing_.begin(), missing_.end(), [&](const Pair& p) {
-                return (p.i == row && p.a == choice && picked[p.j] == p.b) || (p.j == row && p.b == choice && picked[p.i] == p.a);
-            }));
+            const auto n = static_cast<std::size_t>(
+                std::count_if(missing_.begin(), missing_.end(), [&](const Pair& p) {
+                    return (p.i == row && p.a == choice && picked[p.j] == p.b) ||
+                           (p.j == row && p.b == choice && picked[p.i] == p.a);
+                }));
             if (found == open || n > most) {
                 found = choice;
                 most = n;
@@ -220,11 +266,14 @@ StateHash reference_hash(const Plan& plan, const Communicator& world) {
     const auto run_with = [&]<class Reference>(Reference reference) {
         reference.run_steps(plan.scene.steps);
         hash = hash_of(reference.discs());
-        for (std::size_t i = 0; i < reference.spins().size(); ++i) hash += hash_of_spin(i, reference.spins()[i]);
+        for (std::size_t i = 0; i < reference.spins().size(); ++i)
+            hash += hash_of_spin(i, reference.spins()[i]);
     };
     if (world.is_root()) {
-        if (plan.method == Method::time_stepped) run_with(reference::TimeSteppedReference(plan.scene.setting, plan.scene.discs));
-        else run_with(reference::EventDrivenReference(plan.scene.setting, plan.scene.discs));
+        if (plan.method == Method::time_stepped)
+            run_with(reference::TimeSteppedReference(plan.scene.setting, plan.scene.discs));
+        else
+            run_with(reference::EventDrivenReference(plan.scene.setting, plan.scene.discs));
     }
     world.broadcast(hash);
     return hash;
@@ -236,7 +285,9 @@ StateHash engine_hash(const Plan& plan, const Communicator& world) {
     if (!plan.is_restarted) return first.totals().hash;
     Scene scene = scene_of(plan.scene);
     scene.method = plan.method;
-    const StoredState state{{first.discs().begin(), first.discs().end()}, first.micro_steps_done(), {first.spins().begin(), first.spins().end()}};
+    const StoredState state{{first.discs().begin(), first.discs().end()},
+                            first.micro_steps_done(),
+                            {first.spins().begin(), first.spins().end()}};
     Simulation second(scene, state, world, plan.tuning);
     advance_to(second, plan.scene.steps);
     return second.totals().hash;
@@ -250,7 +301,8 @@ void hand_to_reference(reference::Setting& setting) {
 
 } // namespace
 
-TEST_CASE("effects: every two of them together have the references' bits, in one piece and restarted") {
+TEST_CASE(
+    "effects: every two of them together have the references' bits, in one piece and restarted") {
     const Communicator world = Communicator::world();
     const std::vector<Row> rows = table();
     const std::vector<Picked> runs = Covering(rows).runs();
@@ -272,7 +324,9 @@ TEST_CASE("effects: every two of them together have the references' bits, in one
         for (std::size_t j = i + 1; j < rows.size(); ++j)
             for (std::size_t a = 0; a < rows[i].size(); ++a)
                 for (std::size_t b = 0; b < rows[j].size(); ++b) {
-                    const bool is_met = std::any_of(runs.begin(), runs.end(), [&](const Picked& p) { return p[i] == a && p[j] == b; });
+                    const bool is_met = std::any_of(runs.begin(), runs.end(), [&](const Picked& p) {
+                        return p[i] == a && p[j] == b;
+                    });
                     INFO(rows[i][a].name << " and " << rows[j][b].name);
                     CHECK(is_met != is_excluded(rows[i][a].name, rows[j][b].name));
                 }

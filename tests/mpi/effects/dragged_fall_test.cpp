@@ -6,8 +6,8 @@
 
 #include "catch.hpp"
 
-#include "parallel/exchange.hpp"
 #include "effect_runs.hpp"
+#include "parallel/exchange.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -29,8 +29,12 @@ TestScene ball(double height, double restitution) {
 }
 
 /// Upwards, of what was thrown up with `speed` from 0, after a time.
-Long height_after(Long time, Long speed) { return (speed + g / Long(rate)) * -std::expm1(-rate * time) / rate - g / Long(rate) * time; }
-Long speed_after(Long time, Long speed) { return speed + (speed + g / Long(rate)) * std::expm1(-rate * time); }
+Long height_after(Long time, Long speed) {
+    return (speed + g / Long(rate)) * -std::expm1(-rate * time) / rate - g / Long(rate) * time;
+}
+Long speed_after(Long time, Long speed) {
+    return speed + (speed + g / Long(rate)) * std::expm1(-rate * time);
+}
 
 /// When it is as far down as `depth`, by halving: it is beyond, and falls, after `late`.
 Long time_down(Long depth, Long speed, Long late) {
@@ -45,7 +49,9 @@ Long time_down(Long depth, Long speed, Long late) {
 /// The disc as the box sees it; one rank has it. **Collective.**
 Disc only_disc(const Simulation& simulation, const Communicator& world) {
     std::vector<Disc> all;
-    stream_to_root(world, simulation.shown(), [&](std::span<const Disc> some) { all.insert(all.end(), some.begin(), some.end()); }, 10);
+    stream_to_root(
+        world, simulation.shown(),
+        [&](std::span<const Disc> some) { all.insert(all.end(), some.begin(), some.end()); }, 10);
     world.broadcast(all);
     return all.at(0);
 }
@@ -61,8 +67,10 @@ TEST_CASE("effects: a ball falls through the air as the formula says, and no fas
         const auto time = static_cast<Long>(step);
         CHECK(disc.y == Approx(static_cast<double>(121 + height_after(time, 0))).epsilon(1e-13));
         CHECK(disc.vy == Approx(static_cast<double>(speed_after(time, 0))).epsilon(1e-13));
-        CHECK(disc.x == Approx(64 + static_cast<double>(-std::expm1(-rate * time) / rate) * 0.0625).epsilon(1e-13));
-        if (step == 600) CHECK(disc.vy == Approx(-g / rate).epsilon(1e-12)); // exp(-30) of the way to it
+        CHECK(disc.x == Approx(64 + static_cast<double>(-std::expm1(-rate * time) / rate) * 0.0625)
+                            .epsilon(1e-13));
+        if (step == 600)
+            CHECK(disc.vy == Approx(-g / rate).epsilon(1e-12)); // exp(-30) of the way to it
     }
 }
 
@@ -75,14 +83,21 @@ TEST_CASE("effects: a ball in the air bounces when the formula says") {
         std::vector<Collision> log, all;
         simulation.log_to(&log);
         advance_to(simulation, 700);
-        stream_to_root(world, std::span<const Collision>(log), [&](std::span<const Collision> some) { all.insert(all.end(), some.begin(), some.end()); }, 1000);
+        stream_to_root(
+            world, std::span<const Collision>(log),
+            [&](std::span<const Collision> some) {
+                all.insert(all.end(), some.begin(), some.end());
+            },
+            1000);
         world.broadcast(all);
         Long expected = time_down(50, 0, 2000), speed = -speed_after(expected, 0) * restitution;
         double worst = 0;
         int n = 0;
         for (const Collision& bounce : all) {
             if (speed * 2 / g < 1) break; // flights of less than a step
-            worst = std::max(worst, std::fabs(static_cast<double>(static_cast<Long>(bounce.micro_step) + bounce.time - expected)));
+            worst = std::max(worst,
+                             std::fabs(static_cast<double>(static_cast<Long>(bounce.micro_step) +
+                                                           bounce.time - expected)));
             const Long flight = time_down(0, speed, 2 * speed / g);
             expected += flight;
             speed = -speed_after(flight, speed) * restitution;
@@ -93,13 +108,15 @@ TEST_CASE("effects: a ball in the air bounces when the formula says") {
     }
 }
 
-TEST_CASE("effects: a ball in the air comes to rest in bounded time; with ever less air it bounces as without") {
+TEST_CASE("effects: a ball in the air comes to rest in bounded time; with ever less air it bounces "
+          "as without") {
     const Communicator world = Communicator::world();
     TestScene scene = ball(5, 0.5);
     scene.steps = 400;
     scene.setting.effects.contact.contact_time = 0.01;
     const Totals rest = run(scene, Method::event_driven, world);
-    CHECK(static_cast<double>(rest.wall_collisions) < 1.01 * 400 / 0.01); // flights of what leaves with g t / 2 are a little shorter than t
+    CHECK(static_cast<double>(rest.wall_collisions) <
+          1.01 * 400 / 0.01); // flights of what leaves with g t / 2 are a little shorter than t
     CHECK(rest.wall_collisions > 100);
     CHECK(rest.kinetic_energy + rest.potential_energy - g < 0.05 * 0.02 * g);
 
@@ -135,7 +152,8 @@ TEST_CASE("effects: a gas in the air loses energy at the rate of twice that of i
         integral += weight / 3 * simulation.totals().kinetic_energy;
     }
     const Totals end = simulation.totals();
-    const double lost = (start.kinetic_energy + start.potential_energy) - (end.kinetic_energy + end.potential_energy);
+    const double lost = (start.kinetic_energy + start.potential_energy) -
+                        (end.kinetic_energy + end.potential_energy);
     CHECK(lost == Approx(2 * 0.01 * integral).epsilon(1e-4));
     CHECK(end.overlapping_pairs == 0);
     CHECK(end.pair_collisions > 100);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes with effects have the bits of the plain statements of both rules, for windows and strips of several kinds, and
-// the plain law's bits where an effect's parameters make it none.
+// Scenes with effects have the bits of the plain statements of both rules, for windows and strips
+// of several kinds, and the plain law's bits where an effect's parameters make it none.
 #include <array>
 #include <cmath>
 #include <optional>
@@ -22,18 +22,23 @@ namespace {
 std::vector<TestScene> obstructed_scenes() {
     std::vector<TestScene> scenes;
     for (const TestScene& gas : {gas(300, 0.05, 0.8, 511), gas(196, 0.3, 0.3, 512)}) {
-        TestScene scene = empty_scene(gas.name + " among obstacles", gas.setting.box_size, gas.setting.radius, 14);
+        TestScene scene = empty_scene(gas.name + " among obstacles", gas.setting.box_size,
+                                      gas.setting.radius, 14);
         scene.setting.sync_every = 5;
         scene.setting.micro_steps = 2;
         const double size = scene.setting.box_size;
         ObstacleList& list = scene.setting.effects.obstacles;
         Random random(513);
-        for (int k = 0; k < 12; ++k) list.discs.push_back({random.uniform(0, size), random.uniform(0, size), k % 4 == 0 ? 0 : random.uniform(0.2, 3)});
+        for (int k = 0; k < 12; ++k)
+            list.discs.push_back({random.uniform(0, size), random.uniform(0, size),
+                                  k % 4 == 0 ? 0 : random.uniform(0.2, 3)});
         for (int k = 0; k < 6; ++k) {
             const double x = random.uniform(0.2, 0.8) * size, y = random.uniform(0.2, 0.8) * size;
-            list.segments.push_back({x, y, x + random.uniform(-0.2, 0.2) * size, y + random.uniform(-0.2, 0.2) * size});
+            list.segments.push_back(
+                {x, y, x + random.uniform(-0.2, 0.2) * size, y + random.uniform(-0.2, 0.2) * size});
         }
-        list.segments.push_back({0, 0.3 * size, 0.3 * size, 0.25 * size}); // a funnel's two sides, of which one meets a wall
+        list.segments.push_back({0, 0.3 * size, 0.3 * size,
+                                 0.25 * size}); // a funnel's two sides, of which one meets a wall
         list.segments.push_back({0.3 * size, 0.25 * size, 0.3 * size, 0.1 * size});
         scene.discs = gas.discs;
         make_room_for_obstacles(scene);
@@ -44,29 +49,38 @@ std::vector<TestScene> obstructed_scenes() {
 
 } // namespace
 
-TEST_CASE("effects: discs that do not meet, and discs that lose energy, have the references' bits") {
+TEST_CASE(
+    "effects: discs that do not meet, and discs that lose energy, have the references' bits") {
     for (TestScene scene : base_scenes()) {
         ContactEffect& contact = scene.setting.effects.contact;
-        for (const auto& [kind, restitution, time] : {std::tuple(ContactKind::none, 1.0, 0.001), {ContactKind::restitution, 0.8, 0.001},
-                                                      {ContactKind::restitution, 0.05, 0.01}, {ContactKind::restitution, 0.0, 0.2}}) {
+        for (const auto& [kind, restitution, time] : {std::tuple(ContactKind::none, 1.0, 0.001),
+                                                      {ContactKind::restitution, 0.8, 0.001},
+                                                      {ContactKind::restitution, 0.05, 0.01},
+                                                      {ContactKind::restitution, 0.0, 0.2}}) {
             contact = {kind, restitution, time};
-            for (const Method method : {Method::time_stepped, Method::event_driven}) check_bits(scene, method);
+            for (const Method method : {Method::time_stepped, Method::event_driven})
+                check_bits(scene, method);
         }
     }
 }
 
 // Every pair of contact, sides and gravity is met in some scene.
 TEST_CASE("effects: sides and gravity have the references' bits, alone and together") {
-    const Boundary lossy{BoundaryKind::fixed, 0.7, 0, 0}, piston{BoundaryKind::moving, 1, 0, -0.03}, rising{BoundaryKind::moving, 0.9, 0, 0.02};
-    const ContactEffect elastic, none{ContactKind::none, 1, 0.001}, inelastic{ContactKind::restitution, 0.85, 0.002};
+    const Boundary lossy{BoundaryKind::fixed, 0.7, 0, 0}, piston{BoundaryKind::moving, 1, 0, -0.03},
+        rising{BoundaryKind::moving, 0.9, 0, 0.02};
+    const ContactEffect elastic, none{ContactKind::none, 1, 0.001},
+        inelastic{ContactKind::restitution, 0.85, 0.002};
     struct Case {
         ContactEffect contact;
         std::array<Boundary, 4> boundaries;
         Gravity gravity;
     };
-    const std::array<Boundary, 4> plain{}, all_lossy{lossy, lossy, lossy, lossy}, pistons{Boundary{}, piston, rising, piston}, floor{Boundary{}, Boundary{}, lossy, rising};
-    const std::vector<Case> cases{{elastic, all_lossy, {}}, {elastic, pistons, {}},        {elastic, plain, {0, -0.05}},
-                                  {none, floor, {0.03, 0.04}}, {inelastic, pistons, {0, -0.03}}, {inelastic, all_lossy, {-0.02, -0.01}}};
+    const std::array<Boundary, 4> plain{}, all_lossy{lossy, lossy, lossy, lossy},
+        pistons{Boundary{}, piston, rising, piston}, floor{Boundary{}, Boundary{}, lossy, rising};
+    const std::vector<Case> cases{
+        {elastic, all_lossy, {}},         {elastic, pistons, {}},
+        {elastic, plain, {0, -0.05}},     {none, floor, {0.03, 0.04}},
+        {inelastic, pistons, {0, -0.03}}, {inelastic, all_lossy, {-0.02, -0.01}}};
     for (TestScene scene : base_scenes()) {
         for (const Case& c : cases) {
             scene.setting.effects = {c.contact, c.boundaries, c.gravity};
@@ -79,14 +93,17 @@ TEST_CASE("effects: sides and gravity have the references' bits, alone and toget
     }
 }
 
-// Discs among bodies of both kinds, some touching each other or a wall; with what else changes how they are met.
+// Discs among bodies of both kinds, some touching each other or a wall; with what else changes how
+// they are met.
 TEST_CASE("effects: obstacles have the references' bits, with restitution, gravity and drag too") {
     for (TestScene scene : obstructed_scenes()) {
         Effects& effects = scene.setting.effects;
-        for (const Method method : {Method::time_stepped, Method::event_driven}) check_bits(scene, method);
+        for (const Method method : {Method::time_stepped, Method::event_driven})
+            check_bits(scene, method);
         effects.obstacles.restitution = 0.7;
         effects.contact = {ContactKind::restitution, 0.9, 0.002};
-        for (const Method method : {Method::time_stepped, Method::event_driven}) check_bits(scene, method);
+        for (const Method method : {Method::time_stepped, Method::event_driven})
+            check_bits(scene, method);
         effects.gravity = {0.01, -0.03};
         scene.setting.falling_contact = falling_contact;
         check_bits(scene, Method::event_driven);
@@ -104,7 +121,8 @@ TEST_CASE("effects: open sides have the references' bits, with obstacles and gra
         effects.boundaries = {open, Boundary{}, Boundary{}, Boundary{}};
         check_bits(scene, Method::time_stepped);
         effects.boundaries = {open, open, open, open};
-        for (const Method method : {Method::time_stepped, Method::event_driven}) check_bits(scene, method);
+        for (const Method method : {Method::time_stepped, Method::event_driven})
+            check_bits(scene, method);
         effects.boundaries = {Boundary{}, open, open, Boundary{}};
         effects.gravity = {0.02, -0.05};
         scene.setting.falling_contact = falling_contact;
@@ -135,8 +153,10 @@ TEST_CASE("effects: thermal walls have the references' bits") {
         set_thermal_seed(scene.setting, 77);
         Effects& effects = scene.setting.effects;
         effects.boundaries = {cold, warm, warm, cold};
-        for (const Method method : {Method::time_stepped, Method::event_driven}) check_bits(scene, method);
-        effects.boundaries = {Boundary{}, Boundary{}, warm, Boundary{BoundaryKind::fixed, 0.5, 0, 0}};
+        for (const Method method : {Method::time_stepped, Method::event_driven})
+            check_bits(scene, method);
+        effects.boundaries = {Boundary{}, Boundary{}, warm,
+                              Boundary{BoundaryKind::fixed, 0.5, 0, 0}};
         effects.contact = {ContactKind::restitution, 0.9, 0.002};
         check_bits(scene, Method::time_stepped);
         effects.gravity = {0.01, -0.02};
@@ -148,7 +168,8 @@ TEST_CASE("effects: thermal walls have the references' bits") {
     }
 }
 
-TEST_CASE("effects: walls that are elastic and at rest, and no gravity, are the plain law to the bit") {
+TEST_CASE(
+    "effects: walls that are elastic and at rest, and no gravity, are the plain law to the bit") {
     const Communicator world = Communicator::world();
     std::vector<TestScene> scenes = base_scenes();
     for (const TestScene& scene : wall_scenes()) {

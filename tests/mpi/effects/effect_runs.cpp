@@ -19,7 +19,8 @@ std::vector<InputDisc> share_of(const TestScene& scene, const Communicator& worl
     std::mt19937 random(5);
     std::vector<InputDisc> mine;
     for (const InputDisc& disc : scene.discs) {
-        if (static_cast<int>(random() % static_cast<unsigned>(world.size())) == world.rank()) mine.push_back(disc);
+        if (static_cast<int>(random() % static_cast<unsigned>(world.size())) == world.rank())
+            mine.push_back(disc);
     }
     std::shuffle(mine.begin(), mine.end(), random);
     return mine;
@@ -27,7 +28,8 @@ std::vector<InputDisc> share_of(const TestScene& scene, const Communicator& worl
 
 } // namespace
 
-Simulation simulation_of(const TestScene& scene, Method method, const Communicator& world, const Tuning& tuning) {
+Simulation simulation_of(const TestScene& scene, Method method, const Communicator& world,
+                         const Tuning& tuning) {
     Scene all = scene_of(scene);
     all.method = method;
     Tuning threaded = tuning;
@@ -44,7 +46,9 @@ void make_room_for_obstacles(TestScene& scene) {
     const reference::Setting& setting = scene.setting;
     const Obstacles obstacles(setting.box_size, setting.radius, setting.effects);
     for (const InputDisc& disc : std::exchange(scene.discs, {}))
-        if (obstacles.deepest_overlap(disc.x, disc.y, setting.radius, 0).body == ObstacleContact::no_body) add_disc(scene, disc.x, disc.y, disc.vx, disc.vy);
+        if (obstacles.deepest_overlap(disc.x, disc.y, setting.radius, 0).body ==
+            ObstacleContact::no_body)
+            add_disc(scene, disc.x, disc.y, disc.vx, disc.vy);
 }
 
 void set_drag(TestScene& scene, double rate) {
@@ -54,7 +58,9 @@ void set_drag(TestScene& scene, double rate) {
     if (!(c > 0)) return;
     setting.drag_clock = [c](double n) { return drag_clock(c, n); };
     setting.dragged_fall = [c](double clock) { return dragged_fall(c, clock); };
-    setting.dragged_fall_delay = [c](double distance, double velocity, double pull) { return dragged_fall_delay(distance, velocity, pull, c); };
+    setting.dragged_fall_delay = [c](double distance, double velocity, double pull) {
+        return dragged_fall_delay(distance, velocity, pull, c);
+    };
 }
 
 Totals run(const TestScene& scene, Method method, const Communicator& world, const Tuning& tuning) {

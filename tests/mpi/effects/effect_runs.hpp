@@ -2,16 +2,18 @@
 // Runs of scenes with effects on all ranks.
 #pragma once
 
-#include "simulation/simulation.hpp"
 #include "scene_tools.hpp"
+#include "simulation/simulation.hpp"
 
 namespace carrom::test {
 
 /// The scene's discs are dealt to the ranks at random. **Collective.**
-Simulation simulation_of(const TestScene& scene, Method method, const Communicator& world, const Tuning& tuning = {});
+Simulation simulation_of(const TestScene& scene, Method method, const Communicator& world,
+                         const Tuning& tuning = {});
 
 /// To the scene's last step. **Collective.**
-Totals run(const TestScene& scene, Method method, const Communicator& world, const Tuning& tuning = {});
+Totals run(const TestScene& scene, Method method, const Communicator& world,
+           const Tuning& tuning = {});
 
 void advance_to(Simulation& simulation, std::int64_t step);
 

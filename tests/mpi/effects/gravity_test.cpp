@@ -7,8 +7,8 @@
 #include "catch.hpp"
 
 #include "dynamics/drag.hpp"
-#include "parallel/exchange.hpp"
 #include "effect_runs.hpp"
+#include "parallel/exchange.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -32,7 +32,10 @@ std::vector<double> wall_times(TestScene scene, std::int64_t steps, const Commun
     std::vector<Collision> log, all;
     simulation.log_to(&log);
     advance_to(simulation, steps);
-    stream_to_root(world, std::span<const Collision>(log), [&](std::span<const Collision> some) { all.insert(all.end(), some.begin(), some.end()); }, 1000);
+    stream_to_root(
+        world, std::span<const Collision>(log),
+        [&](std::span<const Collision> some) { all.insert(all.end(), some.begin(), some.end()); },
+        1000);
     world.broadcast(all);
     std::vector<double> times;
     for (const Collision& c : all) times.push_back(static_cast<double>(c.micro_step) + c.time);
@@ -58,18 +61,21 @@ TEST_CASE("effects: a ball bounces when Galileo says") {
             expected += flight;
         }
         CHECK(n >= (restitution == 1 ? 5u : 23u));
-        CHECK(worst < 1e-9); // places are rounded to 2^-46, speeds at impact are some 1: errors of a few 1e-14 grow with each bounce
+        CHECK(worst < 1e-9); // places are rounded to 2^-46, speeds at impact are some 1: errors of
+                             // a few 1e-14 grow with each bounce
     }
 }
 
-TEST_CASE("effects: an elastic ball comes back to its height after ten thousand bounces; a lossy one comes to rest in bounded time") {
+TEST_CASE("effects: an elastic ball comes back to its height after ten thousand bounces; a lossy "
+          "one comes to rest in bounded time") {
     const Communicator world = Communicator::world();
     const Totals start = run(ball(0.5, 1), Method::event_driven, world);
     TestScene scene = ball(0.5, 1);
     scene.steps = 200000;
     const Totals end = run(scene, Method::event_driven, world);
     CHECK(end.wall_collisions > 9000);
-    CHECK(end.kinetic_energy + end.potential_energy == Approx(start.kinetic_energy + start.potential_energy).epsilon(1e-10));
+    CHECK(end.kinetic_energy + end.potential_energy ==
+          Approx(start.kinetic_energy + start.potential_energy).epsilon(1e-10));
 
     scene = ball(5, 0.5);
     scene.steps = 400;
@@ -78,7 +84,8 @@ TEST_CASE("effects: an elastic ball comes back to its height after ten thousand 
     const Totals rest = run(scene, Method::event_driven, world);
     CHECK(static_cast<double>(rest.wall_collisions) < 400 / 0.01);
     CHECK(rest.wall_collisions > 100);
-    CHECK(rest.kinetic_energy + rest.potential_energy - g < 0.05 * 0.02 * g); // no higher than the contact time takes it
+    CHECK(rest.kinetic_energy + rest.potential_energy - g <
+          0.05 * 0.02 * g); // no higher than the contact time takes it
 }
 
 TEST_CASE("effects: a gas that falls keeps its energy") {
@@ -90,13 +97,15 @@ TEST_CASE("effects: a gas that falls keeps its energy") {
     for (const std::int64_t step : {37, 100, 203}) { // between syncs, too
         advance_to(simulation, step);
         const Totals now = simulation.totals();
-        CHECK(now.kinetic_energy + now.potential_energy == Approx(start.kinetic_energy + start.potential_energy).epsilon(1e-12));
+        CHECK(now.kinetic_energy + now.potential_energy ==
+              Approx(start.kinetic_energy + start.potential_energy).epsilon(1e-12));
         CHECK(now.overlapping_pairs == 0);
     }
     CHECK(simulation.totals().pair_collisions > 400);
 }
 
-// Over a floor of temperature T an ideal gas has the density exp(-g y / T), whatever the disc's size.
+// Over a floor of temperature T an ideal gas has the density exp(-g y / T), whatever the disc's
+// size.
 TEST_CASE("effects: the barometric formula over a thermal floor") {
     const Communicator world = Communicator::world();
     TestScene scene = gas(2000, 0.02, 0.4, 604);
@@ -109,14 +118,18 @@ TEST_CASE("effects: the barometric formula over a thermal floor") {
     advance_to(simulation, 3001); // twenty flights; the box is some 28 times T / g high
     std::vector<double> heights, all;
     for (const Disc& disc : simulation.shown()) heights.push_back(disc.y - scene.setting.radius);
-    stream_to_root(world, std::span<const double>(heights), [&](std::span<const double> some) { all.insert(all.end(), some.begin(), some.end()); }, 1000);
+    stream_to_root(
+        world, std::span<const double>(heights),
+        [&](std::span<const double> some) { all.insert(all.end(), some.begin(), some.end()); },
+        1000);
     world.broadcast(all);
     std::sort(all.begin(), all.end());
     const double n = static_cast<double>(all.size());
     double largest = 0;
     for (std::size_t k = 0; k < all.size(); ++k) {
         const double known = 1 - std::exp(-g * all[k] / temperature);
-        largest = std::max({largest, known - static_cast<double>(k) / n, static_cast<double>(k + 1) / n - known});
+        largest = std::max(
+            {largest, known - static_cast<double>(k) / n, static_cast<double>(k + 1) / n - known});
     }
     CHECK(all.size() == scene.discs.size());
     CHECK(largest * std::sqrt(n) < 1.95); // passed by one sample in a thousand (Kolmogorov)
@@ -127,15 +140,19 @@ TEST_CASE("effects: drag's clock is right to some ulp") {
     for (const double rate : {1e-12, 1e-3, 0.02, 0.0625}) {
         for (int n = 1; n <= 64; ++n) {
             const long double z = static_cast<long double>(rate) * n;
-            worst = std::max({worst, std::fabs(static_cast<double>(drag_clock(rate, n) / (-std::expm1(-z) / static_cast<long double>(rate)) - 1)),
-                              std::fabs(static_cast<double>(drag_slowing(rate, n) / std::exp(-z) - 1))});
+            worst = std::max(
+                {worst,
+                 std::fabs(static_cast<double>(
+                     drag_clock(rate, n) / (-std::expm1(-z) / static_cast<long double>(rate)) - 1)),
+                 std::fabs(static_cast<double>(drag_slowing(rate, n) / std::exp(-z) - 1))});
             CHECK(time_of_drag_clock(rate, drag_clock(rate, n)) == Approx(n).epsilon(1e-13));
         }
     }
     CHECK(worst < 32 * 0x1p-53); // a rounding of the exponent and some of each halving
 }
 
-TEST_CASE("effects: drag leaves exp(-2 c t) of a gas's energy, and takes a disc where the formula says") {
+TEST_CASE(
+    "effects: drag leaves exp(-2 c t) of a gas's energy, and takes a disc where the formula says") {
     const Communicator world = Communicator::world();
     TestScene scene = gas(300, 0.3, 0.5, 605);
     const double rate = 0.01;
@@ -145,7 +162,8 @@ TEST_CASE("effects: drag leaves exp(-2 c t) of a gas's energy, and takes a disc 
     for (const std::int64_t step : {37, 100, 203}) { // between syncs, too
         advance_to(simulation, step);
         const Totals now = simulation.totals();
-        CHECK(now.kinetic_energy == Approx(start * std::exp(-2 * rate * static_cast<double>(step))).epsilon(1e-12));
+        CHECK(now.kinetic_energy ==
+              Approx(start * std::exp(-2 * rate * static_cast<double>(step))).epsilon(1e-12));
         CHECK(now.overlapping_pairs == 0);
     }
     CHECK(simulation.totals().pair_collisions > 100);
@@ -155,5 +173,6 @@ TEST_CASE("effects: drag leaves exp(-2 c t) of a gas's energy, and takes a disc 
     alone.setting.effects.drag = rate;
     Simulation flight = simulation_of(alone, Method::event_driven, world);
     advance_to(flight, 300);
-    for (const Disc& disc : flight.shown()) CHECK(disc.x == Approx(5 + 0.5 * -std::expm1(-3.0) / rate).epsilon(1e-13));
+    for (const Disc& disc : flight.shown())
+        CHECK(disc.x == Approx(5 + 0.5 * -std::expm1(-3.0) / rate).epsilon(1e-13));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs of several radii and masses: the references' bits, the plain law's where they are equal, and what is known of mixtures.
+// Discs of several radii and masses: the references' bits, the plain law's where they are equal,
+// and what is known of mixtures.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -14,8 +15,10 @@ using namespace carrom::test;
 
 namespace {
 
-/// Discs of these classes at random without overlaps, the largest class first; speeds in largest diameters per step.
-TestScene mixture(const std::vector<Species>& species, double box_size, double speed, std::uint64_t seed) {
+/// Discs of these classes at random without overlaps, the largest class first; speeds in largest
+/// diameters per step.
+TestScene mixture(const std::vector<Species>& species, double box_size, double speed,
+                  std::uint64_t seed) {
     double largest = 0;
     for (const Species& one : species) largest = std::max(largest, one.radius);
     TestScene scene = empty_scene("mixture", box_size, largest, 14);
@@ -26,10 +29,13 @@ TestScene mixture(const std::vector<Species>& species, double box_size, double s
     for (const Species& one : species) {
         for (std::uint64_t k = 0; k < one.count; ++k) {
             for (bool is_free = false; !is_free;) {
-                const double x = random.uniform(one.radius, box_size - one.radius), y = random.uniform(one.radius, box_size - one.radius);
+                const double x = random.uniform(one.radius, box_size - one.radius),
+                             y = random.uniform(one.radius, box_size - one.radius);
                 is_free = true;
                 for (const InputDisc& disc : scene.discs)
-                    is_free = is_free && std::hypot(disc.x - x, disc.y - y) > 1.0001 * (one.radius + scene.setting.radius_of(disc.id));
+                    is_free = is_free &&
+                              std::hypot(disc.x - x, disc.y - y) >
+                                  1.0001 * (one.radius + scene.setting.radius_of(disc.id));
                 if (is_free) add_disc(scene, x, y);
             }
         }
@@ -42,8 +48,10 @@ TestScene mixture(const std::vector<Species>& species, double box_size, double s
 std::vector<TestScene> mixtures() {
     const std::vector<Species> three{{12, 2.5, 3}, {60, 1, 1.3}, {150, 0.3, 0.07}};
     std::vector<Species> many; // more than are searched one by one
-    for (int k = 0; k < 40; ++k) many.push_back({1 + static_cast<std::uint64_t>(k % 3), 2 - 0.04 * k, 1 + 0.5 * (k % 4)});
-    return {mixture(three, 40, 0.6, 701), mixture(three, 31, 0.2, 702), mixture(many, 30, 0.4, 703)};
+    for (int k = 0; k < 40; ++k)
+        many.push_back({1 + static_cast<std::uint64_t>(k % 3), 2 - 0.04 * k, 1 + 0.5 * (k % 4)});
+    return {mixture(three, 40, 0.6, 701), mixture(three, 31, 0.2, 702),
+            mixture(many, 30, 0.4, 703)};
 }
 
 /// Points, and segments, in the room that discs leave: `n` of each.
@@ -54,14 +62,18 @@ void put_bodies_between(TestScene& scene, std::size_t n, std::uint64_t seed) {
     const auto is_clear = [&scene](double x, double y, double ux, double uy, double length) {
         return std::all_of(scene.discs.begin(), scene.discs.end(), [&](const InputDisc& disc) {
             const double along = std::clamp(ux * (disc.x - x) + uy * (disc.y - y), 0.0, length);
-            return std::hypot(disc.x - x - along * ux, disc.y - y - along * uy) > 1.001 * scene.setting.radius_of(disc.id);
+            return std::hypot(disc.x - x - along * ux, disc.y - y - along * uy) >
+                   1.001 * scene.setting.radius_of(disc.id);
         });
     };
     while (list.discs.size() < n || list.segments.size() < n) {
-        const double x = random.uniform(0.1, 0.9) * size, y = random.uniform(0.1, 0.9) * size, length = random.uniform(0.01, 0.1) * size;
+        const double x = random.uniform(0.1, 0.9) * size, y = random.uniform(0.1, 0.9) * size,
+                     length = random.uniform(0.01, 0.1) * size;
         const auto [ux, uy] = random.direction();
-        if (is_clear(x, y, 0, 0, 0) && list.discs.size() < n) list.discs.push_back({x, y, 0});
-        else if (is_clear(x, y, ux, uy, length) && list.segments.size() < n) list.segments.push_back({x, y, x + length * ux, y + length * uy});
+        if (is_clear(x, y, 0, 0, 0) && list.discs.size() < n)
+            list.discs.push_back({x, y, 0});
+        else if (is_clear(x, y, ux, uy, length) && list.segments.size() < n)
+            list.segments.push_back({x, y, x + length * ux, y + length * uy});
     }
 }
 
@@ -72,10 +84,12 @@ double mass_of(const TestScene& scene, DiscId id) { return scene.setting.mass_of
 TEST_CASE("effects: mixtures have the references' bits, alone and with other effects") {
     for (TestScene scene : mixtures()) {
         Effects& effects = scene.setting.effects;
-        for (const Method method : {Method::time_stepped, Method::event_driven}) check_bits(scene, method);
+        for (const Method method : {Method::time_stepped, Method::event_driven})
+            check_bits(scene, method);
         effects.contact = {ContactKind::restitution, 0.8, 0.002};
         effects.boundaries[3].restitution = 0.7;
-        for (const Method method : {Method::time_stepped, Method::event_driven}) check_bits(scene, method);
+        for (const Method method : {Method::time_stepped, Method::event_driven})
+            check_bits(scene, method);
         effects.gravity = {0.01, -0.03};
         effects.boundaries[1] = {BoundaryKind::moving, 1, 0, -0.03};
         effects.boundaries[2] = {BoundaryKind::thermal, 1, 0.3, 0};
@@ -88,17 +102,22 @@ TEST_CASE("effects: mixtures among obstacles have the references' bits") {
     for (TestScene scene : mixtures()) {
         put_bodies_between(scene, 5, 711);
         scene.setting.effects.obstacles.restitution = 0.9;
-        for (InputDisc& disc : scene.discs) disc.vx *= 2, disc.vy *= 2; // so that many meet something else in the same micro-step
-        for (const Method method : {Method::time_stepped, Method::event_driven}) check_bits(scene, method);
+        for (InputDisc& disc : scene.discs)
+            disc.vx *= 2, disc.vy *= 2; // so that many meet something else in the same micro-step
+        for (const Method method : {Method::time_stepped, Method::event_driven})
+            check_bits(scene, method);
     }
 }
 
-TEST_CASE("effects: mixtures leave through open sides, each disc a radius of its own beyond them, with the references' bits") {
+TEST_CASE("effects: mixtures leave through open sides, each disc a radius of its own beyond them, "
+          "with the references' bits") {
     const Communicator world = Communicator::world();
     for (TestScene scene : mixtures()) {
         const double size = scene.setting.box_size;
-        scene.setting.effects.boundaries[0] = scene.setting.effects.boundaries[3] = {BoundaryKind::open, 1, 0, 0};
-        for (const ContactEffect& contact : {ContactEffect{}, ContactEffect{ContactKind::rough, 0.9, 0.002, 0.4, 0.3, 0.5}}) {
+        scene.setting.effects.boundaries[0] = scene.setting.effects.boundaries[3] = {
+            BoundaryKind::open, 1, 0, 0};
+        for (const ContactEffect& contact :
+             {ContactEffect{}, ContactEffect{ContactKind::rough, 0.9, 0.002, 0.4, 0.3, 0.5}}) {
             scene.setting.effects.contact = contact;
             for (const Method method : {Method::time_stepped, Method::event_driven}) {
                 check_bits(scene, method);
@@ -112,7 +131,8 @@ TEST_CASE("effects: mixtures leave through open sides, each disc a radius of its
                     if (!discs[i].has_departed()) continue;
                     const double radius = scene.setting.radius_of(discs[i].id);
                     CHECK((discs[i].x == -radius || discs[i].y == size + radius));
-                    CHECK((discs[i].vx == 0 && discs[i].vy == 0 && (spins.empty() || spins[i] == 0)));
+                    CHECK(
+                        (discs[i].vx == 0 && discs[i].vy == 0 && (spins.empty() || spins[i] == 0)));
                 }
             }
         }
@@ -139,7 +159,8 @@ TEST_CASE("effects: classes of one radius and one mass are the plain law to the 
 }
 
 // An elastic head-on collision, by the conservation of momentum and energy.
-TEST_CASE("effects: unequal discs exchange momentum as mechanics says, touching at the sum of their radii") {
+TEST_CASE("effects: unequal discs exchange momentum as mechanics says, touching at the sum of "
+          "their radii") {
     const Communicator world = Communicator::world();
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         TestScene scene = empty_scene("two discs", 64, 4, 12);
@@ -153,17 +174,20 @@ TEST_CASE("effects: unequal discs exchange momentum as mechanics says, touching 
         for (const Disc& disc : simulation.discs()) {
             const double expected = disc.id == 0 ? (5 - 0.5) / 5.5 : 2 * 5 / 5.5;
             CHECK(disc.vx == Approx(expected).epsilon(1e-14));
-            CHECK(disc.x_at(simulation.clock()) == Approx(disc.id == 0 ? 30 + 2 * expected : 35 + 2 * expected).epsilon(1e-14));
+            CHECK(disc.x_at(simulation.clock()) ==
+                  Approx(disc.id == 0 ? 30 + 2 * expected : 35 + 2 * expected).epsilon(1e-14));
             CHECK(disc.pair_collisions == 1);
         }
-        for (const Collision& collision : log) CHECK(collision.impulse == Approx(0.5 * 2 * 5 / 5.5).epsilon(1e-14));
+        for (const Collision& collision : log)
+            CHECK(collision.impulse == Approx(0.5 * 2 * 5 / 5.5).epsilon(1e-14));
         const Totals totals = simulation.totals();
         CHECK(totals.kinetic_energy == Approx(2.5).epsilon(1e-14));
         CHECK(totals.momentum_x == Approx(5).epsilon(1e-14));
     }
 }
 
-// Each class has kT = <m v^2> / 2 per disc. Looks are several collisions apart; N discs' energy over one look scatters by 1 / sqrt(N).
+// Each class has kT = <m v^2> / 2 per disc. Looks are several collisions apart; N discs' energy
+// over one look scatters by 1 / sqrt(N).
 TEST_CASE("effects: a mixture that starts with equal speeds comes to equal energies") {
     const Communicator world = Communicator::world();
     TestScene scene = mixture({{100, 1.5, 8}, {200, 1, 2}, {300, 0.5, 0.5}}, 80, 0.2, 704);
@@ -178,7 +202,10 @@ TEST_CASE("effects: a mixture that starts with equal speeds comes to equal energ
         advance_to(simulation, simulation.step() + 50);
         std::vector<double> energies(3, 0);
         for (const Disc& disc : simulation.discs())
-            energies[disc.id < 100 ? 0 : disc.id < 300 ? 1 : 2] += 0.5 * mass_of(scene, disc.id) * (disc.vx * disc.vx + disc.vy * disc.vy);
+            energies[disc.id < 100   ? 0
+                     : disc.id < 300 ? 1
+                                     : 2] += 0.5 * mass_of(scene, disc.id) *
+                                             (disc.vx * disc.vx + disc.vy * disc.vy);
         for (const auto& part : world.all_gather(std::array{energies[0], energies[1], energies[2]}))
             for (std::size_t k = 0; k < 3; ++k) sums[k] += part[k] / n_looks;
     }

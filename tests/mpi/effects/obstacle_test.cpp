@@ -8,8 +8,8 @@
 #include "catch.hpp"
 
 #include "dynamics/obstacles.hpp"
-#include "parallel/exchange.hpp"
 #include "effect_runs.hpp"
+#include "parallel/exchange.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -18,14 +18,19 @@ namespace {
 
 constexpr Boundary periodic{BoundaryKind::periodic, 1, 0, 0};
 
-/// Fixed discs of radius 2 on a shaken square grid in a box of side 10 n, and discs of radius 0.25 that do not meet between them. Between
-/// periodic sides the grid is moved, so that the sides cut the fixed discs.
+/// Fixed discs of radius 2 on a shaken square grid in a box of side 10 n, and discs of radius 0.25
+/// that do not meet between them. Between periodic sides the grid is moved, so that the sides cut
+/// the fixed discs.
 TestScene lorentz_gas(std::size_t n, std::size_t n_discs, bool is_periodic) {
     TestScene scene = empty_scene("Lorentz gas", 10 * static_cast<double>(n), 0.25, 1);
     Random random(701);
     ObstacleList& list = scene.setting.effects.obstacles;
     if (is_periodic) scene.setting.effects.boundaries.fill(periodic);
-    const auto place = [&](std::size_t k) { return std::fmod(10 * static_cast<double>(k) + random.uniform(3.5, 6.5) + (is_periodic ? 5 : 0), scene.setting.box_size); };
+    const auto place = [&](std::size_t k) {
+        return std::fmod(10 * static_cast<double>(k) + random.uniform(3.5, 6.5) +
+                             (is_periodic ? 5 : 0),
+                         scene.setting.box_size);
+    };
     for (std::size_t k = 0; k < n * n; ++k) {
         const double x = place(k % n);
         list.discs.push_back({x, place(k / n), 2});
@@ -33,9 +38,12 @@ TestScene lorentz_gas(std::size_t n, std::size_t n_discs, bool is_periodic) {
     scene.setting.effects.contact.kind = ContactKind::none;
     const Obstacles obstacles(scene.setting.box_size, scene.setting.radius, scene.setting.effects);
     while (scene.discs.size() < n_discs) {
-        const double x = random.uniform(0.25, scene.setting.box_size - 0.25), y = random.uniform(0.25, scene.setting.box_size - 0.25);
+        const double x = random.uniform(0.25, scene.setting.box_size - 0.25),
+                     y = random.uniform(0.25, scene.setting.box_size - 0.25);
         const auto [vx, vy] = random.direction();
-        if (obstacles.deepest_overlap(x, y, scene.setting.radius, 0).body == ObstacleContact::no_body) add_disc(scene, x, y, 0.5 * vx, 0.5 * vy);
+        if (obstacles.deepest_overlap(x, y, scene.setting.radius, 0).body ==
+            ObstacleContact::no_body)
+            add_disc(scene, x, y, 0.5 * vx, 0.5 * vy);
     }
     return scene;
 }
@@ -59,7 +67,9 @@ std::vector<Disc> all_discs(const Simulation& simulation, const Communicator& wo
         mine.back().x = disc.x_at(simulation.clock());
         mine.back().y = disc.y_at(simulation.clock());
     }
-    stream_to_root(world, std::span<const Disc>(mine), [&](std::span<const Disc> some) { all.insert(all.end(), some.begin(), some.end()); }, 1000);
+    stream_to_root(
+        world, std::span<const Disc>(mine),
+        [&](std::span<const Disc> some) { all.insert(all.end(), some.begin(), some.end()); }, 1000);
     world.broadcast(all);
     std::sort(all.begin(), all.end(), [](const Disc& a, const Disc& b) { return a.id < b.id; });
     return all;
@@ -67,8 +77,8 @@ std::vector<Disc> all_discs(const Simulation& simulation, const Communicator& wo
 
 } // namespace
 
-// The mean free path of a billiard is pi (free area) / (perimeter): N. Chernov, J. Stat. Phys. 88, 1 (1997). Here centres move:
-// bodies are larger by a radius, the box is smaller.
+// The mean free path of a billiard is pi (free area) / (perimeter): N. Chernov, J. Stat. Phys. 88,
+// 1 (1997). Here centres move: bodies are larger by a radius, the box is smaller.
 TEST_CASE("effects: the mean free path in a Lorentz gas is what geometry says, under both rules") {
     const Communicator world = Communicator::world();
     for (const bool is_periodic : {false, true}) {
@@ -77,19 +87,22 @@ TEST_CASE("effects: the mean free path in a Lorentz gas is what geometry says, u
             scene.steps = 512;
             const double side = is_periodic ? 80 : 80 - 0.5, reach = 2.25, n = 64;
             const double area = side * side - n * std::numbers::pi * reach * reach;
-            const double perimeter = (is_periodic ? 0 : 4 * side) + n * 2 * std::numbers::pi * reach;
+            const double perimeter = (is_periodic ? 0 : 4 * side) +
+                                     n * 2 * std::numbers::pi * reach;
             const double known = std::numbers::pi * area / perimeter;
             const Totals end = run(scene, method, world);
             const double path = 400 * 0.5 * 512 / static_cast<double>(end.wall_collisions);
             CHECK(end.wall_collisions > 5000); // a relative error of 1.4 % at most
-            // In the time-stepped method a disc loses next to nothing: at most one collision in a step of a twentieth of a path.
+            // In the time-stepped method a disc loses next to nothing: at most one collision in a
+            // step of a twentieth of a path.
             CHECK(path == Approx(known).epsilon(method == Method::time_stepped ? 0.05 : 0.03));
             CHECK(end.kinetic_energy == Approx(400 * 0.125).epsilon(1e-12));
         }
     }
 }
 
-// Sinai's billiard spreads an error of 1e-16 by a factor of some ten per collision: a dozen can be taken back.
+// Sinai's billiard spreads an error of 1e-16 by a factor of some ten per collision: a dozen can be
+// taken back.
 TEST_CASE("effects: Sinai's billiard runs back to where it began, between walls and periodic") {
     const Communicator world = Communicator::world();
     for (const bool is_periodic : {false, true}) {
@@ -98,7 +111,8 @@ TEST_CASE("effects: Sinai's billiard runs back to where it began, between walls 
         advance_to(there, scene.steps);
         CHECK(there.totals().wall_collisions >= 6);
         TestScene backwards = scene;
-        for (const Disc& disc : all_discs(there, world)) backwards.discs[disc.id] = {disc.id, disc.x, disc.y, -disc.vx, -disc.vy};
+        for (const Disc& disc : all_discs(there, world))
+            backwards.discs[disc.id] = {disc.id, disc.x, disc.y, -disc.vx, -disc.vy};
         Simulation back = simulation_of(backwards, Method::event_driven, world);
         advance_to(back, scene.steps);
         for (const Disc& disc : all_discs(back, world)) {
@@ -113,14 +127,17 @@ TEST_CASE("effects: Sinai's billiard runs back to where it began, between walls 
 TEST_CASE("effects: where the seams are in a periodic box is of no account, under both rules") {
     const Communicator world = Communicator::world();
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
-        Simulation first = simulation_of(sinai_billiard(true, 0), method, world), second = simulation_of(sinai_billiard(true, 10), method, world);
+        Simulation first = simulation_of(sinai_billiard(true, 0), method, world),
+                   second = simulation_of(sinai_billiard(true, 10), method, world);
         advance_to(first, 96);
         advance_to(second, 96);
         CHECK(first.totals().wall_collisions >= 6);
         CHECK(first.totals().wall_collisions == second.totals().wall_collisions);
         const std::vector<Disc> here = all_discs(first, world), there = all_discs(second, world);
         for (const Disc& disc : here) {
-            const auto apart = [](double a, double b) { return std::fabs(std::remainder(b - a - 10, 20)); };
+            const auto apart = [](double a, double b) {
+                return std::fabs(std::remainder(b - a - 10, 20));
+            };
             CHECK(apart(disc.x, there[disc.id].x) < 1e-9);
             CHECK(apart(disc.y, there[disc.id].y) < 1e-9);
             CHECK(disc.vx == Approx(there[disc.id].vx).margin(1e-9));
@@ -129,9 +146,11 @@ TEST_CASE("effects: where the seams are in a periodic box is of no account, unde
     }
 }
 
-// Machta and Zwanzig, Phys. Rev. Lett. 50, 1959 (1983): between fixed discs of radius R on a triangular lattice with gaps w points are trapped in
-// cells of area A, and hop to the next one, l off, through three gaps after a mean time of pi A / (3 w v): D = l^2 / 4 over that.
-// It is right for narrow gaps (Klages and Dellago, J. Stat. Phys. 101, 145 (2000)); 26 columns and 30 rows are a lattice in a square to 0.1 %.
+// Machta and Zwanzig, Phys. Rev. Lett. 50, 1959 (1983): between fixed discs of radius R on a
+// triangular lattice with gaps w points are trapped in cells of area A, and hop to the next one, l
+// off, through three gaps after a mean time of pi A / (3 w v): D = l^2 / 4 over that. It is right
+// for narrow gaps (Klages and Dellago, J. Stat. Phys. 101, 145 (2000)); 26 columns and 30 rows are
+// a lattice in a square to 0.1 %.
 TEST_CASE("effects: diffusion in a periodic Lorentz gas is that of hops from trap to trap") {
     const Communicator world = Communicator::world();
     constexpr double w = 0.1, spacing = 2 + w, size = 26 * spacing, point = 0.001;
@@ -140,7 +159,9 @@ TEST_CASE("effects: diffusion in a periodic Lorentz gas is that of hops from tra
     scene.setting.effects.boundaries.fill(periodic);
     scene.setting.effects.contact.kind = ContactKind::none;
     for (int row = 0; row < 30; ++row)
-        for (int k = 0; k < 26; ++k) scene.setting.effects.obstacles.discs.push_back({(k + 0.5 * (row % 2)) * spacing, row * size / 30, 1 - point});
+        for (int k = 0; k < 26; ++k)
+            scene.setting.effects.obstacles.discs.push_back(
+                {(k + 0.5 * (row % 2)) * spacing, row * size / 30, 1 - point});
     Random random(761);
     while (scene.discs.size() < n_discs) {
         for (int k = 0; k < n_discs; ++k) {
@@ -171,18 +192,23 @@ TEST_CASE("effects: diffusion in a periodic Lorentz gas is that of hops from tra
         std::fill(y.begin(), y.end(), 0);
     }
     const auto n = static_cast<double>(before.size()) * n_lags;
-    const double measured = (squares_at_lag - squares_at_look) / n / (4 * static_cast<double>(lag - look));
+    const double measured = (squares_at_lag - squares_at_look) / n /
+                            (4 * static_cast<double>(lag - look));
     const double area = std::sqrt(3.0) / 4 * spacing * spacing - std::numbers::pi / 2;
     const double hop = spacing / std::sqrt(3.0), residence = std::numbers::pi * area / (3 * w);
-    CHECK(measured == Approx(hop * hop / (4 * residence)).epsilon(0.07)); // a standard error of 1.8 %, and what the theory leaves out
+    CHECK(measured ==
+          Approx(hop * hop / (4 * residence))
+              .epsilon(0.07)); // a standard error of 1.8 %, and what the theory leaves out
 }
 
-TEST_CASE("effects: discs that fall through elastic pins keep their energy, and lossy ones come to rest on them") {
+TEST_CASE("effects: discs that fall through elastic pins keep their energy, and lossy ones come to "
+          "rest on them") {
     const Communicator world = Communicator::world();
     TestScene scene = empty_scene("pins", 60, 0.5, 300);
     ObstacleList& list = scene.setting.effects.obstacles;
     for (int row = 0; row < 6; ++row)
-        for (int k = 0; k < 9; ++k) list.discs.push_back({6.0 * k + (row % 2 == 0 ? 3 : 6), 10.0 + 6 * row, 0.5});
+        for (int k = 0; k < 9; ++k)
+            list.discs.push_back({6.0 * k + (row % 2 == 0 ? 3 : 6), 10.0 + 6 * row, 0.5});
     list.segments = {{0, 8, 30, 3}, {60, 8, 30, 3}};
     for (int k = 0; k < 40; ++k) add_disc(scene, 2 + 1.4 * k, 52 + k % 3 * 2, 0.001 * k, 0);
     scene.setting.effects.gravity = {0, -0.01};
@@ -191,7 +217,8 @@ TEST_CASE("effects: discs that fall through elastic pins keep their energy, and 
     advance_to(simulation, 203); // between two syncs
     const Totals end = simulation.totals();
     CHECK(end.wall_collisions > 200);
-    CHECK(end.kinetic_energy + end.potential_energy == Approx(start.kinetic_energy + start.potential_energy).epsilon(1e-12));
+    CHECK(end.kinetic_energy + end.potential_energy ==
+          Approx(start.kinetic_energy + start.potential_energy).epsilon(1e-12));
 
     list.restitution = 0.3;
     scene.setting.effects.contact.contact_time = 0.05;
@@ -203,7 +230,8 @@ TEST_CASE("effects: discs that fall through elastic pins keep their energy, and 
     CHECK(rest.overlapping_pairs == 0);
 }
 
-TEST_CASE("effects: discs of several classes meet obstacles where their own radii say, under both rules") {
+TEST_CASE("effects: discs of several classes meet obstacles where their own radii say, under both "
+          "rules") {
     const Communicator world = Communicator::world();
     TestScene scene = empty_scene("two sizes", 100, 1, 20);
     scene.setting.effects.species = {{2, 1, 3}, {2, 0.3, 0.1}};

@@ -12,13 +12,15 @@ namespace carrom::test {
 
 namespace {
 
-template <class Reference> StateHash reference_hash(const TestScene& scene, const Communicator& world) {
+template <class Reference>
+StateHash reference_hash(const TestScene& scene, const Communicator& world) {
     StateHash hash;
     if (world.is_root()) {
         Reference reference(scene.setting, scene.discs);
         reference.run_steps(scene.steps);
         hash = hash_of(reference.discs());
-        for (DiscId id = 0; id < reference.spins().size(); ++id) hash += hash_of_spin(id, reference.spins()[id]);
+        for (DiscId id = 0; id < reference.spins().size(); ++id)
+            hash += hash_of_spin(id, reference.spins()[id]);
     }
     world.broadcast(hash);
     return hash;
@@ -28,8 +30,9 @@ template <class Reference> StateHash reference_hash(const TestScene& scene, cons
 
 void check_bits(const TestScene& scene, Method method) {
     const Communicator world = Communicator::world();
-    const StateHash expected = method == Method::time_stepped ? reference_hash<reference::TimeSteppedReference>(scene, world)
-                                                          : reference_hash<reference::EventDrivenReference>(scene, world);
+    const StateHash expected = method == Method::time_stepped
+                                   ? reference_hash<reference::TimeSteppedReference>(scene, world)
+                                   : reference_hash<reference::EventDrivenReference>(scene, world);
     INFO(scene.name << (method == Method::time_stepped ? ", rule one" : ", rule all"));
     for (const std::optional<double>& window : {std::optional<double>{}, {0.3}, {2.7}}) {
         Tuning tuning;
@@ -41,13 +44,18 @@ void check_bits(const TestScene& scene, Method method) {
     advance_to(first, scene.steps / 2);
     Scene again = scene_of(scene);
     again.method = method;
-    Simulation second(again, {{first.discs().begin(), first.discs().end()}, first.micro_steps_done(), {first.spins().begin(), first.spins().end()}}, world, {});
+    Simulation second(again,
+                      {{first.discs().begin(), first.discs().end()},
+                       first.micro_steps_done(),
+                       {first.spins().begin(), first.spins().end()}},
+                      world, {});
     advance_to(second, scene.steps);
     CHECK(to_string(second.totals().hash) == to_string(expected));
 }
 
 std::vector<TestScene> base_scenes() {
-    std::vector<TestScene> scenes{gas(300, 0.05, 0.8, 501), gas(196, 0.6, 0.3, 502), break_shot(5, 0.5, 3, 0.1), cradle(12, 0.5, 0.25, 1)};
+    std::vector<TestScene> scenes{gas(300, 0.05, 0.8, 501), gas(196, 0.6, 0.3, 502),
+                                  break_shot(5, 0.5, 3, 0.1), cradle(12, 0.5, 0.25, 1)};
     for (TestScene& scene : scenes) {
         scene.steps = 14;
         scene.setting.sync_every = 5;

@@ -32,16 +32,18 @@ TEST_CASE("effects: walls of one temperature give it to a gas, under both rules"
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         TestScene scene = gas(400, 0.1, 0.2, 605);
         scene.steps = 1000000;
-        for (Boundary& side : scene.setting.effects.boundaries) side = {BoundaryKind::thermal, 1, 0.5, 0};
+        for (Boundary& side : scene.setting.effects.boundaries)
+            side = {BoundaryKind::thermal, 1, 0.5, 0};
         Simulation simulation = simulation_of(scene, method, world);
         advance_to(simulation, 1500);
-        // E / N is T with the variance T^2 / N: 30 looks that are hardly correlated leave 1 % or so.
+        // E / N is T with the variance T^2 / N: 30 looks that are hardly correlated leave 1 % or
+        // so.
         CHECK(mean_energy(simulation, 30, 150) == Approx(0.5).epsilon(0.04));
     }
 }
 
-// Without collisions discs from a wall of temperature T_k fill the box with a density ~ 1 / sqrt(T_k): <v^2> / 2 = sqrt(T_1 T_2)
-// (Knudsen's gas between two plates).
+// Without collisions discs from a wall of temperature T_k fill the box with a density ~ 1 /
+// sqrt(T_k): <v^2> / 2 = sqrt(T_1 T_2) (Knudsen's gas between two plates).
 TEST_CASE("effects: an ideal gas between walls of two temperatures has their geometric mean") {
     const Communicator world = Communicator::world();
     TestScene scene = gas(1000, 0.02, 0.5, 606);
@@ -81,7 +83,8 @@ TEST_CASE("effects: a disc before a piston is where arithmetic says") {
     int n = 0;
     for (;; ++n) { // between the wall at 1 and the piston at 101 - u t
         const long double speed = -static_cast<long double>(u);
-        const long double to_piston = (101 + speed * t - x) / (v - speed), to_wall = v < 0 ? (1 - x) / v : 1e9L;
+        const long double to_piston = (101 + speed * t - x) / (v - speed),
+                          to_wall = v < 0 ? (1 - x) / v : 1e9L;
         const long double delay = v < 0 ? to_wall : to_piston;
         if (t + delay > 300) break;
         t += delay;
@@ -96,8 +99,8 @@ TEST_CASE("effects: a disc before a piston is where arithmetic says") {
     }
 }
 
-// A wall catches up with a disc that gravity pulls away from it: of x = d + (v - u) t + g t^2 / 2 = 0 the first root. At the end the
-// disc is far from where any wall has been.
+// A wall catches up with a disc that gravity pulls away from it: of x = d + (v - u) t + g t^2 / 2 =
+// 0 the first root. At the end the disc is far from where any wall has been.
 TEST_CASE("effects: a wall hits a disc that falls away from it afterwards") {
     const Communicator world = Communicator::world();
     for (const std::size_t side : {0u, 1u, 2u, 3u}) {
@@ -105,32 +108,43 @@ TEST_CASE("effects: a wall hits a disc that falls away from it afterwards") {
         TestScene scene = empty_scene("wall behind a falling disc", 102, 1, 32);
         const double d = 0.01, u = 0.04, v = 0.03, g = 0.002, sign = side % 2 == 0 ? 1 : -1;
         const double place = side % 2 == 0 ? 1 + d : 101 - d;
-        if (side < 2) add_disc(scene, place, 50, sign * v, 0);
-        else add_disc(scene, 50, place, 0, sign * v);
+        if (side < 2)
+            add_disc(scene, place, 50, sign * v, 0);
+        else
+            add_disc(scene, 50, place, 0, sign * v);
         scene.setting.effects.boundaries[side] = {BoundaryKind::moving, 1, 0, sign * u};
         (side < 2 ? scene.setting.effects.gravity.x : scene.setting.effects.gravity.y) = sign * g;
         Simulation simulation = simulation_of(scene, Method::event_driven, world);
         advance_to(simulation, scene.steps);
-        const long double hit = ((static_cast<long double>(u) - v) - std::sqrt((u - static_cast<long double>(v)) * (u - static_cast<long double>(v)) - 2.0L * g * d)) / g;
+        const long double hit = ((static_cast<long double>(u) - v) -
+                                 std::sqrt((u - static_cast<long double>(v)) *
+                                               (u - static_cast<long double>(v)) -
+                                           2.0L * g * d)) /
+                                g;
         const long double after = 2.0L * u - (v + g * hit), rest = 32 - hit;
-        const long double x = u * hit + after * rest + 0.5L * g * rest * rest; // of the disc's edge, from where the wall began
+        const long double x = u * hit + after * rest +
+                              0.5L * g * rest *
+                                  rest; // of the disc's edge, from where the wall began
         CHECK(simulation.totals().wall_collisions == 1);
         for (const Disc& disc : simulation.shown()) {
-            const double at = side < 2 ? disc.x : disc.y, from_wall = side % 2 == 0 ? at - 1 : 101 - at;
+            const double at = side < 2 ? disc.x : disc.y,
+                         from_wall = side % 2 == 0 ? at - 1 : 101 - at;
             CHECK(from_wall == Approx(static_cast<double>(x)).epsilon(1e-12));
         }
     }
 }
 
-// All four walls move in: each component of a velocity times its length is an adiabatic invariant, so E L^2 (p V^2, V = L^2)
-// stays; and every impulse J of a wall with the speed u does the work J u.
+// All four walls move in: each component of a velocity times its length is an adiabatic invariant,
+// so E L^2 (p V^2, V = L^2) stays; and every impulse J of a wall with the speed u does the work J
+// u.
 TEST_CASE("effects: an ideal gas is compressed adiabatically, and its energy is the work done") {
     const Communicator world = Communicator::world();
     TestScene scene = gas(1500, 0.01, 1, 607);
     const double u = 0.004;
     Effects& effects = scene.setting.effects;
     effects.contact.kind = ContactKind::none;
-    for (std::size_t k = 0; k < 4; ++k) effects.boundaries[k] = {BoundaryKind::moving, 1, 0, k % 2 == 0 ? u : -u};
+    for (std::size_t k = 0; k < 4; ++k)
+        effects.boundaries[k] = {BoundaryKind::moving, 1, 0, k % 2 == 0 ? u : -u};
     Simulation simulation = simulation_of(scene, Method::event_driven, world);
     std::vector<Collision> log;
     simulation.log_to(&log);
@@ -138,7 +152,8 @@ TEST_CASE("effects: an ideal gas is compressed adiabatically, and its energy is 
     const double start = simulation.totals().kinetic_energy;
     const auto steps = static_cast<std::int64_t>(length / (8 * u)); // L falls by a quarter
     advance_to(simulation, steps);
-    const double end = simulation.totals().kinetic_energy, now = length - 2 * u * static_cast<double>(steps);
+    const double end = simulation.totals().kinetic_energy,
+                 now = length - 2 * u * static_cast<double>(steps);
     double impulse = 0;
     for (const Collision& collision : log) impulse += collision.impulse;
     std::vector<double> impulses = world.all_gather(impulse);
@@ -149,7 +164,8 @@ TEST_CASE("effects: an ideal gas is compressed adiabatically, and its energy is 
     CHECK(end > 1.7 * start);
 }
 
-// Discs that do not meet leave when each one's flight, unfolded at the closed walls, says; they stand where they left.
+// Discs that do not meet leave when each one's flight, unfolded at the closed walls, says; they
+// stand where they left.
 TEST_CASE("effects: discs leave through open sides when their flights say, and are counted") {
     const Communicator world = Communicator::world();
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
@@ -161,10 +177,16 @@ TEST_CASE("effects: discs leave through open sides when their flights say, and a
         const long double r = scene.setting.radius, size = scene.setting.box_size;
         std::array<std::uint64_t, 4> known{};
         for (const InputDisc& disc : scene.discs) {
-            const long double way_x = disc.vx > 0 ? size + r - disc.x : (disc.x - r) + (size + r - r);
-            const long double way_y = disc.vy < 0 ? disc.y + r : (size - r - disc.y) + (size - r + r);
-            const long double tx = disc.vx == 0 ? 1e9L : way_x / std::fabs(static_cast<long double>(disc.vx));
-            const long double ty = disc.vy == 0 ? 1e9L : way_y / std::fabs(static_cast<long double>(disc.vy));
+            const long double way_x = disc.vx > 0 ? size + r - disc.x
+                                                  : (disc.x - r) + (size + r - r);
+            const long double way_y = disc.vy < 0 ? disc.y + r
+                                                  : (size - r - disc.y) + (size - r + r);
+            const long double tx = disc.vx == 0
+                                       ? 1e9L
+                                       : way_x / std::fabs(static_cast<long double>(disc.vx));
+            const long double ty = disc.vy == 0
+                                       ? 1e9L
+                                       : way_y / std::fabs(static_cast<long double>(disc.vy));
             if (std::min(tx, ty) <= 60) known[tx < ty ? 1 : 2] += 1;
         }
         Simulation simulation = simulation_of(scene, method, world);
@@ -177,7 +199,8 @@ TEST_CASE("effects: discs leave through open sides when their flights say, and a
         CHECK(totals.n_discs == 300);
         for (const Disc& disc : simulation.shown()) {
             if (!disc.has_departed()) continue;
-            CHECK((disc.x == scene.setting.box_size + scene.setting.radius || disc.y == -scene.setting.radius));
+            CHECK((disc.x == scene.setting.box_size + scene.setting.radius ||
+                   disc.y == -scene.setting.radius));
             CHECK((disc.vx == 0 && disc.vy == 0));
         }
     }
@@ -187,7 +210,8 @@ TEST_CASE("effects: a box without sides empties, and time goes on") {
     const Communicator world = Communicator::world();
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         TestScene scene = gas(100, 0.3, 0.5, 609);
-        for (Boundary& side : scene.setting.effects.boundaries) side = {BoundaryKind::open, 1, 0, 0};
+        for (Boundary& side : scene.setting.effects.boundaries)
+            side = {BoundaryKind::open, 1, 0, 0};
         scene.steps = 3000;
         const Totals end = run(scene, method, world);
         CHECK(end.departed[0] + end.departed[1] + end.departed[2] + end.departed[3] == 100);

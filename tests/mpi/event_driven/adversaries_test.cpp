@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes made to break windows that are replayed in blocks: signals that travel any distance in no time, blows from
-// where a block does not look, ties on every boundary, speeds that no bound foresees. And the validation switched off,
-// which must be seen to matter.
+// Scenes made to break windows that are replayed in blocks: signals that travel any distance in no
+// time, blows from where a block does not look, ties on every boundary, speeds that no bound
+// foresees. And the validation switched off, which must be seen to matter.
 #include <cmath>
 #include <string>
 
@@ -19,14 +19,16 @@ namespace {
 
 /// A line of still, touching discs with room at both ends; the first is struck.
 TestScene struck_line(std::size_t n, bool along_y) {
-    TestScene scene = empty_scene("struck line of " + std::to_string(n), static_cast<double>(n) + 24, 0.5, 12);
+    TestScene scene = empty_scene("struck line of " + std::to_string(n),
+                                  static_cast<double>(n) + 24, 0.5, 12);
     const double middle = scene.setting.box_size / 2;
     add_disc(scene, 3, middle, 1.25, 0);
     for (std::size_t i = 0; i < n; ++i) add_disc(scene, 12 + static_cast<double>(i), middle);
     return along_y ? transposed(scene) : shuffled(scene, n);
 }
 
-/// Many short touching lines in a field of still discs, each struck at one end while a window is under way.
+/// Many short touching lines in a field of still discs, each struck at one end while a window is
+/// under way.
 TestScene struck_lines(std::uint64_t seed) {
     Random random(seed);
     TestScene scene = empty_scene("struck lines, seed " + std::to_string(seed), 96, 0.5, 16);
@@ -34,9 +36,12 @@ TestScene struck_lines(std::uint64_t seed) {
         const double y = 4 + 6.0 * line;
         const std::size_t n = 12 + random.index(40);
         const double x = 6 + std::floor(random.uniform(0, 30));
-        add_disc(scene, x - random.uniform(2, 5), y, random.uniform(0.5, 3), random.uniform(-0.02, 0.02));
+        add_disc(scene, x - random.uniform(2, 5), y, random.uniform(0.5, 3),
+                 random.uniform(-0.02, 0.02));
         for (std::size_t i = 0; i < n; ++i) add_disc(scene, x + static_cast<double>(i), y);
-        for (int k = 0; k < 5; ++k) add_disc(scene, 2 + 18 * k + random.uniform(0, 16), y + 3, random.uniform(-1, 1), random.uniform(-1, 1));
+        for (int k = 0; k < 5; ++k)
+            add_disc(scene, 2 + 18 * k + random.uniform(0, 16), y + 3, random.uniform(-1, 1),
+                     random.uniform(-1, 1));
     }
     TestScene dealt = shuffled(scene, seed);
     return seed % 2 == 0 ? transposed(dealt) : dealt;
@@ -48,7 +53,8 @@ TestScene shock() {
     for (int column = 0; column < 30; ++column) {
         for (int row = 0; row < 20; ++row) {
             const double shift = 0.001 * ((row * 7 + column * 13) % 11);
-            add_disc(scene, 2 + 1.25 * column + shift, 2 + 1.25 * row - shift, column < 10 ? 5 + shift : 0, 0);
+            add_disc(scene, 2 + 1.25 * column + shift, 2 + 1.25 * row - shift,
+                     column < 10 ? 5 + shift : 0, 0);
         }
     }
     return shuffled(scene, 77);
@@ -61,9 +67,11 @@ TestScene tight_hexagons() {
     Random random(5);
     for (int row = 0; row < 20; ++row) {
         for (int column = 0; column < 20; ++column) {
-            const double x = 8 + spacing * (column + 0.5 * (row % 2)), y = 8 + spacing * row * std::sqrt(0.75) * (1 + 1e-12);
+            const double x = 8 + spacing * (column + 0.5 * (row % 2)),
+                         y = 8 + spacing * row * std::sqrt(0.75) * (1 + 1e-12);
             const bool is_kicked = random.index(40) == 0;
-            add_disc(scene, x, y, is_kicked ? random.uniform(-1, 1) : 0, is_kicked ? random.uniform(-1, 1) : 0);
+            add_disc(scene, x, y, is_kicked ? random.uniform(-1, 1) : 0,
+                     is_kicked ? random.uniform(-1, 1) : 0);
         }
     }
     return scene;
@@ -73,7 +81,8 @@ TestScene tight_hexagons() {
 TestScene dyadic_ties() {
     TestScene scene = lattice(20, 1.5);
     scene.name = "dyadic ties";
-    for (std::size_t i = 0; i < scene.discs.size(); ++i) scene.discs[i].vx = (i % 20) % 2 == 0 ? 0.5 : -0.5;
+    for (std::size_t i = 0; i < scene.discs.size(); ++i)
+        scene.discs[i].vx = (i % 20) % 2 == 0 ? 0.5 : -0.5;
     scene.steps = 12;
     return shuffled(scene, 31);
 }
@@ -98,8 +107,14 @@ TestScene one_strip() {
 }
 
 std::vector<TestScene> adversaries() {
-    std::vector<TestScene> scenes = {struck_line(1000, false), struck_line(300, true), shock(), tight_hexagons(), dyadic_ties(),
-                                     one_fast(), one_strip(), break_shot(20, 0.5, 15, 0.2)};
+    std::vector<TestScene> scenes = {struck_line(1000, false),
+                                     struck_line(300, true),
+                                     shock(),
+                                     tight_hexagons(),
+                                     dyadic_ties(),
+                                     one_fast(),
+                                     one_strip(),
+                                     break_shot(20, 0.5, 15, 0.2)};
     for (std::uint64_t seed = 1; seed <= 12; ++seed) scenes.push_back(struck_lines(seed));
     return scenes;
 }
@@ -124,9 +139,10 @@ TEST_CASE("exact: adversaries have the reference's bits") {
         const EventDrivenResult expected = expected_of(scene, world, 3000000);
         CHECK(expected.pair_collisions > 0);
         const double time = diameter_time(scene);
-        for (const Shape& shape : {small_blocks(0.125 * time, 2, 2), small_blocks(time, 2, 2), small_blocks(4 * time, 3, 1),
-                                   small_blocks(0.125, 2, 3)}) {
-            INFO(scene.name << ", N = " << scene.discs.size() << ", window " << *shape.tuning.window);
+        for (const Shape& shape : {small_blocks(0.125 * time, 2, 2), small_blocks(time, 2, 2),
+                                   small_blocks(4 * time, 3, 1), small_blocks(0.125, 2, 3)}) {
+            INFO(scene.name << ", N = " << scene.discs.size() << ", window "
+                            << *shape.tuning.window);
             CHECK(run_event_driven(scene, shape, world, ++seed) == expected);
         }
     }

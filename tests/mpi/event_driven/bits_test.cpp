@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The exact engine against the event-driven reference, bit for bit, for windows over a factor of 30, blocks, halos and
-// strips of all kinds. ctest runs this for many numbers of ranks and threads.
+// The exact engine against the event-driven reference, bit for bit, for windows over a factor of
+// 30, blocks, halos and strips of all kinds. ctest runs this for many numbers of ranks and threads.
 #include <cmath>
 #include <string>
 #include <utility>
@@ -18,21 +18,27 @@ using namespace carrom::test;
 
 namespace {
 
-/// Runs each scene in `n_shapes` ways; about `most_predictions` of the reference's predicates to each.
-void check_against_reference(const std::vector<TestScene>& scenes, std::size_t n_shapes, std::size_t most_predictions) {
+/// Runs each scene in `n_shapes` ways; about `most_predictions` of the reference's predicates to
+/// each.
+void check_against_reference(const std::vector<TestScene>& scenes, std::size_t n_shapes,
+                             std::size_t most_predictions) {
     const Communicator world = Communicator::world();
-    const auto machine = static_cast<std::size_t>(world.size() + omp_get_max_threads()); // other ways on other shapes
+    const auto machine = static_cast<std::size_t>(
+        world.size() + omp_get_max_threads()); // other ways on other shapes
     for (std::size_t s = 0; s < scenes.size(); ++s) {
         TestScene scene = scenes[s];
         if (scene.cascades_when_event_driven || !is_wanted(scene, s)) continue;
         const EventDrivenResult expected = expected_of(scene, world, most_predictions);
         for (std::size_t k = 0; k < n_shapes; ++k) {
             const Shape shape = shape_number(s * n_shapes + k + machine, diameter_time(scene));
-            INFO(scene.name << ", N = " << scene.discs.size() << ", window " << shape.tuning.window.value_or(0) << ", block "
-                            << shape.exact.block_side.value_or(0) << ", halo " << shape.exact.halo.value_or(0) << ", rebalance above "
+            INFO(scene.name << ", N = " << scene.discs.size() << ", window "
+                            << shape.tuning.window.value_or(0) << ", block "
+                            << shape.exact.block_side.value_or(0) << ", halo "
+                            << shape.exact.halo.value_or(0) << ", rebalance above "
                             << shape.tuning.rebalance_above);
             try {
-                const EventDrivenResult result = run_event_driven(scene, shape, world, static_cast<unsigned>(s));
+                const EventDrivenResult result = run_event_driven(scene, shape, world,
+                                                                  static_cast<unsigned>(s));
                 CHECK(result.wall_collisions == expected.wall_collisions);
                 CHECK(result.pair_collisions == expected.pair_collisions);
                 CHECK(to_string(result.hash) == to_string(expected.hash));
@@ -43,10 +49,12 @@ void check_against_reference(const std::vector<TestScene>& scenes, std::size_t n
     }
 }
 
-/// Gases of ten thousand discs, thin, of middling density, and dense: about `n_collisions` for each disc.
+/// Gases of ten thousand discs, thin, of middling density, and dense: about `n_collisions` for each
+/// disc.
 std::vector<TestScene> cascades(double n_collisions) {
     std::vector<TestScene> scenes;
-    for (const auto& [packing, collisions_per_step] : {std::pair{0.1, 0.047}, {0.4, 0.36}, {0.65, 1.48}}) { // Enskog's
+    for (const auto& [packing, collisions_per_step] :
+         {std::pair{0.1, 0.047}, {0.4, 0.36}, {0.65, 1.48}}) { // Enskog's
         TestScene scene = gas(10000, packing, 0.125, 3000 + scenes.size());
         scene.steps = static_cast<std::int64_t>(std::ceil(n_collisions / collisions_per_step));
         scenes.push_back(shuffled(scene, 3000));
@@ -56,16 +64,20 @@ std::vector<TestScene> cascades(double n_collisions) {
 
 } // namespace
 
-TEST_CASE("exact: small scenes have the reference's bits") { check_against_reference(small_scenes(), shape_part() ? 1 : 2, 1000000); }
+TEST_CASE("exact: small scenes have the reference's bits") {
+    check_against_reference(small_scenes(), shape_part() ? 1 : 2, 1000000);
+}
 
 TEST_CASE("exact: scenes across many strips and blocks have the reference's bits") {
-    check_against_reference(large_scenes(), shape_part() ? 2 : 4, shape_part() ? 1000000 : 20000000);
+    check_against_reference(large_scenes(), shape_part() ? 2 : 4,
+                            shape_part() ? 1000000 : 20000000);
 }
 
 TEST_CASE("exact: ten thousand discs have the reference's bits after a collision each") {
     check_against_reference(cascades(1), 2, 100000000);
 }
 
-TEST_CASE("exact: ten thousand discs have the reference's bits after 50 collisions each", "[.long]") {
+TEST_CASE("exact: ten thousand discs have the reference's bits after 50 collisions each",
+          "[.long]") {
     check_against_reference(cascades(50), 4, 5000000000);
 }

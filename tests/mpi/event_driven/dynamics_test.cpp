@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the event-driven method keeps whatever happens: energy, discs that do not overlap, the same state at every stop and after
-// every restart; and what it refuses.
+// What the event-driven method keeps whatever happens: energy, discs that do not overlap, the same
+// state at every stop and after every restart; and what it refuses.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -11,9 +11,9 @@
 #include <omp.h>
 
 #include "core/errors.hpp"
-#include "parallel/exchange.hpp"
 #include "event_driven.hpp"
 #include "event_driven_runs.hpp"
+#include "parallel/exchange.hpp"
 #include "scene_tools.hpp"
 
 using namespace carrom;
@@ -30,9 +30,12 @@ Simulation start(const TestScene& scene, const Communicator& world, Tuning tunin
 }
 
 /// What all ranks have, on every rank.
-template <class Item> std::vector<Item> gathered(std::span<const Item> own, const Communicator& world) {
+template <class Item>
+std::vector<Item> gathered(std::span<const Item> own, const Communicator& world) {
     std::vector<Item> all;
-    stream_to_root(world, own, [&](std::span<const Item> some) { all.insert(all.end(), some.begin(), some.end()); }, 1000);
+    stream_to_root(
+        world, own,
+        [&](std::span<const Item> some) { all.insert(all.end(), some.begin(), some.end()); }, 1000);
     world.broadcast(all);
     return all;
 }
@@ -41,7 +44,8 @@ double deepest_overlap(const std::vector<Disc>& discs, double time, double sigma
     double deepest = -sigma;
     for (std::size_t i = 0; i < discs.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
-            const double dx = discs[i].x_at(time) - discs[j].x_at(time), dy = discs[i].y_at(time) - discs[j].y_at(time);
+            const double dx = discs[i].x_at(time) - discs[j].x_at(time),
+                         dy = discs[i].y_at(time) - discs[j].y_at(time);
             deepest = std::max(deepest, sigma - std::sqrt(dx * dx + dy * dy));
         }
     }
@@ -50,8 +54,12 @@ double deepest_overlap(const std::vector<Disc>& discs, double time, double sigma
 
 /// Collisions of pairs neither of which has met anything else since it met the other.
 std::size_t n_repeated(std::vector<Collision> log, std::size_t n_discs) {
-    const auto key = [](const Collision& c) { return std::tuple(static_cast<double>(c.micro_step) + c.time, c.generation, c.p, c.q != Collision::wall, c.q); };
-    std::sort(log.begin(), log.end(), [&key](const Collision& a, const Collision& b) { return key(a) < key(b); });
+    const auto key = [](const Collision& c) {
+        return std::tuple(static_cast<double>(c.micro_step) + c.time, c.generation, c.p,
+                          c.q != Collision::wall, c.q);
+    };
+    std::sort(log.begin(), log.end(),
+              [&key](const Collision& a, const Collision& b) { return key(a) < key(b); });
     std::vector<DiscId> last_partner(n_discs, Collision::wall);
     std::size_t n = 0;
     for (const auto& [micro_step, time, generation, p, q, impulse] : log) {
@@ -82,7 +90,8 @@ std::string failure_of(const TestScene& scene, const Communicator& world, int& c
 
 } // namespace
 
-TEST_CASE("exact: energy is kept to 1e-12, no discs overlap by more than 64 ulp of the box, none collide twice at one contact") {
+TEST_CASE("exact: energy is kept to 1e-12, no discs overlap by more than 64 ulp of the box, none "
+          "collide twice at one contact") {
     const Communicator world = Communicator::world();
     for (const double packing : {0.2, 0.7}) {
         TestScene scene = gas(1600, packing, 0.4, 91);
@@ -94,7 +103,8 @@ TEST_CASE("exact: energy is kept to 1e-12, no discs overlap by more than 64 ulp 
         while (simulation.step() < scene.steps) {
             simulation.advance_towards(std::min(simulation.step() + 5, scene.steps));
             const std::vector<Disc> all = gathered(simulation.discs(), world);
-            const double ulp = std::nextafter(scene.setting.box_size, 1e300) - scene.setting.box_size;
+            const double ulp = std::nextafter(scene.setting.box_size, 1e300) -
+                               scene.setting.box_size;
             CHECK(deepest_overlap(all, simulation.clock(), 2 * scene.setting.radius) <= 64 * ulp);
         }
         const Totals after = simulation.totals();
@@ -109,7 +119,8 @@ TEST_CASE("exact: energy is kept to 1e-12, no discs overlap by more than 64 ulp 
 
 TEST_CASE("exact: every stop has the reference's state, and a run may start again from it") {
     const Communicator world = Communicator::world();
-    for (TestScene scene : {gas(64, 0.5, 0.7, 92), zigzag(24, "tied", 93), lattice(6, 1.25), break_shot(4, 0.5, 3, 0.1)}) {
+    for (TestScene scene : {gas(64, 0.5, 0.7, 92), zigzag(24, "tied", 93), lattice(6, 1.25),
+                            break_shot(4, 0.5, 3, 0.1)}) {
         if (scene.name.find("lattice") != std::string::npos) {
             for (InputDisc& disc : scene.discs) disc.vx = disc.id % 2 == 0 ? 0.25 : -0.25;
         }
@@ -125,7 +136,8 @@ TEST_CASE("exact: every stop has the reference's state, and a run may start agai
             tuning.threads = omp_get_max_threads();
             Simulation simulation(all, state, world, tuning);
             while (simulation.step() < step) simulation.advance_towards(step);
-            state = {{simulation.discs().begin(), simulation.discs().end()}, simulation.micro_steps_done()};
+            state = {{simulation.discs().begin(), simulation.discs().end()},
+                     simulation.micro_steps_done()};
             INFO(scene.name << ", step " << step);
             CHECK(simulation.clock() == reference.clock());
             CHECK(to_string(simulation.totals().hash) == to_string(hash_of(reference.discs())));
@@ -145,7 +157,8 @@ TEST_CASE("exact: discs that overlap are refused on all ranks, the first pairs n
     CHECK(code == 2);
     INFO(text);
     CHECK(text.find("pairs of discs overlap") != std::string::npos);
-    CHECK(text.find(std::to_string(std::min(scene.discs[19].id, scene.discs[20].id)) + " and ") != std::string::npos);
+    CHECK(text.find(std::to_string(std::min(scene.discs[19].id, scene.discs[20].id)) + " and ") !=
+          std::string::npos);
 }
 
 TEST_CASE("exact: collisions without end are reported on all ranks with the disc and the time") {

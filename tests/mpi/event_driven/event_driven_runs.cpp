@@ -17,8 +17,8 @@ namespace carrom::test {
 
 namespace {
 
-/// Two scenes that follow each other differ in one respect, so neighbours go to different parts, and so do every n-th. Where many
-/// threads would run at once every second one is left out.
+/// Two scenes that follow each other differ in one respect, so neighbours go to different parts,
+/// and so do every n-th. Where many threads would run at once every second one is left out.
 bool belongs_to_part(std::size_t number, int n_threads) {
     const std::optional<ShapePart> part = shape_part();
     if (!part) return true;
@@ -36,7 +36,8 @@ bool is_wanted(const TestScene& scene, std::size_t number) {
     return belongs_to_part(number, Communicator::world().size() * omp_get_max_threads());
 }
 
-EventDrivenResult expected_of(TestScene& scene, const Communicator& world, std::size_t most_predictions) {
+EventDrivenResult expected_of(TestScene& scene, const Communicator& world,
+                              std::size_t most_predictions) {
     EventDrivenResult expected;
     std::int64_t steps = 0;
     if (world.is_root()) {
@@ -44,10 +45,12 @@ EventDrivenResult expected_of(TestScene& scene, const Communicator& world, std::
         reference::EventDrivenReference reference(scene.setting, scene.discs, 20 * most_events);
         try {
             for (; steps < scene.steps && reference.log().size() < most_events; ++steps) {
-                expected = {hash_of(reference.discs()), reference.wall_collisions(), reference.pair_collisions()};
+                expected = {hash_of(reference.discs()), reference.wall_collisions(),
+                            reference.pair_collisions()};
                 reference.run_steps(1);
             }
-            expected = {hash_of(reference.discs()), reference.wall_collisions(), reference.pair_collisions()};
+            expected = {hash_of(reference.discs()), reference.wall_collisions(),
+                        reference.pair_collisions()};
         } catch (const std::runtime_error&) { // a step too much; `expected` is what was before it
         }
     }
@@ -61,7 +64,8 @@ std::vector<Disc> dealt_discs(const TestScene& scene, const Communicator& world,
     std::mt19937 random(seed);
     std::vector<Disc> mine;
     for (const Disc& disc : reference::stored_states(scene.setting, scene.discs)) {
-        if (static_cast<int>(random() % static_cast<unsigned>(world.size())) == world.rank()) mine.push_back(disc);
+        if (static_cast<int>(random() % static_cast<unsigned>(world.size())) == world.rank())
+            mine.push_back(disc);
     }
     std::shuffle(mine.begin(), mine.end(), random);
     return mine;
@@ -69,10 +73,12 @@ std::vector<Disc> dealt_discs(const TestScene& scene, const Communicator& world,
 
 double diameter_time(const TestScene& scene) {
     double fastest = 0;
-    for (const InputDisc& disc : scene.discs) fastest = std::max(fastest, std::sqrt(disc.vx * disc.vx + disc.vy * disc.vy));
+    for (const InputDisc& disc : scene.discs)
+        fastest = std::max(fastest, std::sqrt(disc.vx * disc.vx + disc.vy * disc.vy));
     if (fastest == 0) return 1;
     const auto micro_steps = static_cast<double>(scene.setting.micro_steps);
-    return std::max(2 * scene.setting.radius * micro_steps / fastest, static_cast<double>(scene.steps) * micro_steps / 60);
+    return std::max(2 * scene.setting.radius * micro_steps / fastest,
+                    static_cast<double>(scene.steps) * micro_steps / 60);
 }
 
 Shape shape_number(std::size_t number, double diameter_time) {
@@ -82,7 +88,8 @@ Shape shape_number(std::size_t number, double diameter_time) {
     Shape shape;
     shape.tuning.threads = omp_get_max_threads();
     shape.tuning.discs_per_thread = 1;
-    if (const auto& window = windows[number % std::size(windows)]) shape.tuning.window = *window * diameter_time;
+    if (const auto& window = windows[number % std::size(windows)])
+        shape.tuning.window = *window * diameter_time;
     shape.exact.block_side = boundaries[number % std::size(boundaries)];
     shape.exact.halo = 2 + static_cast<int>(number / 2 % 3);
     shape.exact.speed_allowance = number % 7 == 3 ? 1.001 : 1.2;
@@ -90,8 +97,10 @@ Shape shape_number(std::size_t number, double diameter_time) {
     return shape;
 }
 
-EventDrivenResult run_event_driven(const TestScene& scene, const Shape& shape, const Communicator& world, unsigned seed) {
-    EventDrivenEngine<PlainDynamics> engine(scene_of(scene), {dealt_discs(scene, world, seed), 0}, world, shape.tuning, shape.exact);
+EventDrivenResult run_event_driven(const TestScene& scene, const Shape& shape,
+                                   const Communicator& world, unsigned seed) {
+    EventDrivenEngine<PlainDynamics> engine(scene_of(scene), {dealt_discs(scene, world, seed), 0},
+                                            world, shape.tuning, shape.exact);
     const std::int64_t last = scene.steps * scene.setting.micro_steps;
     while (engine.micro_steps_done() < last) engine.advance_towards(scene.steps);
     StateHash hash = hash_of(engine.own());

@@ -2,10 +2,10 @@
 // Runs of the event-driven method on all ranks, and what they must give.
 #pragma once
 
-#include "parallel/communicator.hpp"
-#include "simulation/simulation.hpp"
 #include "event_driven/event_driven_engine.hpp"
+#include "parallel/communicator.hpp"
 #include "scenes.hpp"
+#include "simulation/simulation.hpp"
 
 namespace carrom::test {
 
@@ -16,29 +16,34 @@ struct EventDrivenResult {
     friend bool operator==(const EventDrivenResult&, const EventDrivenResult&) = default;
 };
 
-/// Whether the scene, `number` in its list, is to be run: it belongs to the shape's part (shape_parts.hpp; each scene to those of
-/// two shapes), and $CARROM_TEST_SCENE, if set, is a part of its name (for looking at one scene).
+/// Whether the scene, `number` in its list, is to be run: it belongs to the shape's part
+/// (shape_parts.hpp; each scene to those of two shapes), and $CARROM_TEST_SCENE, if set, is a part
+/// of its name (for looking at one scene).
 bool is_wanted(const TestScene& scene, std::size_t number);
 
-/// What the event-driven reference gives, worked out on rank 0. Cuts the scene's steps short where the reference would
-/// take long: its price is the number of discs per event. **Collective.**
-EventDrivenResult expected_of(TestScene& scene, const Communicator& world, std::size_t most_predictions);
+/// What the event-driven reference gives, worked out on rank 0. Cuts the scene's steps short where
+/// the reference would take long: its price is the number of discs per event. **Collective.**
+EventDrivenResult expected_of(TestScene& scene, const Communicator& world,
+                              std::size_t most_predictions);
 
 struct Shape {
     Tuning tuning;
     BlockTuning exact;
 };
 
-/// A way to run a scene: windows, blocks, halo, cuts. The numbers meet one another in many combinations.
+/// A way to run a scene: windows, blocks, halo, cuts. The numbers meet one another in many
+/// combinations.
 Shape shape_number(std::size_t number, double diameter_time);
 
 /// A run from arbitrary shares of the discs, in an arbitrary order. **Collective.**
-EventDrivenResult run_event_driven(const TestScene& scene, const Shape& shape, const Communicator& world, unsigned seed);
+EventDrivenResult run_event_driven(const TestScene& scene, const Shape& shape,
+                                   const Communicator& world, unsigned seed);
 
 /// The share of rank `world.rank()` when discs are dealt at random.
 std::vector<Disc> dealt_discs(const TestScene& scene, const Communicator& world, unsigned seed);
 
-/// The time in which the fastest disc goes one diameter, in micro-steps; a 60th of the run if that is longer.
+/// The time in which the fastest disc goes one diameter, in micro-steps; a 60th of the run if that
+/// is longer.
 double diameter_time(const TestScene& scene);
 
 } // namespace carrom::test

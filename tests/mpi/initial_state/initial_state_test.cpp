@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The first discs against references written without ranks, grids or chunks. Every rank count must pass, so every rank
-// count gives the same discs.
+// The first discs against references written without ranks, grids or chunks. Every rank count must
+// pass, so every rank count gives the same discs.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -14,14 +14,14 @@
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
+#include "core/random_numbers.hpp"
 #include "core/state_hash.hpp"
+#include "initial_state/initial_state.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/exchange.hpp"
 #include "scene/lattice.hpp"
-#include "core/random_numbers.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/velocities.hpp"
-#include "initial_state/initial_state.hpp"
 
 using namespace carrom;
 
@@ -36,7 +36,9 @@ const Communicator& ranks() {
 }
 
 Scene scene_of(const Texts& overrides) {
-    return read_scene("[box]\nsize = 10\n[discs]\ncount = 100\nradius = 0.1\nspeed = 0.25\n[time]\nsteps = 1\n", "s.toml", overrides);
+    return read_scene(
+        "[box]\nsize = 10\n[discs]\ncount = 100\nradius = 0.1\nspeed = 0.25\n[time]\nsteps = 1\n",
+        "s.toml", overrides);
 }
 
 StateHash hash_of_discs(const Discs& discs) {
@@ -61,7 +63,8 @@ Discs gathered(const Discs& mine) {
     std::vector<Discs> out(static_cast<std::size_t>(ranks().size()));
     out[0] = mine;
     Discs all = send_to_owners(ranks(), out).items;
-    std::sort(all.begin(), all.end(), [](const InputDisc& a, const InputDisc& b) { return a.id < b.id; });
+    std::sort(all.begin(), all.end(),
+              [](const InputDisc& a, const InputDisc& b) { return a.id < b.id; });
     return all;
 }
 
@@ -74,11 +77,13 @@ void check_arrangement(const Discs& mine, const Scene& scene) {
     for (std::size_t i = 0; i < all.size(); ++i) {
         ids_are_right = ids_are_right && all[i].id == i;
         for (const double c : {all[i].x, all[i].y})
-            all_are_inside = all_are_inside && c >= scene.radius && c <= scene.box_size - scene.radius;
+            all_are_inside = all_are_inside && c >= scene.radius &&
+                             c <= scene.box_size - scene.radius;
     }
     CHECK(ids_are_right);
     CHECK(all_are_inside);
-    std::sort(all.begin(), all.end(), [](const InputDisc& a, const InputDisc& b) { return a.x < b.x; });
+    std::sort(all.begin(), all.end(),
+              [](const InputDisc& a, const InputDisc& b) { return a.x < b.x; });
     double nearest = scene.box_size;
     for (std::size_t i = 0; i < all.size(); ++i)
         for (std::size_t j = i + 1; j < all.size() && all[j].x - all[i].x < nearest; ++j)
@@ -86,16 +91,21 @@ void check_arrangement(const Discs& mine, const Scene& scene) {
     CHECK(nearest >= 2 * scene.radius * (1 - 1e-15));
 }
 
-/// The rule of random insertion, word for word: all pairs, round after round. Where sides are periodic, with all images.
+/// The rule of random insertion, word for word: all pairs, round after round. Where sides are
+/// periodic, with all images.
 Discs inserted_by_the_rule(const Scene& scene) {
     const double r = scene.radius, l = scene.box_size;
-    const double lx = scene.effects.is_periodic_x() ? l : 0, ly = scene.effects.is_periodic_y() ? l : 0;
-    const auto place = [r, l](double period, double number) { return period > 0 ? l * number : r + ((l - r) - r) * number; };
+    const double lx = scene.effects.is_periodic_x() ? l : 0,
+                 ly = scene.effects.is_periodic_y() ? l : 0;
+    const auto place = [r, l](double period, double number) {
+        return period > 0 ? l * number : r + ((l - r) - r) * number;
+    };
     const auto overlap = [r, lx, ly](Point a, Point b) {
         double nearest = INFINITY;
         for (const double dx : {-lx, 0.0, lx})
             for (const double dy : {-ly, 0.0, ly})
-                nearest = std::min(nearest, (a.x + dx - b.x) * (a.x + dx - b.x) + (a.y + dy - b.y) * (a.y + dy - b.y));
+                nearest = std::min(nearest, (a.x + dx - b.x) * (a.x + dx - b.x) +
+                                                (a.y + dy - b.y) * (a.y + dy - b.y));
         return nearest < (2 * r) * (2 * r);
     };
     std::vector<Point> places(scene.n_discs), proposals(scene.n_discs);
@@ -103,7 +113,8 @@ Discs inserted_by_the_rule(const Scene& scene) {
     std::uint64_t n_placed = 0;
     for (int round = 0; n_placed < scene.n_discs; ++round) {
         for (DiscId id = 0; id < scene.n_discs; ++id) {
-            const auto words = random_words(scene.seed, Purpose::position, id, static_cast<std::uint64_t>(round));
+            const auto words = random_words(scene.seed, Purpose::position, id,
+                                            static_cast<std::uint64_t>(round));
             proposals[id] = {place(lx, unit_number(words[0])), place(ly, unit_number(words[1]))};
         }
         for (DiscId id = 0; id < scene.n_discs; ++id) {
@@ -111,8 +122,10 @@ Discs inserted_by_the_rule(const Scene& scene) {
             bool is_refused = false;
             for (DiscId other = 0; other < scene.n_discs; ++other) {
                 const bool was_placed = placed_in[other] >= 0 && placed_in[other] < round;
-                if (was_placed) is_refused = is_refused || overlap(proposals[id], places[other]);
-                else if (other < id) is_refused = is_refused || overlap(proposals[id], proposals[other]);
+                if (was_placed)
+                    is_refused = is_refused || overlap(proposals[id], places[other]);
+                else if (other < id)
+                    is_refused = is_refused || overlap(proposals[id], proposals[other]);
             }
             if (is_refused) continue;
             placed_in[id] = round;
@@ -131,7 +144,9 @@ Discs inserted_by_the_rule(const Scene& scene) {
 /// The legacy generator, as one would write it in C: plain `rand`, all earlier discs compared.
 Discs legacy_by_hand(std::uint64_t n, double box, double r) {
     std::srand(3210);
-    const auto uniform = [](double low, double high) { return low + (high - low) * (std::rand() / static_cast<double>(RAND_MAX)); };
+    const auto uniform = [](double low, double high) {
+        return low + (high - low) * (std::rand() / static_cast<double>(RAND_MAX));
+    };
     Discs discs;
     while (discs.size() < n) {
         InputDisc disc{discs.size(), 0, 0, 0, 0};
@@ -140,7 +155,9 @@ Discs legacy_by_hand(std::uint64_t n, double box, double r) {
             disc.y = uniform(r, box - r);
             is_free = true;
             for (const InputDisc& other : discs)
-                if (std::sqrt((disc.x - other.x) * (disc.x - other.x) + (disc.y - other.y) * (disc.y - other.y)) < 2 * r) is_free = false;
+                if (std::sqrt((disc.x - other.x) * (disc.x - other.x) +
+                              (disc.y - other.y) * (disc.y - other.y)) < 2 * r)
+                    is_free = false;
         }
         discs.push_back(disc);
     }
@@ -170,13 +187,16 @@ Listing listing_of(const std::string& text) {
 } // namespace
 
 TEST_CASE("Random insertion follows its rule on any number of ranks") {
-    for (const Texts& overrides : {Texts{"discs.packing=0.3"}, Texts{"discs.packing=0.45", "discs.seed=9"}, Texts{"discs.packing=0.01"},
-                                   Texts{"discs.packing=0.4", "discs.count=7"}, Texts{"discs.packing=0.1", "discs.count=1"},
-                                   Texts{"discs.packing=0.35", "discs.count=600", "discs.velocities=uniform"},
-                                   Texts{"discs.packing=0.45", "box.left.kind=periodic", "box.right.kind=periodic"},
-                                   Texts{"discs.packing=0.4", "discs.count=9", "box.bottom.kind=periodic", "box.top.kind=periodic"},
-                                   Texts{"discs.packing=0.4", "discs.count=600", "box.left.kind=periodic", "box.right.kind=periodic",
-                                         "box.bottom.kind=periodic", "box.top.kind=periodic"}}) {
+    for (const Texts& overrides :
+         {Texts{"discs.packing=0.3"}, Texts{"discs.packing=0.45", "discs.seed=9"},
+          Texts{"discs.packing=0.01"}, Texts{"discs.packing=0.4", "discs.count=7"},
+          Texts{"discs.packing=0.1", "discs.count=1"},
+          Texts{"discs.packing=0.35", "discs.count=600", "discs.velocities=uniform"},
+          Texts{"discs.packing=0.45", "box.left.kind=periodic", "box.right.kind=periodic"},
+          Texts{"discs.packing=0.4", "discs.count=9", "box.bottom.kind=periodic",
+                "box.top.kind=periodic"},
+          Texts{"discs.packing=0.4", "discs.count=600", "box.left.kind=periodic",
+                "box.right.kind=periodic", "box.bottom.kind=periodic", "box.top.kind=periodic"}}) {
         CAPTURE(overrides);
         const Scene scene = scene_of(overrides);
         check_same(initial_state(scene, nullptr, ranks()), inserted_by_the_rule(scene));
@@ -191,13 +211,15 @@ TEST_CASE("Many random discs: all there, inside, apart, and always the same") {
 }
 
 TEST_CASE("Random discs are shared out evenly") {
-    const Discs discs = initial_state(scene_of({"discs.packing=0.3", "discs.count=20000"}), nullptr, ranks());
+    const Discs discs = initial_state(scene_of({"discs.packing=0.3", "discs.count=20000"}), nullptr,
+                                      ranks());
     const std::uint64_t share = 20000 / static_cast<std::uint64_t>(ranks().size());
     CHECK(discs.size() < share + share / 5);
 }
 
 TEST_CASE("A lattice is its sites, shaken") {
-    const Scene scene = scene_of({"discs.packing=0.8", "discs.count=3000", "discs.generator=lattice"});
+    const Scene scene = scene_of(
+        {"discs.packing=0.8", "discs.count=3000", "discs.generator=lattice"});
     const auto lattice = widest_lattice(scene.n_discs, scene.box_size, scene.radius);
     REQUIRE(lattice.has_value());
     Discs reference;
@@ -240,7 +262,9 @@ TEST_CASE("Streams reach generated discs of every kind") {
         bool all_right = true;
         for (std::size_t i = 0; i < moved.size(); ++i) {
             const double share = still[i].y <= 5 ? 1 : 0;
-            all_right = all_right && moved[i] == InputDisc{i, still[i].x, still[i].y, still[i].vx + 3 * share, still[i].vy - 4 * share};
+            all_right = all_right &&
+                        moved[i] == InputDisc{i, still[i].x, still[i].y, still[i].vx + 3 * share,
+                                              still[i].vy - 4 * share};
         }
         CHECK(all_right);
     }
@@ -266,12 +290,14 @@ TEST_CASE("Discs listed in the scene are spread once") {
 }
 
 TEST_CASE("Wrong lines are the same problems on every rank") {
-    Listing listing = listing_of("4\n10\n1\n1\nperf\n0 5 5 0 0\n1 5 5 x 0\n0 2 2 0 0\n2 0.5 5 0 0\n");
+    Listing listing = listing_of(
+        "4\n10\n1\n1\nperf\n0 5 5 0 0\n1 5 5 x 0\n0 2 2 0 0\n2 0.5 5 0 0\n");
     std::vector<std::string> problems;
     try {
         initial_state(listing.scene, listing.stream.get(), ranks());
     } catch (const InputError& error) {
-        for (const Problem& problem : error.problems()) problems.push_back(problem.place + ':' + std::to_string(problem.line));
+        for (const Problem& problem : error.problems())
+            problems.push_back(problem.place + ':' + std::to_string(problem.line));
     }
     CHECK(problems == Texts{"t.in:7", "t.in:8", "t.in:9", "t.in:0"});
 }

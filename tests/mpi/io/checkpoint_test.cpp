@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checkpoints on 1 to 7 ranks: what is read is what was written, to the bit; the file does not show who wrote it; a
-// damaged one is noticed by all ranks.
+// Checkpoints on 1 to 7 ranks: what is read is what was written, to the bit; the file does not show
+// who wrote it; a damaged one is noticed by all ranks.
 #include "io/checkpoint.hpp"
 
 #include <algorithm>
@@ -21,8 +21,8 @@
 
 #include "core/errors.hpp"
 #include "core/state_hash.hpp"
-#include "parallel/slabs.hpp"
 #include "io/seal.hpp"
+#include "parallel/slabs.hpp"
 
 using namespace carrom;
 
@@ -31,7 +31,8 @@ namespace {
 /// A folder for all ranks, gone at the end.
 class TestFolder {
 public:
-    explicit TestFolder(const Communicator& world) : world_(world), path_("/tmp/carrom_io_test_" + std::to_string(::getpid())) {
+    explicit TestFolder(const Communicator& world)
+        : world_(world), path_("/tmp/carrom_io_test_" + std::to_string(::getpid())) {
         world_.broadcast(path_);
         if (world_.is_root()) std::filesystem::create_directories(path_);
         world_.barrier();
@@ -64,7 +65,11 @@ Disc odd_disc(DiscId id) {
     return disc;
 }
 
-double odd_spin(DiscId id) { return id % 3 == 0 ? -0.0 : std::ldexp(static_cast<double>(std::mt19937_64(id + 77)() >> 11), -55) - 0.1; }
+double odd_spin(DiscId id) {
+    return id % 3 == 0
+               ? -0.0
+               : std::ldexp(static_cast<double>(std::mt19937_64(id + 77)() >> 11), -55) - 0.1;
+}
 
 std::vector<double> spins_of(const std::vector<Disc>& discs) {
     std::vector<double> spins;
@@ -77,7 +82,9 @@ std::vector<Disc> share(std::uint64_t n, const Communicator& world, unsigned met
     std::vector<Disc> mine;
     const auto size = static_cast<std::uint64_t>(world.size());
     for (DiscId id = 0; id < n; ++id) {
-        const std::uint64_t owner = method == 0 ? (id * 7919) % size : method == 1 ? size - 1 : std::min(id / 2, size - 1);
+        const std::uint64_t owner = method == 0   ? (id * 7919) % size
+                                    : method == 1 ? size - 1
+                                                  : std::min(id / 2, size - 1);
         if (owner == static_cast<std::uint64_t>(world.rank())) mine.push_back(odd_disc(id));
     }
     std::mt19937 random(method);
@@ -105,9 +112,9 @@ CheckpointHeader some_header() {
 
 bool same_bits(const Disc& a, const Disc& b) {
     const auto bits = [](double number) { return std::bit_cast<std::uint64_t>(number); };
-    return a.id == b.id && bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.vx) == bits(b.vx) &&
-           bits(a.vy) == bits(b.vy) && bits(a.tau) == bits(b.tau) && a.wall_collisions == b.wall_collisions &&
-           a.pair_collisions == b.pair_collisions;
+    return a.id == b.id && bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) &&
+           bits(a.vx) == bits(b.vx) && bits(a.vy) == bits(b.vy) && bits(a.tau) == bits(b.tau) &&
+           a.wall_collisions == b.wall_collisions && a.pair_collisions == b.pair_collisions;
 }
 
 std::string bytes_of(const std::string& path) {
@@ -115,7 +122,8 @@ std::string bytes_of(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The text and code of the error that reading ends with, the same on every rank; empty if it is read.
+/// The text and code of the error that reading ends with, the same on every rank; empty if it is
+/// read.
 std::string problem_of(const std::string& path, const Communicator& world) {
     try {
         read_checkpoint(path, world);
@@ -141,7 +149,8 @@ TEST_CASE("a checkpoint is read as it was written") {
             bool all_same = true;
             std::uint64_t walls = 0, pairs = 0;
             StateHash hash;
-            for (std::size_t i = 0; i < read.discs.size(); ++i) all_same = all_same && same_bits(read.discs[i], odd_disc(first + i));
+            for (std::size_t i = 0; i < read.discs.size(); ++i)
+                all_same = all_same && same_bits(read.discs[i], odd_disc(first + i));
             for (DiscId id = 0; id < n; ++id) {
                 const Disc disc = odd_disc(id);
                 walls += disc.wall_collisions;
@@ -179,7 +188,8 @@ TEST_CASE("spins are read as they were written, and are part of the state hash")
             REQUIRE(read.spins.size() == read.discs.size());
             bool all_same = true;
             for (std::size_t i = 0; i < read.spins.size(); ++i)
-                all_same = all_same && std::bit_cast<std::uint64_t>(read.spins[i]) == std::bit_cast<std::uint64_t>(odd_spin(read.discs[i].id));
+                all_same = all_same && std::bit_cast<std::uint64_t>(read.spins[i]) ==
+                                           std::bit_cast<std::uint64_t>(odd_spin(read.discs[i].id));
             CHECK(all_same);
         }
         write_checkpoint(path, some_header(), share(n, world, 0), world);
@@ -197,8 +207,8 @@ TEST_CASE("the header comes back whole") {
     wanted.species = {{2, 1.5, 3}, {1, 0.5, 1}};
     wanted.scene_text += std::string(200000, 'x') + '\n'; // longer than HDF5's attributes may be
     write_checkpoint(folder.file("a.h5"), wanted, share(3, world, 0), world);
-    for (const CheckpointHeader& header :
-         {read_checkpoint_header(folder.file("a.h5"), world), read_checkpoint(folder.file("a.h5"), world).header}) {
+    for (const CheckpointHeader& header : {read_checkpoint_header(folder.file("a.h5"), world),
+                                           read_checkpoint(folder.file("a.h5"), world).header}) {
         CHECK(header.program_version == wanted.program_version);
         CHECK(header.scene_name == wanted.scene_name);
         CHECK(header.scene_text == wanted.scene_text);
@@ -228,9 +238,11 @@ TEST_CASE("the file does not depend on who holds which disc, and nothing else is
             write_checkpoint(folder.file(name), header, mine, world, n_threads, {}, spins_of(mine));
         };
         write("a.h5", 0, 1);
-        if (n == 777) std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // nor on the time of day
-        write("b.h5", 1, 3); // nor on the threads
-        const bool same_bytes = bytes_of(folder.file("a.h5")) == bytes_of(folder.file("b.h5")); // not told byte by byte
+        if (n == 777)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // nor on the time of day
+        write("b.h5", 1, 3);                                              // nor on the threads
+        const bool same_bytes = bytes_of(folder.file("a.h5")) ==
+                                bytes_of(folder.file("b.h5")); // not told byte by byte
         CHECK(same_bytes);
     }
     CHECK(!std::filesystem::exists(folder.file("a.h5.partial")));
@@ -256,7 +268,8 @@ TEST_CASE("a damaged file is refused on every rank, with the reason") {
     refused(good.substr(0, good.size() - 1), "bytes instead of");
     refused(good + 'x', "bytes instead of");
     refused(std::string(4096, '\0') + good.substr(512), "no checkpoint");
-    for (const std::size_t place : {std::size_t{40}, std::size_t{4095}, std::size_t{4096}, std::size_t{5000}, good.size() - 1}) {
+    for (const std::size_t place : {std::size_t{40}, std::size_t{4095}, std::size_t{4096},
+                                    std::size_t{5000}, good.size() - 1}) {
         std::string bytes = good;
         bytes[place] = static_cast<char>(bytes[place] ^ 1);
         refused(bytes, "damaged");
@@ -280,7 +293,8 @@ TEST_CASE("damage is told by the data set that it is in") {
         world.barrier();
         if (world.is_root()) {
             std::string bytes = good;
-            for (const std::size_t place : places) bytes[place] = static_cast<char>(bytes[place] ^ 16);
+            for (const std::size_t place : places)
+                bytes[place] = static_cast<char>(bytes[place] ^ 16);
             std::ofstream(path, std::ios::binary) << bytes;
         }
         world.barrier();
@@ -288,15 +302,19 @@ TEST_CASE("damage is told by the data set that it is in") {
         return problem.substr(std::min(problem.size(), problem.rfind(": ") + 2));
     };
     for (const SealedPart& part : parts)
-        for (const std::size_t place : {part.begin, part.begin + 2500 * part.bytes_per_row, part.end() - 1}) CHECK(reported({place}) == part.name);
-    CHECK(reported({parts[2].begin + 100, parts[5].end() - 9}) == "/carrom/discs/x, /carrom/discs/vy");
+        for (const std::size_t place :
+             {part.begin, part.begin + 2500 * part.bytes_per_row, part.end() - 1})
+            CHECK(reported({place}) == part.name);
+    CHECK(reported({parts[2].begin + 100, parts[5].end() - 9}) ==
+          "/carrom/discs/x, /carrom/discs/vy");
     CHECK(reported({seal_size + 20}) == "what stands between the data sets");
     CHECK(reported({200}) == "is damaged in its first lines");
 }
 
 namespace {
 
-/// Flips one bit of each of these bytes in turn; every time all ranks must notice. Returns how many went unnoticed.
+/// Flips one bit of each of these bytes in turn; every time all ranks must notice. Returns how many
+/// went unnoticed.
 int unnoticed_flips(const std::vector<std::size_t>& places, const Communicator& world) {
     const TestFolder folder(world);
     const std::string path = folder.file("a.h5");
@@ -307,7 +325,10 @@ int unnoticed_flips(const std::vector<std::size_t>& places, const Communicator& 
         const std::size_t place = places[k] % good.size();
         const auto put = [&](char byte) {
             world.barrier();
-            if (world.is_root()) std::fstream(path, std::ios::binary | std::ios::in | std::ios::out).seekp(static_cast<std::streamoff>(place)).put(byte);
+            if (world.is_root())
+                std::fstream(path, std::ios::binary | std::ios::in | std::ios::out)
+                    .seekp(static_cast<std::streamoff>(place))
+                    .put(byte);
             world.barrier();
         };
         put(static_cast<char>(good[place] ^ (1 << (k % 8))));

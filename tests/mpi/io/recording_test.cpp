@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trajectories and logs of collisions on 1 to 7 ranks: what is read is what was given, in order; going on cuts back.
+// Trajectories and logs of collisions on 1 to 7 ranks: what is read is what was given, in order;
+// going on cuts back.
 #include "io/trajectory.hpp"
 
 #include <filesystem>
@@ -21,7 +22,8 @@ namespace {
 
 class TestFolder {
 public:
-    explicit TestFolder(const Communicator& world) : world_(world), path_("/tmp/carrom_recording_test_" + std::to_string(::getpid())) {
+    explicit TestFolder(const Communicator& world)
+        : world_(world), path_("/tmp/carrom_recording_test_" + std::to_string(::getpid())) {
         world_.broadcast(path_);
         if (world_.is_root()) std::filesystem::create_directories(path_);
         world_.barrier();
@@ -64,7 +66,9 @@ std::vector<double> spins_of(const std::vector<Disc>& discs) {
 std::vector<Disc> share(std::uint64_t n, std::int64_t step, const Communicator& world) {
     std::vector<Disc> mine;
     for (DiscId id = n; id-- > 0;)
-        if ((id * 31 + static_cast<std::uint64_t>(step)) % static_cast<std::uint64_t>(world.size()) == static_cast<std::uint64_t>(world.rank()))
+        if ((id * 31 + static_cast<std::uint64_t>(step)) %
+                static_cast<std::uint64_t>(world.size()) ==
+            static_cast<std::uint64_t>(world.rank()))
             mine.push_back(disc_at(id, step));
     return mine;
 }
@@ -80,22 +84,27 @@ TrajectoryLayout layout_of(std::uint64_t n) {
 }
 
 /// Whether rank 0 reads just these frames; true elsewhere.
-bool holds(const std::string& path, std::uint64_t n, const std::vector<std::int64_t>& steps, const Communicator& world, bool are_turning = false,
-           double box_size = 64) {
+bool holds(const std::string& path, std::uint64_t n, const std::vector<std::int64_t>& steps,
+           const Communicator& world, bool are_turning = false, double box_size = 64) {
     world.barrier();
     bool is_right = true;
     if (world.is_root()) {
         const FrameFile file(path);
-        is_right = file.summary().kind == FileKind::trajectory && file.summary().n_discs == n && file.summary().steps == steps && file.summary().has_angular_velocity == are_turning &&
-                   (steps.empty() || file.summary().box_size == box_size) && file.summary().program_version == "0.0.1";
+        is_right = file.summary().kind == FileKind::trajectory && file.summary().n_discs == n &&
+                   file.summary().steps == steps &&
+                   file.summary().has_angular_velocity == are_turning &&
+                   (steps.empty() || file.summary().box_size == box_size) &&
+                   file.summary().program_version == "0.0.1";
         std::vector<FrameRow> rows;
         for (std::size_t frame = 0; is_right && frame < steps.size(); ++frame) {
             file.read(frame, 0, n, rows);
             for (DiscId id = 0; id < n; ++id) {
                 const Disc disc = disc_at(id, steps[frame]);
                 const FrameRow& row = rows[id];
-                is_right = is_right && row.x == disc.x + disc.vx && row.y == disc.y + disc.vy && row.vx == 4 * disc.vx &&
-                           row.vy == 4 * disc.vy && row.wall_collisions == disc.wall_collisions && row.pair_collisions == disc.pair_collisions &&
+                is_right = is_right && row.x == disc.x + disc.vx && row.y == disc.y + disc.vy &&
+                           row.vx == 4 * disc.vx && row.vy == 4 * disc.vy &&
+                           row.wall_collisions == disc.wall_collisions &&
+                           row.pair_collisions == disc.pair_collisions &&
                            row.angular_velocity == (are_turning ? 4 * spin_of(disc) : 0);
             }
         }
@@ -121,7 +130,9 @@ TEST_CASE("frames are read as they were given, in the order of ids") {
                 const std::vector<Disc> mine = share(n, step, world);
                 trajectory.append(step, mine, 1.5, spins_of(mine));
             };
-            const auto is_right = [&](const std::vector<std::int64_t>& steps) { return holds(path, n, steps, world, layout.has_angular_velocity); };
+            const auto is_right = [&](const std::vector<std::int64_t>& steps) {
+                return holds(path, n, steps, world, layout.has_angular_velocity);
+            };
             trajectory.begin();
             CHECK(is_right({}));
             append(0);
@@ -167,7 +178,8 @@ TEST_CASE("going on takes a trajectory back to its last commit, and further back
     CHECK(holds(path, 300, {0, 1, 2, 4}, world));
 }
 
-TEST_CASE("going on to another last step gives all frames the box of that step, once it is committed") {
+TEST_CASE(
+    "going on to another last step gives all frames the box of that step, once it is committed") {
     const Communicator world = Communicator::world();
     const TestFolder folder(world);
     const std::string path = folder.file("t.h5");
@@ -178,7 +190,8 @@ TEST_CASE("going on to another last step gives all frames the box of that step, 
     };
     Trajectory first(path, layout_with(64), world);
     first.begin();
-    for (std::int64_t step = 0; step < 300; ++step) first.append(step, share(40, step, world), 1.5); // more than a chunk of labels
+    for (std::int64_t step = 0; step < 300; ++step)
+        first.append(step, share(40, step, world), 1.5); // more than a chunk of labels
     first.commit();
     std::vector<std::int64_t> steps(300);
     std::iota(steps.begin(), steps.end(), 0);
@@ -187,7 +200,8 @@ TEST_CASE("going on to another last step gives all frames the box of that step, 
         killed.go_on(299);
         CHECK(holds(path, 40, steps, world, false, 80));
     } // never committed
-    CHECK_THROWS_AS(Trajectory(path, layout_of(41), world).go_on(299), CollectiveError); // has taken it back before it looks
+    CHECK_THROWS_AS(Trajectory(path, layout_of(41), world).go_on(299),
+                    CollectiveError); // has taken it back before it looks
     CHECK(holds(path, 40, steps, world, false, 64));
     for (const double box_size : {80.0, 72.0}) { // longer, shorter
         Trajectory trajectory(path, layout_with(box_size), world);
@@ -207,12 +221,14 @@ TEST_CASE("a log of collisions keeps the order of the ranks and is cut back") {
     const TestFolder folder(world);
     const std::string path = folder.file("c.h5");
     const auto collision = [](std::int64_t k) {
-        return LoggedCollision{k / 10 + 1, 0.5 * static_cast<double>(k), k, k % 3 == 0 ? -1 : k + 1, 0.1 * static_cast<double>(k)};
+        return LoggedCollision{k / 10 + 1, 0.5 * static_cast<double>(k), k, k % 3 == 0 ? -1 : k + 1,
+                               0.1 * static_cast<double>(k)};
     };
     const auto append = [&](CollisionLog& log, std::int64_t begin, std::int64_t end) {
         std::vector<LoggedCollision> mine; // a slice of them
         const std::int64_t n = end - begin, p = world.size(), r = world.rank();
-        for (std::int64_t k = begin + n * r / p; k < begin + n * (r + 1) / p; ++k) mine.push_back(collision(k));
+        for (std::int64_t k = begin + n * r / p; k < begin + n * (r + 1) / p; ++k)
+            mine.push_back(collision(k));
         log.append(mine);
     };
     const auto holds_log = [&](std::int64_t n) {
@@ -221,11 +237,14 @@ TEST_CASE("a log of collisions keeps the order of the ranks and is cut back") {
         if (world.is_root()) {
             const FrameFile file(path);
             std::vector<LoggedCollision> rows;
-            is_right = file.summary().kind == FileKind::collisions && file.summary().n_logged == static_cast<std::uint64_t>(n);
+            is_right = file.summary().kind == FileKind::collisions &&
+                       file.summary().n_logged == static_cast<std::uint64_t>(n);
             if (is_right) file.read(0, file.summary().n_logged, rows);
             for (std::int64_t k = 0; is_right && k < n; ++k) {
-                const LoggedCollision &row = rows[static_cast<std::size_t>(k)], wanted = collision(k);
-                is_right = row.step == wanted.step && row.time == wanted.time && row.p == wanted.p && row.q == wanted.q && row.impulse == wanted.impulse;
+                const LoggedCollision &row = rows[static_cast<std::size_t>(k)],
+                                      wanted = collision(k);
+                is_right = row.step == wanted.step && row.time == wanted.time &&
+                           row.p == wanted.p && row.q == wanted.q && row.impulse == wanted.impulse;
             }
         }
         world.barrier();

@@ -13,8 +13,11 @@ using namespace carrom::test;
 
 namespace {
 
-/// The largest distance between a distribution that was counted in bins and the one that `cumulative` says, at the bins' ends.
-template <class Cumulative> double largest_distance(const std::vector<double>& counts, const std::vector<double>& ends, double all, const Cumulative& cumulative) {
+/// The largest distance between a distribution that was counted in bins and the one that
+/// `cumulative` says, at the bins' ends.
+template <class Cumulative>
+double largest_distance(const std::vector<double>& counts, const std::vector<double>& ends,
+                        double all, const Cumulative& cumulative) {
     double below = 0, largest = 0;
     for (std::size_t k = 0; k < counts.size(); ++k) {
         below += counts[k];
@@ -27,7 +30,8 @@ constexpr double kolmogorov_one_in_a_thousand = 1.95;
 
 } // namespace
 
-// Summed over a fine grid of differences: of two independent points in [0, a] the difference d has the density (a - |d|) / a^2.
+// Summed over a fine grid of differences: of two independent points in [0, a] the difference d has
+// the density (a - |d|) / a^2.
 TEST_CASE("measurements: the share of ideal pairs is the integral of their differences' density") {
     const double a = 3, b = 2;
     for (const double r : {0.1, 0.7, 1.5, 2.0}) {
@@ -51,15 +55,18 @@ TEST_CASE("measurements: discs that do not meet are anywhere: g is 1") {
     Simulation simulation = simulation_of(scene, test, world);
     Sampler sampler(scene, simulation, world);
     advance_to(simulation, sampler, 4000);
-    const std::vector<double> pairs = column_of(sampler.tables(), "radial_distribution", "pairs"), g = column_of(sampler.tables(), "radial_distribution", "g");
+    const std::vector<double> pairs = column_of(sampler.tables(), "radial_distribution", "pairs"),
+                              g = column_of(sampler.tables(), "radial_distribution", "g");
     for (std::size_t k = 0; k < g.size(); ++k) {
         INFO("bin " << k << " with " << pairs[k] << " pairs, g = " << g[k]);
         CHECK(std::fabs(g[k] - 1) < 5 / std::sqrt(pairs[k] / g[k]));
     }
 }
 
-// Contact value: Z - 1 = 2 eta g(sigma); Henderson's g(sigma) = (1 - 7 eta / 16) / (1 - eta)^2 (Mol. Phys. 30, 971 (1975)).
-TEST_CASE("measurements: a gas has Maxwell's velocities, one pressure on all sides, and g of hard discs") {
+// Contact value: Z - 1 = 2 eta g(sigma); Henderson's g(sigma) = (1 - 7 eta / 16) / (1 - eta)^2
+// (Mol. Phys. 30, 971 (1975)).
+TEST_CASE("measurements: a gas has Maxwell's velocities, one pressure on all sides, and g of hard "
+          "discs") {
     const Communicator world = Communicator::world();
     const double eta = 0.2;
     TestScene test = gas(1000, eta, 0.2, 82);
@@ -75,20 +82,26 @@ TEST_CASE("measurements: a gas has Maxwell's velocities, one pressure on all sid
     const auto normal = [&](double v) { return 0.5 * std::erfc(-v / std::sqrt(2 * kT)); };
     const auto maxwell = [&](double v) { return 1 - std::exp(-v * v / (2 * kT)); };
     for (const char* component : {"vx_count", "vy_count"})
-        CHECK(largest_distance(column_of(tables, "velocities", component), column_of(tables, "velocities", "to"), n_samples * n, normal) <
-              kolmogorov_one_in_a_thousand / std::sqrt(n_samples * n));
-    CHECK(largest_distance(column_of(tables, "speeds", "count"), column_of(tables, "speeds", "to"), n_samples * n, maxwell) <
-          kolmogorov_one_in_a_thousand / std::sqrt(n_samples * n));
+        CHECK(largest_distance(column_of(tables, "velocities", component),
+                               column_of(tables, "velocities", "to"), n_samples * n,
+                               normal) < kolmogorov_one_in_a_thousand / std::sqrt(n_samples * n));
+    CHECK(largest_distance(column_of(tables, "speeds", "count"), column_of(tables, "speeds", "to"),
+                           n_samples * n,
+                           maxwell) < kolmogorov_one_in_a_thousand / std::sqrt(n_samples * n));
 
     // Bulk discs at this packing, and walls: Z_box = Z_bulk + 0.98 / sqrt(N) (docs/validation.md).
-    const double pressure = n * kT / (scene.box_size * scene.box_size) * (1.57036 + 0.98 / std::sqrt(n));
+    const double pressure = n * kT / (scene.box_size * scene.box_size) *
+                            (1.57036 + 0.98 / std::sqrt(n));
     for (const char* side : {"left", "right", "bottom", "top"}) {
-        const double measured_pressure = column_of(tables, "wall_pressure", side)[0], error = column_of(tables, "wall_pressure", std::string(side) + "_error")[0];
-        INFO(side << " " << measured_pressure << " +- " << error << ", " << pressure << " expected");
+        const double measured_pressure = column_of(tables, "wall_pressure", side)[0],
+                     error = column_of(tables, "wall_pressure", std::string(side) + "_error")[0];
+        INFO(side << " " << measured_pressure << " +- " << error << ", " << pressure
+                  << " expected");
         CHECK(error < 0.05 * pressure);
         CHECK(measured_pressure == Approx(pressure).margin(4 * error));
     }
-    // Nothing inside a diameter; just outside, the contact value (less what g falls by in half a bin).
+    // Nothing inside a diameter; just outside, the contact value (less what g falls by in half a
+    // bin).
     const std::vector<double> g = column_of(tables, "radial_distribution", "g");
     for (std::size_t k = 0; k < 40; ++k) CHECK(g[k] == 0);
     const double contact = (1 - 7 * eta / 16) / ((1 - eta) * (1 - eta));
@@ -100,7 +113,8 @@ TEST_CASE("measurements: the density over a thermal floor falls as the barometri
     TestScene test = gas(1000, 0.01, 0.2, 83);
     test.setting.effects.contact.kind = ContactKind::none;
     test.setting.effects.boundaries[2] = {BoundaryKind::thermal, 1, 1, 0};
-    const double height = 3 / (test.setting.box_size - 2 * test.setting.radius); // the box is three heights high
+    const double height = 3 / (test.setting.box_size -
+                               2 * test.setting.radius); // the box is three heights high
     test.setting.effects.gravity.y = -height;
     test.setting.sync_every = 16;
     test.steps = 100000;
@@ -114,8 +128,9 @@ TEST_CASE("measurements: the density over a thermal floor falls as the barometri
         const double h = std::clamp(y - low, 0.0, span) * height;
         return (1 - std::exp(-h)) / (1 - std::exp(-3.0));
     };
-    CHECK(largest_distance(column_of(sampler.tables(), "density_y", "count"), column_of(sampler.tables(), "density_y", "to"), 1000, barometric) <
-          kolmogorov_one_in_a_thousand / std::sqrt(1000.0));
+    CHECK(largest_distance(column_of(sampler.tables(), "density_y", "count"),
+                           column_of(sampler.tables(), "density_y", "to"), 1000,
+                           barometric) < kolmogorov_one_in_a_thousand / std::sqrt(1000.0));
 }
 
 TEST_CASE("measurements: discs that meet nothing are displaced by their velocities") {
@@ -133,7 +148,9 @@ TEST_CASE("measurements: discs that meet nothing are displaced by their velociti
     Simulation simulation = simulation_of(scene, test, world);
     Sampler sampler(scene, simulation, world);
     advance_to(simulation, sampler, 64);
-    const std::vector<double> steps = column_of(sampler.tables(), "displacement", "steps"), sums = column_of(sampler.tables(), "displacement", "sum");
+    const std::vector<double> steps = column_of(sampler.tables(), "displacement", "steps"),
+                              sums = column_of(sampler.tables(), "displacement", "sum");
     REQUIRE(steps.size() == 9);
-    for (std::size_t k = 0; k < steps.size(); ++k) CHECK(sums[k] == Approx(squares / 200 * steps[k] * steps[k]).epsilon(1e-12));
+    for (std::size_t k = 0; k < steps.size(); ++k)
+        CHECK(sums[k] == Approx(squares / 200 * steps[k] * steps[k]).epsilon(1e-12));
 }

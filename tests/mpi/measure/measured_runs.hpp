@@ -15,23 +15,28 @@
 namespace carrom::test {
 
 /// Asks for every quantity.
-inline Scene measured(const TestScene& test, Method method, std::int64_t every_steps, std::int64_t from_step = 0) {
+inline Scene measured(const TestScene& test, Method method, std::int64_t every_steps,
+                      std::int64_t from_step = 0) {
     Scene scene = scene_of(test);
     scene.method = method;
     MeasurementOutput& output = scene.measurements.emplace();
     output.every_steps = every_steps;
     output.from_step = from_step;
-    output.wall_pressure = output.radial_distribution = output.velocities = output.density = output.displacement = true;
+    output.wall_pressure = output.radial_distribution = output.velocities = output.density =
+        output.displacement = true;
     output.bins = 20;
     output.largest_distance = 6 * scene.radius;
     return scene;
 }
 
 /// The discs are dealt to the ranks by their ids, and run with all threads.
-inline Simulation simulation_of(const Scene& scene, const TestScene& test, const Communicator& world) {
+inline Simulation simulation_of(const Scene& scene, const TestScene& test,
+                                const Communicator& world) {
     std::vector<InputDisc> mine;
     for (const InputDisc& disc : test.discs)
-        if (disc.id % static_cast<std::uint64_t>(world.size()) == static_cast<std::uint64_t>(world.rank())) mine.push_back(disc);
+        if (disc.id % static_cast<std::uint64_t>(world.size()) ==
+            static_cast<std::uint64_t>(world.rank()))
+            mine.push_back(disc);
     Tuning tuning;
     tuning.threads = omp_get_max_threads();
     tuning.discs_per_thread = 1;
@@ -47,18 +52,22 @@ inline void advance_to(Simulation& simulation, Sampler& sampler, std::int64_t st
     }
 }
 
-inline const MeasuredTable& table_of(const std::vector<MeasuredTable>& tables, const std::string& name) {
-    const auto found = std::find_if(tables.begin(), tables.end(), [&](const MeasuredTable& table) { return table.name == name; });
+inline const MeasuredTable& table_of(const std::vector<MeasuredTable>& tables,
+                                     const std::string& name) {
+    const auto found = std::find_if(tables.begin(), tables.end(),
+                                    [&](const MeasuredTable& table) { return table.name == name; });
     ensure(found != tables.end(), "no table of that name");
     return *found;
 }
 
-inline std::vector<double> column_of(const std::vector<MeasuredTable>& tables, const std::string& name, const std::string& column) {
+inline std::vector<double> column_of(const std::vector<MeasuredTable>& tables,
+                                     const std::string& name, const std::string& column) {
     const MeasuredTable& table = table_of(tables, name);
     const auto found = std::find(table.columns.begin(), table.columns.end(), column);
     ensure(found != table.columns.end(), "no column of that name");
     std::vector<double> numbers;
-    for (const std::vector<double>& row : table.rows) numbers.push_back(row[static_cast<std::size_t>(found - table.columns.begin())]);
+    for (const std::vector<double>& row : table.rows)
+        numbers.push_back(row[static_cast<std::size_t>(found - table.columns.begin())]);
     return numbers;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every count and sum of the tables, against one computed from all discs as the run shows them, pair by pair; and the same
-// after measuring has been stored and gone on with.
+// Every count and sum of the tables, against one computed from all discs as the run shows them,
+// pair by pair; and the same after measuring has been stored and gone on with.
 #include <array>
 #include <cmath>
 #include <vector>
@@ -8,8 +8,8 @@
 #include "catch.hpp"
 
 #include "core/errors.hpp"
-#include "parallel/exchange.hpp"
 #include "measured_runs.hpp"
+#include "parallel/exchange.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -25,7 +25,8 @@ struct Seen {
 std::vector<Seen> all_of(const Simulation& simulation, const Communicator& world) {
     std::vector<Seen> mine;
     const double unit = simulation.velocity_unit(), time = simulation.clock();
-    for (const Disc& disc : simulation.shown()) mine.push_back({disc.id, disc.x_at(time), disc.y_at(time), disc.vx * unit, disc.vy * unit});
+    for (const Disc& disc : simulation.shown())
+        mine.push_back({disc.id, disc.x_at(time), disc.y_at(time), disc.vx * unit, disc.vy * unit});
     std::vector<std::vector<Seen>> out(static_cast<std::size_t>(world.size()), mine);
     std::vector<Seen> all = send_to_owners(world, out).items;
     std::sort(all.begin(), all.end(), [](const Seen& a, const Seen& b) { return a.id < b.id; });
@@ -34,18 +35,21 @@ std::vector<Seen> all_of(const Simulation& simulation, const Communicator& world
 
 /// The tables as one would fill them by hand.
 struct ByHand {
-    std::vector<double> pairs = std::vector<double>(20, 0), vx = pairs, vy = pairs, speeds = pairs, x = pairs, y = pairs, displacement;
+    std::vector<double> pairs = std::vector<double>(20, 0), vx = pairs, vy = pairs, speeds = pairs,
+                        x = pairs, y = pairs, displacement;
     std::vector<Seen> first;
 
     static void count(std::vector<double>& bins, double value, double low, double high) {
         for (std::size_t k = 0; k < bins.size(); ++k) {
             const double n = static_cast<double>(bins.size());
-            const double from = low + (high - low) * static_cast<double>(k) / n, to = low + (high - low) * static_cast<double>(k + 1) / n;
+            const double from = low + (high - low) * static_cast<double>(k) / n,
+                         to = low + (high - low) * static_cast<double>(k + 1) / n;
             if (value >= from && value < to) bins[k] += 1;
         }
     }
 
-    void look(const std::vector<Seen>& discs, const Extent& box, double largest_distance, double largest_velocity) {
+    void look(const std::vector<Seen>& discs, const Extent& box, double largest_distance,
+              double largest_velocity) {
         if (first.empty()) first = discs;
         double sum = 0;
         for (std::size_t i = 0; i < discs.size(); ++i) {
@@ -55,8 +59,10 @@ struct ByHand {
             count(speeds, std::hypot(p.vx, p.vy), 0, largest_velocity);
             count(x, p.x, box.x_low, box.x_high);
             count(y, p.y, box.y_low, box.y_high);
-            for (std::size_t j = 0; j < i; ++j) count(pairs, std::hypot(p.x - discs[j].x, p.y - discs[j].y), 0, largest_distance);
-            sum += (p.x - first[i].x) * (p.x - first[i].x) + (p.y - first[i].y) * (p.y - first[i].y);
+            for (std::size_t j = 0; j < i; ++j)
+                count(pairs, std::hypot(p.x - discs[j].x, p.y - discs[j].y), 0, largest_distance);
+            sum += (p.x - first[i].x) * (p.x - first[i].x) +
+                   (p.y - first[i].y) * (p.y - first[i].y);
         }
         displacement.push_back(sum / static_cast<double>(discs.size()));
     }
@@ -78,8 +84,12 @@ std::vector<Case> cases() {
     sinking.gravity = {0.001, -0.003};
     sinking.drag = 0.02;
     piston.boundaries[1] = {BoundaryKind::moving, 1, 0, -0.05};
-    return {{"rule one", Method::time_stepped, none}, {"rule all", Method::event_driven, none}, {"gravity and a thermal floor", Method::event_driven, falling},
-            {"drag", Method::event_driven, slowed}, {"gravity and drag", Method::event_driven, sinking}, {"a piston", Method::event_driven, piston}};
+    return {{"rule one", Method::time_stepped, none},
+            {"rule all", Method::event_driven, none},
+            {"gravity and a thermal floor", Method::event_driven, falling},
+            {"drag", Method::event_driven, slowed},
+            {"gravity and drag", Method::event_driven, sinking},
+            {"a piston", Method::event_driven, piston}};
 }
 
 } // namespace
@@ -100,7 +110,9 @@ TEST_CASE("measurements: tables are what all discs and pairs give") {
         ByHand expected;
         for (std::int64_t step = 5; step <= 60; step += 9) {
             advance_to(simulation, sampler, step);
-            expected.look(all_of(simulation, world), extent_at(scene.effects, scene.box_size, static_cast<double>(step)), scene.measurements->largest_distance, 1);
+            expected.look(all_of(simulation, world),
+                          extent_at(scene.effects, scene.box_size, static_cast<double>(step)),
+                          scene.measurements->largest_distance, 1);
         }
         const std::vector<MeasuredTable> tables = sampler.tables();
         CHECK(column_of(tables, "radial_distribution", "pairs") == expected.pairs);
@@ -111,7 +123,8 @@ TEST_CASE("measurements: tables are what all discs and pairs give") {
         CHECK(column_of(tables, "density_y", "count") == expected.y);
         const std::vector<double> displacement = column_of(tables, "displacement", "sum");
         REQUIRE(displacement.size() == expected.displacement.size());
-        for (std::size_t k = 0; k < displacement.size(); ++k) CHECK(displacement[k] == Approx(expected.displacement[k]).epsilon(1e-12));
+        for (std::size_t k = 0; k < displacement.size(); ++k)
+            CHECK(displacement[k] == Approx(expected.displacement[k]).epsilon(1e-12));
     }
 }
 
@@ -119,11 +132,13 @@ TEST_CASE("measurements: with open sides, velocities and places of discs that ar
     const Communicator world = Communicator::world();
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         TestScene test = gas(300, 0.2, 0.5, 73);
-        test.setting.effects.boundaries[0] = test.setting.effects.boundaries[3] = {BoundaryKind::open, 1, 0, 0};
+        test.setting.effects.boundaries[0] = test.setting.effects.boundaries[3] = {
+            BoundaryKind::open, 1, 0, 0};
         test.steps = 60;
         Scene scene = measured(test, method, 9, 5);
         scene.measurements->largest_velocity = 1;
-        scene.measurements->radial_distribution = scene.measurements->displacement = scene.measurements->wall_pressure = false;
+        scene.measurements->radial_distribution = scene.measurements->displacement =
+            scene.measurements->wall_pressure = false;
         Simulation simulation = simulation_of(scene, test, world);
         Sampler sampler(scene, simulation, world);
         ByHand expected;
@@ -143,7 +158,8 @@ TEST_CASE("measurements: with open sides, velocities and places of discs that ar
         CHECK(column_of(tables, "speeds", "count") == expected.speeds);
         CHECK(column_of(tables, "density_x", "count") == expected.x);
         CHECK(column_of(tables, "density_y", "count") == expected.y);
-        CHECK(column_of(tables, "velocities", "vx_density")[10] == Approx(expected.vx[10] / static_cast<double>(n_seen) / 0.1).epsilon(1e-12));
+        CHECK(column_of(tables, "velocities", "vx_density")[10] ==
+              Approx(expected.vx[10] / static_cast<double>(n_seen) / 0.1).epsilon(1e-12));
     }
 }
 
@@ -164,22 +180,30 @@ TEST_CASE("measurements: what walls have got is what discs have lost") {
         const Totals after = simulation.totals();
         const auto n = static_cast<double>(after.n_discs);
         const auto impulse = [&, tables = sampler.tables()](const char* side) {
-            const bool is_upright = side[0] == 'l' || side[0] == 'r'; // a piston changes the others' length
+            const bool is_upright = side[0] == 'l' ||
+                                    side[0] == 'r'; // a piston changes the others' length
             double sum = 0;
             const std::vector<double> pressures = column_of(tables, "wall_pressure_history", side);
             for (std::size_t k = 0; k < pressures.size(); ++k) {
                 const double middle = 8 * static_cast<double>(k) + 4;
-                sum += pressures[k] * 8 * (scene.box_size + (is_upright ? 0 : scene.effects.boundaries[1].speed * middle));
+                sum += pressures[k] * 8 *
+                       (scene.box_size +
+                        (is_upright ? 0 : scene.effects.boundaries[1].speed * middle));
             }
             return sum;
         };
         // A thermal floor also takes and gives momentum along itself.
         if (each.effects.boundaries[2].kind != BoundaryKind::thermal)
-            CHECK(impulse("left") - impulse("right") + n * 80 * scene.effects.gravity.x == Approx(after.momentum_x - before.momentum_x).margin(1e-9));
-        CHECK(impulse("bottom") - impulse("top") + n * 80 * scene.effects.gravity.y == Approx(after.momentum_y - before.momentum_y).margin(1e-9));
+            CHECK(impulse("left") - impulse("right") + n * 80 * scene.effects.gravity.x ==
+                  Approx(after.momentum_x - before.momentum_x).margin(1e-9));
+        CHECK(impulse("bottom") - impulse("top") + n * 80 * scene.effects.gravity.y ==
+              Approx(after.momentum_y - before.momentum_y).margin(1e-9));
         double collisions = 0;
-        for (const char* side : {"left", "right", "bottom", "top"}) collisions += column_of(sampler.tables(), "wall_pressure", std::string(side) + "_collisions")[0];
-        // A corner is two of them at once in the event-driven method, and counts once under the other.
+        for (const char* side : {"left", "right", "bottom", "top"})
+            collisions += column_of(sampler.tables(), "wall_pressure",
+                                    std::string(side) + "_collisions")[0];
+        // A corner is two of them at once in the event-driven method, and counts once under the
+        // other.
         CHECK(collisions == static_cast<double>(after.wall_collisions));
     }
 }
@@ -211,7 +235,8 @@ TEST_CASE("measurements: a run that stores them and goes on has the same tables"
         Sampler sampler(scene, second, world);
         sampler.go_on(std::move(samples));
         advance_to(second, sampler, 50);
-        const std::vector<MeasuredTable> expected = whole_sampler.tables(), tables = sampler.tables();
+        const std::vector<MeasuredTable> expected = whole_sampler.tables(),
+                                         tables = sampler.tables();
         REQUIRE(tables.size() == expected.size());
         for (std::size_t k = 0; k < tables.size(); ++k) {
             INFO(tables[k].name);
@@ -221,7 +246,8 @@ TEST_CASE("measurements: a run that stores them and goes on has the same tables"
     }
 }
 
-TEST_CASE("measurements: sums of other keys are refused, and left aside where measuring begins later") {
+TEST_CASE(
+    "measurements: sums of other keys are refused, and left aside where measuring begins later") {
     const Communicator world = Communicator::world();
     const TestScene test = gas(50, 0.1, 0.5, 74);
     const Scene scene = measured(test, Method::event_driven, 2);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is measured in boxes with periodic sides: pairs as nearest images, displacements on through the seams.
+// What is measured in boxes with periodic sides: pairs as nearest images, displacements on through
+// the seams.
 #include <array>
 #include <cmath>
 #include <map>
@@ -9,8 +10,8 @@
 
 #include "catch.hpp"
 
-#include "parallel/exchange.hpp"
 #include "measured_runs.hpp"
+#include "parallel/exchange.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -28,7 +29,8 @@ struct Case {
 std::vector<Case> cases() {
     Effects around, along_x, apart;
     around.boundaries = {periodic, periodic, periodic, periodic};
-    along_x.boundaries = {periodic, periodic, Boundary{}, Boundary{BoundaryKind::thermal, 1, 0.2, 0}};
+    along_x.boundaries = {periodic, periodic, Boundary{},
+                          Boundary{BoundaryKind::thermal, 1, 0.2, 0}};
     apart = around;
     apart.contact.kind = ContactKind::none;
     Effects mixed = around, each_its_own = around;
@@ -37,9 +39,14 @@ std::vector<Case> cases() {
     each_its_own.contact = {ContactKind::rough, 1, 0.001, 1, 1, 0.5};
     Effects falling = along_x;
     falling.gravity = {0, -0.003};
-    return {{"rule one, all round", Method::time_stepped, around}, {"rule one, along x", Method::time_stepped, along_x}, {"rule all, all round", Method::event_driven, around},
-            {"rule all, along x, with gravity", Method::event_driven, falling}, {"no contact", Method::event_driven, apart},
-            {"several classes, rule one", Method::time_stepped, mixed}, {"several classes", Method::event_driven, mixed}, {"rough discs, each its own class", Method::event_driven, each_its_own}};
+    return {{"rule one, all round", Method::time_stepped, around},
+            {"rule one, along x", Method::time_stepped, along_x},
+            {"rule all, all round", Method::event_driven, around},
+            {"rule all, along x, with gravity", Method::event_driven, falling},
+            {"no contact", Method::event_driven, apart},
+            {"several classes, rule one", Method::time_stepped, mixed},
+            {"several classes", Method::event_driven, mixed},
+            {"rough discs, each its own class", Method::event_driven, each_its_own}};
 }
 
 /// A gas that flies some box lengths in its time, a few between syncs.
@@ -52,7 +59,8 @@ TestScene fast_gas(const Effects& effects) {
     return test;
 }
 
-Scene measured_around(const TestScene& test, Method method, std::int64_t every_steps, std::int64_t from_step) {
+Scene measured_around(const TestScene& test, Method method, std::int64_t every_steps,
+                      std::int64_t from_step) {
     Scene scene = measured(test, method, every_steps, from_step);
     scene.measurements->wall_pressure = !scene.effects.is_periodic_y();
     return scene;
@@ -65,25 +73,30 @@ struct Seen {
 
 std::vector<Seen> all_of(const Simulation& simulation, const Communicator& world) {
     std::vector<Seen> mine;
-    for (const Disc& disc : simulation.shown()) mine.push_back({disc.id, disc.x_at(simulation.clock()), disc.y_at(simulation.clock())});
+    for (const Disc& disc : simulation.shown())
+        mine.push_back({disc.id, disc.x_at(simulation.clock()), disc.y_at(simulation.clock())});
     std::vector<std::vector<Seen>> out(static_cast<std::size_t>(world.size()), mine);
     std::vector<Seen> all = send_to_owners(world, out).items;
     std::sort(all.begin(), all.end(), [](const Seen& a, const Seen& b) { return a.id < b.id; });
     return all;
 }
 
-double to_nearest_image(double d, double period) { return period == 0 ? d : d - period * std::round(d / period); }
+double to_nearest_image(double d, double period) {
+    return period == 0 ? d : d - period * std::round(d / period);
+}
 
 } // namespace
 
 // By hand: the run is looked at every step, in which no disc gets as far as half the box.
-TEST_CASE("measurements: in periodic boxes, distances of nearest images and displacements through the seams") {
+TEST_CASE("measurements: in periodic boxes, distances of nearest images and displacements through "
+          "the seams") {
     const Communicator world = Communicator::world();
     for (const Case& each : cases()) {
         INFO(each.name);
         const TestScene test = fast_gas(each.effects);
         const Scene scene = measured_around(test, each.method, 9, 5);
-        const double period_x = scene.box_size, period_y = scene.effects.is_periodic_y() ? scene.box_size : 0;
+        const double period_x = scene.box_size,
+                     period_y = scene.effects.is_periodic_y() ? scene.box_size : 0;
         Simulation simulation = simulation_of(scene, test, world);
         Sampler sampler(scene, simulation, world);
         std::vector<Seen> before;
@@ -104,11 +117,15 @@ TEST_CASE("measurements: in periodic boxes, distances of nearest images and disp
                 sum += flown[i][0] * flown[i][0] + flown[i][1] * flown[i][1];
                 farthest = std::max(farthest, std::fabs(flown[i][0]));
                 for (std::size_t j = 0; j < i && (step - 5) % 9 == 0; ++j) {
-                    const double distance = std::hypot(to_nearest_image(now[i].x - now[j].x, period_x), to_nearest_image(now[i].y - now[j].y, period_y));
+                    const double distance = std::hypot(
+                        to_nearest_image(now[i].x - now[j].x, period_x),
+                        to_nearest_image(now[i].y - now[j].y, period_y));
                     const double bin = distance / scene.measurements->largest_distance * 20;
                     if (!(bin < 20)) continue;
                     pairs[static_cast<std::size_t>(bin)] += 1;
-                    std::vector<double>& of_species = pairs_of[std::to_string(species_of(now[j].id)) + "_" + std::to_string(species_of(now[i].id))];
+                    std::vector<double>& of_species =
+                        pairs_of[std::to_string(species_of(now[j].id)) + "_" +
+                                 std::to_string(species_of(now[i].id))];
                     of_species.resize(20, 0);
                     of_species[static_cast<std::size_t>(bin)] += 1;
                 }
@@ -120,21 +137,32 @@ TEST_CASE("measurements: in periodic boxes, distances of nearest images and disp
         const std::vector<MeasuredTable> tables = sampler.tables();
         CHECK(column_of(tables, "radial_distribution", "pairs") == pairs);
         const bool are_distinguished = scene.effects.species.size() == 3;
-        CHECK(table_of(tables, "radial_distribution").columns.size() == (are_distinguished ? 16 : 4));
+        CHECK(table_of(tables, "radial_distribution").columns.size() ==
+              (are_distinguished ? 16 : 4));
         for (const auto& [species, counted] : pairs_of) {
             if (!are_distinguished) continue;
             CHECK(column_of(tables, "radial_distribution", "pairs_" + species) == counted);
-            const double n_a = species[0] == '1' ? 40 : species[0] == '2' ? 60 : 50, n_b = species[2] == '1' ? 40 : species[2] == '2' ? 60 : 50;
-            const double n_pairs = species[0] == species[2] ? n_a * (n_a - 1) / 2 : n_a * n_b, width = scene.measurements->largest_distance / 20;
+            const double n_a = species[0] == '1'   ? 40
+                               : species[0] == '2' ? 60
+                                                   : 50,
+                         n_b = species[2] == '1'   ? 40
+                               : species[2] == '2' ? 60
+                                                   : 50;
+            const double n_pairs = species[0] == species[2] ? n_a * (n_a - 1) / 2 : n_a * n_b,
+                         width = scene.measurements->largest_distance / 20;
             const std::vector<double> g = column_of(tables, "radial_distribution", "g_" + species);
             for (std::size_t k = 0; k < 20; ++k) { // a ring's area over the box's, for each sample
-                const double ring = std::numbers::pi * width * width * static_cast<double>(2 * k + 1) / (period_x * period_y);
-                CHECK(g[k] == Approx(counted[k] / (n_pairs * ring * static_cast<double>(squares.size()))).epsilon(1e-12));
+                const double ring = std::numbers::pi * width * width *
+                                    static_cast<double>(2 * k + 1) / (period_x * period_y);
+                CHECK(g[k] ==
+                      Approx(counted[k] / (n_pairs * ring * static_cast<double>(squares.size())))
+                          .epsilon(1e-12));
             }
         }
         const std::vector<double> displacement = column_of(tables, "displacement", "sum");
         REQUIRE(displacement.size() == squares.size());
-        for (std::size_t k = 0; k < squares.size(); ++k) CHECK(displacement[k] == Approx(squares[k]).epsilon(1e-11));
+        for (std::size_t k = 0; k < squares.size(); ++k)
+            CHECK(displacement[k] == Approx(squares[k]).epsilon(1e-11));
         if (scene.measurements->wall_pressure) {
             CHECK(std::isnan(column_of(tables, "wall_pressure", "left")[0]));
             CHECK(column_of(tables, "wall_pressure", "top")[0] > 0);
@@ -152,18 +180,24 @@ TEST_CASE("measurements: discs that do not meet have the displacement v t, aroun
         const TestScene test = fast_gas(effects);
         const Scene scene = measured_around(test, method, 16, 0);
         long double mean_square = 0;
-        for (const InputDisc& disc : test.discs) mean_square += static_cast<long double>(disc.vx) * disc.vx + static_cast<long double>(disc.vy) * disc.vy;
+        for (const InputDisc& disc : test.discs)
+            mean_square += static_cast<long double>(disc.vx) * disc.vx +
+                           static_cast<long double>(disc.vy) * disc.vy;
         mean_square /= static_cast<long double>(test.discs.size());
         Simulation simulation = simulation_of(scene, test, world);
         Sampler sampler(scene, simulation, world);
         advance_to(simulation, sampler, 64);
-        const std::vector<double> steps = column_of(sampler.tables(), "displacement", "steps"), sum = column_of(sampler.tables(), "displacement", "sum");
+        const std::vector<double> steps = column_of(sampler.tables(), "displacement", "steps"),
+                                  sum = column_of(sampler.tables(), "displacement", "sum");
         REQUIRE(sum.size() == 5);
-        for (std::size_t k = 0; k < sum.size(); ++k) CHECK(sum[k] == Approx(static_cast<double>(mean_square) * steps[k] * steps[k]).epsilon(1e-13));
+        for (std::size_t k = 0; k < sum.size(); ++k)
+            CHECK(sum[k] ==
+                  Approx(static_cast<double>(mean_square) * steps[k] * steps[k]).epsilon(1e-13));
     }
 }
 
-TEST_CASE("measurements: in periodic boxes, a run that stores them and goes on has the same tables") {
+TEST_CASE(
+    "measurements: in periodic boxes, a run that stores them and goes on has the same tables") {
     const Communicator world = Communicator::world();
     for (const Case& each : cases()) {
         INFO(each.name);
@@ -176,23 +210,29 @@ TEST_CASE("measurements: in periodic boxes, a run that stores them and goes on h
         Simulation first = simulation_of(scene, test, world);
         Sampler first_sampler(scene, first, world);
         advance_to(first, first_sampler, 33); // between samples, and between syncs
-        StoredState state = {{first.discs().begin(), first.discs().end()}, first.micro_steps_done(), {first.spins().begin(), first.spins().end()}};
+        StoredState state = {{first.discs().begin(), first.discs().end()},
+                             first.micro_steps_done(),
+                             {first.spins().begin(), first.spins().end()}};
         Simulation second(scene, std::move(state), world, {});
         Sampler sampler(scene, second, world);
         sampler.go_on(first_sampler.stored());
         advance_to(second, sampler, 64);
-        const std::vector<MeasuredTable> expected = whole_sampler.tables(), tables = sampler.tables();
+        const std::vector<MeasuredTable> expected = whole_sampler.tables(),
+                                         tables = sampler.tables();
         REQUIRE(tables.size() == expected.size());
         for (std::size_t k = 0; k < tables.size(); ++k) {
             INFO(tables[k].name);
-            if (tables[k].name.starts_with("wall_pressure")) continue; // has nan, which is not itself
+            if (tables[k].name.starts_with("wall_pressure"))
+                continue; // has nan, which is not itself
             CHECK(tables[k].rows == expected[k].rows);
         }
     }
 }
 
-// Z = 1 + 2 eta g(sigma), with Z of the virial series (Clisby and McCoy 2006): g(sigma) = 1.7719 at a packing of 0.3.
-TEST_CASE("measurements: in a periodic box, g at contact is that of the bulk's pressure, and 1 without contacts") {
+// Z = 1 + 2 eta g(sigma), with Z of the virial series (Clisby and McCoy 2006): g(sigma) = 1.7719 at
+// a packing of 0.3.
+TEST_CASE("measurements: in a periodic box, g at contact is that of the bulk's pressure, and 1 "
+          "without contacts") {
     const Communicator world = Communicator::world();
     for (const bool has_contacts : {true, false}) {
         TestScene test = gas(400, 0.3, 0.7, 76);
@@ -211,7 +251,8 @@ TEST_CASE("measurements: in a periodic box, g at contact is that of the bulk's p
             mean += g[50 + k] / 5;
             slope += (static_cast<double>(k) - 2) * g[50 + k] / 10; // a bin
         }
-        // Five bins of some 6700 pairs: their line's end scatters by about 1 %, and leaves 0.5 % of the curve out.
+        // Five bins of some 6700 pairs: their line's end scatters by about 1 %, and leaves 0.5 % of
+        // the curve out.
         CHECK(mean - 2.5 * slope == Approx(has_contacts ? 1.7719 : 1).epsilon(0.03));
         for (std::size_t k = 0; k < 50 && has_contacts; ++k) CHECK(g[k] == 0);
     }

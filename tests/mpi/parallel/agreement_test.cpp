@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// After an agreement all ranks throw the same, or none does. How a run ends is tested with failing_program.
+// After an agreement all ranks throw the same, or none does. How a run ends is tested with
+// failing_program.
 #include "parallel/agreement.hpp"
 
 #include "catch.hpp"
@@ -21,7 +22,8 @@ std::string agreed(const Communicator& world, bool ok) {
     return "";
 }
 
-std::vector<Problem> agreed_problems(const Communicator& world, const std::vector<Problem>& mine, std::size_t most) {
+std::vector<Problem> agreed_problems(const Communicator& world, const std::vector<Problem>& mine,
+                                     std::size_t most) {
     try {
         carrom::agree_on_problems(world, mine, most);
     } catch (const carrom::InputError& error) {
@@ -42,7 +44,8 @@ TEST_CASE("ranks that are all well agree without a word") {
 TEST_CASE("every rank throws the text and code of the lowest failing one") {
     const Communicator world = Communicator::world();
     for (int failing = 0; failing < world.size(); ++failing) {
-        const std::string expected = (failing == 1 ? "4 rank " : "3 rank ") + std::to_string(failing);
+        const std::string expected = (failing == 1 ? "4 rank " : "3 rank ") +
+                                     std::to_string(failing);
         CHECK(agreed(world, world.rank() != failing) == expected);
         CHECK(agreed(world, world.rank() < failing) == expected);
     }
@@ -53,7 +56,8 @@ TEST_CASE("problems of all ranks reach every rank in rank order") {
     std::vector<Problem> mine, all;
     for (int rank = 0; rank < world.size(); ++rank)
         for (int k = 0; k < (rank + 2) % 3; ++k) {
-            const Problem problem = {k == 0 ? "" : "file " + std::to_string(rank), k * 10, "text\n" + std::to_string(k)};
+            const Problem problem = {k == 0 ? "" : "file " + std::to_string(rank), k * 10,
+                                     "text\n" + std::to_string(k)};
             all.push_back(problem);
             if (rank == world.rank()) mine.push_back(problem);
         }
@@ -65,6 +69,8 @@ TEST_CASE("too many problems are cut short and counted") {
     const std::vector<Problem> mine(5, Problem{"a file", world.rank() + 1, "is wrong"});
     const std::vector<Problem> problems = agreed_problems(world, mine, 3);
     const std::string rest = std::to_string(5 * world.size() - 3) + " more problems";
-    CHECK(problems == std::vector<Problem>{{"a file", 1, "is wrong"}, {"a file", 1, "is wrong"}, {"a file", 1, "is wrong"},
+    CHECK(problems == std::vector<Problem>{{"a file", 1, "is wrong"},
+                                           {"a file", 1, "is wrong"},
+                                           {"a file", 1, "is wrong"},
                                            {"", 0, rest}});
 }

@@ -46,7 +46,8 @@ TEST_CASE("a zero comes out of a reduction without a sign") {
 
 TEST_CASE("sums wrap and add element by element, also in many messages") {
     const Communicator world = Communicator::world(24); // three numbers a message
-    const auto n = static_cast<std::uint64_t>(world.size()), rank = static_cast<std::uint64_t>(world.rank());
+    const auto n = static_cast<std::uint64_t>(world.size()),
+               rank = static_cast<std::uint64_t>(world.rank());
     CHECK(world.sum(rank) == n * (n - 1) / 2);
     CHECK(world.sum(~std::uint64_t{0}) == 0 - n);
     CHECK(world.sum_before(rank + 1) == rank * (rank + 1) / 2);
@@ -89,7 +90,8 @@ TEST_CASE("a broadcast replaces what the others have, from any root, in pieces")
         const Communicator world = Communicator::world(max_message);
         for (int root = 0; root < world.size(); ++root) {
             const bool is_source = world.rank() == root;
-            std::string text = is_source ? "seventeen letters" : std::string(static_cast<std::size_t>(world.rank()), '?');
+            std::string text = is_source ? "seventeen letters"
+                                         : std::string(static_cast<std::size_t>(world.rank()), '?');
             world.broadcast(text, root);
             CHECK(text == "seventeen letters");
             std::string empty = is_source ? "" : "something";
@@ -98,7 +100,8 @@ TEST_CASE("a broadcast replaces what the others have, from any root, in pieces")
             double number = is_source ? 2.5 : 0;
             world.broadcast(number, root);
             CHECK(number == 2.5);
-            std::vector<int> numbers = is_source ? std::vector<int>{1, 2, 3, root} : std::vector<int>(9, 0);
+            std::vector<int> numbers = is_source ? std::vector<int>{1, 2, 3, root}
+                                                 : std::vector<int>(9, 0);
             world.broadcast(numbers, root);
             CHECK(numbers == std::vector<int>{1, 2, 3, root});
         }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Any-to-any exchange, the stream to rank 0 and slabs, with contents that every rank can work out alone.
+// Any-to-any exchange, the stream to rank 0 and slabs, with contents that every rank can work out
+// alone.
 #include "parallel/exchange.hpp"
 
 #include <algorithm>
@@ -32,16 +33,19 @@ std::vector<int> items_of(int rank, int count) {
 } // namespace
 
 TEST_CASE("items sent to their owners arrive grouped by sender") {
-    for (const std::size_t max_message : {Communicator::largest_message, std::size_t{1000}, std::size_t{7}}) {
+    for (const std::size_t max_message :
+         {Communicator::largest_message, std::size_t{1000}, std::size_t{7}}) {
         const Communicator world = Communicator::world(max_message);
         for (int trial = 0; trial < 20; ++trial) {
             std::vector<std::vector<std::uint64_t>> out;
-            for (int rank = 0; rank < world.size(); ++rank) out.push_back(parcel(trial, world.rank(), rank));
+            for (int rank = 0; rank < world.size(); ++rank)
+                out.push_back(parcel(trial, world.rank(), rank));
             const Received<std::uint64_t> in = carrom::send_to_owners(world, out);
             CHECK(in.n_senders() == out.size());
             for (int rank = 0; rank < world.size(); ++rank) {
                 const auto from = in.from(static_cast<std::size_t>(rank));
-                CHECK(std::vector<std::uint64_t>(from.begin(), from.end()) == parcel(trial, rank, world.rank()));
+                CHECK(std::vector<std::uint64_t>(from.begin(), from.end()) ==
+                      parcel(trial, rank, world.rank()));
             }
         }
     }
@@ -61,7 +65,9 @@ TEST_CASE("a stream reaches rank 0 in rank order, in chunks of a bounded size") 
         const Communicator world = Communicator::world(max_message);
         for (const int chunk : {1, 3, 10, 100}) {
             for (const int variant : {0, 1, 2}) {
-                const auto count_of = [&](int rank) { return variant == 0 ? 10 : variant == 1 ? (rank * 7) % 12 : 0; };
+                const auto count_of = [&](int rank) {
+                    return variant == 0 ? 10 : variant == 1 ? (rank * 7) % 12 : 0;
+                };
                 std::vector<int> all, streamed;
                 for (int rank = 0; rank < world.size(); ++rank) {
                     const std::vector<int> items = items_of(rank, count_of(rank));
@@ -89,10 +95,12 @@ TEST_CASE("slabs share ids out evenly, in order") {
             CHECK(carrom::slab_begin(0, n, size) == 0);
             CHECK(carrom::slab_begin(size, n, size) == n);
             for (int rank = 0; rank < size; ++rank) {
-                const std::uint64_t first = carrom::slab_begin(rank, n, size), last = carrom::slab_begin(rank + 1, n, size);
+                const std::uint64_t first = carrom::slab_begin(rank, n, size),
+                                    last = carrom::slab_begin(rank + 1, n, size);
                 const std::uint64_t share = n / static_cast<std::uint64_t>(size);
                 CHECK((last - first == share || last - first == share + 1));
-                for (std::uint64_t id = first; id < last; ++id) CHECK(carrom::slab_of(id, n, size) == rank);
+                for (std::uint64_t id = first; id < last; ++id)
+                    CHECK(carrom::slab_of(id, n, size) == rank);
             }
         }
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fails in the way its argument names, on all ranks, on rank 0, or on the last one while the others wait for it.
+// Fails in the way its argument names, on all ranks, on rank 0, or on the last one while the others
+// wait for it.
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -25,7 +26,8 @@ int fail_as(const std::string& kind, const carrom::Communicator& communicator) {
     if (kind == "different_codes") return communicator.rank() == 1 ? 5 : 0;
     if (kind == "lone_disagreement" && is_last)
         carrom::agree(communicator, false, "the disk is full", carrom::ExitCode::output_failure, 1);
-    if (kind == "no_memory" && is_last) return static_cast<int>(std::vector<double>(std::size_t{1} << 59).size());
+    if (kind == "no_memory" && is_last)
+        return static_cast<int>(std::vector<double>(std::size_t{1} << 59).size());
     if (kind == "lone_exception" && is_last) throw std::runtime_error("out of luck");
     if (kind == "lone_broken_invariant") carrom::ensure(!is_last, "two is not three");
     if (kind == "lone_input_error" && is_last) throw input_error;
@@ -38,6 +40,8 @@ int fail_as(const std::string& kind, const carrom::Communicator& communicator) {
 int main(int argc, char** argv) {
     carrom::Mpi mpi(argc, argv);
     const std::string kind = argc > 1 ? argv[1] : "";
-    const auto body = [&kind](const carrom::Communicator& communicator) { return fail_as(kind, communicator); };
+    const auto body = [&kind](const carrom::Communicator& communicator) {
+        return fail_as(kind, communicator);
+    };
     return carrom::run_on_all(carrom::Communicator::world(), body, 1);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exchanges over random symmetric graphs. What a rank sends is a function of (exchange, sender, receiver), so each
-// receiver knows what it must get without asking.
+// Exchanges over random symmetric graphs. What a rank sends is a function of (exchange, sender,
+// receiver), so each receiver knows what it must get without asking.
 #include "parallel/neighbour_exchange.hpp"
 
 #include <algorithm>
@@ -30,11 +30,13 @@ std::vector<Item> parcel(std::size_t exchange, int sender, int receiver, std::si
     return items;
 }
 
-/// Rank's neighbours in the exchange's random graph, itself perhaps among them, the same edges seen from every rank, in a shuffled order.
+/// Rank's neighbours in the exchange's random graph, itself perhaps among them, the same edges seen
+/// from every rank, in a shuffled order.
 std::vector<int> neighbours_of(std::size_t exchange, int rank, int n_ranks) {
     std::vector<int> neighbours;
     for (int other = 0; other < n_ranks; ++other) {
-        const auto low = static_cast<unsigned>(std::min(rank, other)), high = static_cast<unsigned>(std::max(rank, other));
+        const auto low = static_cast<unsigned>(std::min(rank, other)),
+                   high = static_cast<unsigned>(std::max(rank, other));
         std::mt19937 edge(static_cast<unsigned>(exchange) * 7919 + low * 97 + high);
         if (edge() % 2 == 0) neighbours.push_back(other);
     }
@@ -43,19 +45,23 @@ std::vector<int> neighbours_of(std::size_t exchange, int rank, int n_ranks) {
     return neighbours;
 }
 
-std::vector<std::vector<Item>> parcels_for(std::size_t exchange, int rank, const std::vector<int>& neighbours,
+std::vector<std::vector<Item>> parcels_for(std::size_t exchange, int rank,
+                                           const std::vector<int>& neighbours,
                                            std::size_t largest) {
     std::vector<std::vector<Item>> out;
-    for (const int neighbour : neighbours) out.push_back(parcel(exchange, rank, neighbour, largest));
+    for (const int neighbour : neighbours)
+        out.push_back(parcel(exchange, rank, neighbour, largest));
     return out;
 }
 
-bool is_expected(const Received<Item>& in, std::size_t exchange, int rank, const std::vector<int>& neighbours,
-                 std::size_t largest) {
+bool is_expected(const Received<Item>& in, std::size_t exchange, int rank,
+                 const std::vector<int>& neighbours, std::size_t largest) {
     if (in.n_senders() != neighbours.size()) return false;
     for (std::size_t k = 0; k < neighbours.size(); ++k) {
         const std::span<const Item> from = in.from(k);
-        if (std::vector<Item>(from.begin(), from.end()) != parcel(exchange, neighbours[k], rank, largest)) return false;
+        if (std::vector<Item>(from.begin(), from.end()) !=
+            parcel(exchange, neighbours[k], rank, largest))
+            return false;
     }
     return true;
 }
@@ -83,7 +89,8 @@ TEST_CASE("parcels larger than a first message arrive whole and in order") {
 }
 
 TEST_CASE("parcels that need many messages arrive whole and in order") {
-    for (const std::size_t max_message : {1u, 16u, 17u, 40u, 100u}) check_many(Communicator::world(max_message), 15, 30);
+    for (const std::size_t max_message : {1u, 16u, 17u, 40u, 100u})
+        check_many(Communicator::world(max_message), 15, 30);
 }
 
 TEST_CASE("a rank without neighbours takes part at no cost") {

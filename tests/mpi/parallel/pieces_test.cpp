@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pieces of ids, and records that come to them from any ranks, with contents that every rank can work out alone.
+// Pieces of ids, and records that come to them from any ranks, with contents that every rank can
+// work out alone.
 #include "parallel/pieces.hpp"
 
 #include <algorithm>
@@ -22,7 +23,8 @@ struct Record {
 } // namespace
 
 TEST_CASE("pieces cover all ids, and each rank has a run of them") {
-    for (const std::uint64_t n : {0ul, 1ul, 1024ul, 1025ul, 20011ul, 10'000'000ul, 1'000'000'007ul}) {
+    for (const std::uint64_t n :
+         {0ul, 1ul, 1024ul, 1025ul, 20011ul, 10'000'000ul, 1'000'000'007ul}) {
         for (const int size : {1, 2, 3, 7, 1000}) {
             const Pieces pieces(n, size);
             CHECK(pieces.begin(0) == 0);
@@ -37,7 +39,8 @@ TEST_CASE("pieces cover all ids, and each rank has a run of them") {
                 CHECK(last - first <= pieces.n_rounds());
                 // No rank has more than an eighth and a piece above its share.
                 const auto share = static_cast<double>(n) / size;
-                CHECK(static_cast<double>(pieces.begin(last) - pieces.begin(first)) <= 1.125 * share + static_cast<double>(Pieces::least_rows));
+                CHECK(static_cast<double>(pieces.begin(last) - pieces.begin(first)) <=
+                      1.125 * share + static_cast<double>(Pieces::least_rows));
             }
         }
     }
@@ -52,9 +55,12 @@ TEST_CASE("records in any place come to their pieces in order") {
         std::shuffle(ids.begin(), ids.end(), random);
         std::vector<Record> mine;
         for (const std::uint64_t id : ids)
-            if (static_cast<int>(random() % static_cast<unsigned>(world.size() * world.size())) / world.size() == world.rank())
+            if (static_cast<int>(random() % static_cast<unsigned>(world.size() * world.size())) /
+                    world.size() ==
+                world.rank())
                 mine.push_back({0.5 * static_cast<double>(id), id});
-        carrom::PieceStream stream(world, std::span<const Record>(mine), n, [](const Record& record) { return record.id; });
+        carrom::PieceStream stream(world, std::span<const Record>(mine), n,
+                                   [](const Record& record) { return record.id; });
         const Pieces pieces(n, world.size());
         std::uint64_t next = pieces.begin(pieces.first_of(world.rank()));
         bool all_in_order = true;
@@ -62,7 +68,8 @@ TEST_CASE("records in any place come to their pieces in order") {
             const std::span<const Record> piece = stream.next();
             all_in_order = all_in_order && (piece.empty() || stream.begin() == next);
             for (const Record& record : piece) {
-                all_in_order = all_in_order && record.id == next && record.value == 0.5 * static_cast<double>(next);
+                all_in_order = all_in_order && record.id == next &&
+                               record.value == 0.5 * static_cast<double>(next);
                 ++next;
             }
         }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The distributed sort against std::stable_sort of everybody's records, which each rank makes for itself.
+// The distributed sort against std::stable_sort of everybody's records, which each rank makes for
+// itself.
 #include "parallel/sample_sort.hpp"
 
 #include <functional>
@@ -34,13 +35,16 @@ std::vector<double> random_keys(int rank, std::size_t count, std::uint32_t n_dis
 
 std::vector<double> ramp(int rank, int n_ranks, bool is_reversed) {
     std::vector<double> keys;
-    for (int k = 0; k < 300; ++k) keys.push_back((is_reversed ? -1 : 1) * (k + 300 * rank) + (is_reversed ? 300 * n_ranks : 0));
+    for (int k = 0; k < 300; ++k)
+        keys.push_back((is_reversed ? -1 : 1) * (k + 300 * rank) +
+                       (is_reversed ? 300 * n_ranks : 0));
     return keys;
 }
 
 std::vector<Record> records_of(const Filling& filling, int rank, int n_ranks) {
     std::vector<Record> records;
-    for (const double key : filling(rank, n_ranks)) records.push_back({key, rank, static_cast<int>(records.size())});
+    for (const double key : filling(rank, n_ranks))
+        records.push_back({key, rank, static_cast<int>(records.size())});
     return records;
 }
 
@@ -53,8 +57,8 @@ void check_sort(const Communicator& world, const Filling& filling, int n_slices,
     }
     std::stable_sort(all.begin(), all.end(), by_key);
 
-    const std::vector<Record> slice =
-        carrom::sample_sort(world, records_of(filling, world.rank(), world.size()), by_key, n_slices);
+    const std::vector<Record> slice = carrom::sample_sort(
+        world, records_of(filling, world.rank(), world.size()), by_key, n_slices);
     const std::vector<std::size_t> counts = world.all_gather(slice.size());
     std::size_t begin = 0, total = 0;
     for (std::size_t k = 0; k < counts.size(); ++k) {
@@ -75,7 +79,8 @@ void check_sort(const Communicator& world, const Filling& filling, int n_slices,
 void check_all_slicings(const Filling& filling, bool is_balanced = false) {
     for (const std::size_t max_message : {Communicator::largest_message, std::size_t{100}}) {
         const Communicator world = Communicator::world(max_message);
-        for (int n_slices = 1; n_slices <= world.size(); ++n_slices) check_sort(world, filling, n_slices, is_balanced);
+        for (int n_slices = 1; n_slices <= world.size(); ++n_slices)
+            check_sort(world, filling, n_slices, is_balanced);
     }
 }
 
@@ -86,12 +91,18 @@ TEST_CASE("sort: random records") {
 }
 
 TEST_CASE("sort: ranks of very different counts") {
-    check_all_slicings([](int rank, int) { return random_keys(rank, static_cast<std::size_t>(rank * rank * 200), ~0u); }, true);
+    check_all_slicings(
+        [](int rank, int) {
+            return random_keys(rank, static_cast<std::size_t>(rank * rank * 200), ~0u);
+        },
+        true);
 }
 
 TEST_CASE("sort: all records on one rank") {
-    check_all_slicings([](int rank, int) { return random_keys(rank, rank == 0 ? 5000 : 0, ~0u); }, true);
-    check_all_slicings([](int rank, int n) { return random_keys(rank, rank == n - 1 ? 5000 : 0, ~0u); }, true);
+    check_all_slicings([](int rank, int) { return random_keys(rank, rank == 0 ? 5000 : 0, ~0u); },
+                       true);
+    check_all_slicings(
+        [](int rank, int n) { return random_keys(rank, rank == n - 1 ? 5000 : 0, ~0u); }, true);
 }
 
 TEST_CASE("sort: all records equal") {
@@ -117,8 +128,10 @@ TEST_CASE("sort: no records") {
 }
 
 TEST_CASE("sort: fewer records than ranks") {
-    check_all_slicings([](int rank, int n) { return std::vector<double>(rank == n / 2 ? 1 : 0, 1.0); });
-    check_all_slicings([](int rank, int n) { return std::vector<double>(rank % 2 == 1 ? 1 : 0, n - rank); });
+    check_all_slicings(
+        [](int rank, int n) { return std::vector<double>(rank == n / 2 ? 1 : 0, 1.0); });
+    check_all_slicings(
+        [](int rank, int n) { return std::vector<double>(rank % 2 == 1 ? 1 : 0, n - rank); });
 }
 
 TEST_CASE("sort: records in order and in reverse") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes with periodic sides have the bits of the plain statements of the rules, which look at all pairs of all images.
+// Boxes with periodic sides have the bits of the plain statements of the rules, which look at all
+// pairs of all images.
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -12,9 +13,9 @@
 
 #include "effect_runs.hpp"
 #include "event_driven.hpp"
-#include "time_stepped.hpp"
 #include "scene_tools.hpp"
 #include "shape_parts.hpp"
+#include "time_stepped.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -22,9 +23,13 @@ using namespace carrom::test;
 namespace {
 
 constexpr Boundary periodic{BoundaryKind::periodic, 1, 0, 0};
-constexpr std::array<Boundary, 4> both{periodic, periodic, periodic, periodic}, along_x{periodic, periodic, Boundary{}, Boundary{}}, along_y{Boundary{}, Boundary{}, periodic, periodic};
+constexpr std::array<Boundary, 4> both{periodic, periodic, periodic, periodic},
+    along_x{periodic, periodic, Boundary{}, Boundary{}},
+    along_y{Boundary{}, Boundary{}, periodic, periodic};
 
-const char* name_of(const std::array<Boundary, 4>& boundaries) { return boundaries == both ? "both" : boundaries == along_x ? "x" : "y"; }
+const char* name_of(const std::array<Boundary, 4>& boundaries) {
+    return boundaries == both ? "both" : boundaries == along_x ? "x" : "y";
+}
 
 /// Everything moved on, through the seams.
 TestScene moved(TestScene scene, double dx, double dy) {
@@ -38,7 +43,8 @@ TestScene moved(TestScene scene, double dx, double dy) {
 
 /// Where an axis has walls, discs stay where they do not cross them.
 TestScene moved_along(const TestScene& scene, const std::array<Boundary, 4>& boundaries) {
-    TestScene result = moved(scene, boundaries[0] == periodic ? 0.3125 : 0, boundaries[2] == periodic ? 0.46875 : 0);
+    TestScene result = moved(scene, boundaries[0] == periodic ? 0.3125 : 0,
+                             boundaries[2] == periodic ? 0.46875 : 0);
     result.setting.effects.boundaries = boundaries;
     result.name += std::string(", periodic ") + name_of(boundaries);
     return result;
@@ -53,7 +59,8 @@ Expected expected_of(const TestScene& scene, Method method, const Communicator& 
     Expected expected;
     const auto add_states_of = [&expected](const auto& reference) {
         expected.hash = hash_of(reference.discs());
-        for (DiscId id = 0; id < reference.spins().size(); ++id) expected.hash += hash_of_spin(id, reference.spins()[id]);
+        for (DiscId id = 0; id < reference.spins().size(); ++id)
+            expected.hash += hash_of_spin(id, reference.spins()[id]);
     };
     if (world.is_root() && method == Method::time_stepped) {
         reference::TimeSteppedReference reference(scene.setting, scene.discs);
@@ -88,19 +95,27 @@ void check_bits(const TestScene& scene, Method method) {
     advance_to(first, scene.steps / 2);
     Scene again = scene_of(scene);
     again.method = method;
-    Simulation second(again, {{first.discs().begin(), first.discs().end()}, first.micro_steps_done(), {first.spins().begin(), first.spins().end()}}, world, {});
+    Simulation second(again,
+                      {{first.discs().begin(), first.discs().end()},
+                       first.micro_steps_done(),
+                       {first.spins().begin(), first.spins().end()}},
+                      world, {});
     advance_to(second, scene.steps);
     CHECK(to_string(second.totals().hash) == to_string(expected.hash));
 }
 
-/// A row of discs all along an axis, through the seam, the first of which is struck: equal gaps, or all touch but one.
+/// A row of discs all along an axis, through the seam, the first of which is struck: equal gaps, or
+/// all touch but one.
 TestScene ring(std::size_t n, double gap, bool is_along_y) {
     const double pitch = 2 + gap, length = static_cast<double>(n) * pitch + (gap == 0 ? 1 : 0);
-    TestScene scene = empty_scene("ring of " + std::to_string(n) + ", gap " + number(gap), length, 1, 14);
+    TestScene scene = empty_scene("ring of " + std::to_string(n) + ", gap " + number(gap), length,
+                                  1, 14);
     for (std::size_t i = 0; i < n; ++i) {
         const double place = std::fmod(length - 1.5 + static_cast<double>(i) * pitch, length);
-        if (is_along_y) add_disc(scene, length / 2, place, 0, i == 0 ? 1.5 : 0);
-        else add_disc(scene, place, length / 2, i == 0 ? 1.5 : 0, 0);
+        if (is_along_y)
+            add_disc(scene, length / 2, place, 0, i == 0 ? 1.5 : 0);
+        else
+            add_disc(scene, place, length / 2, i == 0 ? 1.5 : 0, 0);
     }
     return scene;
 }
@@ -147,20 +162,25 @@ TestScene between_warm_walls(const TestScene& base) {
     return scene;
 }
 
-/// Bodies on a corner and at the seams, which are seen from all sides; segments that end on a seam, run along one and stand near one.
+/// Bodies on a corner and at the seams, which are seen from all sides; segments that end on a seam,
+/// run along one and stand near one.
 TestScene among_bodies(const TestScene& base, const std::array<Boundary, 4>& boundaries) {
     TestScene scene = moved_along(base, boundaries);
     const double size = scene.setting.box_size;
-    scene.setting.effects.obstacles = {{{0, 0, 0.08 * size}, {0.99 * size, 0.5 * size, 0.04 * size}, {0.4 * size, size, 0}},
-                                       {{0, 0.3 * size, 0.2 * size, 0.35 * size}, {0.995 * size, 0.7 * size, 0.995 * size, 0.9 * size}, {0.6 * size, size, 0.7 * size, 0.85 * size}},
-                                       0.9};
+    scene.setting.effects.obstacles = {
+        {{0, 0, 0.08 * size}, {0.99 * size, 0.5 * size, 0.04 * size}, {0.4 * size, size, 0}},
+        {{0, 0.3 * size, 0.2 * size, 0.35 * size},
+         {0.995 * size, 0.7 * size, 0.995 * size, 0.9 * size},
+         {0.6 * size, size, 0.7 * size, 0.85 * size}},
+        0.9};
     make_room_for_obstacles(scene);
     scene.name += ", bodies";
     return scene;
 }
 
 /// One disc, which flies through the box `speed` times in a step, and a body around the corner.
-TestScene sinai(const char* name, double radius, double reach, double speed, double x, double y, double angle) {
+TestScene sinai(const char* name, double radius, double reach, double speed, double x, double y,
+                double angle) {
     TestScene scene = empty_scene(name, 10, radius, 12);
     scene.setting.sync_every = 5;
     scene.setting.effects.boundaries = both;
@@ -169,17 +189,25 @@ TestScene sinai(const char* name, double radius, double reach, double speed, dou
     return scene;
 }
 
-/// With little room; with none between bodies, where a disc is trapped and may touch two images of one at once; flights of many boxes;
-/// a disc on a seam that touches a body from the other side.
+/// With little room; with none between bodies, where a disc is trapped and may touch two images of
+/// one at once; flights of many boxes; a disc on a seam that touches a body from the other side.
 std::vector<TestScene> scenes_of_one_disc() {
     TestScene touching = sinai("a disc on the seam at a body", 1, 3, 0.3, 0, 5, 0.2);
     touching.setting.effects.obstacles.discs = {{7, 5, 2}};
-    return {sinai("a body of nearly half the box", 0.5, 4.9, 0.7, 5, 5, 0.3), sinai("a trap", 1, 6, 0.5, 5, 5, 0.4),
-            sinai("a trap, along its axis", 1, 6, 0.5, 5, 5, std::acos(0.0)), sinai("far flights", 0.001, 0.002, 60, 3, 4, 0.7), touching};
+    return {sinai("a body of nearly half the box", 0.5, 4.9, 0.7, 5, 5, 0.3),
+            sinai("a trap", 1, 6, 0.5, 5, 5, 0.4),
+            sinai("a trap, along its axis", 1, 6, 0.5, 5, 5, std::acos(0.0)),
+            sinai("far flights", 0.001, 0.002, 60, 3, 4, 0.7), touching};
 }
 
 std::vector<TestScene> base_scenes() {
-    std::vector<TestScene> scenes{gas(120, 0.05, 0.8, 801), gas(100, 0.6, 0.3, 802), ring(7, 0.5, false), ring(6, 0, true), tied(6), narrow(), fast(40)};
+    std::vector<TestScene> scenes{gas(120, 0.05, 0.8, 801),
+                                  gas(100, 0.6, 0.3, 802),
+                                  ring(7, 0.5, false),
+                                  ring(6, 0, true),
+                                  tied(6),
+                                  narrow(),
+                                  fast(40)};
     for (TestScene& scene : scenes) {
         if (scene.steps == 40 && scene.discs.size() > 2) scene.steps = 14;
         scene.setting.sync_every = 5;
@@ -188,21 +216,28 @@ std::vector<TestScene> base_scenes() {
     return scenes;
 }
 
-/// Large discs first, then small ones, wherever there is room for them and all images; speeds in large diameters per step.
-TestScene mixture(const std::vector<Species>& species, double box_size, double speed, std::uint64_t seed) {
-    TestScene scene = empty_scene("mixture " + std::to_string(seed), box_size, species.front().radius, 8);
+/// Large discs first, then small ones, wherever there is room for them and all images; speeds in
+/// large diameters per step.
+TestScene mixture(const std::vector<Species>& species, double box_size, double speed,
+                  std::uint64_t seed) {
+    TestScene scene = empty_scene("mixture " + std::to_string(seed), box_size,
+                                  species.front().radius, 8);
     scene.setting.effects.species = species;
     scene.setting.sync_every = 5;
     scene.setting.micro_steps = 2;
     Random random(seed);
-    const auto nearest = [box_size](double distance) { return distance - box_size * std::round(distance / box_size); };
+    const auto nearest = [box_size](double distance) {
+        return distance - box_size * std::round(distance / box_size);
+    };
     for (const Species& one : species) {
         for (std::uint64_t k = 0; k < one.count; ++k) {
             for (bool is_free = false; !is_free;) {
                 const double x = random.uniform(0, box_size), y = random.uniform(0, box_size);
                 is_free = true;
                 for (const InputDisc& disc : scene.discs)
-                    is_free = is_free && std::hypot(nearest(disc.x - x), nearest(disc.y - y)) > 1.0001 * (one.radius + scene.setting.radius_of(disc.id));
+                    is_free = is_free &&
+                              std::hypot(nearest(disc.x - x), nearest(disc.y - y)) >
+                                  1.0001 * (one.radius + scene.setting.radius_of(disc.id));
                 if (is_free) add_disc(scene, x, y);
             }
         }
@@ -212,12 +247,16 @@ TestScene mixture(const std::vector<Species>& species, double box_size, double s
     return scene;
 }
 
-/// Masses that are no function of radii; sizes 1 : 50 apart; more classes than are searched one by one; few discs with many images.
+/// Masses that are no function of radii; sizes 1 : 50 apart; more classes than are searched one by
+/// one; few discs with many images.
 std::vector<TestScene> mixtures() {
     std::vector<Species> many;
-    for (int k = 0; k < 20; ++k) many.push_back({1 + static_cast<std::uint64_t>(k % 3), 2 - 0.08 * k, 1 + 0.5 * (k % 4)});
-    return {mixture({{3, 2.5, 3}, {14, 1, 1.3}, {24, 0.3, 0.2}}, 16, 0.15, 821), mixture({{2, 5, 40}, {30, 0.1, 0.1}}, 21, 0.04, 822),
-            mixture(many, 22, 0.4, 823), mixture({{1, 1, 1}, {2, 0.4, 0.2}}, 4 * (1 + 2e-6), 1.5, 824), mixture({{1, 2, 7}}, 9, 3, 825)};
+    for (int k = 0; k < 20; ++k)
+        many.push_back({1 + static_cast<std::uint64_t>(k % 3), 2 - 0.08 * k, 1 + 0.5 * (k % 4)});
+    return {mixture({{3, 2.5, 3}, {14, 1, 1.3}, {24, 0.3, 0.2}}, 16, 0.15, 821),
+            mixture({{2, 5, 40}, {30, 0.1, 0.1}}, 21, 0.04, 822), mixture(many, 22, 0.4, 823),
+            mixture({{1, 1, 1}, {2, 0.4, 0.2}}, 4 * (1 + 2e-6), 1.5, 824),
+            mixture({{1, 2, 7}}, 9, 3, 825)};
 }
 
 /// The scene between two walls: discs that are in their way stand aside.
@@ -229,7 +268,9 @@ TestScene between_walls(TestScene scene, const std::array<Boundary, 4>& boundari
     std::vector<Species> species;
     for (const InputDisc& disc : discs) {
         const Species body = scene.setting.species_of(disc.id);
-        const auto fits = [&](const Boundary& side, double place) { return side == periodic || (place > body.radius && place < length - body.radius); };
+        const auto fits = [&](const Boundary& side, double place) {
+            return side == periodic || (place > body.radius && place < length - body.radius);
+        };
         if (!fits(boundaries[0], disc.x) || !fits(boundaries[2], disc.y)) continue;
         add_disc(scene, disc.x, disc.y, disc.vx, disc.vy);
         species.push_back({1, body.radius, body.mass});
@@ -239,21 +280,25 @@ TestScene between_walls(TestScene scene, const std::array<Boundary, 4>& boundari
     return scene;
 }
 
-ContactEffect rough(double restitution, double tangential, double friction) { return {ContactKind::rough, restitution, 0.002, tangential, friction, 0.5}; }
+ContactEffect rough(double restitution, double tangential, double friction) {
+    return {ContactKind::rough, restitution, 0.002, tangential, friction, 0.5};
+}
 
 /// Every other disc smaller and lighter.
 void split_into_species(TestScene& scene) {
     const double radius = scene.setting.radius;
     scene.setting.effects.species.clear();
     for (std::size_t k = 0; k < scene.discs.size(); ++k)
-        scene.setting.effects.species.push_back(k % 2 == 0 ? Species{1, radius, 2} : Species{1, 0.6 * radius, 0.5});
+        scene.setting.effects.species.push_back(k % 2 == 0 ? Species{1, radius, 2}
+                                                           : Species{1, 0.6 * radius, 0.5});
 }
 
 } // namespace
 
 TEST_CASE("periodic: the rule one has the reference's bits") {
     for (const TestScene& scene : base_scenes())
-        for (const auto& boundaries : {both, along_x, along_y}) check_bits(moved_along(scene, boundaries), Method::time_stepped);
+        for (const auto& boundaries : {both, along_x, along_y})
+            check_bits(moved_along(scene, boundaries), Method::time_stepped);
 }
 
 TEST_CASE("periodic: beside other effects, the rule one has the reference's bits") {
@@ -276,13 +321,15 @@ TEST_CASE("periodic: beside warm walls, both rules have the reference's bits") {
         scene.steps = 24;
         scene.setting.sync_every = 5;
         scene.setting.micro_steps = 2;
-        for (const Method method : {Method::time_stepped, Method::event_driven}) check_bits(scene, method);
+        for (const Method method : {Method::time_stepped, Method::event_driven})
+            check_bits(scene, method);
     }
 }
 
 TEST_CASE("periodic: the rule all has the reference's bits") {
     for (const TestScene& scene : base_scenes())
-        for (const auto& boundaries : {both, along_x, along_y}) check_bits(moved_along(scene, boundaries), Method::event_driven);
+        for (const auto& boundaries : {both, along_x, along_y})
+            check_bits(moved_along(scene, boundaries), Method::event_driven);
 }
 
 TEST_CASE("periodic: beside other effects, the rule all has the reference's bits") {
@@ -292,7 +339,9 @@ TEST_CASE("periodic: beside other effects, the rule all has the reference's bits
         check_bits(scene, Method::event_driven);
         scene.setting.effects.contact = {ContactKind::none, 1, 0.001};
         check_bits(scene, Method::event_driven);
-        scene = moved_along(base, along_x); // some end as a heap: a short contact time would make that many collisions
+        scene = moved_along(
+            base,
+            along_x); // some end as a heap: a short contact time would make that many collisions
         scene.setting.effects.contact = {ContactKind::restitution, 0.9, 0.02};
         scene.setting.effects.boundaries[2].restitution = 0.7;
         scene.setting.effects.boundaries[3] = {BoundaryKind::moving, 1, 0, -0.01};
@@ -305,9 +354,12 @@ TEST_CASE("periodic: among fixed bodies, both rules have the reference's bits") 
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         for (const TestScene& scene : scenes_of_one_disc()) check_bits(scene, method);
         for (const auto& boundaries : {both, along_x, along_y}) {
-            for (const TestScene& base : {base_scenes()[0], base_scenes()[1], fast(40)}) check_bits(among_bodies(base, boundaries), method);
+            for (const TestScene& base : {base_scenes()[0], base_scenes()[1], fast(40)})
+                check_bits(among_bodies(base, boundaries), method);
             TestScene scene = among_bodies(base_scenes()[1], boundaries);
-            for (const ContactEffect& contact : {ContactEffect{ContactKind::none, 1, 0.001}, ContactEffect{ContactKind::restitution, 0.8, 0.002}}) {
+            for (const ContactEffect& contact :
+                 {ContactEffect{ContactKind::none, 1, 0.001},
+                  ContactEffect{ContactKind::restitution, 0.8, 0.002}}) {
                 scene.setting.effects.contact = contact;
                 check_bits(scene, method);
             }

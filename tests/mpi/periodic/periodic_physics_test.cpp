@@ -21,13 +21,18 @@ TestScene periodic_gas(std::size_t n, double packing, double speed, std::uint64_
     return scene;
 }
 
-/// Z = P L^2 / (N kT) from the impulses of all collisions (the virial theorem). Momentum is conserved, so of the 2 N degrees of
-/// freedom two are the motion of all together, and kT = (E - P^2 / 2N) / (N - 1): with that Z - 1 is 2 eta times the contact value
-/// of the pair correlation of N discs, whatever N. `n_collisions` to come to equilibrium, four times as many to measure. **Collective.**
-double compressibility(std::size_t n, double packing, double n_collisions, const Communicator& world) {
-    Simulation simulation = simulation_of(periodic_gas(n, packing, 0.5, 911), Method::event_driven, world);
+/// Z = P L^2 / (N kT) from the impulses of all collisions (the virial theorem). Momentum is
+/// conserved, so of the 2 N degrees of freedom two are the motion of all together, and kT = (E -
+/// P^2 / 2N) / (N - 1): with that Z - 1 is 2 eta times the contact value of the pair correlation of
+/// N discs, whatever N. `n_collisions` to come to equilibrium, four times as many to measure.
+/// **Collective.**
+double compressibility(std::size_t n, double packing, double n_collisions,
+                       const Communicator& world) {
+    Simulation simulation = simulation_of(periodic_gas(n, packing, 0.5, 911), Method::event_driven,
+                                          world);
     const auto run_until = [&](double wanted) {
-        while (static_cast<double>(simulation.totals().pair_collisions) < wanted) advance_to(simulation, simulation.step() + 16);
+        while (static_cast<double>(simulation.totals().pair_collisions) < wanted)
+            advance_to(simulation, simulation.step() + 16);
     };
     run_until(n_collisions);
     std::vector<Collision> log;
@@ -39,8 +44,11 @@ double compressibility(std::size_t n, double packing, double n_collisions, const
     double sum = 0;
     for (const double part : world.all_gather(impulse)) sum += part;
     const Totals totals = simulation.totals();
-    const auto count = static_cast<double>(n), time = static_cast<double>(simulation.step() - begin);
-    const double together = (totals.momentum_x * totals.momentum_x + totals.momentum_y * totals.momentum_y) / (2 * count);
+    const auto count = static_cast<double>(n),
+               time = static_cast<double>(simulation.step() - begin);
+    const double together = (totals.momentum_x * totals.momentum_x +
+                             totals.momentum_y * totals.momentum_y) /
+                            (2 * count);
     const double temperature = (totals.kinetic_energy - together) / (count - 1);
     return 1 + 2 * sum / (2 * time * count * temperature); // diameter 2
 }
@@ -69,16 +77,21 @@ TEST_CASE("periodic: momentum and energy are conserved to rounding under both ru
     }
 }
 
-// At rest together N discs have 3 N - 2 ways to move, N of them turning. Of the others a class of N_k discs has 2 N_k (1 - m_k / M), M being all mass.
-TEST_CASE("periodic: a mixture of perfectly rough discs keeps momentum and energy, and shares it among masses and spins") {
+// At rest together N discs have 3 N - 2 ways to move, N of them turning. Of the others a class of
+// N_k discs has 2 N_k (1 - m_k / M), M being all mass.
+TEST_CASE("periodic: a mixture of perfectly rough discs keeps momentum and energy, and shares it "
+          "among masses and spins") {
     const Communicator world = Communicator::world();
     TestScene scene = periodic_gas(180, 0.45, 0.5, 902);
     constexpr std::array<double, 2> counts{60, 120}, masses{5, 1};
     constexpr double n = 180, mass = 60 * 5 + 120;
     scene.setting.effects.species = {{60, 1, masses[0]}, {120, 0.7, masses[1]}};
-    scene.setting.effects.contact = {ContactKind::rough, 1, 0.001, 1, std::numeric_limits<double>::infinity(), 0.5};
+    scene.setting.effects.contact = {
+        ContactKind::rough, 1, 0.001, 1, std::numeric_limits<double>::infinity(), 0.5};
     double x = 0, y = 0;
-    for (const InputDisc& disc : scene.discs) x += scene.setting.mass_of(disc.id) * disc.vx, y += scene.setting.mass_of(disc.id) * disc.vy;
+    for (const InputDisc& disc : scene.discs)
+        x += scene.setting.mass_of(disc.id) * disc.vx,
+            y += scene.setting.mass_of(disc.id) * disc.vy;
     for (InputDisc& disc : scene.discs) disc.vx -= x / mass, disc.vy -= y / mass;
     Simulation simulation = simulation_of(scene, Method::event_driven, world);
     const Totals start = simulation.totals();
@@ -87,7 +100,9 @@ TEST_CASE("periodic: a mixture of perfectly rough discs keeps momentum and energ
     std::array<double, 3> energies{}; // of the classes' flight, of spins
     for (int look = 0; look < n_looks; ++look) {
         advance_to(simulation, simulation.step() + 20);
-        for (const Disc& disc : simulation.discs()) energies[disc.id < 60 ? 0 : 1] += 0.5 * scene.setting.mass_of(disc.id) * (disc.vx * disc.vx + disc.vy * disc.vy) / n_looks;
+        for (const Disc& disc : simulation.discs())
+            energies[disc.id < 60 ? 0 : 1] += 0.5 * scene.setting.mass_of(disc.id) *
+                                              (disc.vx * disc.vx + disc.vy * disc.vy) / n_looks;
         energies[2] += simulation.totals().rotational_energy / world.size() / n_looks;
     }
     std::array<double, 3> sums{};
@@ -95,7 +110,8 @@ TEST_CASE("periodic: a mixture of perfectly rough discs keeps momentum and energ
         for (std::size_t k = 0; k < 3; ++k) sums[k] += part[k];
     const Totals end = simulation.totals();
     CHECK(end.pair_collisions > 4000);
-    CHECK(end.kinetic_energy + end.rotational_energy == Approx(start.kinetic_energy).epsilon(1e-12));
+    CHECK(end.kinetic_energy + end.rotational_energy ==
+          Approx(start.kinetic_energy).epsilon(1e-12));
     const double bound = static_cast<double>(end.pair_collisions) * masses[0] * 4 * 2 * 0x1p-53;
     CHECK(std::fabs(end.momentum_x - start.momentum_x) < bound);
     CHECK(std::fabs(end.momentum_y - start.momentum_y) < bound);
@@ -103,7 +119,8 @@ TEST_CASE("periodic: a mixture of perfectly rough discs keeps momentum and energ
     const double half_temperature = start.kinetic_energy / (3 * n - 2);
     for (const std::size_t k : {0u, 1u}) {
         const double ways = 2 * counts[k] * (1 - masses[k] / mass);
-        CHECK(sums[k] == Approx(ways * half_temperature).epsilon(4 * std::sqrt(2 / (ways * n_looks))));
+        CHECK(sums[k] ==
+              Approx(ways * half_temperature).epsilon(4 * std::sqrt(2 / (ways * n_looks))));
     }
     CHECK(sums[2] == Approx(n * half_temperature).epsilon(4 * std::sqrt(2 / (n * n_looks))));
 }
@@ -117,18 +134,22 @@ TEST_CASE("periodic: a disc alone flies on, and comes in where it has left") {
         Simulation simulation = simulation_of(scene, method, world);
         for (const std::int64_t step : {3, 64, 200, 400}) {
             advance_to(simulation, step);
-            const auto inside = [](long double place) { return static_cast<double>(place - 10 * std::floor(place / 10)); };
+            const auto inside = [](long double place) {
+                return static_cast<double>(place - 10 * std::floor(place / 10));
+            };
             for (const Disc& disc : simulation.shown()) {
                 const auto t = static_cast<long double>(step);
                 CHECK(disc.x == Approx(inside(9.5L + 1.75L * t)).margin(1e-12));
-                CHECK(disc.y == Approx(inside(0.5L - static_cast<long double>(0.3) * t)).margin(1e-12));
+                CHECK(disc.y ==
+                      Approx(inside(0.5L - static_cast<long double>(0.3) * t)).margin(1e-12));
             }
         }
         CHECK(simulation.totals().pair_collisions == 0);
     }
 }
 
-// The virial series (Clisby and McCoy 2006) to its tenth term at packings 0.1 and 0.3: a bulk gas, without extrapolation from walls.
+// The virial series (Clisby and McCoy 2006) to its tenth term at packings 0.1 and 0.3: a bulk gas,
+// without extrapolation from walls.
 TEST_CASE("periodic: the pressure of the bulk gas") {
     const Communicator world = Communicator::world();
     // N discs have some 1/N less: at packing 0.3 about 0.1 %. 60,000 collisions scatter by 0.3 %.

@@ -6,10 +6,10 @@
 #include "catch.hpp"
 #include <omp.h>
 
-#include "statistics/block_averages.hpp"
 #include "parallel/exchange.hpp"
-#include "simulation/simulation.hpp"
 #include "scene_tools.hpp"
+#include "simulation/simulation.hpp"
+#include "statistics/block_averages.hpp"
 
 using namespace carrom;
 
@@ -17,7 +17,9 @@ namespace {
 
 std::vector<Disc> gathered(const Simulation& simulation, const Communicator& world) {
     std::vector<Disc> all;
-    stream_to_root(world, simulation.discs(), [&](std::span<const Disc> some) { all.insert(all.end(), some.begin(), some.end()); }, 1000);
+    stream_to_root(
+        world, simulation.discs(),
+        [&](std::span<const Disc> some) { all.insert(all.end(), some.begin(), some.end()); }, 1000);
     world.broadcast(all);
     return all;
 }
@@ -88,7 +90,8 @@ TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sum
             advance_to(step);
             if (step * 4 / 10 == (step - 1) * 4 / 10) continue; // no sync has ended
             now = sums_of(gathered(simulation, world), 4);
-            frequencies.push_back(2 * (now.pairs - before.pairs) / (100.0 * static_cast<double>(step - block_begin)));
+            frequencies.push_back(2 * (now.pairs - before.pairs) /
+                                  (100.0 * static_cast<double>(step - block_begin)));
             speeds.push_back(now.speed / 100);
             kurtoses.push_back(100 * now.fourth / (now.square * now.square));
             before = now;
@@ -100,21 +103,29 @@ TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sum
         CHECK(averages.steps == 41);
         REQUIRE(frequencies.size() < 32); // no block has become longer
         CHECK(averages.n_blocks == static_cast<std::int64_t>(frequencies.size()));
-        CHECK(averages.collision_frequency.value == Approx(2 * (now.pairs - first.pairs) / 4100).epsilon(1e-13));
+        CHECK(averages.collision_frequency.value ==
+              Approx(2 * (now.pairs - first.pairs) / 4100).epsilon(1e-13));
         CHECK(averages.collision_frequency.error >= over_blocks(frequencies).error * (1 - 1e-12));
         CHECK(averages.collision_frequency.error < 3 * over_blocks(frequencies).error);
-        CHECK(averages.mean_free_time.value == Approx(4100 / (2 * (now.pairs - first.pairs))).epsilon(1e-13));
+        CHECK(averages.mean_free_time.value ==
+              Approx(4100 / (2 * (now.pairs - first.pairs))).epsilon(1e-13));
         CHECK(averages.mean_speed.value == Approx(over_blocks(speeds).mean).epsilon(1e-11));
         CHECK(averages.mean_speed.error >= over_blocks(speeds).error * (1 - 1e-6));
         CHECK(averages.speed_kurtosis.value == Approx(over_blocks(kurtoses).mean).epsilon(1e-11));
 
         // Equations (13c) and (19a) of Li et al. 2022 for a box of side L, with kT = R^2 / (2 N).
-        const double size = test.setting.box_size, radius = test.setting.radius, r = std::sqrt(now.square);
-        const double g = std::exp(std::lgamma(100.5) - std::lgamma(100.0)), per_time = std::sqrt(std::numbers::pi) / r * g / 41;
-        const double walls = now.walls - first.walls, pairs = now.pairs - first.pairs, temperature = now.square / 200;
-        CHECK(averages.wall_pressure.value == Approx(temperature * per_time * walls / (2 * size)).epsilon(1e-10));
+        const double size = test.setting.box_size, radius = test.setting.radius,
+                     r = std::sqrt(now.square);
+        const double g = std::exp(std::lgamma(100.5) - std::lgamma(100.0)),
+                     per_time = std::sqrt(std::numbers::pi) / r * g / 41;
+        const double walls = now.walls - first.walls, pairs = now.pairs - first.pairs,
+                     temperature = now.square / 200;
+        CHECK(averages.wall_pressure.value ==
+              Approx(temperature * per_time * walls / (2 * size)).epsilon(1e-10));
         CHECK(averages.virial_pressure.value ==
-              Approx(temperature * (100 + radius * per_time * (walls + std::sqrt(2.0) * pairs)) / (size * size)).epsilon(1e-10));
+              Approx(temperature * (100 + radius * per_time * (walls + std::sqrt(2.0) * pairs)) /
+                     (size * size))
+                  .epsilon(1e-10));
     }
 }
 
@@ -123,7 +134,8 @@ TEST_CASE("averages: any number of blocks ends as 32 to 63, and stops on the way
     test::TestScene test = test::gas(4, 0.2, 0.3, 72);
     test.setting.sync_every = 2;
     const auto averages_of = [&](std::int64_t stride) {
-        Simulation simulation(test::scene_of(test), world.is_root() ? test.discs : std::vector<InputDisc>{}, world, {});
+        Simulation simulation(test::scene_of(test),
+                              world.is_root() ? test.discs : std::vector<InputDisc>{}, world, {});
         for (std::int64_t step = 0; step < 700;) {
             step = std::min<std::int64_t>(step + stride, 700);
             while (simulation.step() < step) simulation.advance_towards(step);
@@ -143,7 +155,8 @@ TEST_CASE("averages: discs at rest, or none that collide, give numbers and no er
     const Communicator world = Communicator::world();
     test::TestScene test = test::empty_scene("one disc at rest", 10, 1, 1);
     test::add_disc(test, 5, 5);
-    Simulation simulation(test::scene_of(test), world.is_root() ? test.discs : std::vector<InputDisc>{}, world, {});
+    Simulation simulation(test::scene_of(test),
+                          world.is_root() ? test.discs : std::vector<InputDisc>{}, world, {});
     CHECK(simulation.averages().steps == 0);
     simulation.advance_towards(1);
     const Averages averages = simulation.averages();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The engine against the brute-force reference, bit for bit, on every scene the tests have, for windows, cells, strips
-// and storage orders of all kinds. ctest runs this for many numbers of ranks and threads.
+// The engine against the brute-force reference, bit for bit, on every scene the tests have, for
+// windows, cells, strips and storage orders of all kinds. ctest runs this for many numbers of ranks
+// and threads.
 #include "simulation/simulation.hpp"
 
 #include <algorithm>
@@ -11,9 +12,9 @@
 
 #include "catch.hpp"
 
-#include "time_stepped.hpp"
 #include "scenes.hpp"
 #include "shape_parts.hpp"
+#include "time_stepped.hpp"
 
 using namespace carrom;
 
@@ -37,24 +38,29 @@ Expected expected_of(const test::TestScene& scene, const Communicator& world) {
 }
 
 /// Every rank starts with an arbitrary share of the discs, in an arbitrary order.
-std::vector<InputDisc> share_of(const test::TestScene& scene, const Communicator& world, unsigned seed) {
+std::vector<InputDisc> share_of(const test::TestScene& scene, const Communicator& world,
+                                unsigned seed) {
     std::mt19937 random(seed);
     std::vector<InputDisc> mine;
     for (const InputDisc& disc : scene.discs) {
-        if (static_cast<int>(random() % static_cast<unsigned>(world.size())) == world.rank()) mine.push_back(disc);
+        if (static_cast<int>(random() % static_cast<unsigned>(world.size())) == world.rank())
+            mine.push_back(disc);
     }
     std::shuffle(mine.begin(), mine.end(), random);
     return mine;
 }
 
-Totals run(const test::TestScene& scene, const Tuning& tuning, const Communicator& world, unsigned seed) {
+Totals run(const test::TestScene& scene, const Tuning& tuning, const Communicator& world,
+           unsigned seed) {
     Simulation simulation(test::scene_of(scene), share_of(scene, world, seed), world, tuning);
     while (simulation.step() < scene.steps) simulation.advance_towards(scene.steps);
     return simulation.totals();
 }
 
-/// Ways to run a scene. They meet in all combinations over the scenes, and each scene meets others on other machine shapes.
-std::vector<Tuning> tunings(std::size_t scene_number, std::size_t count, const Communicator& world) {
+/// Ways to run a scene. They meet in all combinations over the scenes, and each scene meets others
+/// on other machine shapes.
+std::vector<Tuning> tunings(std::size_t scene_number, std::size_t count,
+                            const Communicator& world) {
     const std::optional<double> windows[] = {std::nullopt, 1.0, 4.0, 64.0, 0.5, 0.09};
     const std::optional<double> cells[] = {std::nullopt, 1.0, 0.5, 0.26, 2.0};
     const double limits[] = {1.05, 0.0, 1e9};
@@ -78,25 +84,32 @@ std::vector<Tuning> tunings(std::size_t scene_number, std::size_t count, const C
 void check_against_reference(const std::vector<test::TestScene>& scenes, std::size_t n_tunings) {
     const Communicator world = Communicator::world();
     for (std::size_t s = 0; s < scenes.size(); ++s) {
-        if (test::is_left_to_others(s, test::n_sharing(world.size() * omp_get_max_threads()))) continue;
+        if (test::is_left_to_others(s, test::n_sharing(world.size() * omp_get_max_threads())))
+            continue;
         const test::TestScene& scene = scenes[s];
         const Expected expected = expected_of(scene, world);
         for (const Tuning& tuning : tunings(s, n_tunings, world)) {
-            INFO(scene.name << ", N = " << scene.discs.size() << ", window " << tuning.window.value_or(0) << ", cells "
-                            << tuning.cell_width.value_or(0) << ", usual speed " << tuning.usual_speed.value_or(0) << ", rebalance above " << tuning.rebalance_above);
+            INFO(scene.name << ", N = " << scene.discs.size() << ", window "
+                            << tuning.window.value_or(0) << ", cells "
+                            << tuning.cell_width.value_or(0) << ", usual speed "
+                            << tuning.usual_speed.value_or(0) << ", rebalance above "
+                            << tuning.rebalance_above);
             const Totals totals = run(scene, tuning, world, static_cast<unsigned>(s));
             CHECK(totals.wall_collisions == expected.counters.wall_collisions);
             CHECK(totals.pair_collisions == expected.counters.pair_collisions);
             CHECK(totals.rejected_candidates == expected.counters.rejected_candidates);
             CHECK(to_string(totals.hash) == to_string(expected.hash));
-            if (scene.expected_pair_collisions) CHECK(totals.pair_collisions == *scene.expected_pair_collisions);
+            if (scene.expected_pair_collisions)
+                CHECK(totals.pair_collisions == *scene.expected_pair_collisions);
         }
     }
 }
 
 } // namespace
 
-TEST_CASE("small scenes have the reference's bits") { check_against_reference(test::small_scenes(), 1); }
+TEST_CASE("small scenes have the reference's bits") {
+    check_against_reference(test::small_scenes(), 1);
+}
 
 TEST_CASE("scenes across many strips and windows have the reference's bits") {
     check_against_reference(test::large_scenes(), 2);

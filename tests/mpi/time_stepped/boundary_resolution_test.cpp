@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Resolution across strips against the rule itself: walk everybody's candidates in order, keep one if its discs are free.
+// Resolution across strips against the rule itself: walk everybody's candidates in order, keep one
+// if its discs are free.
 #include "time_stepped/boundary_resolution.hpp"
 
 #include <algorithm>
@@ -34,7 +35,8 @@ Meetings walked(const Meetings& all) {
     Meetings kept;
     std::set<DiscId> taken;
     for (const Meeting& meeting : all) {
-        if (taken.contains(meeting.p) || (meeting.q != no_disc && taken.contains(meeting.q))) continue;
+        if (taken.contains(meeting.p) || (meeting.q != no_disc && taken.contains(meeting.q)))
+            continue;
         taken.insert({meeting.p, meeting.q});
         taken.erase(no_disc);
         kept.insert(meeting);
@@ -42,7 +44,8 @@ Meetings walked(const Meetings& all) {
     return kept;
 }
 
-/// Discs in a row, each with a few candidates with the ones behind it and some with walls; times from a few, so that many tie.
+/// Discs in a row, each with a few candidates with the ones behind it and some with walls; times
+/// from a few, so that many tie.
 Meetings random_meetings(std::uint32_t seed, DiscId n_discs, int per_disc, std::uint32_t n_times) {
     std::mt19937 random(seed);
     Meetings all;
@@ -50,8 +53,10 @@ Meetings random_meetings(std::uint32_t seed, DiscId n_discs, int per_disc, std::
         for (int k = 0; k < per_disc; ++k) {
             const double time = static_cast<double>(random() % n_times) / n_times;
             const DiscId q = p + 1 + random() % 5;
-            if (random() % 8 == 0) all.insert({time, p, no_disc});
-            else if (q < n_discs) all.insert({time, p, q});
+            if (random() % 8 == 0)
+                all.insert({time, p, no_disc});
+            else if (q < n_discs)
+                all.insert({time, p, q});
         }
     }
     // A pair has one contact in a micro-step: the first.
@@ -63,20 +68,28 @@ Meetings random_meetings(std::uint32_t seed, DiscId n_discs, int per_disc, std::
 /// Each disc with the next: the verdict on the last waits for that on the first.
 Meetings chain(DiscId n_discs, bool is_tied) {
     Meetings all;
-    for (DiscId p = 0; p + 1 < n_discs; ++p) all.insert({is_tied ? 0.5 : static_cast<double>(p) / static_cast<double>(n_discs), p, p + 1});
+    for (DiscId p = 0; p + 1 < n_discs; ++p)
+        all.insert(
+            {is_tied ? 0.5 : static_cast<double>(p) / static_cast<double>(n_discs), p, p + 1});
     return all;
 }
 
 struct Setting {
-    int owner_stride; ///< discs in a row that one rank owns, dealt out in turn: 1 makes every pair one of two ranks
+    int owner_stride; ///< discs in a row that one rank owns, dealt out in turn: 1 makes every pair
+                      ///< one of two ranks
     int rounds;
     std::uint64_t per_slice;
 };
 
 /// The part of `all` that this rank sees, decided by all ranks together; as sets of ids.
 Meetings decided(const Communicator& world, const Meetings& all, const Setting& setting) {
-    const auto owner = [&](DiscId id) { return static_cast<int>(id / static_cast<DiscId>(setting.owner_stride) % static_cast<DiscId>(world.size())); };
-    const auto is_ours = [&](const Meeting& m) { return owner(m.p) == world.rank() || (m.q != no_disc && owner(m.q) == world.rank()); };
+    const auto owner = [&](DiscId id) {
+        return static_cast<int>(id / static_cast<DiscId>(setting.owner_stride) %
+                                static_cast<DiscId>(world.size()));
+    };
+    const auto is_ours = [&](const Meeting& m) {
+        return owner(m.p) == world.rank() || (m.q != no_disc && owner(m.q) == world.rank());
+    };
     std::set<DiscId> own, halo;
     for (const Meeting& m : all) {
         if (!is_ours(m)) continue;
@@ -93,7 +106,8 @@ Meetings decided(const Communicator& world, const Meetings& all, const Setting& 
     }
     std::vector<Candidate> live;
     for (const Meeting& m : all)
-        if (is_ours(m)) live.push_back({m.time, place.at(m.p), m.q == no_disc ? wall : place.at(m.q)});
+        if (is_ours(m))
+            live.push_back({m.time, place.at(m.p), m.q == no_disc ? wall : place.at(m.q)});
     std::shuffle(live.begin(), live.end(), std::mt19937(static_cast<unsigned>(world.rank())));
 
     const Population population{discs, own.size()};
@@ -105,18 +119,22 @@ Meetings decided(const Communicator& world, const Meetings& all, const Setting& 
     BoundaryResolution across(world);
     across.rounds_before_sort = setting.rounds;
     across.candidates_per_slice = setting.per_slice;
-    across.decide(population, others, verdicts.undecided, world.sum(std::uint64_t{verdicts.undecided.size()}), verdicts.kept);
+    across.decide(population, others, verdicts.undecided,
+                  world.sum(std::uint64_t{verdicts.undecided.size()}), verdicts.kept);
     CHECK(verdicts.undecided.empty());
     Meetings kept;
-    for (const Candidate& c : verdicts.kept) kept.insert({c.time, discs[c.p].id, c.is_wall() ? no_disc : discs[c.q].id});
+    for (const Candidate& c : verdicts.kept)
+        kept.insert({c.time, discs[c.p].id, c.is_wall() ? no_disc : discs[c.q].id});
     CHECK(kept.size() == verdicts.kept.size());
     Meetings expected = walked(all);
     std::erase_if(expected, [&](const Meeting& m) { return !is_ours(m); });
-    CHECK(std::equal(kept.begin(), kept.end(), expected.begin(), expected.end(), [](const Meeting& a, const Meeting& b) { return a.key() == b.key(); }));
+    CHECK(std::equal(kept.begin(), kept.end(), expected.begin(), expected.end(),
+                     [](const Meeting& a, const Meeting& b) { return a.key() == b.key(); }));
     return kept;
 }
 
-const std::vector<Setting> settings = {{1, 6, 8192}, {7, 6, 8192}, {40, 6, 8192}, {7, 0, 8192}, {7, 0, 16}, {3, 1, 16}, {1, 1000, 8192}, {3, 2, 64}};
+const std::vector<Setting> settings = {{1, 6, 8192}, {7, 6, 8192}, {40, 6, 8192},   {7, 0, 8192},
+                                       {7, 0, 16},   {3, 1, 16},   {1, 1000, 8192}, {3, 2, 64}};
 
 } // namespace
 
@@ -125,7 +143,9 @@ TEST_CASE("Resolution across strips is the sorted walk, by talk, by sort and by 
     for (const Setting& setting : settings) {
         for (std::uint32_t seed = 1; seed <= 12; ++seed) {
             CAPTURE(setting.owner_stride, setting.rounds, seed);
-            decided(world, random_meetings(seed, 300, seed % 3 == 0 ? 4 : 1, seed % 2 == 0 ? 4 : 1000000), setting);
+            decided(world,
+                    random_meetings(seed, 300, seed % 3 == 0 ? 4 : 1, seed % 2 == 0 ? 4 : 1000000),
+                    setting);
         }
     }
 }
@@ -140,9 +160,11 @@ TEST_CASE("Chains across strips are resolved, however often they cross") {
     }
 }
 
-TEST_CASE("Where discs of two ranks meet at all, one round of talk decides what is first for both and what depends on it alone") {
+TEST_CASE("Where discs of two ranks meet at all, one round of talk decides what is first for both "
+          "and what depends on it alone") {
     const Communicator world = Communicator::world();
-    // Ranks 0 and 1 own discs 0, 1 and 2, 3: the pair of 1 and 2 comes first, so 0 with 1 and 2 with 3 do not happen.
+    // Ranks 0 and 1 own discs 0, 1 and 2, 3: the pair of 1 and 2 comes first, so 0 with 1 and 2
+    // with 3 do not happen.
     const std::vector<std::vector<DiscId>> ids = {{0, 1, 2}, {2, 3, 1}};
     std::vector<Disc> discs(3);
     std::vector<Candidate> undecided, kept;
@@ -151,8 +173,10 @@ TEST_CASE("Where discs of two ranks meet at all, one round of talk decides what 
         const auto rank = static_cast<std::size_t>(world.rank());
         for (std::size_t k = 0; k < 3; ++k) discs[k].id = ids[rank][k];
         other = {1 - world.rank()};
-        if (rank == 0) undecided = {{0.5, 0, 1}, {0.25, 1, 2}};
-        else undecided = {{0.5, 0, 1}, {0.25, 2, 0}};
+        if (rank == 0)
+            undecided = {{0.5, 0, 1}, {0.25, 1, 2}};
+        else
+            undecided = {{0.5, 0, 1}, {0.25, 2, 0}};
     }
     const Population population{discs, 2};
     const std::uint64_t messages = world.traffic().messages;

@@ -10,8 +10,8 @@
 
 #include <sys/resource.h>
 
-#include "core/errors.hpp"
 #include "apps/csv_table.hpp"
+#include "core/errors.hpp"
 
 using namespace carrom;
 
@@ -59,7 +59,8 @@ private:
 
 } // namespace
 
-TEST_CASE("A table that a disk has no room for ends with a whole line, with code 4, and is gone on with") {
+TEST_CASE("A table that a disk has no room for ends with a whole line, with code 4, and is gone on "
+          "with") {
     const OwnFile file("full_table.csv");
     const std::string& path = file.path();
     {
@@ -93,7 +94,8 @@ TEST_CASE("A table drops half a line and half a header, and nothing else") {
         CHECK((table.has("a") == has_a && table.has("b") == has_b));
         CHECK(table.n_foreign() == (has_b ? 1 : 0));
     }
-    for (const std::string text : {"something else", "key,number,origin,more\na,1,here\n", "key,number,origin\na,1\n"}) {
+    for (const std::string text :
+         {"something else", "key,number,origin,more\na,1,here\n", "key,number,origin\na,1\n"}) {
         std::ofstream(path, std::ios::binary) << text;
         CHECK_THROWS_AS(CsvTable(path, layout), InputError);
         CHECK(text_of(path) == text);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines are compared with what C's printf makes of the same numbers: that is what the course program printed with.
+// Lines are compared with what C's printf makes of the same numbers: that is what the course
+// program printed with.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -31,8 +32,10 @@ template <class... Values> std::string printed(const char* format, Values... val
 
 TEST_CASE("A line is what printf prints, with and without counters") {
     const DiscLine line{7, 0.1, 1e-5, -1.0 / 3, 1e17, 12, 34};
-    CHECK(line_text(3, line, 17, false) == "3 7 0.10000000000000001 1.0000000000000001e-05 -0.33333333333333331 1e+17\n");
-    CHECK(line_text(3, line, 17, true) == "3 7 0.10000000000000001 1.0000000000000001e-05 -0.33333333333333331 1e+17 12 34\n");
+    CHECK(line_text(3, line, 17, false) ==
+          "3 7 0.10000000000000001 1.0000000000000001e-05 -0.33333333333333331 1e+17\n");
+    CHECK(line_text(3, line, 17, true) ==
+          "3 7 0.10000000000000001 1.0000000000000001e-05 -0.33333333333333331 1e+17 12 34\n");
     CHECK(line_text(0, {0, 2, 5, 1, 0, 0, 0}, 17, false) == "0 0 2 5 1 0\n");
 }
 
@@ -45,14 +48,16 @@ TEST_CASE("Numbers of every size are printed as printf prints them") {
         CHECK(line_text(2, line, 17, false) ==
               printed("2 1 %.17g %.17g %.17g %.17g\n", line.x, line.y, line.vx, line.vy));
         for (const int digits : {1, 8, 16})
-            CHECK(line_text(2, line, digits, false) == printed("2 1 %.*f %.*f %.*f %.*f\n", digits, line.x, digits, line.y,
-                                                               digits, line.vx, digits, line.vy));
+            CHECK(line_text(2, line, digits, false) == printed("2 1 %.*f %.*f %.*f %.*f\n", digits,
+                                                               line.x, digits, line.y, digits,
+                                                               line.vx, digits, line.vy));
     }
 }
 
 TEST_CASE("The course program's look is eight decimals") {
     const DiscLine line{41, 123.456789012, 0.5, -2, 1e-9, 0, 0};
-    CHECK(line_text(12, line, 8, false) == printed("%d %d %10.8lf %10.8lf %10.8lf %10.8lf\n", 12, 41, line.x, line.y, line.vx, line.vy));
+    CHECK(line_text(12, line, 8, false) == printed("%d %d %10.8lf %10.8lf %10.8lf %10.8lf\n", 12,
+                                                   41, line.x, line.y, line.vx, line.vy));
 }
 
 } // namespace carrom

@@ -7,7 +7,8 @@ namespace carrom {
 
 TEST_CASE("Progress tells share, rate and the time that is left") {
     CHECK(progress_text(100, 0, 400, 50) == "step 100 of 400 (25.0 %), 2 steps/s, 0:02:30 left");
-    CHECK(progress_text(36000, 0, 72000, 36000) == "step 36000 of 72000 (50.0 %), 1 steps/s, 10:00:00 left");
+    CHECK(progress_text(36000, 0, 72000, 36000) ==
+          "step 36000 of 72000 (50.0 %), 1 steps/s, 10:00:00 left");
 }
 
 TEST_CASE("Progress counts from where the run began") {

@@ -26,7 +26,8 @@ public:
     auto n_files() const { return std::distance(std::filesystem::directory_iterator(path_), {}); }
 
 private:
-    std::filesystem::path path_ = std::filesystem::temp_directory_path() / ("carrom_test_" + std::to_string(::getpid()));
+    std::filesystem::path path_ = std::filesystem::temp_directory_path() /
+                                  ("carrom_test_" + std::to_string(::getpid()));
 };
 
 std::string content(const std::string& path) {
@@ -49,10 +50,12 @@ TEST_CASE("Places that cannot take a report are found out without a trace") {
     const ScratchFolder folder;
     CHECK(obstacle_to_writing(folder.file("report.json")).empty());
     CHECK(folder.n_files() == 0);
-    CHECK(obstacle_to_writing(folder.file("nowhere/report.json")).find("No such file") != std::string::npos);
+    CHECK(obstacle_to_writing(folder.file("nowhere/report.json")).find("No such file") !=
+          std::string::npos);
     CHECK(obstacle_to_writing(folder.file(".")).find("directory") != std::string::npos);
     CHECK(obstacle_to_writing("/dev/null").find("not a plain file") != std::string::npos);
-    CHECK(write_whole_file(folder.file("nowhere/report.json"), "x").find("No such file") != std::string::npos);
+    CHECK(write_whole_file(folder.file("nowhere/report.json"), "x").find("No such file") !=
+          std::string::npos);
 }
 
 TEST_CASE("A file for data is emptied only when it is opened") {
@@ -63,7 +66,8 @@ TEST_CASE("A file for data is emptied only when it is opened") {
     CHECK(write_whole_file(path, "old\n").empty());
     CHECK(obstacle_to_opening(path).text.empty());
     CHECK(content(path) == "old\n");
-    CHECK(obstacle_to_opening(folder.file(".")).text.find("cannot be written") != std::string::npos);
+    CHECK(obstacle_to_opening(folder.file(".")).text.find("cannot be written") !=
+          std::string::npos);
     CHECK_FALSE(obstacle_to_opening(folder.file(".")).is_failure); // the place, not the disk
     DataOutput output(path);
     output.buffer().append(std::string("new\n"));

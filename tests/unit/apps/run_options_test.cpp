@@ -54,7 +54,8 @@ TEST_CASE("Steps are an override like any other, and the last word") {
     words.steps = "12";
     const auto [options, problems] = checked(words);
     CHECK(problems.empty());
-    CHECK(options.overrides == std::vector<std::string>{"time.steps=3", "box.size=4", "time.steps=12"});
+    CHECK(options.overrides ==
+          std::vector<std::string>{"time.steps=3", "box.size=4", "time.steps=12"});
 }
 
 TEST_CASE("Every wrong option is told, each by its name") {
@@ -70,8 +71,9 @@ TEST_CASE("Every wrong option is told, each by its name") {
     std::vector<std::string> places;
     for (const Problem& problem : problems) places.push_back(problem.place);
     std::sort(places.begin(), places.end());
-    CHECK(places == std::vector<std::string>{"--cell-width", "--digits", "--rebalance-above", "--rebalance-every", "--steps",
-                                             "--threads", "--window"});
+    CHECK(places == std::vector<std::string>{"--cell-width", "--digits", "--rebalance-above",
+                                             "--rebalance-every", "--steps", "--threads",
+                                             "--window"});
 }
 
 TEST_CASE("A window may be a hundred-thousandth of a micro-step, and no shorter") {

@@ -39,10 +39,12 @@ RunResult small_result() {
 TEST_CASE("Rates are per disc, and per step or micro-step") {
     CHECK(ns_per_disc_step(small_result()) == Approx(10));
     CHECK(energy_drift(small_result()) == Approx(0.25));
-    CHECK(collisions_per_disc(small_scene(), small_result()) == Approx((20 + 2 * 30) / (4.0 * 50 * 2)));
+    CHECK(collisions_per_disc(small_scene(), small_result()) ==
+          Approx((20 + 2 * 30) / (4.0 * 50 * 2)));
 }
 
-TEST_CASE("Rejected candidates are a share of all candidates, overlaps are per disc and in diameters") {
+TEST_CASE(
+    "Rejected candidates are a share of all candidates, overlaps are per disc and in diameters") {
     RunResult result = small_result();
     CHECK(rejected_share(result) == 0);
     result.end.rejected_candidates = 50;
@@ -53,7 +55,9 @@ TEST_CASE("Rejected candidates are a share of all candidates, overlaps are per d
     CHECK(report.at("overlapping_pairs_per_disc") == 1.5);
     CHECK(report.at("deepest_overlap") == 0.25);
     CHECK(summary_text(small_scene(), result).find("50 % of all") != std::string::npos);
-    CHECK(summary_text(small_scene(), result).find("3 pairs at the end, 1.5 per disc, by up to 0.25 diameters") != std::string::npos);
+    CHECK(summary_text(small_scene(), result)
+              .find("3 pairs at the end, 1.5 per disc, by up to 0.25 diameters") !=
+          std::string::npos);
 }
 
 TEST_CASE("The summary names precision and arithmetic where they leave the default") {
@@ -61,7 +65,8 @@ TEST_CASE("The summary names precision and arithmetic where they leave the defau
     CHECK(summary_text(scene, small_result()).find("precision") == std::string::npos);
     scene.precision = Precision::single;
     scene.arithmetic = Arithmetic::naive;
-    CHECK(summary_text(scene, small_result()).find("precision = \"single\", arithmetic = \"naive\"") != std::string::npos);
+    CHECK(summary_text(scene, small_result())
+              .find("precision = \"single\", arithmetic = \"naive\"") != std::string::npos);
 }
 
 TEST_CASE("A run of no steps, and one of discs at rest, have rates of zero") {
@@ -73,16 +78,20 @@ TEST_CASE("A run of no steps, and one of discs at rest, have rates of zero") {
     CHECK(collisions_per_disc(small_scene(), result) == 0);
 }
 
-TEST_CASE("Imbalance is told where there are several ranks, of what ranks do without waiting for others") {
+TEST_CASE("Imbalance is told where there are several ranks, of what ranks do without waiting for "
+          "others") {
     RunResult result = small_result();
     CHECK(summary_text(small_scene(), result).find("imbalance") == std::string::npos);
     result.ranks = 2;
-    result.phase_seconds = {{"search", 8}, {"move", 2}, {"sync", 0.5}, {"wait", 5}, {"exchange", 7}, {"contested", 3}, {"set-up", 9}, {"output", 4}};
-    result.phase_imbalance = {{"search", 1.25}, {"move", 1.5}, {"sync", 1.75}, {"wait", 2}, {"exchange", 2}, {"contested", 2}, {"set-up", 2}, {"output", 2}};
+    result.phase_seconds = {{"search", 8},   {"move", 2},      {"sync", 0.5}, {"wait", 5},
+                            {"exchange", 7}, {"contested", 3}, {"set-up", 9}, {"output", 4}};
+    result.phase_imbalance = {{"search", 1.25}, {"move", 1.5},    {"sync", 1.75}, {"wait", 2},
+                              {"exchange", 2},  {"contested", 2}, {"set-up", 2},  {"output", 2}};
     result.imbalance = 1.125;
     CHECK(busy_seconds(result.phase_seconds) == 10.5);
     const std::string text = summary_text(small_scene(), result);
-    CHECK(text.find("1.125 times the mean of the ranks' own work on the busiest; move is least even, 1.500") != std::string::npos);
+    CHECK(text.find("1.125 times the mean of the ranks' own work on the busiest; move is least "
+                    "even, 1.500") != std::string::npos);
     const auto report = nlohmann::json::parse(report_text(small_scene(), result));
     CHECK(report.at("imbalance") == 1.125);
     CHECK(report.at("phase_imbalance").at("sync") == 1.75);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs sorted by several threads, against the cell of each disc, looked up alone: in order, nearly so, and in none.
+// Discs sorted by several threads, against the cell of each disc, looked up alone: in order, nearly
+// so, and in none.
 #include "cell_list/cell_grid.hpp"
 
 #include <algorithm>
@@ -20,7 +21,8 @@ namespace {
 constexpr double box = 200;
 
 std::vector<Disc> gas(std::mt19937& random, std::size_t n) {
-    std::uniform_real_distribution<double> place(-1, box + 1), velocity(-1, 1); // some outside: they belong to border cells
+    std::uniform_real_distribution<double> place(-1, box + 1),
+        velocity(-1, 1); // some outside: they belong to border cells
     std::vector<Disc> discs(n);
     for (std::size_t i = 0; i < n; ++i) {
         discs[i].x = place(random);
@@ -32,8 +34,10 @@ std::vector<Disc> gas(std::mt19937& random, std::size_t n) {
     return discs;
 }
 
-/// Each disc is in the run of the cell in which it is, once; `before` as they came, for none may be lost or changed.
-void check_cells(const CellGrid& grid, const std::vector<Disc>& discs, double time, const std::vector<Disc>& before) {
+/// Each disc is in the run of the cell in which it is, once; `before` as they came, for none may be
+/// lost or changed.
+void check_cells(const CellGrid& grid, const std::vector<Disc>& discs, double time,
+                 const std::vector<Disc>& before) {
     const GridFrame& frame = grid.frame();
     REQUIRE(grid.is_valid(discs.size()));
     std::vector<bool> is_placed(discs.size(), false), is_there(discs.size(), false);
@@ -45,7 +49,8 @@ void check_cells(const CellGrid& grid, const std::vector<Disc>& discs, double ti
     };
     for (int column = 0; column < frame.n_columns; ++column) {
         for (int row = 0; row < frame.n_rows; ++row) {
-            const carrom::SlotRange cell = grid.run(column, row, row), of_halo = grid.halo_run(column, row, row);
+            const carrom::SlotRange cell = grid.run(column, row, row),
+                                    of_halo = grid.halo_run(column, row, row);
             REQUIRE(cell.begin <= cell.end);
             for (LocalIndex index = cell.begin; index < cell.end; ++index) {
                 check(index, column, row);
@@ -58,25 +63,36 @@ void check_cells(const CellGrid& grid, const std::vector<Disc>& discs, double ti
             }
         }
     }
-    REQUIRE(std::count(is_placed.begin(), is_placed.end(), true) == static_cast<std::ptrdiff_t>(discs.size()));
+    REQUIRE(std::count(is_placed.begin(), is_placed.end(), true) ==
+            static_cast<std::ptrdiff_t>(discs.size()));
     for (const Disc& disc : discs) {
         REQUIRE_FALSE(is_there[disc.id]);
         is_there[disc.id] = true;
-        REQUIRE((disc.x == before[disc.id].x && disc.y == before[disc.id].y && disc.vx == before[disc.id].vx && disc.vy == before[disc.id].vy));
+        REQUIRE((disc.x == before[disc.id].x && disc.y == before[disc.id].y &&
+                 disc.vx == before[disc.id].vx && disc.vy == before[disc.id].vy));
     }
 }
 
-void check_flight(const GridFrame& frame, const carrom::FlightLanes& lanes, std::uint32_t slot, const Disc& disc, double time, double duration) {
-    CHECK(lanes.x[slot] == Approx((disc.x_at(time) - frame.x_low) / frame.cell_width).epsilon(1e-5).margin(1e-5));
-    CHECK(lanes.y[slot] == Approx((disc.y_at(time) - frame.y_low) / frame.cell_width).epsilon(1e-5).margin(1e-5));
-    CHECK(lanes.vx[slot] == Approx(disc.vx * duration / frame.cell_width).epsilon(1e-5).margin(1e-5));
-    CHECK(lanes.vy[slot] == Approx(disc.vy * duration / frame.cell_width).epsilon(1e-5).margin(1e-5));
+void check_flight(const GridFrame& frame, const carrom::FlightLanes& lanes, std::uint32_t slot,
+                  const Disc& disc, double time, double duration) {
+    CHECK(lanes.x[slot] ==
+          Approx((disc.x_at(time) - frame.x_low) / frame.cell_width).epsilon(1e-5).margin(1e-5));
+    CHECK(lanes.y[slot] ==
+          Approx((disc.y_at(time) - frame.y_low) / frame.cell_width).epsilon(1e-5).margin(1e-5));
+    CHECK(lanes.vx[slot] ==
+          Approx(disc.vx * duration / frame.cell_width).epsilon(1e-5).margin(1e-5));
+    CHECK(lanes.vy[slot] ==
+          Approx(disc.vy * duration / frame.cell_width).epsilon(1e-5).margin(1e-5));
 }
 
-void check_flights(const CellGrid& grid, const std::vector<Disc>& discs, double time, double duration) {
+void check_flights(const CellGrid& grid, const std::vector<Disc>& discs, double time,
+                   double duration) {
     for (LocalIndex index = 0; index < discs.size(); ++index) {
-        if (index < grid.n_own()) check_flight(grid.frame(), grid.lanes(), index, discs[index], time, duration);
-        else check_flight(grid.frame(), grid.halo_lanes(), grid.halo_slot(index), discs[index], time, duration);
+        if (index < grid.n_own())
+            check_flight(grid.frame(), grid.lanes(), index, discs[index], time, duration);
+        else
+            check_flight(grid.frame(), grid.halo_lanes(), grid.halo_slot(index), discs[index], time,
+                         duration);
     }
 }
 
@@ -106,10 +122,13 @@ TEST_CASE("threads bring discs into the order of the cells in which they are") {
                 std::vector<Disc> twins = discs; // what runs along goes where the discs go
                 std::vector<double> spins;
                 for (const Disc& disc : discs) spins.push_back(static_cast<double>(disc.id));
-                grid.sort(discs, frame, time, time, duration, n_threads, {}, {twins, spins}); // nearly in order, and some of anywhere behind
+                grid.sort(discs, frame, time, time, duration, n_threads, {},
+                          {twins, spins}); // nearly in order, and some of anywhere behind
                 check_cells(grid, discs, time, before);
                 check_flights(grid, discs, time, duration);
-                for (std::size_t i = 0; i < discs.size(); ++i) REQUIRE((twins[i].id == discs[i].id && spins[i] == static_cast<double>(discs[i].id)));
+                for (std::size_t i = 0; i < discs.size(); ++i)
+                    REQUIRE((twins[i].id == discs[i].id &&
+                             spins[i] == static_cast<double>(discs[i].id)));
                 grid.sort_cells(discs, frame, time, n_threads); // in order
                 check_cells(grid, discs, time, before);
             }
@@ -117,7 +136,8 @@ TEST_CASE("threads bring discs into the order of the cells in which they are") {
     }
 }
 
-TEST_CASE("a halo's discs have cells of their own where there are any, and flights that can be changed") {
+TEST_CASE(
+    "a halo's discs have cells of their own where there are any, and flights that can be changed") {
     std::mt19937 random(12);
     const double time = 2, duration = 4;
     for (const std::size_t n : {0, 1, 40, 2000}) {
@@ -174,6 +194,7 @@ TEST_CASE("no disc outside of an inner part is left out of those that are listed
     CellGrid grid;
     grid.sort(discs, carrom::make_frame(0, box, 0, box, 2, discs.size(), 0), 0, 0, 1, 1);
     std::size_t n_listed = 0;
-    for (const carrom::SlotRange range : grid.outside({20, 180, -infinity, infinity})) n_listed += range.end - range.begin;
+    for (const carrom::SlotRange range : grid.outside({20, 180, -infinity, infinity}))
+        n_listed += range.end - range.begin;
     CHECK(n_listed < 25'000); // those of a fifth of the box, and of the columns at its edge
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sum against Shewchuk's expansions: lists of doubles that hold a sum exactly, whatever its terms.
+// The sum against Shewchuk's expansions: lists of doubles that hold a sum exactly, whatever its
+// terms.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -86,7 +87,8 @@ TEST_CASE("a sum is the exact one to within 2^-125 of the bound a term") {
         const std::vector<double> terms = mixed_terms(2000, exponent, 5);
         const double bound = bound_of(terms);
         const double exact = careful_sum(terms);
-        CHECK(std::fabs(sum_of(terms, bound) - exact) <= 2000 * 0x1p-125 * bound + 0x1p-53 * std::fabs(exact));
+        CHECK(std::fabs(sum_of(terms, bound) - exact) <=
+              2000 * 0x1p-125 * bound + 0x1p-53 * std::fabs(exact));
     }
 }
 

@@ -43,7 +43,8 @@ TEST_CASE("the state hash is blind to order and to who holds which disc") {
     std::mt19937_64 engine(2);
     std::shuffle(discs.begin(), discs.end(), engine);
     CHECK(hash_of(discs) == whole);
-    for (const std::size_t cut : {std::size_t{0}, std::size_t{1}, std::size_t{499}, std::size_t{1000}}) {
+    for (const std::size_t cut :
+         {std::size_t{0}, std::size_t{1}, std::size_t{499}, std::size_t{1000}}) {
         StateHash parts = hash_of(std::span(discs).subspan(cut));
         parts += hash_of(std::span(discs).first(cut));
         CHECK(parts == whole);
@@ -54,14 +55,16 @@ TEST_CASE("the state hash is blind to order and to who holds which disc") {
 TEST_CASE("the state hash sees every field's last bit") {
     const Disc disc = some_discs(1)[0];
     std::set<std::string> hashes = {to_string(hash_of(disc))};
-    for (double Disc::*field : {&Disc::x, &Disc::y, &Disc::vx, &Disc::vy, &Disc::tau}) {
+    for (double Disc::* field : {&Disc::x, &Disc::y, &Disc::vx, &Disc::vy, &Disc::tau}) {
         for (int bit = 0; bit < 64; ++bit) {
             Disc other = disc;
-            other.*field = std::bit_cast<double>(std::bit_cast<std::uint64_t>(disc.*field) ^ (std::uint64_t{1} << bit));
+            other.*field = std::bit_cast<double>(std::bit_cast<std::uint64_t>(disc.*field) ^
+                                                 (std::uint64_t{1} << bit));
             hashes.insert(to_string(hash_of(other)));
         }
     }
-    for (std::uint64_t Disc::*field : {&Disc::id, &Disc::wall_collisions, &Disc::pair_collisions}) {
+    for (std::uint64_t Disc::* field :
+         {&Disc::id, &Disc::wall_collisions, &Disc::pair_collisions}) {
         for (int bit = 0; bit < 64; ++bit) {
             Disc other = disc;
             other.*field ^= std::uint64_t{1} << bit;
@@ -81,13 +84,14 @@ TEST_CASE("the state hash tells exchanged values and exchanged states apart") {
     const StateHash both = hash_of(discs);
     std::swap(discs[0].id, discs[1].id);
     CHECK(!(hash_of(discs) == both));
-    // A sum of hashes that cancelled in pairs, as an exclusive or does, would miss a disc held twice.
+    // A sum of hashes that cancelled in pairs, as an exclusive or does, would miss a disc held
+    // twice.
     const std::vector<Disc> twice = {discs[0], discs[0]};
     CHECK(!(hash_of(twice) == StateHash{}));
 }
 
 TEST_CASE("minus zero counts as plus zero, denormals count") {
-    for (double Disc::*field : {&Disc::x, &Disc::y, &Disc::vx, &Disc::vy, &Disc::tau}) {
+    for (double Disc::* field : {&Disc::x, &Disc::y, &Disc::vx, &Disc::vy, &Disc::tau}) {
         Disc zero = some_discs(1)[0];
         zero.*field = 0.0;
         Disc minus_zero = zero;

@@ -17,12 +17,14 @@ namespace {
 
 constexpr double box = 10;
 
-/// Cuts on a coarse lattice half of the time, so that equal ones, and ones at the box's ends, are common.
+/// Cuts on a coarse lattice half of the time, so that equal ones, and ones at the box's ends, are
+/// common.
 Strips random_strips(std::mt19937& random, int n_strips) {
     std::uniform_real_distribution<double> anywhere(0, box);
     const bool coarse = random() % 2 == 0;
     std::vector<double> cuts;
-    for (int k = 1; k < n_strips; ++k) cuts.push_back(coarse ? std::round(anywhere(random) / 2) * 2 : anywhere(random));
+    for (int k = 1; k < n_strips; ++k)
+        cuts.push_back(coarse ? std::round(anywhere(random) / 2) * 2 : anywhere(random));
     std::sort(cuts.begin(), cuts.end());
     return Strips(cuts);
 }
@@ -31,7 +33,8 @@ Strips random_strips(std::mt19937& random, int n_strips) {
 std::vector<double> probes(std::mt19937& random, const Strips& strips) {
     std::vector<double> xs = {0, box};
     for (const double cut : strips.cuts())
-        for (const double x : {cut, std::nextafter(cut, -1e9), std::nextafter(cut, 1e9)}) xs.push_back(x);
+        for (const double x : {cut, std::nextafter(cut, -1e9), std::nextafter(cut, 1e9)})
+            xs.push_back(x);
     std::uniform_real_distribution<double> anywhere(-1, box + 1);
     for (int k = 0; k < 40; ++k) xs.push_back(anywhere(random));
     return xs;
@@ -44,7 +47,9 @@ int owner_by_search(const Strips& strips, double x) {
     return found;
 }
 
-bool contains(const std::vector<int>& list, int rank) { return std::find(list.begin(), list.end(), rank) != list.end(); }
+bool contains(const std::vector<int>& list, int rank) {
+    return std::find(list.begin(), list.end(), rank) != list.end();
+}
 
 /// Ascending, without the rank itself, and a lists b if and only if b lists a.
 void check_lists(const std::vector<std::vector<int>>& lists) {
@@ -52,7 +57,8 @@ void check_lists(const std::vector<std::vector<int>>& lists) {
         CHECK(std::is_sorted(lists[a].begin(), lists[a].end()));
         CHECK(std::set<int>(lists[a].begin(), lists[a].end()).size() == lists[a].size());
         CHECK_FALSE(contains(lists[a], static_cast<int>(a)));
-        for (const int b : lists[a]) CHECK(contains(lists[static_cast<std::size_t>(b)], static_cast<int>(a)));
+        for (const int b : lists[a])
+            CHECK(contains(lists[static_cast<std::size_t>(b)], static_cast<int>(a)));
     }
 }
 
@@ -106,7 +112,9 @@ TEST_CASE("an interval meets the strips between the owners of its ends") {
             const auto [low, high] = std::minmax(xs[k], xs[k + 1]);
             for (int rank = 0; rank < strips.size(); ++rank) {
                 if (strips.is_empty(rank)) continue;
-                REQUIRE(strips.of(rank).meets(low, high) == (owner_by_search(strips, low) <= rank && rank <= owner_by_search(strips, high)));
+                REQUIRE(strips.of(rank).meets(low, high) ==
+                        (owner_by_search(strips, low) <= rank &&
+                         rank <= owner_by_search(strips, high)));
             }
         }
     }
@@ -116,27 +124,33 @@ TEST_CASE("neighbours are symmetric, complete for every sender, and no more than
     std::mt19937 random(3);
     for (int trial = 0; trial < 300; ++trial) {
         const Strips strips = random_strips(random, 1 + trial % 9);
-        const double reach = trial % 5 == 0 ? 2.0 * (trial % 3) : std::uniform_real_distribution<double>(0, 4)(random);
+        const double reach = trial % 5 == 0 ? 2.0 * (trial % 3)
+                                            : std::uniform_real_distribution<double>(0, 4)(random);
         std::vector<std::vector<int>> lists;
-        for (int rank = 0; rank < strips.size(); ++rank) lists.push_back(strips.neighbours_within(rank, reach));
+        for (int rank = 0; rank < strips.size(); ++rank)
+            lists.push_back(strips.neighbours_within(rank, reach));
         check_lists(lists);
         for (const double x : probes(random, strips)) {
             const int own = strips.owner(x);
             for (int rank = 0; rank < strips.size(); ++rank) {
-                if (rank == own || strips.is_empty(rank) || !strips.of(rank).meets(x - reach, x + reach)) continue;
+                if (rank == own || strips.is_empty(rank) ||
+                    !strips.of(rank).meets(x - reach, x + reach))
+                    continue;
                 REQUIRE(contains(lists[static_cast<std::size_t>(own)], rank));
             }
         }
         for (int a = 0; a < strips.size(); ++a)
             for (const int b : lists[static_cast<std::size_t>(a)]) {
                 REQUIRE_FALSE(strips.is_empty(b));
-                REQUIRE(strips.low(std::max(a, b)) - strips.high(std::min(a, b)) <= reach * (1 + 1e-12) + 1e-12);
+                REQUIRE(strips.low(std::max(a, b)) - strips.high(std::min(a, b)) <=
+                        reach * (1 + 1e-12) + 1e-12);
             }
     }
 }
 
 TEST_CASE("neighbours are complete where x + reach rounds onto a cut") {
-    // The gap between the cuts rounds to more than the reach, yet a disc just below the lower cut reaches the upper.
+    // The gap between the cuts rounds to more than the reach, yet a disc just below the lower cut
+    // reaches the upper.
     const double lower = 0x1p-52 * (1 + 0x1p-50), upper = 1 + 0x1p-52, reach = 1 - 0x1p-53;
     REQUIRE(upper - lower > reach);
     const Strips strips({lower, upper});
@@ -152,15 +166,19 @@ TEST_CASE("movers are symmetric and know every way a disc can go") {
         const int n_strips = 1 + trial % 9;
         const Strips before = random_strips(random, n_strips);
         const Strips after = trial % 3 == 0 ? before : random_strips(random, n_strips);
-        const double distance = trial % 4 == 0 ? 0 : std::uniform_real_distribution<double>(0, 3)(random);
+        const double distance = trial % 4 == 0
+                                    ? 0
+                                    : std::uniform_real_distribution<double>(0, 3)(random);
         std::vector<std::vector<int>> lists;
-        for (int rank = 0; rank < n_strips; ++rank) lists.push_back(movers_between(before, after, rank, distance));
+        for (int rank = 0; rank < n_strips; ++rank)
+            lists.push_back(movers_between(before, after, rank, distance));
         check_lists(lists);
         std::uniform_real_distribution<double> shift(-distance, distance);
         for (const double x : probes(random, before)) {
             for (const double x_after : {x, x - distance, x + distance, x + shift(random)}) {
                 const int sender = before.owner(x), receiver = after.owner(x_after);
-                if (sender != receiver) REQUIRE(contains(lists[static_cast<std::size_t>(sender)], receiver));
+                if (sender != receiver)
+                    REQUIRE(contains(lists[static_cast<std::size_t>(sender)], receiver));
             }
         }
         for (int a = 0; a < n_strips; ++a)
@@ -179,7 +197,8 @@ TEST_CASE("discs at rest in unchanged strips have nowhere to go but across a sha
     const Strips strips({2, 5, 8});
     CHECK(movers_between(strips, strips, 1, 0) == std::vector<int>{0, 2});
     CHECK(movers_between(strips, Strips({6, 7, 8}), 0, 0) == std::vector<int>{1, 2});
-    CHECK(movers_between(strips, strips, 0, std::numeric_limits<double>::infinity()) == std::vector<int>{1, 2, 3});
+    CHECK(movers_between(strips, strips, 0, std::numeric_limits<double>::infinity()) ==
+          std::vector<int>{1, 2, 3});
 }
 
 TEST_CASE("balanced cuts halve, quarter and interpolate") {
@@ -198,20 +217,25 @@ TEST_CASE("balanced cuts ascend within the box and share the weight evenly") {
         const std::size_t n_bins = 1 + random() % 30;
         const int n_ranks = 1 + static_cast<int>(random() % 12);
         std::vector<std::uint64_t> weights;
-        for (std::size_t k = 0; k < n_bins; ++k) weights.push_back(random() % 3 == 0 ? random() % 1000 : 0);
+        for (std::size_t k = 0; k < n_bins; ++k)
+            weights.push_back(random() % 3 == 0 ? random() % 1000 : 0);
         weights[random() % n_bins] += 1;
         const std::vector<double> cuts = carrom::balanced_cuts(weights, box, n_ranks);
         REQUIRE(cuts.size() == static_cast<std::size_t>(n_ranks - 1));
         REQUIRE(std::is_sorted(cuts.begin(), cuts.end()));
-        const double total = static_cast<double>(std::accumulate(weights.begin(), weights.end(), std::uint64_t{0}));
+        const double total = static_cast<double>(
+            std::accumulate(weights.begin(), weights.end(), std::uint64_t{0}));
         for (std::size_t k = 0; k < cuts.size(); ++k) {
             REQUIRE((0 <= cuts[k] && cuts[k] <= box));
             double below = 0; // the weight below the cut, by adding up every bin's part
             for (std::size_t bin = 0; bin < n_bins; ++bin) {
-                const double part = cuts[k] / box * static_cast<double>(n_bins) - static_cast<double>(bin);
+                const double part = cuts[k] / box * static_cast<double>(n_bins) -
+                                    static_cast<double>(bin);
                 below += static_cast<double>(weights[bin]) * std::clamp(part, 0.0, 1.0);
             }
-            REQUIRE(below == Approx(total * static_cast<double>(k + 1) / n_ranks).epsilon(1e-9).margin(1e-9));
+            REQUIRE(
+                below ==
+                Approx(total * static_cast<double>(k + 1) / n_ranks).epsilon(1e-9).margin(1e-9));
         }
     }
 }

@@ -27,10 +27,14 @@ Long fall_of(double rate, double clock) {
 struct Flight {
     double distance, velocity, pull, rate;
 
-    double height(double s) const { return static_cast<double>(distance + Long(velocity) * s + Long(pull) * fall_of(rate, s)); }
+    double height(double s) const {
+        return static_cast<double>(distance + Long(velocity) * s + Long(pull) * fall_of(rate, s));
+    }
     double contact() const { return dragged_fall_delay(distance, velocity, pull, rate); }
     double rounding(double s) const {
-        return 16 * 0x1p-53 * (std::fabs(distance) + std::fabs(velocity) * s + std::fabs(pull) * static_cast<double>(fall_of(rate, s)));
+        return 16 * 0x1p-53 *
+               (std::fabs(distance) + std::fabs(velocity) * s +
+                std::fabs(pull) * static_cast<double>(fall_of(rate, s)));
     }
     double least_height(double until, int n) const {
         double least = height(0);
@@ -41,7 +45,9 @@ struct Flight {
 
 class Numbers {
 public:
-    double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53); }
+    double uniform(double low, double high) {
+        return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+    }
 
 private:
     std::mt19937_64 engine_{20262};
@@ -54,7 +60,8 @@ TEST_CASE("fall: how far drag lets fall is right to some ulp") {
     for (const double rate : {1e-9, 1e-3, 0.02, 0.0625, 0.5}) {
         for (double q = 1e-7; q < 0.985; q = std::min(1.25 * q, q + 0.0101)) {
             const double clock = q / rate;
-            worst = std::max(worst, std::fabs(static_cast<double>(dragged_fall(rate, clock) / fall_of(rate, clock) - 1)));
+            worst = std::max(worst, std::fabs(static_cast<double>(
+                                        dragged_fall(rate, clock) / fall_of(rate, clock) - 1)));
         }
     }
     CHECK(worst < 160 * 0x1p-53); // the rounding of c s grows as 1 / (1 - c s), to 60
@@ -75,9 +82,14 @@ TEST_CASE("fall: a contact with drag is at the wall, and nothing comes before") 
     Numbers random;
     int n_hits = 0, n_misses = 0;
     for (int k = 0; k < 3000; ++k) {
-        Flight flight{std::exp2(random.uniform(-30, 6)), std::exp2(random.uniform(-12, 3)) * (k % 2 == 0 ? 1 : -1), std::exp2(random.uniform(-12, 2)), 0};
-        if (k % 4 < 3) flight.pull = -flight.pull;
-        else if (k % 8 == 3) flight.pull = flight.velocity * flight.velocity / (2 * flight.distance) * random.uniform(0.5, 1.1); // near a graze
+        Flight flight{std::exp2(random.uniform(-30, 6)),
+                      std::exp2(random.uniform(-12, 3)) * (k % 2 == 0 ? 1 : -1),
+                      std::exp2(random.uniform(-12, 2)), 0};
+        if (k % 4 < 3)
+            flight.pull = -flight.pull;
+        else if (k % 8 == 3)
+            flight.pull = flight.velocity * flight.velocity / (2 * flight.distance) *
+                          random.uniform(0.5, 1.1); // near a graze
         flight.rate = std::exp2(random.uniform(-14, 3)) * std::fabs(flight.pull / flight.velocity);
         const double found = flight.contact(), latest = 0.99 / flight.rate;
         const bool is_hit = std::isfinite(found);
@@ -94,8 +106,11 @@ TEST_CASE("fall: a contact with drag is at the wall, and nothing comes before") 
 TEST_CASE("fall: a disc that has just left a wall comes back after a flight, however small") {
     Numbers random;
     for (int k = 0; k < 1000; ++k) {
-        const double speed = std::exp2(random.uniform(-40, 2)), pull = std::exp2(random.uniform(-10, 2)), rate = std::exp2(random.uniform(-14, -2));
-        for (const double beyond : {0.0, -1e-3 * speed * speed / pull, -speed * speed / pull}) { // the last never comes up to it
+        const double speed = std::exp2(random.uniform(-40, 2)),
+                     pull = std::exp2(random.uniform(-10, 2)),
+                     rate = std::exp2(random.uniform(-14, -2));
+        for (const double beyond : {0.0, -1e-3 * speed * speed / pull,
+                                    -speed * speed / pull}) { // the last never comes up to it
             const Flight flight{beyond, speed, -pull, rate};
             const double found = flight.contact();
             INFO("case " << k << ", from " << beyond);
@@ -104,8 +119,11 @@ TEST_CASE("fall: a disc that has just left a wall comes back after a flight, how
                 continue;
             }
             CHECK(found > 0);
-            if (beyond < -0.6 * speed * speed / pull) CHECK(found == Approx(speed / (pull + rate * speed)).epsilon(1e-14)); // it turns round there
-            else CHECK(std::fabs(flight.height(found)) <= flight.rounding(found));
+            if (beyond < -0.6 * speed * speed / pull)
+                CHECK(found ==
+                      Approx(speed / (pull + rate * speed)).epsilon(1e-14)); // it turns round there
+            else
+                CHECK(std::fabs(flight.height(found)) <= flight.rounding(found));
         }
     }
 }
@@ -118,19 +136,24 @@ TEST_CASE("fall: touching counts while the distance falls, less and less drag is
     CHECK(dragged_fall_delay(1, 0, 0, 0.1) == INFINITY);
     CHECK(dragged_fall_delay(1, -0.5, 0, 0.1) == 2);
     CHECK(dragged_fall_delay(1, -0.5, 0.2, 0.1) == INFINITY); // pulled away before it gets there
-    CHECK(dragged_fall_delay(1e9, 0, -1, 0.5) == INFINITY);   // it would come when nothing is left of its first velocity
-    for (const auto& [distance, velocity, pull] : {std::array{2.0, -0.5, -0.1}, {2.0, 0.5, -0.1}, {0.0, 0.5, -0.1}, {2.0, -0.8, 0.1}})
-        CHECK(dragged_fall_delay(distance, velocity, pull, 1e-15) == Approx(fall_delay(distance, velocity, pull)).epsilon(1e-13));
+    CHECK(dragged_fall_delay(1e9, 0, -1, 0.5) ==
+          INFINITY); // it would come when nothing is left of its first velocity
+    for (const auto& [distance, velocity, pull] :
+         {std::array{2.0, -0.5, -0.1}, {2.0, 0.5, -0.1}, {0.0, 0.5, -0.1}, {2.0, -0.8, 0.1}})
+        CHECK(dragged_fall_delay(distance, velocity, pull, 1e-15) ==
+              Approx(fall_delay(distance, velocity, pull)).epsilon(1e-13));
 }
 
 TEST_CASE("fall: lengths and times scaled by powers of two give scaled bits") {
     Numbers random;
     for (int k = 0; k < 300; ++k) {
-        const double distance = random.uniform(0, 8), velocity = random.uniform(-2, 2), pull = random.uniform(-1, 1), rate = random.uniform(0.01, 0.3);
+        const double distance = random.uniform(0, 8), velocity = random.uniform(-2, 2),
+                     pull = random.uniform(-1, 1), rate = random.uniform(0.01, 0.3);
         const double found = dragged_fall_delay(distance, velocity, pull, rate);
         for (const double length : {0x1p-60, 0x1p80}) {
             const double time = 0x1p10;
-            CHECK(dragged_fall_delay(distance * length, velocity * length / time, pull * length / (time * time), rate / time) == found * time);
+            CHECK(dragged_fall_delay(distance * length, velocity * length / time,
+                                     pull * length / (time * time), rate / time) == found * time);
         }
     }
 }

@@ -31,7 +31,9 @@ struct Flight {
     }
     /// What places and speeds up to a time round to.
     double rounding(double until) const {
-        return 64 * 0x1p-53 * (std::hypot(dx, dy) + reach + std::hypot(wx, wy) * until + std::hypot(gx, gy) * until * until);
+        return 64 * 0x1p-53 *
+               (std::hypot(dx, dy) + reach + std::hypot(wx, wy) * until +
+                std::hypot(gx, gy) * until * until);
     }
 };
 
@@ -44,7 +46,9 @@ double least_gap(const Flight& flight, double until, int n) {
 
 class Numbers {
 public:
-    double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53); }
+    double uniform(double low, double high) {
+        return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+    }
 
 private:
     std::mt19937_64 engine_{20261};
@@ -56,14 +60,22 @@ TEST_CASE("falling contact: it is on the circle, and nothing comes before") {
     Numbers random;
     int n_hits = 0, n_misses = 0;
     for (int k = 0; k < 4000; ++k) {
-        Flight flight{random.uniform(-8, 8), random.uniform(-8, 8), random.uniform(-2, 2), random.uniform(-2, 2), 0, 0, random.uniform(0.1, 3)};
+        Flight flight{random.uniform(-8, 8),
+                      random.uniform(-8, 8),
+                      random.uniform(-2, 2),
+                      random.uniform(-2, 2),
+                      0,
+                      0,
+                      random.uniform(0.1, 3)};
         const double g = std::exp2(random.uniform(-12, 2)), angle = random.uniform(0, 6.28);
         flight.gx = k % 3 == 0 ? 0 : g * std::cos(angle);
         flight.gy = k % 3 == 0 ? -g : g * std::sin(angle);
         if (k % 2 == 0) { // thrown so that it comes near after a while
             const double time = random.uniform(0.1, 6);
-            flight.wx = (random.uniform(-1, 1) * flight.reach - flight.dx) / time - 0.5 * flight.gx * time;
-            flight.wy = (random.uniform(-1, 1) * flight.reach - flight.dy) / time - 0.5 * flight.gy * time;
+            flight.wx = (random.uniform(-1, 1) * flight.reach - flight.dx) / time -
+                        0.5 * flight.gx * time;
+            flight.wy = (random.uniform(-1, 1) * flight.reach - flight.dy) / time -
+                        0.5 * flight.gy * time;
         }
         if (flight.gap(0) <= 0) continue;
         const double found = flight.contact();
@@ -81,9 +93,11 @@ TEST_CASE("falling contact: it is on the circle, and nothing comes before") {
 TEST_CASE("falling contact: a disc that has just been left comes back when its flight says") {
     Numbers random;
     for (int k = 0; k < 2000; ++k) {
-        const double angle = random.uniform(0, 6.28), reach = random.uniform(0.5, 2), speed = std::exp2(random.uniform(-20, 1));
+        const double angle = random.uniform(0, 6.28), reach = random.uniform(0.5, 2),
+                     speed = std::exp2(random.uniform(-20, 1));
         const double nx = std::cos(angle), ny = std::sin(angle);
-        Flight flight{reach * nx, reach * ny, speed * nx, speed * ny, 0, -0.01, reach}; // touching, to some roundings
+        Flight flight{reach * nx, reach * ny, speed * nx, speed * ny,
+                      0,          -0.01,      reach}; // touching, to some roundings
         const double found = flight.contact();
         const double first = 2 * speed / (0.01 * ny); // were the disc flat
         INFO("case " << k << ", speed " << speed << ", height " << ny << ", contact " << found);
@@ -93,7 +107,9 @@ TEST_CASE("falling contact: a disc that has just been left comes back when its f
         }
         CHECK(found > 0);
         CHECK(std::fabs(flight.gap(found)) <= flight.rounding(found));
-        if (ny > 0.1 && speed < 1e-3) CHECK(found == Approx(first).epsilon(0.05 + 20 * flight.rounding(found) / (speed * speed / 0.02)));
+        if (ny > 0.1 && speed < 1e-3)
+            CHECK(found == Approx(first).epsilon(0.05 + 20 * flight.rounding(found) /
+                                                            (speed * speed / 0.02)));
         CHECK(least_gap(flight, found, 200) > -flight.rounding(found));
     }
 }
@@ -102,23 +118,28 @@ TEST_CASE("falling contact: touching counts while the distance falls") {
     CHECK(falling_contact(0, 1, 0, -0.5, 0, -1, 1) == 0);
     CHECK(falling_contact(0, 0.9999999999999999, 0, -1e-9, 0, -1, 1) == 0);
     CHECK(falling_contact(0, 1, 0, 0.5, 0, -1, 1) == Approx(1).epsilon(1e-15));
-    CHECK(falling_contact(0, 1, 0, 0, 0, 1, 1) == INFINITY);  // let go above, and pulled away
+    CHECK(falling_contact(0, 1, 0, 0, 0, 1, 1) == INFINITY); // let go above, and pulled away
     CHECK(falling_contact(0, -1, 0, 0, 0, -1, 1) == INFINITY);
     CHECK(falling_contact(3, 0, 0, 0, 0, -1, 1) == INFINITY); // falls past
     CHECK(falling_contact(0, 5, 0, 0, 0, -2, 1) == Approx(2).epsilon(1e-15));
-    CHECK(falling_contact(0, -5, 0, 4, 0, -2, 1) == INFINITY); // comes up to it and no further: a graze
-    CHECK(falling_contact(0, -5, 0, 4.5, 0, -2, 1) == Approx((4.5 - std::sqrt(4.25)) / 2).epsilon(1e-15));
+    CHECK(falling_contact(0, -5, 0, 4, 0, -2, 1) ==
+          INFINITY); // comes up to it and no further: a graze
+    CHECK(falling_contact(0, -5, 0, 4.5, 0, -2, 1) ==
+          Approx((4.5 - std::sqrt(4.25)) / 2).epsilon(1e-15));
 }
 
 TEST_CASE("falling contact: lengths and times scaled by powers of two give scaled bits") {
     Numbers random;
     for (int k = 0; k < 500; ++k) {
-        const double n[] = {random.uniform(-8, 8), random.uniform(2, 8), random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-0.1, 0.1), random.uniform(-1, -0.1)};
+        const double n[] = {random.uniform(-8, 8),     random.uniform(2, 8),
+                            random.uniform(-2, 2),     random.uniform(-2, 2),
+                            random.uniform(-0.1, 0.1), random.uniform(-1, -0.1)};
         const double found = falling_contact(n[0], n[1], n[2], n[3], n[4], n[5], 1.5);
         for (const double length : {0x1p-60, 0x1p80}) {
             const double time = 0x1p10;
             const double v = length / time, g = v / time;
-            CHECK(falling_contact(n[0] * length, n[1] * length, n[2] * v, n[3] * v, n[4] * g, n[5] * g, 1.5 * length) == found * time);
+            CHECK(falling_contact(n[0] * length, n[1] * length, n[2] * v, n[3] * v, n[4] * g,
+                                  n[5] * g, 1.5 * length) == found * time);
         }
     }
 }

@@ -27,7 +27,9 @@ Disc flying(double x, double y, double vx, double vy, double tau = 0) {
     return disc;
 }
 
-double uniform(std::mt19937_64& random, double low, double high) { return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53); }
+double uniform(std::mt19937_64& random, double low, double high) {
+    return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
+}
 
 /// Reflects `disc` at the first obstacle it comes to.
 ObstacleContact reflect(const Obstacles& obstacles, Disc& disc, double radius = 1) {
@@ -103,11 +105,13 @@ TEST_CASE("obstacles: looked for in cells or one by one, the first contact is th
             Effects single;
             single.gravity = effects.gravity;
             if (k % 2 == 0) {
-                single.obstacles.discs = {{uniform(random, 0, 100), uniform(random, 0, 100), k % 10 == 0 ? 5.0 : 0.3}};
+                single.obstacles.discs = {
+                    {uniform(random, 0, 100), uniform(random, 0, 100), k % 10 == 0 ? 5.0 : 0.3}};
                 effects.obstacles.discs.push_back(single.obstacles.discs[0]);
             } else {
                 const double x = uniform(random, 5, 95), y = uniform(random, 5, 95);
-                single.obstacles.segments = {{x, y, x + uniform(random, -5, 5), y + uniform(random, -5, 5)}};
+                single.obstacles.segments = {
+                    {x, y, x + uniform(random, -5, 5), y + uniform(random, -5, 5)}};
                 effects.obstacles.segments.push_back(single.obstacles.segments[0]);
             }
             singles.push_back(single);
@@ -116,18 +120,21 @@ TEST_CASE("obstacles: looked for in cells or one by one, the first contact is th
         int n_found = 0;
         for (int k = 0; k < 300; ++k) {
             const double tau = k % 3;
-            const Disc disc = flying(uniform(random, 1, 99), uniform(random, 1, 99), uniform(random, -2, 2), uniform(random, -2, 2), tau);
+            const Disc disc = flying(uniform(random, 1, 99), uniform(random, 1, 99),
+                                     uniform(random, -2, 2), uniform(random, -2, 2), tau);
             const double to = k % 2 == 0 ? tau + 3 : tau + 30;
             ObstacleContact first;
             for (const Effects& single : singles) {
-                const ObstacleContact contact = Obstacles(100, 0.5, single).first_contact(disc, 0.5, {tau, to});
+                const ObstacleContact contact =
+                    Obstacles(100, 0.5, single).first_contact(disc, 0.5, {tau, to});
                 if (contact.time < first.time) first = contact;
             }
             const ObstacleContact found = all.first_contact(disc, 0.5, {tau, to});
             CHECK(found.time == first.time);
             n_found += found.exists();
             const double half = (tau + to) / 2; // the same in two looks
-            const ObstacleContact early = all.first_contact(disc, 0.5, {tau, half}), late = all.first_contact(disc, 0.5, {half, to, false});
+            const ObstacleContact early = all.first_contact(disc, 0.5, {tau, half}),
+                                  late = all.first_contact(disc, 0.5, {half, to, false});
             CHECK((early.exists() ? early.time : late.time) == found.time);
         }
         CHECK(n_found > 100);
@@ -143,9 +150,12 @@ TEST_CASE("obstacles: what a disc overlaps is named") {
     CHECK(obstacles.name_of(obstacles.deepest_overlap(50, 54.5, 1, 0).body) == "fixed disc 1");
     CHECK(obstacles.name_of(obstacles.deepest_overlap(80, 80.5, 1, 0).body) == "segment 2");
     CHECK(obstacles.name_of(obstacles.deepest_overlap(9.5, 10, 1, 0).body) == "segment 1");
-    CHECK(Obstacles(100, 1, Effects{}).deepest_overlap(50, 50, 1, 0).body == ObstacleContact::no_body);
+    CHECK(Obstacles(100, 1, Effects{}).deepest_overlap(50, 50, 1, 0).body ==
+          ObstacleContact::no_body);
     for (const std::size_t side : {0u, 1u}) effects.boundaries[side].kind = BoundaryKind::periodic;
     effects.obstacles.discs.push_back({99, 30, 3});
     CHECK(Obstacles(100, 1, effects).deepest_overlap(2, 30, 1, 0).depth == Approx(1));
-    CHECK(Obstacles(100, 1, effects).name_of(Obstacles(100, 1, effects).deepest_overlap(2, 30, 1, 0).body) == "fixed disc 2");
+    CHECK(Obstacles(100, 1, effects)
+              .name_of(Obstacles(100, 1, effects).deepest_overlap(2, 30, 1, 0).body) ==
+          "fixed disc 2");
 }

@@ -7,9 +7,12 @@
 
 using namespace carrom;
 
-TEST_CASE("exact window: blocks look further while replays are repeated, then windows get shorter, and both come back") {
+TEST_CASE("exact window: blocks look further while replays are repeated, then windows get shorter, "
+          "and both come back") {
     Caution caution;
-    for (int k = 0; k < 1000; ++k) caution.learn(k % 20 == 0 ? 0.2 : 0, 0.5); // a hundredth now and then costs nothing worth a reach
+    for (int k = 0; k < 1000; ++k)
+        caution.learn(k % 20 == 0 ? 0.2 : 0,
+                      0.5); // a hundredth now and then costs nothing worth a reach
     CHECK(caution.more_halo() == 0);
     CHECK(std::isinf(caution.most_hits()));
     for (int k = 0; k < 20; ++k) caution.learn(0.3, 0.5);
@@ -25,7 +28,8 @@ TEST_CASE("exact window: blocks look further while replays are repeated, then wi
     CHECK(caution.most_hits() > 1000);
 }
 
-TEST_CASE("exact window: caution widens the halo that the choice would take, not one that is wanted") {
+TEST_CASE(
+    "exact window: caution widens the halo that the choice would take, not one that is wanted") {
     BlockNeeds needs{100, 1, 2000, 0.1, 1, 0, std::nullopt, false};
     const int halo = choose_block_window(needs, 64, std::nullopt).halo;
     needs.more_halo = 2;

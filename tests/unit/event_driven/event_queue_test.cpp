@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The queue of predicted collisions against a sorted list of all of them, with predictions that go stale.
+// The queue of predicted collisions against a sorted list of all of them, with predictions that go
+// stale.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -12,10 +13,12 @@ using namespace carrom;
 
 namespace {
 
-/// Draws predictions for discs whose versions change; times come from a grid, so that many are equal.
+/// Draws predictions for discs whose versions change; times come from a grid, so that many are
+/// equal.
 class Predictions {
 public:
-    Predictions(std::uint32_t n_discs, unsigned seed) : discs_(n_discs), versions_(n_discs, 0), random_(seed) {
+    Predictions(std::uint32_t n_discs, unsigned seed)
+        : discs_(n_discs), versions_(n_discs, 0), random_(seed) {
         for (std::uint32_t i = 0; i < n_discs; ++i) discs_[i].id = (i * 7919ull) % n_discs;
     }
 
@@ -25,9 +28,12 @@ public:
         event.generation = below(3);
         event.p = below(n_discs());
         event.q = below(n_discs() + 2);
-        if (event.q >= n_discs()) event.q = event.q == n_discs() ? x_wall : y_wall;
-        else if (event.q == event.p) event.q = x_wall;
-        else if (discs_[event.q].id < discs_[event.p].id) std::swap(event.p, event.q);
+        if (event.q >= n_discs())
+            event.q = event.q == n_discs() ? x_wall : y_wall;
+        else if (event.q == event.p)
+            event.q = x_wall;
+        else if (discs_[event.q].id < discs_[event.p].id)
+            std::swap(event.p, event.q);
         event.p_version = versions_[event.p];
         event.q_version = is_wall(event.q) ? 0 : versions_[event.q];
         return event;
@@ -37,7 +43,8 @@ public:
         if (!is_wall(event.q)) ++versions_[event.q];
     }
     bool is_current(const Event& event) const {
-        return versions_[event.p] == event.p_version && (is_wall(event.q) || versions_[event.q] == event.q_version);
+        return versions_[event.p] == event.p_version &&
+               (is_wall(event.q) || versions_[event.q] == event.q_version);
     }
     std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(random_() % n); }
     std::uint32_t n_discs() const { return static_cast<std::uint32_t>(discs_.size()); }
@@ -50,8 +57,8 @@ private:
 };
 
 bool are_same(const Event& a, const Event& b) {
-    return a.time == b.time && a.generation == b.generation && a.p == b.p && a.q == b.q && a.p_version == b.p_version &&
-           a.q_version == b.q_version;
+    return a.time == b.time && a.generation == b.generation && a.p == b.p && a.q == b.q &&
+           a.p_version == b.p_version && a.q_version == b.q_version;
 }
 
 } // namespace
@@ -96,7 +103,8 @@ TEST_CASE("Millions of predictions that go stale take the memory of those that d
     queue.push(predictions.draw(0, 0, 1), before);
     for (Event first; n_happened < 500'000 && queue.pop(first, before, is_current); ++n_happened) {
         predictions.happen(first);
-        // One soon, as of two discs without room, others later in the same bucket and in later ones.
+        // One soon, as of two discs without room, others later in the same bucket and in later
+        // ones.
         queue.push(predictions.draw(first.time + 1e-9, 0, 1), before);
         for (int k = 0; k < 3; ++k) queue.push(predictions.draw(0.05, 0.01, 90), before);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs on the way to a contact that is known beforehand: how far, how fast, and how near to a graze.
+// Pairs on the way to a contact that is known beforehand: how far, how fast, and how near to a
+// graze.
 #pragma once
 
 #include <cmath>
@@ -16,29 +17,36 @@ class Approaches {
 public:
     explicit Approaches(std::uint64_t seed) : engine_(seed) {}
 
-    double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53); }
-    double log_uniform(double low, double high) { return low * std::pow(high / low, uniform(0, 1)); }
-    int whole(int low, int high) { return low + static_cast<int>(engine_() % static_cast<std::uint64_t>(high - low + 1)); }
+    double uniform(double low, double high) {
+        return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+    }
+    double log_uniform(double low, double high) {
+        return low * std::pow(high / low, uniform(0, 1));
+    }
+    int whole(int low, int high) {
+        return low + static_cast<int>(engine_() % static_cast<std::uint64_t>(high - low + 1));
+    }
 
-    /// Distance in diameters; the line of flight passes at (1 - margin) sigma, so a negative margin is a miss.
+    /// Distance in diameters; the line of flight passes at (1 - margin) sigma, so a negative margin
+    /// is a miss.
     Approach make(double distance, double margin, double speed, double sigma) {
         const double angle = uniform(0, 6.283185307179586);
         const double ex = std::cos(angle), ey = std::sin(angle);
         const double sine = std::fmin(1, (1 - margin) / distance) * (whole(0, 1) == 0 ? 1 : -1);
         const double cosine = std::sqrt((1 - sine) * (1 + sine));
-        return {distance * sigma * ex,
-                distance * sigma * ey,
+        return {distance * sigma * ex, distance * sigma * ey,
                 speed * sigma * (-cosine * ex - sine * ey),
-                speed * sigma * (-cosine * ey + sine * ex),
-                sigma};
+                speed * sigma * (-cosine * ey + sine * ex), sigma};
     }
 
-    /// Anything: 1 to 1e6 diameters away, or touching to within some ulp; margins 1e-14 to 1 on either side of a graze.
+    /// Anything: 1 to 1e6 diameters away, or touching to within some ulp; margins 1e-14 to 1 on
+    /// either side of a graze.
     Approach any() {
         const bool is_touching = whole(0, 3) == 0;
         const double distance = is_touching ? 1 + whole(-8, 8) * 0x1p-53 : log_uniform(1, 1e6);
         const double margin = log_uniform(1e-14, 1) * (whole(0, 4) == 0 ? -1 : 1);
-        const double speed = log_uniform(0x1p-7, 0x1p7), sigma = uniform(0.5, 2); // arguments are drawn in no order
+        const double speed = log_uniform(0x1p-7, 0x1p7),
+                     sigma = uniform(0.5, 2); // arguments are drawn in no order
         return make(distance, margin, speed, sigma);
     }
 

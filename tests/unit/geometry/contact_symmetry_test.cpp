@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the predicate must not see: the names of the axes, the order of the pair, the unit of length; and, bit for bit,
-// the same predicate written a second time.
+// What the predicate must not see: the names of the axes, the order of the pair, the unit of
+// length; and, bit for bit, the same predicate written a second time.
 #include "catch.hpp"
 
 #include <bit>
@@ -17,9 +17,13 @@ using namespace carrom::test;
 
 namespace {
 
-bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+bool same_bits(double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
 
-double delay_of(const Approach& c) { return contact_delay(c.dx, c.dy, c.wx, c.wy, c.sigma, 1e-12 * c.sigma); }
+double delay_of(const Approach& c) {
+    return contact_delay(c.dx, c.dy, c.wx, c.wy, c.sigma, 1e-12 * c.sigma);
+}
 
 Approach scaled(const Approach& c, int exponent) {
     const auto scale = [exponent](double value) { return std::ldexp(value, exponent); };
@@ -71,7 +75,8 @@ TEST_CASE("transposed, mirrored and exchanged pairs have the same bits") {
 }
 
 TEST_CASE("a pair scaled by a power of two has the same bits") {
-    // Below 2^-230 the discriminant of a graze, a product of four such lengths and the margin, would be denormal.
+    // Below 2^-230 the discriminant of a graze, a product of four such lengths and the margin,
+    // would be denormal.
     Approaches approaches(22);
     int differences = 0, hits = 0;
     for (int i = 0; i < 20000; ++i) {
@@ -90,7 +95,9 @@ TEST_CASE("a pair that does not graze has the same bits even at 2^-250") {
     Approaches approaches(24);
     int differences = 0;
     for (int i = 0; i < 20000; ++i) {
-        const Approach c = approaches.make(approaches.log_uniform(1, 1e6), approaches.uniform(0.01, 1), approaches.uniform(0.5, 8), 1);
+        const Approach c = approaches.make(approaches.log_uniform(1, 1e6),
+                                           approaches.uniform(0.01, 1), approaches.uniform(0.5, 8),
+                                           1);
         differences += !same_bits(delay_of(c), delay_of(scaled(c, -250)));
     }
     CHECK(differences == 0);
@@ -105,9 +112,12 @@ TEST_CASE("the predicate and its second wording have the same bits") {
         for (const double tolerance : {1e-12, infinite}) {
             const PairContact<double> found = pair_contact(pair.p, pair.q, sigma, tolerance);
             const PairContact<double> exchanged = pair_contact(pair.q, pair.p, sigma, tolerance);
-            const reference::Contact expected = reference::contact(pair.p, pair.q, sigma, tolerance);
-            differences += !same_bits(found.base, expected.base) || !same_bits(found.delay, expected.delay);
-            differences += !same_bits(found.base, exchanged.base) || !same_bits(found.delay, exchanged.delay);
+            const reference::Contact expected = reference::contact(pair.p, pair.q, sigma,
+                                                                   tolerance);
+            differences += !same_bits(found.base, expected.base) ||
+                           !same_bits(found.delay, expected.delay);
+            differences += !same_bits(found.base, exchanged.base) ||
+                           !same_bits(found.delay, exchanged.delay);
         }
         hits += pair_contact(pair.p, pair.q, sigma, infinite).exists();
     }
@@ -116,10 +126,12 @@ TEST_CASE("the predicate and its second wording have the same bits") {
 }
 
 TEST_CASE("a local time later than the contact's base moves nothing") {
-    // The same two lines of flight, stored at exact places along them: the same contact, at base + delay.
+    // The same two lines of flight, stored at exact places along them: the same contact, at base +
+    // delay.
     const Disc p{4, 4, 0.5, 0.25, 0, 0, 0, 0}, q{10, 7, -0.25, 0, 0, 1, 0, 0};
     const Disc p_later{5, 4.5, 0.5, 0.25, 2, 0, 0, 0};
-    const PairContact<double> early = pair_contact(p, q, 2.0, 0.0), late = pair_contact(p_later, q, 2.0, 0.0);
+    const PairContact<double> early = pair_contact(p, q, 2.0, 0.0),
+                              late = pair_contact(p_later, q, 2.0, 0.0);
     REQUIRE(early.exists());
     CHECK(late.base == 2);
     CHECK(late.base + late.delay == Approx(early.base + early.delay).epsilon(1e-15));

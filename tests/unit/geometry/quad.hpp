@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers of 113 bits to hold the predicates to: products of two doubles are exact in them.
 //
-// GCC and Clang offer them as __float128, or as long double where that has 113 bits. The square root is Newton's, so
-// that no library is needed.
+// GCC and Clang offer them as __float128, or as long double where that has 113 bits. The square
+// root is Newton's, so that no library is needed.
 #pragma once
 
 #include <cfloat>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whatever is written over a file after a commit, rolling back gives the bytes of that commit, also when the journal or
-// the rolling back was cut short.
+// Whatever is written over a file after a commit, rolling back gives the bytes of that commit, also
+// when the journal or the rolling back was cut short.
 #include "io/undo_journal.hpp"
 
 #include <filesystem>
@@ -21,7 +21,9 @@ namespace {
 
 class TestFolder {
 public:
-    TestFolder() : path_("/tmp/carrom_journal_test_" + std::to_string(::getpid())) { std::filesystem::create_directories(path_); }
+    TestFolder() : path_("/tmp/carrom_journal_test_" + std::to_string(::getpid())) {
+        std::filesystem::create_directories(path_);
+    }
     ~TestFolder() { std::filesystem::remove_all(path_); }
     TestFolder(const TestFolder&) = delete;
     TestFolder& operator=(const TestFolder&) = delete;
@@ -36,7 +38,9 @@ std::string bytes_of(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void write(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+void write(const std::string& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+}
 
 std::string noise(std::size_t size, std::mt19937& random) {
     std::string bytes(size, '\0');
@@ -45,7 +49,8 @@ std::string noise(std::size_t size, std::mt19937& random) {
 }
 
 /// Writes over random ranges, most of them inside the first `size` bytes, as a driver does.
-void scribble(const std::string& path, UndoJournal& journal, std::size_t size, int n_writes, std::mt19937& random) {
+void scribble(const std::string& path, UndoJournal& journal, std::size_t size, int n_writes,
+              std::mt19937& random) {
     const Descriptor file(path, O_RDWR);
     for (int k = 0; k < n_writes; ++k) {
         const std::string bytes = noise(1 + random() % 9000, random);
@@ -61,7 +66,8 @@ TEST_CASE("rolling back gives the bytes of the last commit") {
     const TestFolder folder;
     const std::string path = folder.file("a");
     std::mt19937 random(3210);
-    for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{4095}, std::size_t{4096}, std::size_t{4097}, std::size_t{50001}}) {
+    for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{4095},
+                                   std::size_t{4096}, std::size_t{4097}, std::size_t{50001}}) {
         const std::string good = noise(size, random);
         write(path, good);
         UndoJournal journal(path);
@@ -69,7 +75,8 @@ TEST_CASE("rolling back gives the bytes of the last commit") {
         scribble(path, journal, size, 30, random);
         CHECK(bytes_of(path) != good);
         roll_back(path);
-        CHECK((bytes_of(path) == good || size == 0)); // a journal that has nothing to keep cuts nothing off
+        CHECK((bytes_of(path) == good ||
+               size == 0)); // a journal that has nothing to keep cuts nothing off
         roll_back(path);
         CHECK((bytes_of(path) == good || size == 0));
         CHECK(!std::filesystem::exists(path + ".undo"));
@@ -106,7 +113,8 @@ TEST_CASE("a journal that was cut short puts back what it has, and a damaged rec
             journal.keep(file.number(), block * 4096, 1);
             file.write(std::as_bytes(std::span("x", 1)), block * 4096);
         }
-        journal.keep(file.number(), 4 * 4096, 1); // kept, and the process is killed before it writes
+        journal.keep(file.number(), 4 * 4096,
+                     1); // kept, and the process is killed before it writes
     }
     const std::string whole_journal = bytes_of(path + ".undo"), damaged = bytes_of(path);
     write(path + ".undo", whole_journal.substr(0, whole_journal.size() - 100));

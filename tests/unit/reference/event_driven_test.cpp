@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The event-driven method's oracle against scenes worked out by hand, the laws of mechanics, and the time-stepped method where they meet.
+// The event-driven method's oracle against scenes worked out by hand, the laws of mechanics, and
+// the time-stepped method where they meet.
 #include "catch.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "event_driven.hpp"
-#include "time_stepped.hpp"
 #include "scenes.hpp"
+#include "time_stepped.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -22,17 +23,24 @@ double energy(std::span<const Disc> discs) {
     return sum;
 }
 
-Event pair_event(double time, std::uint32_t generation, DiscId p, DiscId q) { return {time, generation, p, true, q, 0}; }
-Event wall_event(double time, std::uint32_t generation, DiscId p, DiscId axis) { return {time, generation, p, false, axis, 0}; }
+Event pair_event(double time, std::uint32_t generation, DiscId p, DiscId q) {
+    return {time, generation, p, true, q, 0};
+}
+Event wall_event(double time, std::uint32_t generation, DiscId p, DiscId axis) {
+    return {time, generation, p, false, axis, 0};
+}
 
 } // namespace
 
 TEST_CASE("all: a touching cradle passes its blow on at one time, generation by generation") {
-    EventDrivenReference run({32, 1, 1, 64},
-                             std::vector<InputDisc>{{0, 4, 8, 1, 0}, {3, 7, 8}, {1, 9, 8}, {2, 11, 8}, {4, 14, 8}});
+    EventDrivenReference run(
+        {32, 1, 1, 64},
+        std::vector<InputDisc>{{0, 4, 8, 1, 0}, {3, 7, 8}, {1, 9, 8}, {2, 11, 8}, {4, 14, 8}});
     run.run_micro_steps(1);
-    // The contact at 1 sits on the end of the micro-step: it belongs to it, and so does all that follows from it.
-    CHECK(run.log() == std::vector<Event>{pair_event(1, 0, 0, 3), pair_event(1, 1, 1, 3), pair_event(1, 2, 1, 2)});
+    // The contact at 1 sits on the end of the micro-step: it belongs to it, and so does all that
+    // follows from it.
+    CHECK(run.log() == std::vector<Event>{pair_event(1, 0, 0, 3), pair_event(1, 1, 1, 3),
+                                          pair_event(1, 2, 1, 2)});
     CHECK(run.discs()[2].vx == 1);
     CHECK(run.discs()[0].vx == 0);
     run.run_micro_steps(1);
@@ -41,10 +49,13 @@ TEST_CASE("all: a touching cradle passes its blow on at one time, generation by 
 }
 
 TEST_CASE("all: two blows at one time are taken by id, then by generation") {
-    // Discs 0 and 2 reach the still disc 1 from both sides at t = 1. (1,g0,0,1) comes first: 1 then meets 2 at once.
-    EventDrivenReference run({32, 1, 1, 64}, std::vector<InputDisc>{{0, 13, 8, 1, 0}, {1, 16, 8}, {2, 19, 8, -1, 0}});
+    // Discs 0 and 2 reach the still disc 1 from both sides at t = 1. (1,g0,0,1) comes first: 1 then
+    // meets 2 at once.
+    EventDrivenReference run(
+        {32, 1, 1, 64}, std::vector<InputDisc>{{0, 13, 8, 1, 0}, {1, 16, 8}, {2, 19, 8, -1, 0}});
     run.run_micro_steps(2);
-    CHECK(run.log() == std::vector<Event>{pair_event(1, 0, 0, 1), pair_event(1, 1, 1, 2), pair_event(1, 2, 0, 1)});
+    CHECK(run.log() == std::vector<Event>{pair_event(1, 0, 0, 1), pair_event(1, 1, 1, 2),
+                                          pair_event(1, 2, 0, 1)});
     CHECK(run.discs()[0].vx == -1);
     CHECK(run.discs()[1].vx == 0);
     CHECK(run.discs()[2].vx == 1);
@@ -53,7 +64,8 @@ TEST_CASE("all: two blows at one time are taken by id, then by generation") {
 TEST_CASE("all: a corner is two wall collisions, x before y, and no disc ever waits at a wall") {
     EventDrivenReference run({4, 1, 1, 64}, std::vector<InputDisc>{{0, 2, 2, -2, -2}});
     run.run_micro_steps(1);
-    CHECK(run.log() == std::vector<Event>{wall_event(0.5, 0, 0, Event::wall_x), wall_event(0.5, 1, 0, Event::wall_y)});
+    CHECK(run.log() == std::vector<Event>{wall_event(0.5, 0, 0, Event::wall_x),
+                                          wall_event(0.5, 1, 0, Event::wall_y)});
     CHECK(run.wall_collisions() == 2);
     CHECK(run.discs()[0].wall_collisions == 2);
     EventDrivenReference fast({4, 1, 1, 64}, std::vector<InputDisc>{{0, 2, 1.5, -64, 0}});
@@ -64,7 +76,8 @@ TEST_CASE("all: a corner is two wall collisions, x before y, and no disc ever wa
 }
 
 TEST_CASE("all: walls come before pairs at the same time and disc") {
-    EventDrivenReference run({16, 1, 1, 64}, std::vector<InputDisc>{{0, 2, 8, -2, 0}, {1, 4.5, 8, -3, 0}});
+    EventDrivenReference run({16, 1, 1, 64},
+                             std::vector<InputDisc>{{0, 2, 8, -2, 0}, {1, 4.5, 8, -3, 0}});
     run.run_micro_steps(1);
     REQUIRE(run.log().size() >= 2);
     CHECK(run.log()[0] == wall_event(0.5, 0, 0, Event::wall_x));
@@ -72,10 +85,12 @@ TEST_CASE("all: walls come before pairs at the same time and disc") {
 }
 
 TEST_CASE("all: overlapping pairs collide at once if they approach, never if they separate") {
-    EventDrivenReference approaching({16, 1, 1, 64}, std::vector<InputDisc>{{0, 6, 8, 1, 0}, {1, 7.5, 8, -1, 0}});
+    EventDrivenReference approaching({16, 1, 1, 64},
+                                     std::vector<InputDisc>{{0, 6, 8, 1, 0}, {1, 7.5, 8, -1, 0}});
     approaching.run_micro_steps(2);
     CHECK(approaching.log() == std::vector<Event>{pair_event(0, 0, 0, 1)});
-    EventDrivenReference separating({16, 1, 1, 64}, std::vector<InputDisc>{{0, 6, 8, -1, 0}, {1, 7.5, 8, 1, 0}});
+    EventDrivenReference separating({16, 1, 1, 64},
+                                    std::vector<InputDisc>{{0, 6, 8, -1, 0}, {1, 7.5, 8, 1, 0}});
     separating.run_micro_steps(2);
     CHECK(separating.log().empty());
 }
@@ -99,19 +114,24 @@ TEST_CASE("all: energy stays, the log is in order, no pair is left overlapping")
             INFO(scene.name);
             EventDrivenReference run(scene.setting, scene.discs);
             const double before = energy(run.discs());
-            for (std::int64_t step = 0; step < scene.steps && run.log().size() < 1000; ++step) run.run_steps(1);
+            for (std::int64_t step = 0; step < scene.steps && run.log().size() < 1000; ++step)
+                run.run_steps(1);
             CHECK(energy(run.discs()) == Approx(before).epsilon(1e-11));
             collisions += run.log().size();
-            CHECK(std::is_sorted(run.log().begin(), run.log().end(), [](const Event& a, const Event& b) {
-                return std::make_tuple(a.sync, a.time) < std::make_tuple(b.sync, b.time);
-            }));
+            CHECK(std::is_sorted(
+                run.log().begin(), run.log().end(), [](const Event& a, const Event& b) {
+                    return std::make_tuple(a.sync, a.time) < std::make_tuple(b.sync, b.time);
+                }));
             double deepest = 0;
             for (const Disc& p : run.discs()) {
                 for (const Disc& q : run.discs()) {
                     if (q.id <= p.id) continue;
-                    const double dx = (q.x + q.vx * (run.clock() - q.tau)) - (p.x + p.vx * (run.clock() - p.tau));
-                    const double dy = (q.y + q.vy * (run.clock() - q.tau)) - (p.y + p.vy * (run.clock() - p.tau));
-                    deepest = std::max(deepest, 2 * scene.setting.radius - std::sqrt(dx * dx + dy * dy));
+                    const double dx = (q.x + q.vx * (run.clock() - q.tau)) -
+                                      (p.x + p.vx * (run.clock() - p.tau));
+                    const double dy = (q.y + q.vy * (run.clock() - q.tau)) -
+                                      (p.y + p.vy * (run.clock() - p.tau));
+                    deepest = std::max(deepest,
+                                       2 * scene.setting.radius - std::sqrt(dx * dx + dy * dy));
                 }
             }
             CHECK(deepest < 1e-12 * scene.setting.box_size);
@@ -132,7 +152,8 @@ TEST_CASE("all: agrees with the time-stepped method while no disc is due twice i
             all.run_micro_steps(1);
             if (one.counters().rejected_candidates > 0) break;
             const std::uint64_t done = one.log().size();
-            if (done > scene.discs.size() || done != all.log().size()) break; // chaos, or a second collision on the way
+            if (done > scene.discs.size() || done != all.log().size())
+                break; // chaos, or a second collision on the way
             double gap = 0;
             for (std::size_t i = 0; i < scene.discs.size(); ++i) {
                 gap = std::max(gap, std::fabs(one.discs()[i].x - all.discs()[i].x));

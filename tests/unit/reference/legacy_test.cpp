@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two programs of the time-stepped method that share no formula: equal where numbers are exact, and to rounding until chaos.
+// Two programs of the time-stepped method that share no formula: equal where numbers are exact, and
+// to rounding until chaos.
 #include "catch.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "legacy.hpp"
-#include "time_stepped.hpp"
 #include "scenes.hpp"
+#include "time_stepped.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -22,7 +23,8 @@ double y_now(const Disc& disc, double clock) { return disc.y + disc.vy * (clock 
 /// The largest distance in x or y between the same discs of two runs.
 double largest_gap(const std::vector<Disc>& a, const std::vector<Disc>& b) {
     double gap = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) gap = std::max({gap, std::fabs(a[i].x - b[i].x), std::fabs(a[i].y - b[i].y)});
+    for (std::size_t i = 0; i < a.size(); ++i)
+        gap = std::max({gap, std::fabs(a[i].x - b[i].x), std::fabs(a[i].y - b[i].y)});
     return gap;
 }
 
@@ -42,7 +44,8 @@ struct Agreement {
     double gap = 0;               ///< largest until the horizon, in box sizes
 };
 
-/// Runs until discs displaced by 1e-12 box sizes at the start are off by 1e-8: beyond that nothing can be compared.
+/// Runs until discs displaced by 1e-12 box sizes at the start are off by 1e-8: beyond that nothing
+/// can be compared.
 Agreement compare_until_horizon(const TestScene& scene) {
     TestScene displaced = scene;
     const double size = scene.setting.box_size, radius = scene.setting.radius;

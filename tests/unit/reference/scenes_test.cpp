@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shared scenes are what their names say: legal, all different, alive, and none of their known contacts lost.
+// The shared scenes are what their names say: legal, all different, alive, and none of their known
+// contacts lost.
 #include "catch.hpp"
 
 #include <cmath>
 #include <set>
 
-#include "time_stepped.hpp"
 #include "scenes.hpp"
+#include "time_stepped.hpp"
 
 using namespace carrom;
 using namespace carrom::test;
@@ -24,8 +25,10 @@ TEST_CASE("scenes have distinct names and legal discs") {
         bool all_inside = true;
         for (const InputDisc& disc : scene.discs) {
             ids.insert(disc.id);
-            const double low = scene.setting.radius, high = scene.setting.box_size - scene.setting.radius;
-            all_inside = all_inside && disc.x >= low && disc.x <= high && disc.y >= low && disc.y <= high;
+            const double low = scene.setting.radius,
+                         high = scene.setting.box_size - scene.setting.radius;
+            all_inside = all_inside && disc.x >= low && disc.x <= high && disc.y >= low &&
+                         disc.y <= high;
         }
         CHECK(all_inside);
         CHECK(ids.size() == scene.discs.size());
@@ -54,7 +57,8 @@ TEST_CASE("the small scenes meet all that the rule has to decide") {
             for (const Disc& disc : run.discs()) {
                 const Disc& old = before[disc.id];
                 stops += run.clock() > 0 && disc.tau == run.clock();
-                corners += disc.wall_collisions > old.wall_collisions && disc.vx * old.vx < 0 && disc.vy * old.vy < 0;
+                corners += disc.wall_collisions > old.wall_collisions && disc.vx * old.vx < 0 &&
+                           disc.vy * old.vy < 0;
             }
         }
         for (const Disc& disc : run.discs()) {
@@ -71,7 +75,8 @@ TEST_CASE("the small scenes meet all that the rule has to decide") {
             ties += i > 0 && run.log()[i].t == run.log()[i - 1].t && run.log()[i].t > 0;
         }
     }
-    CAPTURE(sum.candidates, sum.rejected_candidates, sum.wall_collisions, sum.pair_collisions, corners, stops, at_end, ties);
+    CAPTURE(sum.candidates, sum.rejected_candidates, sum.wall_collisions, sum.pair_collisions,
+            corners, stops, at_end, ties);
     CHECK(sum.rejected_candidates > 1000);
     CHECK(sum.wall_collisions > 10000);
     CHECK(sum.pair_collisions > 10000);
@@ -83,7 +88,8 @@ TEST_CASE("the small scenes meet all that the rule has to decide") {
 
 TEST_CASE("a transposed scene gives transposed bits, a scaled one scaled bits") {
     std::vector<TestScene> scenes;
-    for (const auto family : {gases, fast_scenes, chains, breaks, wall_scenes, boundary_contacts, overlaps}) {
+    for (const auto family :
+         {gases, fast_scenes, chains, breaks, wall_scenes, boundary_contacts, overlaps}) {
         for (const TestScene& scene : family()) {
             if (scene.discs.size() <= 60) scenes.push_back(scene);
         }
@@ -92,19 +98,26 @@ TEST_CASE("a transposed scene gives transposed bits, a scaled one scaled bits") 
         INFO(scene.name);
         reference::TimeSteppedReference plain(scene.setting, scene.discs);
         plain.run_steps(scene.steps);
-        const TestScene across = transposed(scene), larger = scaled(scene, 180), smaller = scaled(scene, -180);
+        const TestScene across = transposed(scene), larger = scaled(scene, 180),
+                        smaller = scaled(scene, -180);
         reference::TimeSteppedReference turned(across.setting, across.discs);
-        reference::TimeSteppedReference grown(larger.setting, larger.discs), shrunk(smaller.setting, smaller.discs);
-        for (reference::TimeSteppedReference* run : {&turned, &grown, &shrunk}) run->run_steps(scene.steps);
+        reference::TimeSteppedReference grown(larger.setting, larger.discs),
+            shrunk(smaller.setting, smaller.discs);
+        for (reference::TimeSteppedReference* run : {&turned, &grown, &shrunk})
+            run->run_steps(scene.steps);
         CHECK(turned.log() == plain.log());
         CHECK(grown.log() == plain.log());
         CHECK(shrunk.log() == plain.log());
         std::size_t differences = 0;
         for (std::size_t i = 0; i < scene.discs.size(); ++i) {
-            const Disc &a = plain.discs()[i], &b = turned.discs()[i], &c = grown.discs()[i], &d = shrunk.discs()[i];
-            differences += !(a.x == b.y && a.y == b.x && a.vx == b.vy && a.vy == b.vx && a.tau == b.tau);
-            differences += !(std::ldexp(a.x, 180) == c.x && std::ldexp(a.vy, 180) == c.vy && a.tau == c.tau);
-            differences += !(std::ldexp(a.x, -180) == d.x && std::ldexp(a.vy, -180) == d.vy && a.tau == d.tau);
+            const Disc &a = plain.discs()[i], &b = turned.discs()[i], &c = grown.discs()[i],
+                       &d = shrunk.discs()[i];
+            differences += !(a.x == b.y && a.y == b.x && a.vx == b.vy && a.vy == b.vx &&
+                             a.tau == b.tau);
+            differences += !(std::ldexp(a.x, 180) == c.x && std::ldexp(a.vy, 180) == c.vy &&
+                             a.tau == c.tau);
+            differences += !(std::ldexp(a.x, -180) == d.x && std::ldexp(a.vy, -180) == d.vy &&
+                             a.tau == d.tau);
         }
         CHECK(differences == 0);
     }

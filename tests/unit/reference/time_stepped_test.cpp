@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reference itself against small scenes worked out by hand, in numbers that are exact in binary.
+// The reference itself against small scenes worked out by hand, in numbers that are exact in
+// binary.
 #include "catch.hpp"
 
 #include "time_stepped.hpp"
@@ -9,7 +10,8 @@ using namespace carrom::reference;
 
 namespace {
 
-TimeSteppedReference after(std::int64_t micro_steps, const Setting& setting, const std::vector<InputDisc>& discs) {
+TimeSteppedReference after(std::int64_t micro_steps, const Setting& setting,
+                           const std::vector<InputDisc>& discs) {
     TimeSteppedReference run(setting, discs);
     run.run_micro_steps(micro_steps);
     return run;
@@ -42,7 +44,8 @@ TEST_CASE("velocities are divided by the micro-steps") {
 }
 
 TEST_CASE("a pair meets head on and swaps velocities") {
-    // Gap 2 closed at 0.5 a step: contact at 4, the end of micro-step 3 and the start of 4; the earlier one takes it.
+    // Gap 2 closed at 0.5 a step: contact at 4, the end of micro-step 3 and the start of 4; the
+    // earlier one takes it.
     const std::vector<InputDisc> discs = {{0, 4, 8, 0.5, 0}, {1, 8, 8, 0, 0}};
     CHECK(after(3, {16, 1, 1, 64}, discs).log().empty());
     const TimeSteppedReference run = after(5, {16, 1, 1, 64}, discs);
@@ -56,7 +59,8 @@ TEST_CASE("a pair meets head on and swaps velocities") {
 }
 
 TEST_CASE("an oblique contact turns the normal part only") {
-    // Separation (6, 8) at contact, sigma 10: a 3-4-5 triangle. P moves in x at 25/8: w.e = -75/4, e.e = 100.
+    // Separation (6, 8) at contact, sigma 10: a 3-4-5 triangle. P moves in x at 25/8: w.e = -75/4,
+    // e.e = 100.
     const std::vector<InputDisc> discs = {{1, 40, 40, 0, 0}, {0, 34 - 3.125 * 0.5, 32, 3.125, 0}};
     const TimeSteppedReference run = after(1, {100, 5, 1, 64}, discs);
     REQUIRE(run.log().size() == 1);
@@ -101,7 +105,8 @@ TEST_CASE("a corner counts once and turns both axes") {
     // Off by less than the band of 1e-8 on the later axis: still one corner.
     const TimeSteppedReference near = after(1, {16, 1, 1, 64}, {{0, 2, 2 + 0x1p-28, -2, -2}});
     check_state(near.discs()[0], 1, 1 + 0x1p-28, 2, 2, 0.5);
-    // Off by more: the other wall has to wait for the next micro-step, and the disc waits for it there.
+    // Off by more: the other wall has to wait for the next micro-step, and the disc waits for it
+    // there.
     const TimeSteppedReference off = after(1, {16, 1, 1, 64}, {{0, 2, 2 + 0x1p-20, -2, -2}});
     check_state(off.discs()[0], 1 + 0x1p-20, 1, 2, -2, 1);
 }
@@ -114,13 +119,15 @@ TEST_CASE("a slow disc inside the band bounces at the end without touching") {
 }
 
 TEST_CASE("walls come before pairs at the same time and disc") {
-    // At t = 1/2 disc 0 touches the wall and disc 1 touches disc 0: (1/2, 0, wall) is first and takes disc 0.
+    // At t = 1/2 disc 0 touches the wall and disc 1 touches disc 0: (1/2, 0, wall) is first and
+    // takes disc 0.
     const std::vector<InputDisc> discs = {{0, 2, 8, -2, 0}, {1, 4.5, 8, -3, 0}};
     const TimeSteppedReference run = after(1, {16, 1, 1, 64}, discs);
     REQUIRE(run.log().size() == 1);
     CHECK(run.log()[0] == Collision{0, 0.5, 0, Collision::wall});
     CHECK(run.counters() == Counters{2, 1, 1, 0});
-    // Contact was at 1/2 of micro-step 0, and the predicate now starts from tau = 1/2: touching, approaching, t = -1/2.
+    // Contact was at 1/2 of micro-step 0, and the predicate now starts from tau = 1/2: touching,
+    // approaching, t = -1/2.
     const TimeSteppedReference later = after(2, {16, 1, 1, 64}, discs);
     CHECK(later.counters().pair_collisions == 0);
 }
@@ -139,8 +146,10 @@ TEST_CASE("the lower id wins a tie, whatever the place in the list") {
 
 TEST_CASE("deep overlaps pass through, touching pairs collide at once") {
     CHECK(after(4, {16, 1, 1, 64}, {{0, 6, 8, 1, 0}, {1, 7.5, 8, -1, 0}}).log().empty());
-    CHECK(after(1, {16, 1, 1, 64}, {{0, 6, 8, 1, 0}, {1, 8, 8, -1, 0}}).log()[0] == Collision{0, 0.0, 0, 1});
-    CHECK(after(1, {16, 1, 1, 64}, {{0, 6, 8, 1, 0}, {1, 8 - 0x1p-40, 8, -1, 0}}).log()[0] == Collision{0, 0.0, 0, 1});
+    CHECK(after(1, {16, 1, 1, 64}, {{0, 6, 8, 1, 0}, {1, 8, 8, -1, 0}}).log()[0] ==
+          Collision{0, 0.0, 0, 1});
+    CHECK(after(1, {16, 1, 1, 64}, {{0, 6, 8, 1, 0}, {1, 8 - 0x1p-40, 8, -1, 0}}).log()[0] ==
+          Collision{0, 0.0, 0, 1});
     CHECK(after(1, {16, 1, 1, 64}, {{0, 6, 8, 1, 0}, {1, 8 - 0x1p-38, 8, -1, 0}}).log().empty());
     CHECK(after(1, {16, 1, 1, 64}, {{0, 6, 8, 1, 0}, {1, 6, 8, -1, 0}}).log().empty());
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A restart may change how long a run goes on and what it writes, and nothing that has a say in the bits.
+// A restart may change how long a run goes on and what it writes, and nothing that has a say in the
+// bits.
 #include "scene/compare.hpp"
 
 #include "catch.hpp"
@@ -10,32 +11,43 @@ using namespace carrom;
 
 namespace {
 
-constexpr const char* base = "[box]\nsize = 100\n[discs]\ncount = 10\nradius = 1\n[time]\nsteps = 5\n";
+constexpr const char* base =
+    "[box]\nsize = 100\n[discs]\ncount = 10\nradius = 1\n[time]\nsteps = 5\n";
 
 std::vector<std::string> differences(const std::vector<std::string>& overrides) {
-    return physical_differences(read_scene(base, "s.toml"), read_scene(base, "other.toml", overrides));
+    return physical_differences(read_scene(base, "s.toml"),
+                                read_scene(base, "other.toml", overrides));
 }
 
 } // namespace
 
 TEST_CASE("What has no say in the bits is no difference") {
     CHECK(differences({}).empty());
-    CHECK(differences({"time.steps=9", "output.text=ends", "output.checkpoint.folder=a", "output.trajectory.file=b"}).empty());
-    CHECK(differences({"discs.radius=1.0", "discs.seed=3210", "discs.generator=random", "time.sync_every=64"}).empty());
+    CHECK(differences({"time.steps=9", "output.text=ends", "output.checkpoint.folder=a",
+                       "output.trajectory.file=b"})
+              .empty());
+    CHECK(differences({"discs.radius=1.0", "discs.seed=3210", "discs.generator=random",
+                       "time.sync_every=64"})
+              .empty());
 }
 
 TEST_CASE("Everything else is, and is named") {
-    for (const char* override : {"box.size=101", "discs.count=11", "discs.radius=1.5", "discs.generator=lattice", "discs.speed=2",
-                                 "discs.velocities=uniform", "discs.seed=1", "time.method=event-driven", "time.micro_steps=2",
-                                 "time.sync_every=63", "time.precision=single", "time.arithmetic=naive", "discs.packing=0.01"}) {
+    for (const char* override :
+         {"box.size=101", "discs.count=11", "discs.radius=1.5", "discs.generator=lattice",
+          "discs.speed=2", "discs.velocities=uniform", "discs.seed=1", "time.method=event-driven",
+          "time.micro_steps=2", "time.sync_every=63", "time.precision=single",
+          "time.arithmetic=naive", "discs.packing=0.01"}) {
         const std::string key = std::string(override).substr(0, std::string(override).find('='));
         const auto found = differences({override});
         CAPTURE(override);
         REQUIRE(found.size() == 1);
         CHECK(found[0].find(key == "discs.packing" ? "discs.radius" : key) != std::string::npos);
     }
-    const std::string listed = "[box]\nsize = 9\n[discs]\nradius = 1\nlist = [[2, 2, 0, 1]]\n[time]\nsteps = 5\n";
-    const Scene there = read_scene(listed, "s.toml"), here = read_scene(listed, "s.toml", {"discs.list=[[2, 2, 0, 2]]"});
+    const std::string listed =
+        "[box]\nsize = 9\n[discs]\nradius = 1\nlist = [[2, 2, 0, 1]]\n[time]\nsteps = 5\n";
+    const Scene there = read_scene(listed, "s.toml"),
+                here = read_scene(listed, "s.toml", {"discs.list=[[2, 2, 0, 2]]"});
     CHECK(physical_differences(there, there).empty());
-    CHECK(physical_differences(there, here) == std::vector<std::string>{"'discs.list' is another list there"});
+    CHECK(physical_differences(there, here) ==
+          std::vector<std::string>{"'discs.list' is another list there"});
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Radii, masses and spins of each disc: from the file of discs, from rows of the list, from classes.
+// Radii, masses and spins of each disc: from the file of discs, from rows of the list, from
+// classes.
 #include "catch.hpp"
 
 #include <optional>
@@ -7,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "problems_of.hpp"
 #include "scene/compare.hpp"
 #include "scene/disc_columns.hpp"
 #include "scene/disc_reader.hpp"
 #include "scene/read_scene.hpp"
-#include "problems_of.hpp"
 
 using namespace carrom;
 using test::mentions;
@@ -23,10 +24,12 @@ namespace {
 using Texts = std::vector<std::string>;
 
 const std::string box = "[box]\nsize = 100\n[time]\nsteps = 10\n";
-const std::string rough = "[effects.contact]\nkind = \"rough\"\nrestitution = 0.9\ntangential_restitution = 0.5\n";
+const std::string rough =
+    "[effects.contact]\nkind = \"rough\"\nrestitution = 0.9\ntangential_restitution = 0.5\n";
 
 std::string from_file(const std::string& columns, int n = 4) {
-    return box + "[discs]\ncount = " + std::to_string(n) + "\nfile = \"d.txt\"\ncolumns = " + columns + '\n';
+    return box + "[discs]\ncount = " + std::to_string(n) +
+           "\nfile = \"d.txt\"\ncolumns = " + columns + '\n';
 }
 
 DiscColumns columns_of(const std::string& lines, const Scene& scene) {
@@ -40,15 +43,18 @@ Scene scene_with(const std::string& text, const std::string& lines) {
     return read_scene(SceneText{"s.toml", text, 0, false, columns_of(lines, first)});
 }
 
-std::vector<Problem> problems_in(const std::string& text, const std::optional<DiscColumns>& columns = {}) {
+std::vector<Problem> problems_in(const std::string& text,
+                                 const std::optional<DiscColumns>& columns = {}) {
     return problems_of([&] { read_scene(SceneText{"s.toml", text, 0, false, columns}); });
 }
 
-const std::string four_lines = "2 50 50 0 1 3 7\n\n0 10 10 1 0 2 5\n3 80 80 0 0 1 1\n1 20 20 0 0 2 5\n";
+const std::string four_lines =
+    "2 50 50 0 1 3 7\n\n0 10 10 1 0 2 5\n3 80 80 0 0 1 1\n1 20 20 0 0 2 5\n";
 
 } // namespace
 
-TEST_CASE("Columns of a file of discs are classes in the order of ids, whatever the order of lines") {
+TEST_CASE(
+    "Columns of a file of discs are classes in the order of ids, whatever the order of lines") {
     const Scene scene = scene_with(from_file("[\"radius\", \"mass\"]"), four_lines);
     CHECK(scene.effects.species == std::vector<Species>{{2, 2, 5}, {1, 3, 7}, {1, 1, 1}});
     CHECK(scene.radius == 3);
@@ -58,58 +64,87 @@ TEST_CASE("Columns of a file of discs are classes in the order of ids, whatever 
     std::vector<InputDisc> discs;
     CHECK(reader.read(discs, 100));
     CHECK(reader.problems().empty());
-    CHECK(discs == std::vector<InputDisc>{{2, 50, 50, 0, 1}, {0, 10, 10, 1, 0}, {3, 80, 80, 0, 0}, {1, 20, 20, 0, 0}});
+    CHECK(discs == std::vector<InputDisc>{
+                       {2, 50, 50, 0, 1}, {0, 10, 10, 1, 0}, {3, 80, 80, 0, 0}, {1, 20, 20, 0, 0}});
 
-    const Scene other = scene_with(from_file("[\"mass\", \"radius\"]"), four_lines); // in the order that is named
+    const Scene other = scene_with(from_file("[\"mass\", \"radius\"]"),
+                                   four_lines); // in the order that is named
     CHECK(other.effects.species == std::vector<Species>{{2, 5, 2}, {1, 7, 3}, {1, 1, 1}});
     const Scene light = scene_with(from_file("[\"radius\"]", 2), "1 20 20 0 0 2\n0 10 10 1 0 4\n");
     CHECK(light.effects.species == std::vector<Species>{{1, 4, 1}, {1, 2, 1}});
-    CHECK(physical_differences(scene, other).size() == 3); // radius of the largest, classes, columns
+    CHECK(physical_differences(scene, other).size() ==
+          3); // radius of the largest, classes, columns
 }
 
 TEST_CASE("Spins at the start come from a file, a list or classes") {
-    const Scene file = scene_with(from_file("[\"spin\"]", 3) + "radius = 1\n" + rough, "0 10 10 1 0 0.5\n2 30 30 0 0 -2\n1 20 20 0 0 0.5\n");
+    const Scene file = scene_with(from_file("[\"spin\"]", 3) + "radius = 1\n" + rough,
+                                  "0 10 10 1 0 0.5\n2 30 30 0 0 -2\n1 20 20 0 0 0.5\n");
     CHECK(file.effects.species.empty());
     CHECK(file.radius == 1);
     CHECK(file.spins == std::vector<SpinRun>{{2, 0.5}, {3, -2}});
     CHECK(first_spin(file, 0) == 0.5);
     CHECK(first_spin(file, 1) == 0.5);
     CHECK(first_spin(file, 2) == -2);
-    const Scene list = read_scene(box + "[discs]\nradius = 1\nlist = [[10, 10, 1, 0], [20, 20, 0, 0, 0.25]]\n" + rough, "s.toml");
+    const Scene list = read_scene(
+        box + "[discs]\nradius = 1\nlist = [[10, 10, 1, 0], [20, 20, 0, 0, 0.25]]\n" + rough,
+        "s.toml");
     CHECK(list.spins == std::vector<SpinRun>{{1, 0}, {2, 0.25}});
-    const Scene all = read_scene(box + "[discs]\nlist = [[10, 10, 1, 0, 2, 3, 1.5], [20, 20, 0, 0, 1, 1]]\n" + rough, "s.toml");
+    const Scene all = read_scene(
+        box + "[discs]\nlist = [[10, 10, 1, 0, 2, 3, 1.5], [20, 20, 0, 0, 1, 1]]\n" + rough,
+        "s.toml");
     CHECK(all.effects.species == std::vector<Species>{{1, 2, 3}, {1, 1, 1}});
     CHECK(all.spins == std::vector<SpinRun>{{1, 1.5}, {2, 0}});
-    const std::string species = "[[discs.species]]\ncount = 3\nradius = 2\nspin = -1\n[[discs.species]]\ncount = 40\nradius = 0.5\n";
+    const std::string species = "[[discs.species]]\ncount = 3\nradius = 2\nspin = "
+                                "-1\n[[discs.species]]\ncount = 40\nradius = 0.5\n";
     const Scene kinds = read_scene(box + species + rough, "s.toml");
     CHECK(kinds.spins == std::vector<SpinRun>{{3, -1}, {43, 0}});
     CHECK(first_spin(kinds, 2) == -1);
     CHECK(first_spin(kinds, 3) == 0);
     CHECK(read_scene(box + "[discs]\ncount = 5\nradius = 1\n" + rough, "s.toml").spins.empty());
-    CHECK(physical_differences(kinds, read_scene(box + "[[discs.species]]\ncount = 3\nradius = 2\n[[discs.species]]\ncount = 40\nradius = 0.5\n" + rough, "s.toml")) ==
-          Texts{"discs begin with other spins there"});
-    for (const std::string& text : {from_file("[\"spin\"]") + "radius = 1\n", box + species, box + "[discs]\nradius = 1\nlist = [[10, 10, 1, 0, 0.5]]\n"})
+    CHECK(physical_differences(
+              kinds, read_scene(box +
+                                    "[[discs.species]]\ncount = 3\nradius = "
+                                    "2\n[[discs.species]]\ncount = 40\nradius = 0.5\n" +
+                                    rough,
+                                "s.toml")) == Texts{"discs begin with other spins there"});
+    for (const std::string& text : {from_file("[\"spin\"]") + "radius = 1\n", box + species,
+                                    box + "[discs]\nradius = 1\nlist = [[10, 10, 1, 0, 0.5]]\n"})
         CHECK(mentions(problems_in(text), "no meaning without effects.contact.kind = \"rough\""));
-    CHECK(mentions(problems_in(box + "[discs]\nradius = 1\nlist = [[10, 10, 1, 0, inf]]\n" + rough), "row 1 of 'discs.list': the spin must be finite"));
+    CHECK(mentions(problems_in(box + "[discs]\nradius = 1\nlist = [[10, 10, 1, 0, inf]]\n" + rough),
+                   "row 1 of 'discs.list': the spin must be finite"));
 }
 
 TEST_CASE("Wrong columns are refused where they are named") {
-    const DiscColumns whole = columns_of(four_lines, read_scene(SceneText{"s.toml", from_file("[\"radius\", \"mass\"]"), 0, false, {}}));
+    const DiscColumns whole = columns_of(
+        four_lines,
+        read_scene(SceneText{"s.toml", from_file("[\"radius\", \"mass\"]"), 0, false, {}}));
     REQUIRE(whole.is_whole);
-    CHECK(mentions(problems_in(from_file("[\"radius\", \"colour\"]"), whole), "\"radius\", \"mass\" or \"spin\", not 'colour'"));
+    CHECK(mentions(problems_in(from_file("[\"radius\", \"colour\"]"), whole),
+                   "\"radius\", \"mass\" or \"spin\", not 'colour'"));
     CHECK(mentions(problems_in(from_file("[\"radius\", \"radius\"]"), whole), "\"radius\" twice"));
     CHECK(mentions(problems_in(from_file("[\"mass\"]") + "radius = 1\n"), "needs \"radius\", too"));
-    CHECK(mentions(problems_in(from_file("[\"radius\"]") + "radius = 1\n", whole), "'discs.radius' has no meaning where 'discs.columns' name radii"));
-    CHECK(mentions(problems_in(box + "[discs]\ncount = 4\nradius = 1\ncolumns = [\"spin\"]\n" + rough), "has no meaning where discs.generator is \"random\""));
-    CHECK(mentions(problems_in(box + "[discs]\nlist = [[10, 10, 1, 0]]\nradius = 1\ncolumns = [\"spin\"]\n" + rough), "no meaning without 'discs.file'"));
-    CHECK(mentions(problems_in(from_file("[\"radius\"]") + "[[discs.species]]\ncount = 4\nradius = 1\n", whole), "'discs.species' has no meaning where 'discs.columns'"));
+    CHECK(mentions(problems_in(from_file("[\"radius\"]") + "radius = 1\n", whole),
+                   "'discs.radius' has no meaning where 'discs.columns' name radii"));
+    CHECK(mentions(
+        problems_in(box + "[discs]\ncount = 4\nradius = 1\ncolumns = [\"spin\"]\n" + rough),
+        "has no meaning where discs.generator is \"random\""));
+    CHECK(mentions(
+        problems_in(box + "[discs]\nlist = [[10, 10, 1, 0]]\nradius = 1\ncolumns = [\"spin\"]\n" +
+                    rough),
+        "no meaning without 'discs.file'"));
+    CHECK(mentions(
+        problems_in(from_file("[\"radius\"]") + "[[discs.species]]\ncount = 4\nradius = 1\n",
+                    whole),
+        "'discs.species' has no meaning where 'discs.columns'"));
     const DiscColumns wide{{{4, 60, 1}}, {}, true};
     CHECK(mentions(problems_in(from_file("[\"radius\"]"), wide), "does not fit into a box"));
 }
 
 TEST_CASE("Lines with wrong columns are told by their number, with all else that is wrong") {
     const std::string text = from_file("[\"radius\", \"mass\"]", 8);
-    const std::string lines = "0 10 10 1 0 2 5\n1 20 20 0 0 -1 5\n2 30 30 0 0 2 0\n3 40 40 0 0 nan 1\n4 50 50 0 0 2\n5 60 60 0 0 2 1 9\n6 1 70 0 0 2 1\n7 80 80 0 0 two 1\n";
+    const std::string lines =
+        "0 10 10 1 0 2 5\n1 20 20 0 0 -1 5\n2 30 30 0 0 2 0\n3 40 40 0 0 nan 1\n4 50 50 0 0 2\n5 "
+        "60 60 0 0 2 1 9\n6 1 70 0 0 2 1\n7 80 80 0 0 two 1\n";
     const Scene scene = read_scene(SceneText{"s.toml", text, 0, false, {}});
     const DiscColumns columns = columns_of(lines, scene);
     CHECK(!columns.is_whole);
@@ -118,7 +153,8 @@ TEST_CASE("Lines with wrong columns are told by their number, with all else that
     CHECK(none.empty()); // the reader of lines has the words
     std::istringstream stream(lines);
     const std::vector<Problem> problems = disc_line_problems(stream, checked);
-    CHECK(places_of(problems) == Texts{"d.txt:2", "d.txt:3", "d.txt:4", "d.txt:5", "d.txt:6", "d.txt:7", "d.txt:8"});
+    CHECK(places_of(problems) ==
+          Texts{"d.txt:2", "d.txt:3", "d.txt:4", "d.txt:5", "d.txt:6", "d.txt:7", "d.txt:8"});
     CHECK(mentions(problems, "the radius must be from 2^-230 to 2^250, not -1"));
     CHECK(mentions(problems, "the mass must be from 2^-100 to 2^100, not 0"));
     CHECK(mentions(problems, "expected 'id x y vx vy radius mass', found only 6 of the 7 numbers"));
@@ -126,6 +162,10 @@ TEST_CASE("Lines with wrong columns are told by their number, with all else that
     CHECK(mentions(problems, "disc 6 at (1, 70) is not inside the box"));
     CHECK(mentions(problems, "'two' is not a number"));
 
-    for (const char* flawed : {"0 10 10 1 0 2 5\n", "0 10 10 1 0 2 5\n0 20 20 1 0 2 5\n", "0 10 10 1 0 2 5\n9 20 20 1 0 2 5\n", ""})
-        CHECK(!columns_of(flawed, read_scene(SceneText{"s.toml", from_file("[\"radius\", \"mass\"]", 2), 0, false, {}})).is_whole);
+    for (const char* flawed : {"0 10 10 1 0 2 5\n", "0 10 10 1 0 2 5\n0 20 20 1 0 2 5\n",
+                               "0 10 10 1 0 2 5\n9 20 20 1 0 2 5\n", ""})
+        CHECK(!columns_of(flawed,
+                          read_scene(SceneText{
+                              "s.toml", from_file("[\"radius\", \"mass\"]", 2), 0, false, {}}))
+                   .is_whole);
 }

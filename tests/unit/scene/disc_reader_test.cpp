@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
+#include "problems_of.hpp"
 #include "scene/disc_reader.hpp"
 #include "scene/line_reader.hpp"
-#include "problems_of.hpp"
 
 using namespace carrom;
 using test::mentions;
@@ -55,13 +55,19 @@ Outcome read_all(const std::string& text, const Scene& scene, std::size_t chunk_
 
 TEST_CASE("Discs come back bit for bit, in any order of ids and any chunks") {
     std::mt19937_64 engine(11);
-    const auto uniform = [&](double low, double high) { return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53; };
+    const auto uniform = [&](double low, double high) {
+        return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53;
+    };
     std::vector<InputDisc> discs;
-    for (DiscId id = 0; id < 20000; ++id) discs.push_back({id, uniform(1, 9), uniform(1, 9), uniform(-5, 5), uniform(-1e-9, 1e-9)});
+    for (DiscId id = 0; id < 20000; ++id)
+        discs.push_back({id, uniform(1, 9), uniform(1, 9), uniform(-5, 5), uniform(-1e-9, 1e-9)});
     std::shuffle(discs.begin(), discs.end(), engine);
     std::string text = "\n";
-    for (const InputDisc& d : discs) text += fmt::format("{} {:.17g} {:.17g}\t{:.17g}  {:.17g}\r\n\n", d.id, d.x, d.y, d.vx, d.vy);
-    for (const std::size_t chunk_size : {std::size_t{1}, std::size_t{7}, std::size_t{20000}, std::size_t{100000}}) {
+    for (const InputDisc& d : discs)
+        text += fmt::format("{} {:.17g} {:.17g}\t{:.17g}  {:.17g}\r\n\n", d.id, d.x, d.y, d.vx,
+                            d.vy);
+    for (const std::size_t chunk_size :
+         {std::size_t{1}, std::size_t{7}, std::size_t{20000}, std::size_t{100000}}) {
         const Outcome outcome = read_all(text, scene_of(20000), chunk_size);
         CHECK(outcome.problems.empty());
         CHECK(outcome.discs == discs);
@@ -69,20 +75,20 @@ TEST_CASE("Discs come back bit for bit, in any order of ids and any chunks") {
 }
 
 TEST_CASE("Each wrong line is one problem, and the good ones are still read") {
-    const std::string text = "0 5 5 0 0\n"          // 6
-                             "1 5 5 0\n"            // 7 short
-                             "2 5 5 0 0 7\n"        // 8 trailing rubbish
-                             "3 5 five 0 0\n"       // 9
-                             "4 nan 5 0 0\n"        // 10
-                             "5 5 5 inf 0\n"        // 11
-                             "0 5 5 0 0\n"          // 12 twice
-                             "99 5 5 0 0\n"         // 13 out of range
-                             "-1 5 5 0 0\n"         // 14
-                             "x 5 5 0 0\n"          // 15
-                             "6 0.999 5 0 0\n"      // 16 outside
-                             "7 5 9.001 0 0\n"      // 17 outside
-                             "1.0 5 5 0 0\n"        // 18
-                             "8 5 5 1e100 0\n"      // 19 too fast
+    const std::string text = "0 5 5 0 0\n"                        // 6
+                             "1 5 5 0\n"                          // 7 short
+                             "2 5 5 0 0 7\n"                      // 8 trailing rubbish
+                             "3 5 five 0 0\n"                     // 9
+                             "4 nan 5 0 0\n"                      // 10
+                             "5 5 5 inf 0\n"                      // 11
+                             "0 5 5 0 0\n"                        // 12 twice
+                             "99 5 5 0 0\n"                       // 13 out of range
+                             "-1 5 5 0 0\n"                       // 14
+                             "x 5 5 0 0\n"                        // 15
+                             "6 0.999 5 0 0\n"                    // 16 outside
+                             "7 5 9.001 0 0\n"                    // 17 outside
+                             "1.0 5 5 0 0\n"                      // 18
+                             "8 5 5 1e100 0\n"                    // 19 too fast
                              "99999999999999999999999 5 5 0 0\n"; // 20
     const Outcome outcome = read_all(text, scene_of(12));
     CHECK(outcome.discs == std::vector<InputDisc>{{0, 5, 5, 0, 0}});
@@ -109,20 +115,24 @@ TEST_CASE("Of many problems the first 20 are listed and the rest are counted") {
 }
 
 TEST_CASE("Missing ids are summed up as ranges") {
-    CHECK(read_all("", scene_of(7)).problems == std::vector<Problem>{{"t.in", 0, "7 of 7 discs are missing: 0-6"}});
+    CHECK(read_all("", scene_of(7)).problems ==
+          std::vector<Problem>{{"t.in", 0, "7 of 7 discs are missing: 0-6"}});
     CHECK(read_all("1 5 5 0 0\n3 5 5 0 0\n", scene_of(7)).problems ==
           std::vector<Problem>{{"t.in", 0, "5 of 7 discs are missing: 0, 2, 4-6"}});
     std::string text;
     for (int i = 1; i < 100; i += 2) text += fmt::format("{} 5 5 0 0\n", i);
     CHECK(read_all(text, scene_of(100)).problems ==
-          std::vector<Problem>{{"t.in", 0, "50 of 100 discs are missing: 0, 2, 4, 6, 8, 10, 12, 14, 16, 18, ..."}});
+          std::vector<Problem>{
+              {"t.in", 0, "50 of 100 discs are missing: 0, 2, 4, 6, 8, 10, 12, 14, 16, 18, ..."}});
 }
 
 TEST_CASE("A centre may be off the range of centres by the rounding of L, not more") {
     Scene scene = scene_of(1);
     scene.radius = 0.1;
     const double high = scene.box_size - scene.radius;
-    const auto n_problems = [&](double x) { return read_all(fmt::format("0 {:.17g} 5 0 0\n", x), scene).problems.size(); };
+    const auto n_problems = [&](double x) {
+        return read_all(fmt::format("0 {:.17g} 5 0 0\n", x), scene).problems.size();
+    };
     CHECK(n_problems(0.1) == 0);
     CHECK(n_problems(high) == 0);
     CHECK(n_problems(std::nextafter(high, 20)) == 0);
@@ -134,7 +144,8 @@ TEST_CASE("A centre may be off the range of centres by the rounding of L, not mo
 }
 
 TEST_CASE("Lines are cut, not swallowed, when they have no end") {
-    const std::string text = "0 5 5 0 0\n" + std::string(3'000'000, '7') + "\n1 5 5 0 0\n" + std::string(5000, ' ');
+    const std::string text = "0 5 5 0 0\n" + std::string(3'000'000, '7') + "\n1 5 5 0 0\n" +
+                             std::string(5000, ' ');
     const Outcome outcome = read_all(text, scene_of(2));
     CHECK(outcome.discs.size() == 2);
     CHECK(places_of(outcome.problems) == Texts{"t.in:7", "t.in:9"});
@@ -143,8 +154,10 @@ TEST_CASE("Lines are cut, not swallowed, when they have no end") {
 TEST_CASE("All that is wrong with a line is told") {
     const Outcome outcome = read_all("0 five 5 0 six 7\n1 nan 5 inf 0\n", scene_of(2));
     CHECK(places_of(outcome.problems) == Texts{"t.in:6", "t.in:7"});
-    CHECK(mentions(outcome.problems, "'five' is not a number; 'six' is not a number; '7' after the 5 numbers"));
-    CHECK(mentions(outcome.problems, "the position nan is not a finite number; the velocity inf is not"));
+    CHECK(mentions(outcome.problems,
+                   "'five' is not a number; 'six' is not a number; '7' after the 5 numbers"));
+    CHECK(mentions(outcome.problems,
+                   "the position nan is not a finite number; the velocity inf is not"));
 }
 
 TEST_CASE("A line that does not end, and lines that are never right, end the reading") {
@@ -163,7 +176,8 @@ TEST_CASE("A line that does not end, and lines that are never right, end the rea
         const Scene scene = scene_of(2);
         DiscReader reader(stream, scene);
         std::vector<InputDisc> chunk;
-        while (reader.read(chunk, 1000)) {}
+        while (reader.read(chunk, 1000)) {
+        }
         return reader.problems();
     };
     Endless zeros(std::string(1 << 16, '\0'));
@@ -179,7 +193,10 @@ TEST_CASE("A line that does not end, and lines that are never right, end the rea
 TEST_CASE("A file of discs may begin with a mark of the byte order") {
     Scene scene = scene_of(1);
     scene.discs_file = "d.txt";
-    CHECK(read_all("\xef\xbb\xbf" "0 5 5 0 0\n", scene).problems.empty());
+    CHECK(read_all("\xef\xbb\xbf"
+                   "0 5 5 0 0\n",
+                   scene)
+              .problems.empty());
 }
 
 TEST_CASE("The line reader agrees with getline on any lengths of lines") {
@@ -194,7 +211,8 @@ TEST_CASE("The line reader agrees with getline on any lengths of lines") {
     std::int64_t n_lines = 0;
     bool all_equal = true;
     while (std::getline(plain, expected)) {
-        all_equal = all_equal && reader.next(line) && line == expected && !reader.is_cut() && reader.line_number() == ++n_lines;
+        all_equal = all_equal && reader.next(line) && line == expected && !reader.is_cut() &&
+                    reader.line_number() == ++n_lines;
     }
     CHECK(all_equal);
     CHECK_FALSE(reader.next(line));
@@ -205,11 +223,14 @@ TEST_CASE("Lines of a scene that is wrong itself are looked at as far as it is k
         std::istringstream stream(text);
         return places_of(disc_line_problems(stream, scene));
     };
-    const std::string text = "0 3 3 1\n1 99 7 0 0\n1 4 4 4 4\n7 4 4 0 0\n4294967293 4 4 0 0\n4294967294 4 4 0 0\nx 1 1 1 1\n3 nan 4 0 0\n";
+    const std::string text = "0 3 3 1\n1 99 7 0 0\n1 4 4 4 4\n7 4 4 0 0\n4294967293 4 4 0 "
+                             "0\n4294967294 4 4 0 0\nx 1 1 1 1\n3 nan 4 0 0\n";
     Scene scene = scene_of(5);
-    CHECK(places(text, scene) == Texts{"t.in:6", "t.in:7", "t.in:8", "t.in:9", "t.in:10", "t.in:11", "t.in:12", "t.in:13", "t.in"});
+    CHECK(places(text, scene) == Texts{"t.in:6", "t.in:7", "t.in:8", "t.in:9", "t.in:10", "t.in:11",
+                                       "t.in:12", "t.in:13", "t.in"});
     scene.n_discs = 0; // ids are all that fit, none is missing
-    CHECK(places(text, scene) == Texts{"t.in:6", "t.in:7", "t.in:8", "t.in:11", "t.in:12", "t.in:13"});
+    CHECK(places(text, scene) ==
+          Texts{"t.in:6", "t.in:7", "t.in:8", "t.in:11", "t.in:12", "t.in:13"});
     scene.box_size = scene.radius = 0; // any finite place
     CHECK(places(text, scene) == Texts{"t.in:6", "t.in:8", "t.in:11", "t.in:12", "t.in:13"});
     CHECK(places("1 4 4 0 0\n0 3 3 0 0\n", scene).empty());

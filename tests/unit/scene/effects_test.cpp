@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "problems_of.hpp"
 #include "scene/compare.hpp"
 #include "scene/read_scene.hpp"
-#include "problems_of.hpp"
 
 using namespace carrom;
 using test::problems_of;
@@ -22,7 +22,8 @@ const std::string good = "[box]\nsize = 100\n[discs]\ncount = 50\nradius = 1\n[t
 /// The texts of all problems, one a line.
 std::string problems_with(const Texts& overrides) {
     std::string text;
-    for (const Problem& problem : problems_of([&] { read_scene(good, "s.toml", overrides); })) text += problem.text + '\n';
+    for (const Problem& problem : problems_of([&] { read_scene(good, "s.toml", overrides); }))
+        text += problem.text + '\n';
     return text;
 }
 
@@ -34,70 +35,115 @@ bool has(const std::string& text, const char* part) {
 } // namespace
 
 TEST_CASE("Effects are read, parameters of others are refused by name") {
-    const Scene scene = read_scene(good + "[effects.contact]\nkind = 'restitution'\nrestitution = 0.9\ncontact_time = 0.01\n", "s.toml");
+    const Scene scene = read_scene(
+        good + "[effects.contact]\nkind = 'restitution'\nrestitution = 0.9\ncontact_time = 0.01\n",
+        "s.toml");
     CHECK(scene.effects.contact == ContactEffect{ContactKind::restitution, 0.9, 0.01});
     CHECK_FALSE(read_scene(good, "s.toml").effects.are_any());
-    CHECK(read_scene(good, "s.toml", {"effects.contact.kind=none"}).effects.contact.kind == ContactKind::none);
+    CHECK(read_scene(good, "s.toml", {"effects.contact.kind=none"}).effects.contact.kind ==
+          ContactKind::none);
 
-    CHECK(has(problems_with({"effects.contact.restitution=0.5"}), "no meaning without effects.contact.kind = \"restitution\""));
-    CHECK(has(problems_with({"effects.contact.kind=none", "effects.contact.contact_time=0.1"}), "no meaning without"));
-    CHECK(has(problems_with({"effects.contact.kind=restitution"}), "'effects.contact.restitution' is missing"));
-    CHECK(has(problems_with({"effects.contact.kind=restitution", "effects.contact.restitution=1.5"}), "from 0 to 1, not 1.5"));
-    CHECK(has(problems_with({"effects.contact.kind=restitution", "effects.contact.restitution=0.5", "effects.contact.contact_time=17"}), "at most 16 steps"));
-    CHECK(has(problems_with({"effects.contact.kind=bouncy"}), "\"elastic\", \"none\", \"restitution\" or \"rough\""));
-    CHECK(has(problems_with({"effects.contact.restitutoin=0.5"}), "did you mean 'effects.contact.restitution'?"));
-    CHECK(has(problems_with({"effects.contact.kind=none", "time.precision=single"}), "for scenes without effects"));
-    CHECK(has(problems_with({"effects.contact.kind=none", "time.accuracy=0.1"}), "for scenes without effects"));
+    CHECK(has(problems_with({"effects.contact.restitution=0.5"}),
+              "no meaning without effects.contact.kind = \"restitution\""));
+    CHECK(has(problems_with({"effects.contact.kind=none", "effects.contact.contact_time=0.1"}),
+              "no meaning without"));
+    CHECK(has(problems_with({"effects.contact.kind=restitution"}),
+              "'effects.contact.restitution' is missing"));
+    CHECK(
+        has(problems_with({"effects.contact.kind=restitution", "effects.contact.restitution=1.5"}),
+            "from 0 to 1, not 1.5"));
+    CHECK(has(problems_with({"effects.contact.kind=restitution", "effects.contact.restitution=0.5",
+                             "effects.contact.contact_time=17"}),
+              "at most 16 steps"));
+    CHECK(has(problems_with({"effects.contact.kind=bouncy"}),
+              "\"elastic\", \"none\", \"restitution\" or \"rough\""));
+    CHECK(has(problems_with({"effects.contact.restitutoin=0.5"}),
+              "did you mean 'effects.contact.restitution'?"));
+    CHECK(has(problems_with({"effects.contact.kind=none", "time.precision=single"}),
+              "for scenes without effects"));
+    CHECK(has(problems_with({"effects.contact.kind=none", "time.accuracy=0.1"}),
+              "for scenes without effects"));
 }
 
 TEST_CASE("Sides are read, and contradictions explained") {
-    const Scene scene = read_scene(good, "s.toml", {"box.left.kind=thermal", "box.left.temperature=2", "box.right.kind=moving", "box.right.speed=-0.5",
-                                                    "box.top.restitution=0.5", "effects.thermal.seed=7", "time.method=event-driven"});
+    const Scene scene = read_scene(good, "s.toml",
+                                   {"box.left.kind=thermal", "box.left.temperature=2",
+                                    "box.right.kind=moving", "box.right.speed=-0.5",
+                                    "box.top.restitution=0.5", "effects.thermal.seed=7",
+                                    "time.method=event-driven"});
     CHECK(scene.effects.boundaries[0] == Boundary{BoundaryKind::thermal, 1, 2, 0});
     CHECK(scene.effects.boundaries[1] == Boundary{BoundaryKind::moving, 1, 0, -0.5});
     CHECK(scene.effects.boundaries[2] == Boundary{});
     CHECK(scene.effects.boundaries[3] == Boundary{BoundaryKind::fixed, 0.5, 0, 0});
     CHECK(scene.effects.thermal_seed == 7);
-    CHECK(has(problems_with({"box.left.temperature=2"}), "no meaning without box.left.kind = \"thermal\""));
+    CHECK(has(problems_with({"box.left.temperature=2"}),
+              "no meaning without box.left.kind = \"thermal\""));
     CHECK(has(problems_with({"box.left.kind=thermal"}), "'box.left.temperature' is missing"));
-    CHECK(has(problems_with({"box.left.kind=thermal", "box.left.temperature=1", "box.left.restitution=0.5"}), "has forgotten how it came"));
+    CHECK(has(problems_with(
+                  {"box.left.kind=thermal", "box.left.temperature=1", "box.left.restitution=0.5"}),
+              "has forgotten how it came"));
     CHECK(has(problems_with({"box.top.speed=1"}), "no meaning without box.top.kind = \"moving\""));
-    CHECK(has(problems_with({"box.top.kind=moving", "box.top.speed=1"}), "needs time.method = \"all\""));
+    CHECK(has(problems_with({"box.top.kind=moving", "box.top.speed=1"}),
+              "needs time.method = \"all\""));
     const std::string all = "time.method=event-driven";
-    CHECK(has(problems_with({"box.right.kind=moving", "box.right.speed=-9.9", all}), "too small for its discs"));
-    CHECK(has(problems_with({"box.right.kind=moving", "box.right.speed=11", all}), "more than twice as long"));
-    CHECK(has(problems_with({"box.left.kind=moving", "box.left.speed=-0.1", all}), "let the right one move out"));
-    CHECK(has(problems_with({"effects.thermal.seed=1"}), "no meaning without a side of kind = \"thermal\""));
-    CHECK(has(problems_with({"effects.contact.contact_time=0.1"}), "no meaning without discs, walls or obstacles of restitution, or gravity"));
+    CHECK(has(problems_with({"box.right.kind=moving", "box.right.speed=-9.9", all}),
+              "too small for its discs"));
+    CHECK(has(problems_with({"box.right.kind=moving", "box.right.speed=11", all}),
+              "more than twice as long"));
+    CHECK(has(problems_with({"box.left.kind=moving", "box.left.speed=-0.1", all}),
+              "let the right one move out"));
+    CHECK(has(problems_with({"effects.thermal.seed=1"}),
+              "no meaning without a side of kind = \"thermal\""));
+    CHECK(has(problems_with({"effects.contact.contact_time=0.1"}),
+              "no meaning without discs, walls or obstacles of restitution, or gravity"));
     CHECK(has(problems_with({"box.middle.kind=wall"}), "no such key"));
-    CHECK(read_scene(good, "s.toml", {"box.left.kind=open"}).effects.boundaries[0] == Boundary{BoundaryKind::open, 1, 0, 0});
-    CHECK(has(problems_with({"box.left.kind=open", "box.left.restitution=0.5"}), "nothing comes back from an open side"));
-    CHECK(has(problems_with({"box.left.kind=open", "box.top.kind=moving", "box.top.speed=1", all}), "no open sides together with moving walls"));
+    CHECK(read_scene(good, "s.toml", {"box.left.kind=open"}).effects.boundaries[0] ==
+          Boundary{BoundaryKind::open, 1, 0, 0});
+    CHECK(has(problems_with({"box.left.kind=open", "box.left.restitution=0.5"}),
+              "nothing comes back from an open side"));
+    CHECK(has(problems_with({"box.left.kind=open", "box.top.kind=moving", "box.top.speed=1", all}),
+              "no open sides together with moving walls"));
 }
 
 TEST_CASE("Obstacles are read, each wrong one is named") {
-    const Scene scene = read_scene(good, "s.toml", {"effects.obstacles.discs=[[10, 20, 3], [40, 50, 0]]", "effects.obstacles.segments=[[0, 0, 30, 40]]",
-                                                    "effects.obstacles.restitution=0.5"});
+    const Scene scene = read_scene(good, "s.toml",
+                                   {"effects.obstacles.discs=[[10, 20, 3], [40, 50, 0]]",
+                                    "effects.obstacles.segments=[[0, 0, 30, 40]]",
+                                    "effects.obstacles.restitution=0.5"});
     CHECK(scene.effects.obstacles.discs == std::vector<FixedDisc>{{10, 20, 3}, {40, 50, 0}});
     CHECK(scene.effects.obstacles.segments == std::vector<Segment>{{0, 0, 30, 40}});
     CHECK(scene.effects.obstacles.restitution == 0.5);
-    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20]]"}), "row 1 of 'effects.obstacles.discs' must be three numbers, [x, y, radius]"));
-    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1], [110, 20, 1]]"}), "row 2 of 'effects.obstacles.discs': the centre (110, 20) is not in the box"));
-    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, -1]]"}), "the radius must be from 0 to 100, not -1"));
-    CHECK(has(problems_with({"effects.obstacles.segments=[[10, 20, 10, 120]]"}), "row 1 of 'effects.obstacles.segments'"));
-    CHECK(has(problems_with({"effects.obstacles.segments=[[10, 20, 10, 20]]"}), "a point is a fixed disc of radius 0"));
-    CHECK(has(problems_with({"effects.obstacles.restitution=0.5"}), "no meaning without 'effects.obstacles.discs' or 'effects.obstacles.segments'"));
-    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1]]", "discs.generator=lattice"}), "know nothing of obstacles"));
-    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1]]", "box.top.kind=moving", "box.top.speed=1", "time.method=event-driven"}), "together with obstacles"));
-    const Scene other = read_scene(good, "s.toml", {"effects.obstacles.discs=[[10, 20, 4], [40, 50, 0]]", "effects.obstacles.segments=[[0, 0, 30, 40]]"});
+    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20]]"}),
+              "row 1 of 'effects.obstacles.discs' must be three numbers, [x, y, radius]"));
+    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1], [110, 20, 1]]"}),
+              "row 2 of 'effects.obstacles.discs': the centre (110, 20) is not in the box"));
+    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, -1]]"}),
+              "the radius must be from 0 to 100, not -1"));
+    CHECK(has(problems_with({"effects.obstacles.segments=[[10, 20, 10, 120]]"}),
+              "row 1 of 'effects.obstacles.segments'"));
+    CHECK(has(problems_with({"effects.obstacles.segments=[[10, 20, 10, 20]]"}),
+              "a point is a fixed disc of radius 0"));
+    CHECK(has(problems_with({"effects.obstacles.restitution=0.5"}),
+              "no meaning without 'effects.obstacles.discs' or 'effects.obstacles.segments'"));
+    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1]]", "discs.generator=lattice"}),
+              "know nothing of obstacles"));
+    CHECK(has(problems_with({"effects.obstacles.discs=[[10, 20, 1]]", "box.top.kind=moving",
+                             "box.top.speed=1", "time.method=event-driven"}),
+              "together with obstacles"));
+    const Scene other = read_scene(good, "s.toml",
+                                   {"effects.obstacles.discs=[[10, 20, 4], [40, 50, 0]]",
+                                    "effects.obstacles.segments=[[0, 0, 30, 40]]"});
     CHECK(physical_differences(scene, other).size() == 2);
 }
 
 TEST_CASE("Gravity is read, and refused where the falling frame would leave the box") {
-    CHECK(read_scene(good, "s.toml", {"effects.gravity.y=-0.02", "time.method=event-driven"}).effects.gravity == Gravity{0, -0.02});
+    CHECK(read_scene(good, "s.toml", {"effects.gravity.y=-0.02", "time.method=event-driven"})
+              .effects.gravity == Gravity{0, -0.02});
     CHECK(has(problems_with({"effects.gravity.y=-0.02"}), "gravity needs time.method = \"all\""));
-    CHECK(has(problems_with({"effects.gravity.x=1", "time.method=event-driven"}), "time.sync_every = 10 or less will do"));
-    CHECK(problems_with({"effects.gravity.x=1", "time.method=event-driven", "time.sync_every=10"}).empty());
+    CHECK(has(problems_with({"effects.gravity.x=1", "time.method=event-driven"}),
+              "time.sync_every = 10 or less will do"));
+    CHECK(problems_with({"effects.gravity.x=1", "time.method=event-driven", "time.sync_every=10"})
+              .empty());
 }
 
 TEST_CASE("Drag is read, and refused beside what it does not go with yet") {
@@ -107,29 +153,42 @@ TEST_CASE("Drag is read, and refused beside what it does not go with yet") {
     CHECK(has(problems_with({"effects.drag.rate=-1", all}), "must not be negative"));
     CHECK(has(problems_with({"effects.drag.rate=0.1", all}), "a smaller time.sync_every"));
     CHECK(problems_with({"effects.drag.rate=0.02", "effects.gravity.y=-0.01", all}).empty());
-    CHECK(problems_with({"effects.drag.rate=0.02", "box.right.kind=moving", "box.right.speed=0.01", "effects.contact.contact_time=0.01", all}).empty());
-    CHECK(has(problems_with({"effects.drag.rate=0.02", "effects.gravity.y=-0.01", "effects.obstacles.discs=[[5, 5, 1]]", all}),
+    CHECK(problems_with({"effects.drag.rate=0.02", "box.right.kind=moving", "box.right.speed=0.01",
+                         "effects.contact.contact_time=0.01", all})
+              .empty());
+    CHECK(has(problems_with({"effects.drag.rate=0.02", "effects.gravity.y=-0.01",
+                             "effects.obstacles.discs=[[5, 5, 1]]", all}),
               "no obstacles together with both drag and gravity"));
     CHECK(has(problems_with({"effects.gravity.x=0.03", all}), "time.sync_every = 57 or less"));
-    CHECK(problems_with({"effects.gravity.x=0.03", "effects.drag.rate=0.02", all}).empty()); // falls 42 from sync to sync instead of 61
+    CHECK(problems_with({"effects.gravity.x=0.03", "effects.drag.rate=0.02", all})
+              .empty()); // falls 42 from sync to sync instead of 61
 }
 
 TEST_CASE("Rough discs are read, and refused beside what does not go with them yet") {
-    const Texts rough{"effects.contact.kind=rough", "effects.contact.restitution=0.9", "effects.contact.tangential_restitution=0.5"};
+    const Texts rough{"effects.contact.kind=rough", "effects.contact.restitution=0.9",
+                      "effects.contact.tangential_restitution=0.5"};
     const auto with = [&](Texts more) {
         more.insert(more.begin(), rough.begin(), rough.end());
         return more;
     };
-    const ContactEffect contact = read_scene(good, "s.toml", with({"effects.contact.friction=0.3", "effects.contact.moment_of_inertia=0.8"})).effects.contact;
+    const ContactEffect contact = read_scene(good, "s.toml",
+                                             with({"effects.contact.friction=0.3",
+                                                   "effects.contact.moment_of_inertia=0.8"}))
+                                      .effects.contact;
     CHECK(contact == ContactEffect{ContactKind::rough, 0.9, 0.001, 0.5, 0.3, 0.8});
     CHECK(std::isinf(read_scene(good, "s.toml", rough).effects.contact.friction));
-    CHECK(has(problems_with({"effects.contact.friction=0.3"}), "no meaning without effects.contact.kind = \"rough\""));
-    CHECK(has(problems_with({"effects.contact.kind=rough"}), "'effects.contact.tangential_restitution' is missing"));
-    CHECK(has(problems_with(with({"effects.contact.tangential_restitution=1.5"})), "from -1 to 1, not 1.5"));
-    CHECK(has(problems_with(with({"effects.drag.rate=0.01", "time.method=event-driven"})), "no drag together with rough discs"));
+    CHECK(has(problems_with({"effects.contact.friction=0.3"}),
+              "no meaning without effects.contact.kind = \"rough\""));
+    CHECK(has(problems_with({"effects.contact.kind=rough"}),
+              "'effects.contact.tangential_restitution' is missing"));
+    CHECK(has(problems_with(with({"effects.contact.tangential_restitution=1.5"})),
+              "from -1 to 1, not 1.5"));
+    CHECK(has(problems_with(with({"effects.drag.rate=0.01", "time.method=event-driven"})),
+              "no drag together with rough discs"));
     CHECK(problems_with(with({"output.checkpoint.folder=kept"})).empty());
 
-    const std::string file = "output.trajectory.file=t.h5", fields = "output.trajectory.fields=[\"position\", \"angular_velocity\"]";
+    const std::string file = "output.trajectory.file=t.h5",
+                      fields = "output.trajectory.fields=[\"position\", \"angular_velocity\"]";
     CHECK(read_scene(good, "s.toml", with({file})).trajectory->has_angular_velocity);
     CHECK(!read_scene(good, "s.toml", {file}).trajectory->has_angular_velocity);
     const TrajectoryOutput named = *read_scene(good, "s.toml", with({file, fields})).trajectory;
@@ -139,37 +198,53 @@ TEST_CASE("Rough discs are read, and refused beside what does not go with them y
 
 TEST_CASE("Classes of discs are read, by table and by list") {
     const std::string box = "[box]\nsize = 100\n[time]\nsteps = 10\n";
-    const std::string two = "[[discs.species]]\ncount = 3\nradius = 2\nmass = 7\n[[discs.species]]\ncount = 40\nradius = 0.5\n";
+    const std::string two = "[[discs.species]]\ncount = 3\nradius = 2\nmass = "
+                            "7\n[[discs.species]]\ncount = 40\nradius = 0.5\n";
     const Scene scene = read_scene(box + two, "s.toml");
     CHECK(scene.effects.species == std::vector<Species>{{3, 2, 7}, {40, 0.5, 1}});
     CHECK(scene.n_discs == 43);
     CHECK(scene.radius == 2);
     CHECK(scene.packing() == Approx(3.14159265358979 * (3 * 4 + 40 * 0.25) / 1e4));
-    CHECK(description(scene.effects) == "3 discs of radius 2 and mass 7, 40 discs of radius 0.5 and mass 1");
+    CHECK(description(scene.effects) ==
+          "3 discs of radius 2 and mass 7, 40 discs of radius 0.5 and mass 1");
 
-    const Scene listed = read_scene(box + "[discs]\nlist = [[10, 10, 0, 0, 2, 3], [20, 20, 1, 0, 2, 3], [0.5, 50, 0, 0, 0.5, 1]]\n", "s.toml");
+    const Scene listed = read_scene(box + "[discs]\nlist = [[10, 10, 0, 0, 2, 3], [20, 20, 1, 0, "
+                                          "2, 3], [0.5, 50, 0, 0, 0.5, 1]]\n",
+                                    "s.toml");
     CHECK(listed.effects.species == std::vector<Species>{{2, 2, 3}, {1, 0.5, 1}});
     CHECK(listed.listed_discs[1] == InputDisc{1, 20, 20, 1, 0});
 
     const auto problems = [&](const std::string& text, const Texts& overrides = {}) {
         std::string all;
-        for (const Problem& problem : problems_of([&] { read_scene(box + text, "s.toml", overrides); })) all += problem.text + '\n';
+        for (const Problem& problem :
+             problems_of([&] { read_scene(box + text, "s.toml", overrides); }))
+            all += problem.text + '\n';
         return all;
     };
-    CHECK(has(problems(two, {"discs.radius=1"}), "'discs.radius' has no meaning where 'discs.species' name radii"));
-    CHECK(has(problems(two, {"discs.count=44"}), "'discs.species' have 43 discs, but 'discs.count' is 44"));
+    CHECK(has(problems(two, {"discs.radius=1"}),
+              "'discs.radius' has no meaning where 'discs.species' name radii"));
+    CHECK(has(problems(two, {"discs.count=44"}),
+              "'discs.species' have 43 discs, but 'discs.count' is 44"));
     CHECK(has(problems(two, {"effects.contact.kind=none"}), "pass through each other"));
     CHECK(has(problems(two, {"time.precision=single"}), "for scenes without effects"));
-    CHECK(has(problems(two, {"discs.generator=legacy"}), "has no meaning") == false); // the override takes the classes away
-    CHECK(has(problems("[[discs.species]]\ncount = 3\nradius = -2\n"), "class 1: the radius must be"));
-    CHECK(has(problems("[[discs.species]]\ncount = 3.5\nradius = 2\n"), "class 1: its count must be a whole number"));
-    CHECK(has(problems("[[discs.species]]\ncount = 3\nradius = 2\nmas = 1\n"), "class 1: a class has no"));
+    CHECK(has(problems(two, {"discs.generator=legacy"}), "has no meaning") ==
+          false); // the override takes the classes away
+    CHECK(has(problems("[[discs.species]]\ncount = 3\nradius = -2\n"),
+              "class 1: the radius must be"));
+    CHECK(has(problems("[[discs.species]]\ncount = 3.5\nradius = 2\n"),
+              "class 1: its count must be a whole number"));
+    CHECK(has(problems("[[discs.species]]\ncount = 3\nradius = 2\nmas = 1\n"),
+              "class 1: a class has no"));
     CHECK(has(problems("[[discs.species]]\ncount = 3\n"), "class 1: it needs count"));
     CHECK(has(problems("[[discs.species]]\ncount = 3\nradius = 60\n"), "does not fit into a box"));
-    CHECK(has(problems("[discs]\nlist = [[10, 10, 0, 0, 2, 3], [20, 20, 1, 0]]\n"), "other rows have six numbers"));
-    CHECK(has(problems("[discs]\nlist = [[10, 10, 0, 0, 2, 0]]\n"), "row 1 of 'discs.list': the mass must be"));
+    CHECK(has(problems("[discs]\nlist = [[10, 10, 0, 0, 2, 3], [20, 20, 1, 0]]\n"),
+              "other rows have six numbers"));
+    CHECK(has(problems("[discs]\nlist = [[10, 10, 0, 0, 2, 0]]\n"),
+              "row 1 of 'discs.list': the mass must be"));
     CHECK(has(problems("[discs]\nlist = [[1, 10, 0, 0, 2, 3]]\n"), "is not inside the box"));
-    CHECK(physical_differences(scene, read_scene(box + two + "[[discs.species]]\ncount = 1\nradius = 1\n", "s.toml")).size() == 2);
+    CHECK(physical_differences(
+              scene, read_scene(box + two + "[[discs.species]]\ncount = 1\nradius = 1\n", "s.toml"))
+              .size() == 2);
 }
 
 TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
@@ -182,51 +257,71 @@ TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
         texts.insert(texts.end(), more);
         return problems_with(texts);
     };
-    CHECK(has(problems_with({"box.left.kind=periodic"}), "box.right.kind must be \"periodic\" too"));
-    CHECK(has(problems_with({"box.top.kind=periodic"}), "box.bottom.kind must be \"periodic\" too"));
+    CHECK(
+        has(problems_with({"box.left.kind=periodic"}), "box.right.kind must be \"periodic\" too"));
+    CHECK(
+        has(problems_with({"box.top.kind=periodic"}), "box.bottom.kind must be \"periodic\" too"));
     CHECK(has(with({"box.top.restitution=0.5"}), "no meaning without a wall"));
     CHECK(has(with({"box.top.temperature=1"}), "no meaning without box.top.kind = \"thermal\""));
     CHECK(has(with({"box.top.speed=1"}), "no meaning without box.top.kind = \"moving\""));
-    CHECK(has(with({"effects.gravity.y=-0.01", "time.method=event-driven"}), "would fall for ever"));
-    CHECK_FALSE(has(with({"effects.gravity.x=-0.01", "time.method=event-driven"}), "would fall for ever"));
+    CHECK(
+        has(with({"effects.gravity.y=-0.01", "time.method=event-driven"}), "would fall for ever"));
+    CHECK_FALSE(
+        has(with({"effects.gravity.x=-0.01", "time.method=event-driven"}), "would fall for ever"));
     CHECK(with({"effects.obstacles.discs=[[0,100,40]]"}).empty());
-    CHECK(has(with({"effects.obstacles.discs=[[50,50,5], [50,50,99]]"}), "row 2 of 'effects.obstacles.discs': the radius must be at most 98, not 99"));
+    CHECK(has(with({"effects.obstacles.discs=[[50,50,5], [50,50,99]]"}),
+              "row 2 of 'effects.obstacles.discs': the radius must be at most 98, not 99"));
     CHECK(has(with({"box.left.kind=open"}), "no periodic sides together with open sides"));
-    CHECK(with({"effects.contact.kind=rough", "effects.contact.restitution=0.9", "effects.contact.tangential_restitution=0.5"}).empty());
+    CHECK(with({"effects.contact.kind=rough", "effects.contact.restitution=0.9",
+                "effects.contact.tangential_restitution=0.5"})
+              .empty());
     CHECK_FALSE(has(with({"effects.drag.rate=0.02", "time.method=event-driven"}), "drag"));
     const auto measuring = [&](const char* quantities, bool is_around) {
-        Texts texts = is_around ? Texts{"box.left.kind=periodic", "box.right.kind=periodic"} : Texts{};
+        Texts texts = is_around ? Texts{"box.left.kind=periodic", "box.right.kind=periodic"}
+                                : Texts{};
         texts.insert(texts.end(), along_y.begin(), along_y.end());
-        texts.insert(texts.end(), {"output.measurements.folder=tables", std::string("output.measurements.quantities=") + quantities});
+        texts.insert(texts.end(), {"output.measurements.folder=tables",
+                                   std::string("output.measurements.quantities=") + quantities});
         return problems_with(texts);
     };
     CHECK(has(measuring("[\"wall_pressure\"]", true), "a box without walls"));
     CHECK_FALSE(has(measuring("[\"wall_pressure\"]", false), "without walls"));
     CHECK_FALSE(has(measuring("[\"displacement\"]", true), "periodic"));
-    const std::string two = "[[discs.species]]\ncount = 1\nradius = 2\nmass = 7\n[[discs.species]]\ncount = 4\nradius = 0.5\n";
+    const std::string two = "[[discs.species]]\ncount = 1\nradius = 2\nmass = "
+                            "7\n[[discs.species]]\ncount = 4\nradius = 0.5\n";
     const auto mixed_in = [&](const std::string& size) {
-        return problems_of([&] { read_scene("[box]\nsize = " + size + "\n[time]\nsteps = 10\n" + two, "s.toml", along_y); });
+        return problems_of([&] {
+            read_scene("[box]\nsize = " + size + "\n[time]\nsteps = 10\n" + two, "s.toml", along_y);
+        });
     };
     CHECK(mixed_in("100").empty());
-    const Texts measuring_g{"output.measurements.folder=tables", "output.measurements.quantities=[\"radial_distribution\"]"};
+    const Texts measuring_g{"output.measurements.folder=tables",
+                            "output.measurements.quantities=[\"radial_distribution\"]"};
     Texts all_round{"box.left.kind=periodic", "box.right.kind=periodic"};
     all_round.insert(all_round.end(), along_y.begin(), along_y.end());
     for (const bool is_all_round : {false, true}) {
         Texts texts = is_all_round ? all_round : along_y;
         texts.insert(texts.end(), measuring_g.begin(), measuring_g.end());
-        const auto found = problems_of([&] { read_scene("[box]\nsize = 100\n[time]\nsteps = 10\n" + two, "s.toml", texts); });
+        const auto found = problems_of(
+            [&] { read_scene("[box]\nsize = 100\n[time]\nsteps = 10\n" + two, "s.toml", texts); });
         CHECK(found.empty() == is_all_round);
         if (!is_all_round) CHECK(has(found.front().text, "needs a box that is periodic all round"));
     }
     const auto small = mixed_in("7.9"); // of the largest disc four radii
-    CHECK(std::any_of(small.begin(), small.end(), [](const Problem& problem) { return problem.text.find("too small to be periodic") != std::string::npos; }));
+    CHECK(std::any_of(small.begin(), small.end(), [](const Problem& problem) {
+        return problem.text.find("too small to be periodic") != std::string::npos;
+    }));
     CHECK(has(with({"discs.radius=26", "discs.count=1"}), "too small to be periodic"));
 }
 
 TEST_CASE("A restart cannot change effects") {
-    const Texts there{"effects.gravity.y=-0.02", "time.method=event-driven", "box.top.restitution=0.5"};
-    const Texts here{"effects.gravity.y=-0.01", "time.method=event-driven", "box.top.kind=thermal", "box.top.temperature=1"};
-    const std::vector<std::string> differences = physical_differences(read_scene(good, "s.toml", there), read_scene(good, "s.toml", here));
+    const Texts there{"effects.gravity.y=-0.02", "time.method=event-driven",
+                      "box.top.restitution=0.5"};
+    const Texts here{"effects.gravity.y=-0.01", "time.method=event-driven", "box.top.kind=thermal",
+                     "box.top.temperature=1"};
+    const std::vector<std::string> differences = physical_differences(
+        read_scene(good, "s.toml", there), read_scene(good, "s.toml", here));
     CHECK(differences.size() == 4); // gravity, and the side's kind, restitution and temperature
-    CHECK(physical_differences(read_scene(good, "s.toml", there), read_scene(good, "s.toml", there)).empty());
+    CHECK(physical_differences(read_scene(good, "s.toml", there), read_scene(good, "s.toml", there))
+              .empty());
 }

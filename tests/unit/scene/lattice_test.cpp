@@ -22,11 +22,14 @@ double nearest(std::vector<Point> points, double at_most) {
     double least = at_most;
     for (std::size_t i = 0; i < points.size(); ++i)
         for (std::size_t j = i + 1; j < points.size() && points[j].x - points[i].x < least; ++j)
-            least = std::min(least, std::hypot(points[j].x - points[i].x, points[j].y - points[i].y));
+            least = std::min(least,
+                             std::hypot(points[j].x - points[i].x, points[j].y - points[i].y));
     return least;
 }
 
-double radius_of(std::uint64_t n, double box, double packing) { return box * std::sqrt(packing / (static_cast<double>(n) * pi)); }
+double radius_of(std::uint64_t n, double box, double packing) {
+    return box * std::sqrt(packing / (static_cast<double>(n) * pi));
+}
 
 void check_lattice(std::uint64_t n, double box, double radius) {
     CAPTURE(n, radius);
@@ -91,14 +94,16 @@ TEST_CASE("Shaking fills the free radius evenly") {
     const double n = 10000;
     for (DiscId id = 0; id < 10000; ++id) {
         const Point site = lattice_site(*lattice, id), place = shaken_site(*lattice, id, 1);
-        const double dx = (place.x - site.x) / lattice->free_radius, dy = (place.y - site.y) / lattice->free_radius;
+        const double dx = (place.x - site.x) / lattice->free_radius,
+                     dy = (place.y - site.y) / lattice->free_radius;
         x += dx / n;
         y += dy / n;
         square += (dx * dx + dy * dy) / n;
     }
     CHECK(std::fabs(x) < 4 * 0.5 / 100);
     CHECK(std::fabs(y) < 4 * 0.5 / 100);
-    CHECK(std::fabs(square - 0.5) < 4 * std::sqrt(1.0 / 12) / 100); // uniform in the unit disc: the square is uniform
+    CHECK(std::fabs(square - 0.5) <
+          4 * std::sqrt(1.0 / 12) / 100); // uniform in the unit disc: the square is uniform
 }
 
 TEST_CASE("The default seed's lattice stays what it is") {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/read_scene.hpp"
 #include "problems_of.hpp"
+#include "scene/read_scene.hpp"
 
 using namespace carrom;
 using test::places_of;
@@ -32,8 +32,10 @@ TEST_CASE("A header alone asks for the legacy generator") {
     CHECK(scene.text_output == TextOutput::first_and_last);
     CHECK(scene.generator == Generator::legacy);
     CHECK_FALSE(scene.reads_disc_lines());
-    CHECK(read_scene("1\n2.0\n1e0\n0\nprint", "standard input").text_output == TextOutput::every_step);
-    CHECK(read_scene("\n1\r\n\n 2\t\r\n1\r\n0\r\n\r\nperf\r\n\n \n", "t.in").generator == Generator::legacy);
+    CHECK(read_scene("1\n2.0\n1e0\n0\nprint", "standard input").text_output ==
+          TextOutput::every_step);
+    CHECK(read_scene("\n1\r\n\n 2\t\r\n1\r\n0\r\n\r\nperf\r\n\n \n", "t.in").generator ==
+          Generator::legacy);
 }
 
 TEST_CASE("Lines after the header are discs, and the stream is left at the first") {
@@ -52,14 +54,16 @@ TEST_CASE("Lines after the header are discs, and the stream is left at the first
 }
 
 TEST_CASE("Overrides work on the legacy text format") {
-    const Scene scene = read_scene("100\n20000\n1\n500\nperf\n", "t.in",
-                                   {"box.size=3", "discs.packing=0.25", "time.steps=7", "output.text=none", "discs.seed=5"});
+    const Scene scene = read_scene(
+        "100\n20000\n1\n500\nperf\n", "t.in",
+        {"box.size=3", "discs.packing=0.25", "time.steps=7", "output.text=none", "discs.seed=5"});
     CHECK(scene.box_size == 3);
     CHECK(scene.packing() == Approx(0.25));
     CHECK(scene.steps == 7);
     CHECK(scene.text_output == TextOutput::none);
     CHECK(scene.seed == 5);
-    CHECK(places_of(problems_in("100\n20000\n1\n500\nperf\n", {"time.method=event-driven", "box.sze=1", "discs.speed=3"})) ==
+    CHECK(places_of(problems_in("100\n20000\n1\n500\nperf\n",
+                                {"time.method=event-driven", "box.sze=1", "discs.speed=3"})) ==
           Texts{"--set box.sze", "--set discs.speed"});
 }
 

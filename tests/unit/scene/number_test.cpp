@@ -7,9 +7,9 @@
 #include <random>
 #include <string>
 
-#include "scene/read_scene.hpp"
 #include "scene/keys.hpp"
 #include "scene/number.hpp"
+#include "scene/read_scene.hpp"
 
 using namespace carrom;
 
@@ -17,7 +17,8 @@ TEST_CASE("Numbers are the whole text, or none") {
     CHECK(parse_double("1.5") == 1.5);
     CHECK(parse_double("+1.5e2") == 150);
     CHECK(parse_double("-.5") == -0.5);
-    for (const char* wrong : {"", " 1", "1 ", "1,5", "1.5x", "0x10", "+-1", "--1", "e5", "1e400", "1e-400"}) {
+    for (const char* wrong :
+         {"", " 1", "1 ", "1,5", "1.5x", "0x10", "+-1", "--1", "e5", "1e400", "1e-400"}) {
         CAPTURE(wrong);
         CHECK_FALSE(parse_double(wrong).has_value());
     }
@@ -31,13 +32,17 @@ TEST_CASE("Numbers are the whole text, or none") {
 TEST_CASE("A double written with 17 digits is read back bit for bit, in text and in TOML") {
     std::mt19937_64 engine(5);
     for (int i = 0; i < 300; ++i) {
-        const double size = std::ldexp(1 + static_cast<double>(engine() >> 11) * 0x1p-53, static_cast<int>(engine() % 400) - 200);
+        const double size = std::ldexp(1 + static_cast<double>(engine() >> 11) * 0x1p-53,
+                                       static_cast<int>(engine() % 400) - 200);
         char text[64];
         std::snprintf(text, sizeof text, "%.17g", size);
-        CHECK(std::bit_cast<std::uint64_t>(*parse_double(text)) == std::bit_cast<std::uint64_t>(size));
+        CHECK(std::bit_cast<std::uint64_t>(*parse_double(text)) ==
+              std::bit_cast<std::uint64_t>(size));
         char scene_text[400];
-        std::snprintf(scene_text, sizeof scene_text, "[box]\nsize = %.17e\n[discs]\ncount = 1\nradius = %.17e\n[time]\nsteps = 1\n",
-                      4 * size, size);
+        std::snprintf(
+            scene_text, sizeof scene_text,
+            "[box]\nsize = %.17e\n[discs]\ncount = 1\nradius = %.17e\n[time]\nsteps = 1\n",
+            4 * size, size);
         const Scene scene = read_scene(scene_text, "s.toml");
         CHECK(scene.radius == size);
         CHECK(scene.box_size == 4 * size);

@@ -23,7 +23,8 @@ template <class Read> std::vector<Problem> problems_of(const Read& read) {
 inline std::vector<std::string> places_of(const std::vector<Problem>& problems) {
     std::vector<std::string> places;
     for (const Problem& problem : problems)
-        places.push_back(problem.place + (problem.line > 0 ? ':' + std::to_string(problem.line) : ""));
+        places.push_back(problem.place +
+                         (problem.line > 0 ? ':' + std::to_string(problem.line) : ""));
     return places;
 }
 

@@ -19,7 +19,8 @@ constexpr std::uint64_t n_samples = 200000;
 TEST_CASE("Philox gives the words its authors publish") {
     // Known answers of philox4x64-10 from the Random123 distribution.
     CHECK(random_words(0, static_cast<Purpose>(0), 0, 0) ==
-          std::array<std::uint64_t, 4>{0x16554d9eca36314c, 0xdb20fe9d672d0fdc, 0xd7e772cee186176b, 0x7e68b68aec7ba23b});
+          std::array<std::uint64_t, 4>{0x16554d9eca36314c, 0xdb20fe9d672d0fdc, 0xd7e772cee186176b,
+                                       0x7e68b68aec7ba23b});
 }
 
 TEST_CASE("Another seed, purpose, disc, attempt or block gives other words") {
@@ -28,7 +29,8 @@ TEST_CASE("Another seed, purpose, disc, attempt or block gives other words") {
         for (const Purpose purpose : {Purpose::position, Purpose::shake, Purpose::velocity})
             for (const DiscId id : {0u, 1u, 2u})
                 for (const std::uint64_t attempt : {0u, 1u})
-                    for (const std::uint64_t block : {0u, 1u}) all.insert(random_words(seed, purpose, id, attempt, block));
+                    for (const std::uint64_t block : {0u, 1u})
+                        all.insert(random_words(seed, purpose, id, attempt, block));
     CHECK(all.size() == 2 * 3 * 3 * 2 * 2);
 }
 
@@ -40,8 +42,10 @@ TEST_CASE("Unit numbers are uniform from 0 to below 1") {
     for (std::uint64_t i = 0; i < n_samples; ++i) sample.push_back(random.uniform());
     CHECK(kolmogorov_smirnov(sample, [](double x) { return x; }) < 1.95);
     double product = 0;
-    for (std::size_t i = 1; i < sample.size(); ++i) product += (sample[i] - 0.5) * (sample[i - 1] - 0.5);
-    CHECK(std::fabs(product / static_cast<double>(n_samples)) < 4 * (1.0 / 12) / std::sqrt(n_samples));
+    for (std::size_t i = 1; i < sample.size(); ++i)
+        product += (sample[i] - 0.5) * (sample[i - 1] - 0.5);
+    CHECK(std::fabs(product / static_cast<double>(n_samples)) <
+          4 * (1.0 / 12) / std::sqrt(n_samples));
 }
 
 TEST_CASE("The first exponential numbers of many discs have the exponential distribution") {
@@ -54,7 +58,8 @@ TEST_CASE("The first exponential numbers of many discs have the exponential dist
     CHECK(std::fabs(mean(sample) - 1) < 4 / std::sqrt(n_samples)); // standard deviation 1
     double fourth = 0;
     for (const double x : sample) fourth += x * x * x * x;
-    CHECK(fourth / static_cast<double>(n_samples) == Approx(24).epsilon(4 * std::sqrt(40320 - 576) / 24 / std::sqrt(n_samples)));
+    CHECK(fourth / static_cast<double>(n_samples) ==
+          Approx(24).epsilon(4 * std::sqrt(40320 - 576) / 24 / std::sqrt(n_samples)));
 }
 
 TEST_CASE("Directions have length 1 and no preference") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TOML scenes: what a good one says, and each way to be wrong with the number and the lines of its problems.
+// TOML scenes: what a good one says, and each way to be wrong with the number and the lines of its
+// problems.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -8,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/read_scene.hpp"
 #include "problems_of.hpp"
+#include "scene/read_scene.hpp"
 
 using namespace carrom;
 using test::mentions;
@@ -20,9 +21,9 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-const std::string good = "[box]\nsize = 100\n"                       // lines 1-2
-                         "[discs]\ncount = 50\nradius = 1\n"         // 3-5
-                         "[time]\nsteps = 10\n";                     // 6-7
+const std::string good = "[box]\nsize = 100\n"               // lines 1-2
+                         "[discs]\ncount = 50\nradius = 1\n" // 3-5
+                         "[time]\nsteps = 10\n";             // 6-7
 
 std::vector<Problem> problems_in(const std::string& text, const Texts& overrides = {}) {
     return problems_of([&] { read_scene(text, "s.toml", overrides); });
@@ -62,13 +63,14 @@ TEST_CASE("A scene has what its text says and the defaults for the rest") {
 }
 
 TEST_CASE("Every key of a scene is taken over") {
-    const Scene scene = read_scene("[box]\nsize = 1e2\n[discs]\ncount = 1e2\npacking = 0.25\ngenerator = 'lattice'\n"
-                                   "speed = 0.5\nvelocities = \"uniform\"\nseed = 0x10\n"
-                                   "[[discs.streams]]\nregion = [0, 1, 2.5, 3]\nvelocity = [-1, 0.5]\n"
-                                   "[[discs.streams]]\nregion = [4, 5, 6, 7]\nvelocity = [0, 1]\n"
-                                   "[time]\nsteps = 0\nmethod = 'time-stepped'\nmicro_steps = 8\nsync_every = 32\n"
-                                   "[output]\ntext = 'every_step'\n[effects]\n",
-                                   "s.toml");
+    const Scene scene = read_scene(
+        "[box]\nsize = 1e2\n[discs]\ncount = 1e2\npacking = 0.25\ngenerator = 'lattice'\n"
+        "speed = 0.5\nvelocities = \"uniform\"\nseed = 0x10\n"
+        "[[discs.streams]]\nregion = [0, 1, 2.5, 3]\nvelocity = [-1, 0.5]\n"
+        "[[discs.streams]]\nregion = [4, 5, 6, 7]\nvelocity = [0, 1]\n"
+        "[time]\nsteps = 0\nmethod = 'time-stepped'\nmicro_steps = 8\nsync_every = 32\n"
+        "[output]\ntext = 'every_step'\n[effects]\n",
+        "s.toml");
     CHECK(scene.n_discs == 100);
     CHECK(scene.radius == Approx(100 * std::sqrt(0.25 / (100 * 3.14159265358979))));
     CHECK(scene.generator == Generator::lattice);
@@ -85,10 +87,13 @@ TEST_CASE("Every key of a scene is taken over") {
     CHECK(scene.text_output == TextOutput::every_step);
 }
 
-TEST_CASE("An accuracy stands in for the settings that it chooses, and the command line wins over the scene") {
-    const std::string asks = "[box]\nsize = 100\n[discs]\ncount = 50\nradius = 1\n[time]\nsteps = 5\naccuracy = 0.1\n";
+TEST_CASE("An accuracy stands in for the settings that it chooses, and the command line wins over "
+          "the scene") {
+    const std::string asks =
+        "[box]\nsize = 100\n[discs]\ncount = 50\nradius = 1\n[time]\nsteps = 5\naccuracy = 0.1\n";
     CHECK(read_scene(asks, "s.toml").accuracy == 0.1);
-    const Scene chosen = read_scene(asks, "s.toml", {"time.method=event-driven", "time.micro_steps=4"});
+    const Scene chosen = read_scene(asks, "s.toml",
+                                    {"time.method=event-driven", "time.micro_steps=4"});
     CHECK_FALSE(chosen.accuracy);
     CHECK((chosen.method == Method::event_driven && chosen.micro_steps == 4));
     const Scene asked = read_scene(good, "s.toml", {"time.accuracy=0.5"});
@@ -98,32 +103,50 @@ TEST_CASE("An accuracy stands in for the settings that it chooses, and the comma
 
 TEST_CASE("Precision and arithmetic are knobs of both rules") {
     const Scene plain = read_scene(good, "s.toml");
-    CHECK((plain.precision == Precision::double_ && plain.arithmetic == Arithmetic::stable && !plain.contraction));
-    const Scene other = read_scene(good, "s.toml", {"time.precision=single", "time.arithmetic=naive", "time.contraction=true"});
-    CHECK((other.precision == Precision::single && other.arithmetic == Arithmetic::naive && other.contraction));
-    const Scene exact = read_scene(good, "s.toml", {"time.method=event-driven", "time.precision=single", "time.arithmetic=naive"});
-    CHECK((exact.method == Method::event_driven && exact.precision == Precision::single && exact.arithmetic == Arithmetic::naive));
-    CHECK_THROWS_AS(read_scene(good, "s.toml", {"time.method=event-driven", "time.precision=single", "time.sync_every=5000"}), InputError);
-    CHECK_THROWS_AS(read_scene(good, "s.toml", {"time.precision=single", "time.sync_every=5000"}), InputError);
-    CHECK_THROWS_AS(read_scene(good, "s.toml", {"time.precision=single", "box.size=1e20", "discs.radius=1e19"}), InputError);
+    CHECK((plain.precision == Precision::double_ && plain.arithmetic == Arithmetic::stable &&
+           !plain.contraction));
+    const Scene other = read_scene(
+        good, "s.toml",
+        {"time.precision=single", "time.arithmetic=naive", "time.contraction=true"});
+    CHECK((other.precision == Precision::single && other.arithmetic == Arithmetic::naive &&
+           other.contraction));
+    const Scene exact = read_scene(
+        good, "s.toml",
+        {"time.method=event-driven", "time.precision=single", "time.arithmetic=naive"});
+    CHECK((exact.method == Method::event_driven && exact.precision == Precision::single &&
+           exact.arithmetic == Arithmetic::naive));
+    CHECK_THROWS_AS(
+        read_scene(good, "s.toml",
+                   {"time.method=event-driven", "time.precision=single", "time.sync_every=5000"}),
+        InputError);
+    CHECK_THROWS_AS(read_scene(good, "s.toml", {"time.precision=single", "time.sync_every=5000"}),
+                    InputError);
+    CHECK_THROWS_AS(
+        read_scene(good, "s.toml", {"time.precision=single", "box.size=1e20", "discs.radius=1e19"}),
+        InputError);
 }
 
 TEST_CASE("Discs can be listed in the scene or in a file beside it") {
-    const Scene listed = read_scene("[box]\nsize = 10\n[discs]\nradius = 5\nlist = [[5, 5, 1, -1]]\n[time]\nsteps = 1\n", "s.toml");
+    const Scene listed = read_scene(
+        "[box]\nsize = 10\n[discs]\nradius = 5\nlist = [[5, 5, 1, -1]]\n[time]\nsteps = 1\n",
+        "s.toml");
     CHECK(listed.generator == Generator::file);
     CHECK(listed.n_discs == 1);
     CHECK(listed.listed_discs == std::vector<InputDisc>{{0, 5, 5, 1, -1}});
     CHECK_FALSE(listed.reads_disc_lines());
 
-    const Scene filed = read_scene("[box]\nsize = 10\n[discs]\ncount = 3\nradius = 1\nfile = \"d.txt\"\n[time]\nsteps = 1\n",
-                                   "folder/s.toml");
+    const Scene filed = read_scene(
+        "[box]\nsize = 10\n[discs]\ncount = 3\nradius = 1\nfile = \"d.txt\"\n[time]\nsteps = 1\n",
+        "folder/s.toml");
     CHECK(filed.reads_disc_lines());
     CHECK(discs_path(filed) == "folder/d.txt");
 }
 
 TEST_CASE("Overrides replace what the text says, and what excludes them there") {
-    const Scene scene = read_scene(good, "s.toml", {"box.size=30", "discs.packing = 0.2", "output.text=ends", "discs.speed=2.5",
-                                                    "time.steps=5", "time.steps=6", "discs.velocities='uniform'"});
+    const Scene scene = read_scene(good, "s.toml",
+                                   {"box.size=30", "discs.packing = 0.2", "output.text=ends",
+                                    "discs.speed=2.5", "time.steps=5", "time.steps=6",
+                                    "discs.velocities='uniform'"});
     CHECK(scene.box_size == 30);
     CHECK(scene.radius == Approx(30 * std::sqrt(0.2 / (50 * 3.14159265358979))));
     CHECK(scene.text_output == TextOutput::first_and_last);
@@ -133,9 +156,11 @@ TEST_CASE("Overrides replace what the text says, and what excludes them there") 
 
     const Scene regenerated = read_scene(good, "s.toml", {"discs.generator=legacy"});
     CHECK(regenerated.generator == Generator::legacy);
-    const std::string listed = "[box]\nsize = 10\n[discs]\nradius = 1\ncount = 1\nlist = [[5, 5, 1, -1]]\n[time]\nsteps = 1\n";
+    const std::string listed = "[box]\nsize = 10\n[discs]\nradius = 1\ncount = 1\nlist = [[5, 5, "
+                               "1, -1]]\n[time]\nsteps = 1\n";
     CHECK(read_scene(listed, "s.toml", {"discs.generator=random"}).listed_discs.empty());
-    CHECK(read_scene(listed, "s.toml", {"discs.list=[[2,3,4,5]]"}).listed_discs == std::vector<InputDisc>{{0, 2, 3, 4, 5}});
+    CHECK(read_scene(listed, "s.toml", {"discs.list=[[2,3,4,5]]"}).listed_discs ==
+          std::vector<InputDisc>{{0, 2, 3, 4, 5}});
 }
 
 TEST_CASE("A dense random scene becomes a lattice, and says so") {
@@ -157,14 +182,39 @@ TEST_CASE("One wrong value is one problem at its line") {
         std::string text;
     };
     const std::vector<Wrong> all = {
-        {2, "size = nan"}, {2, "size = inf"}, {2, "size = -inf"}, {2, "size = 0"}, {2, "size = -5"}, {2, "size = '100'"},
-        {2, "size = true"}, {2, "size = [1]"}, {2, "size = 1e90"}, {2, "size = 1e-90"}, {2, "size = 1979-05-27"},
-        {4, "count = 0"}, {4, "count = -1"}, {4, "count = 1.5"}, {4, "count = 1e19"}, {4, "count = 4294967295"},
-        {4, "count = nan"}, {4, "count = 'many'"},
-        {5, "radius = 0"}, {5, "radius = -1"}, {5, "radius = nan"}, {5, "radius = 51"}, {5, "radius = 9"}, {5, "radius = 1e-5"},
-        {5, "packing = 0"}, {5, "packing = 0.91"}, {5, "packing = nan"}, {5, "packing = -0.1"},
+        {2, "size = nan"},
+        {2, "size = inf"},
+        {2, "size = -inf"},
+        {2, "size = 0"},
+        {2, "size = -5"},
+        {2, "size = '100'"},
+        {2, "size = true"},
+        {2, "size = [1]"},
+        {2, "size = 1e90"},
+        {2, "size = 1e-90"},
+        {2, "size = 1979-05-27"},
+        {4, "count = 0"},
+        {4, "count = -1"},
+        {4, "count = 1.5"},
+        {4, "count = 1e19"},
+        {4, "count = 4294967295"},
+        {4, "count = nan"},
+        {4, "count = 'many'"},
+        {5, "radius = 0"},
+        {5, "radius = -1"},
+        {5, "radius = nan"},
+        {5, "radius = 51"},
+        {5, "radius = 9"},
+        {5, "radius = 1e-5"},
+        {5, "packing = 0"},
+        {5, "packing = 0.91"},
+        {5, "packing = nan"},
+        {5, "packing = -0.1"},
         {5, "packing = 0.9\ngenerator = 'lattice'"},
-        {7, "steps = -1"}, {7, "steps = 0.5"}, {7, "steps = 1e300"}, {7, "steps = 9223372036854775807"},
+        {7, "steps = -1"},
+        {7, "steps = 0.5"},
+        {7, "steps = 1e300"},
+        {7, "steps = 9223372036854775807"},
     };
     for (const Wrong& wrong : all) {
         CAPTURE(wrong.text);
@@ -174,17 +224,38 @@ TEST_CASE("One wrong value is one problem at its line") {
 }
 
 TEST_CASE("One wrong further value is one problem at its line") {
-    const Texts all = {
-        "[discs]\nspeed = nan", "[discs]\nspeed = -1", "[discs]\nspeed = 1e100", "[discs]\nvelocities = 'maxwel'", "[discs]\nseed = -1",
-        "[discs]\ngenerator = 'latice'", "[discs]\ngenerator = 'file'", "[discs]\nfile = 3", "[discs]\nfile = ''",
-        "[discs]\nlist = 3", "[discs]\nlist = [[1, 2, 3, 4]]", "[discs]\nradios = 1", "[time]\ncollisions = 'two'", "[time]\ncollisions = 1",
-        "[time]\naccuracy = 0", "[time]\nmethod = 'time-stepped'\naccuracy = 0.1", "[time]\nmicro_steps = 0", "[time]\nprecision = 'half'", "[time]\narithmetic = 'exact'",
-        "[time]\ncontraction = 1", "[time]\ncontraction = true",
-        "[time]\nsync_every = 0", "[time]\nsync_every = 1e12", "[output]\ntext = 'all'", "[output]\ntrajectory = 'x'",
-        "[effects]\ngravity = 1", "[speed]\n", "\nspeed = 1"};
+    const Texts all = {"[discs]\nspeed = nan",
+                       "[discs]\nspeed = -1",
+                       "[discs]\nspeed = 1e100",
+                       "[discs]\nvelocities = 'maxwel'",
+                       "[discs]\nseed = -1",
+                       "[discs]\ngenerator = 'latice'",
+                       "[discs]\ngenerator = 'file'",
+                       "[discs]\nfile = 3",
+                       "[discs]\nfile = ''",
+                       "[discs]\nlist = 3",
+                       "[discs]\nlist = [[1, 2, 3, 4]]",
+                       "[discs]\nradios = 1",
+                       "[time]\ncollisions = 'two'",
+                       "[time]\ncollisions = 1",
+                       "[time]\naccuracy = 0",
+                       "[time]\nmethod = 'time-stepped'\naccuracy = 0.1",
+                       "[time]\nmicro_steps = 0",
+                       "[time]\nprecision = 'half'",
+                       "[time]\narithmetic = 'exact'",
+                       "[time]\ncontraction = 1",
+                       "[time]\ncontraction = true",
+                       "[time]\nsync_every = 0",
+                       "[time]\nsync_every = 1e12",
+                       "[output]\ntext = 'all'",
+                       "[output]\ntrajectory = 'x'",
+                       "[effects]\ngravity = 1",
+                       "[speed]\n",
+                       "\nspeed = 1"};
     for (const std::string& addition : all) {
         CAPTURE(addition);
-        // Tables may not be opened twice: what is added takes the place of the header of its own table.
+        // Tables may not be opened twice: what is added takes the place of the header of its own
+        // table.
         const std::string table = addition.substr(0, addition.find('\n'));
         const std::string key = addition.substr(addition.find('\n') + 1);
         std::string text = good;
@@ -194,7 +265,8 @@ TEST_CASE("One wrong further value is one problem at its line") {
             line = 1;
         } else if (const std::size_t at = good.find(table); at != std::string::npos) {
             text.insert(at + table.size() + 1, key + '\n');
-            line = std::count(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(at), '\n') + 2;
+            line = std::count(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(at), '\n') +
+                   2;
         } else {
             text += addition + '\n';
             line = key.empty() ? 8 : 9;
@@ -204,12 +276,16 @@ TEST_CASE("One wrong further value is one problem at its line") {
 }
 
 TEST_CASE("What goes wrong together is told where it can be mended") {
-    CHECK(places_of(problems_in(with_line(4, "count = 10_000_000"))) == Texts{"s.toml:5"}); // the radius is too large
-    CHECK(places_of(problems_in(with_line(7, "steps = 3\nmicro_steps = 9007199254740992"))) == Texts{"s.toml:7"});
+    CHECK(places_of(problems_in(with_line(4, "count = 10_000_000"))) ==
+          Texts{"s.toml:5"}); // the radius is too large
+    CHECK(places_of(problems_in(with_line(7, "steps = 3\nmicro_steps = 9007199254740992"))) ==
+          Texts{"s.toml:7"});
 }
 
-TEST_CASE("Numbers too large for any type, and text that is not TOML, are one problem with a line") {
-    CHECK(places_of(problems_in(with_line(4, "count = 10000000000000000000"))) == Texts{"s.toml:4"});
+TEST_CASE(
+    "Numbers too large for any type, and text that is not TOML, are one problem with a line") {
+    CHECK(places_of(problems_in(with_line(4, "count = 10000000000000000000"))) ==
+          Texts{"s.toml:4"});
     CHECK(places_of(problems_in(with_line(2, "[ = 3"))) == Texts{"s.toml:2"});
     CHECK(places_of(problems_in(with_line(7, "steps = "))) == Texts{"s.toml:7"});
     CHECK(places_of(problems_in(good + "[time]\n")) == Texts{"s.toml:8"});
@@ -219,20 +295,42 @@ TEST_CASE("Numbers too large for any type, and text that is not TOML, are one pr
 TEST_CASE("What is missing is named") {
     const auto problems = problems_in("");
     CHECK(places_of(problems) == Texts{"s.toml", "s.toml", "s.toml", "s.toml"});
-    for (const char* key : {"box.size", "discs.count", "discs.radius", "time.steps"}) CHECK(mentions(problems, key));
+    for (const char* key : {"box.size", "discs.count", "discs.radius", "time.steps"})
+        CHECK(mentions(problems, key));
 }
 
 TEST_CASE("All problems of a scene come at once, in the order of lines, those of overrides last") {
-    const std::string text = "[box]\nsise = 10\nsize = nan\n[discs]\ncount = 0\npacking = 1.5\nradius = -1\nlist = [[1, 2, 3],\n"
-                             "  [1, 2, 3, 'a']]\n[[discs.streams]]\nregion = [1, 2, 3]\nvelocity = [1, 2]\n[[discs.streams]]\n"
-                             "regio = [1, 2, 3, 4]\nvelocity = [1, 2]\n[time]\nsteps = 'ten'\n[effects.charge]\ne = 1\n"
-                             "[output.movie]\nevery = 1\n[foo]\n";
-    const auto problems = problems_in(text, {"box.sise=1", "time.steps=1.5", "nonsense", "effects.wind.speed=1", "box.size=abc"});
+    const std::string text =
+        "[box]\nsise = 10\nsize = nan\n[discs]\ncount = 0\npacking = 1.5\nradius = -1\nlist = [[1, "
+        "2, 3],\n"
+        "  [1, 2, 3, 'a']]\n[[discs.streams]]\nregion = [1, 2, 3]\nvelocity = [1, "
+        "2]\n[[discs.streams]]\n"
+        "regio = [1, 2, 3, 4]\nvelocity = [1, 2]\n[time]\nsteps = 'ten'\n[effects.charge]\ne = 1\n"
+        "[output.movie]\nevery = 1\n[foo]\n";
+    const auto problems = problems_in(
+        text, {"box.sise=1", "time.steps=1.5", "nonsense", "effects.wind.speed=1", "box.size=abc"});
     for (const Problem& problem : problems) UNSCOPED_INFO(to_string(problem));
-    CHECK(places_of(problems) ==
-          Texts{"s.toml:2", "s.toml:3", "s.toml:5", "s.toml:6", "s.toml:6", "s.toml:7", "s.toml:8", "s.toml:9", "s.toml:10",
-                "s.toml:11", "s.toml:13", "s.toml:14", "s.toml:17", "s.toml:18", "s.toml:20", "s.toml:22", "--set box.sise",
-                "--set nonsense", "--set effects.wind.speed", "--set box.size", "--set time.steps"});
+    CHECK(places_of(problems) == Texts{"s.toml:2",
+                                       "s.toml:3",
+                                       "s.toml:5",
+                                       "s.toml:6",
+                                       "s.toml:6",
+                                       "s.toml:7",
+                                       "s.toml:8",
+                                       "s.toml:9",
+                                       "s.toml:10",
+                                       "s.toml:11",
+                                       "s.toml:13",
+                                       "s.toml:14",
+                                       "s.toml:17",
+                                       "s.toml:18",
+                                       "s.toml:20",
+                                       "s.toml:22",
+                                       "--set box.sise",
+                                       "--set nonsense",
+                                       "--set effects.wind.speed",
+                                       "--set box.size",
+                                       "--set time.steps"});
     CHECK(mentions(problems, "did you mean 'box.size'?"));
     CHECK(mentions(problems, "did you mean 'region'?"));
     CHECK(mentions(problems, "no effect 'charge'"));
@@ -241,10 +339,13 @@ TEST_CASE("All problems of a scene come at once, in the order of lines, those of
 }
 
 TEST_CASE("Outputs to files are read and checked") {
-    const Scene scene = read_scene(std::string(good) + "[output.checkpoint]\nfolder = 'a b'\nevery_steps = 1e3\nevery_minutes = 0.5\n"
-                                   "keep = 3\nat_end = false\n[output.trajectory]\nfile = 't.h5'\nevery_steps = 7\n"
-                                   "fields = ['velocity', 'collisions']\nprecision = 'double'\ncompression = 4\n"
-                                   "[output.collisions]\nfile = 'c.h5'\n", "s.toml");
+    const Scene scene = read_scene(
+        std::string(good) +
+            "[output.checkpoint]\nfolder = 'a b'\nevery_steps = 1e3\nevery_minutes = 0.5\n"
+            "keep = 3\nat_end = false\n[output.trajectory]\nfile = 't.h5'\nevery_steps = 7\n"
+            "fields = ['velocity', 'collisions']\nprecision = 'double'\ncompression = 4\n"
+            "[output.collisions]\nfile = 'c.h5'\n",
+        "s.toml");
     REQUIRE(scene.checkpoint);
     CHECK(scene.checkpoint->folder == "a b");
     CHECK(scene.checkpoint->every_steps == 1000);
@@ -254,28 +355,37 @@ TEST_CASE("Outputs to files are read and checked") {
     REQUIRE(scene.trajectory);
     CHECK(scene.trajectory->file == "t.h5");
     CHECK(scene.trajectory->every_steps == 7);
-    CHECK((!scene.trajectory->has_position && scene.trajectory->has_velocity && scene.trajectory->has_collisions));
+    CHECK((!scene.trajectory->has_position && scene.trajectory->has_velocity &&
+           scene.trajectory->has_collisions));
     CHECK(!scene.trajectory->is_single);
     CHECK(scene.trajectory->compression == 4);
     REQUIRE(scene.collisions);
     CHECK(scene.collisions->file == "c.h5");
 
-    const Scene plain = read_scene(good, "s.toml", {"output.checkpoint.folder=x", "output.trajectory.file=y"});
+    const Scene plain = read_scene(good, "s.toml",
+                                   {"output.checkpoint.folder=x", "output.trajectory.file=y"});
     REQUIRE(plain.checkpoint);
     CHECK(plain.checkpoint->keep == 2);
     CHECK(plain.checkpoint->at_end);
     CHECK(!plain.checkpoint->every_steps);
     REQUIRE(plain.trajectory);
-    CHECK((plain.trajectory->has_position && plain.trajectory->has_velocity && plain.trajectory->is_single));
+    CHECK((plain.trajectory->has_position && plain.trajectory->has_velocity &&
+           plain.trajectory->is_single));
     CHECK(!plain.collisions);
 
-    for (const char* wrong : {"[output.checkpoint]", "[output.checkpoint]\nkeep = 1", "[output.checkpoint]\nfolder = ''",
-                              "[output.checkpoint]\nfolder = 'a'\nkeep = 0", "[output.checkpoint]\nfolder = 'a'\nevery_steps = 0",
-                              "[output.checkpoint]\nfolder = 'a'\nevery_minutes = 0", "[output.checkpoint]\nfolder = 'a'\nat_end = 1",
-                              "[output.checkpoint]\nfolder = 'a'\nevery = 1", "[output.trajectory]\nevery_steps = 1",
-                              "[output.trajectory]\nfile = 'a'\nfields = ['mass']", "[output.trajectory]\nfile = 'a'\nfields = [1]",
-                              "[output.trajectory]\nfile = 'a'\nfields = []", "[output.trajectory]\nfile = 'a'\ncompression = 10",
-                              "[output.trajectory]\nfile = 'a'\nprecision = 'half'", "[output.collisions]", "[output]\ncollisions = 'a'"}) {
+    for (const char* wrong :
+         {"[output.checkpoint]", "[output.checkpoint]\nkeep = 1",
+          "[output.checkpoint]\nfolder = ''", "[output.checkpoint]\nfolder = 'a'\nkeep = 0",
+          "[output.checkpoint]\nfolder = 'a'\nevery_steps = 0",
+          "[output.checkpoint]\nfolder = 'a'\nevery_minutes = 0",
+          "[output.checkpoint]\nfolder = 'a'\nat_end = 1",
+          "[output.checkpoint]\nfolder = 'a'\nevery = 1", "[output.trajectory]\nevery_steps = 1",
+          "[output.trajectory]\nfile = 'a'\nfields = ['mass']",
+          "[output.trajectory]\nfile = 'a'\nfields = [1]",
+          "[output.trajectory]\nfile = 'a'\nfields = []",
+          "[output.trajectory]\nfile = 'a'\ncompression = 10",
+          "[output.trajectory]\nfile = 'a'\nprecision = 'half'", "[output.collisions]",
+          "[output]\ncollisions = 'a'"}) {
         CAPTURE(wrong);
         CHECK(problems_in(std::string(good) + wrong + "\n").size() == 1);
     }
@@ -283,8 +393,9 @@ TEST_CASE("Outputs to files are read and checked") {
 
 TEST_CASE("Misspelt keys name the nearest known one") {
     const std::vector<std::pair<std::string, std::string>> pairs = {
-        {"time.stepz=1", "time.steps"}, {"discs.pakcing=0.1", "discs.packing"}, {"disks.radius=1", "discs.radius"},
-        {"steps=1", "time.steps"}, {"output.txt=ends", "output.text"}, {"time.micro_step=2", "time.micro_steps"}};
+        {"time.stepz=1", "time.steps"},     {"discs.pakcing=0.1", "discs.packing"},
+        {"disks.radius=1", "discs.radius"}, {"steps=1", "time.steps"},
+        {"output.txt=ends", "output.text"}, {"time.micro_step=2", "time.micro_steps"}};
     for (const auto& [wrong, right] : pairs) {
         CAPTURE(wrong);
         CHECK(mentions(problems_in(good, {wrong}), "did you mean '" + right + "'?"));
@@ -292,15 +403,18 @@ TEST_CASE("Misspelt keys name the nearest known one") {
 }
 
 TEST_CASE("Where no known key is near none is guessed: those that there are get listed") {
-    for (const char* wrong : {"a=1", "box.q=1", "foo=1", "discs.zzzzzzzqqqqq=1", "box.sidelength=3", "time.tau=1", "output.trajectory.colour='x'"}) {
+    for (const char* wrong : {"a=1", "box.q=1", "foo=1", "discs.zzzzzzzqqqqq=1", "box.sidelength=3",
+                              "time.tau=1", "output.trajectory.colour='x'"}) {
         CAPTURE(wrong);
         const auto problems = problems_in(good, {wrong});
         CHECK(problems.size() == 1);
         CHECK_FALSE(mentions(problems, "did you mean"));
     }
-    CHECK(mentions(problems_in(good, {"foo=1"}), "the tables [box], [discs], [time], [effects] and [output]"));
+    CHECK(mentions(problems_in(good, {"foo=1"}),
+                   "the tables [box], [discs], [time], [effects] and [output]"));
     CHECK(mentions(problems_in(good, {"box.sidelength=1"}), "[box] has size"));
-    CHECK(mentions(problems_in(good, {"output.trajectory.colour=1"}), "[output.trajectory] has file, every_steps, fields"));
+    CHECK(mentions(problems_in(good, {"output.trajectory.colour=1"}),
+                   "[output.trajectory] has file, every_steps, fields"));
     CHECK_FALSE(mentions(problems_in(good, {"time.method=everything"}), "did you mean"));
     CHECK(mentions(problems_in(good, {"time.method=al"}), "did you mean \"all\"?"));
 }
@@ -312,22 +426,30 @@ TEST_CASE("An override without a key is shown as it was written") {
 
 TEST_CASE("A mark of the byte order at the start of a file is no part of it") {
     CHECK(problems_in("\xef\xbb\xbf" + good).empty());
-    CHECK(read_scene("\xef\xbb\xbf" "2\n10\n1\n5\nperf\n", "s.in").n_discs == 2);
-    CHECK(read_scene("\xef\xbb\xbf\n2\n10\n1\n5\nperf\n0 3 3 0 0\n1 7 7 0 0\n", "s.in").lines_before_discs == 6);
+    CHECK(read_scene("\xef\xbb\xbf"
+                     "2\n10\n1\n5\nperf\n",
+                     "s.in")
+              .n_discs == 2);
+    CHECK(read_scene("\xef\xbb\xbf\n2\n10\n1\n5\nperf\n0 3 3 0 0\n1 7 7 0 0\n", "s.in")
+              .lines_before_discs == 6);
     CHECK(places_of(problems_of([] { read_scene("\xef\xbb\xbf", "s.in"); })) == Texts{"s.in"});
 }
 
 TEST_CASE("A packing or a radius that cannot be says what the bound is") {
-    CHECK(mentions(problems_in(with_line(5, "packing = 0.95")), "at most 0.9069, not 0.95: equal discs cover no more of the plane"));
-    CHECK(mentions(problems_in(with_line(5, "radius = 1e-9")), "discs of radius 1e-09 in a box of side 100"));
-    const Scene all = read_scene(with_line(5, "radius = 1e-9"), "s.toml", {"time.method=event-driven"});
+    CHECK(mentions(problems_in(with_line(5, "packing = 0.95")),
+                   "at most 0.9069, not 0.95: equal discs cover no more of the plane"));
+    CHECK(mentions(problems_in(with_line(5, "radius = 1e-9")),
+                   "discs of radius 1e-09 in a box of side 100"));
+    const Scene all = read_scene(with_line(5, "radius = 1e-9"), "s.toml",
+                                 {"time.method=event-driven"});
     REQUIRE(all.warnings.size() == 1);
     CHECK(all.warnings[0].find("discs of radius 1e-09 in a box of side 100") == 0);
 }
 
 TEST_CASE("Keys that have no say in the discs are refused") {
     CHECK(problems_in(with_line(5, "radius = 1\nfile = 'd'\nspeed = 1\nseed = 1")).size() == 2);
-    CHECK(problems_in(with_line(5, "radius = 1\ngenerator = 'legacy'\nvelocities = 'uniform'")).size() == 1);
+    CHECK(problems_in(with_line(5, "radius = 1\ngenerator = 'legacy'\nvelocities = 'uniform'"))
+              .size() == 1);
     CHECK(problems_in(with_line(5, "radius = 1\ngenerator = 'lattice'\nfile = 'd'")).size() == 1);
     CHECK(problems_in(with_line(5, "radius = 1\npacking = 0.1")).size() == 1);
     CHECK(problems_in(with_line(4, "file = 'd'\nlist = [[1, 1, 1, 1]]")).size() == 1);
@@ -336,33 +458,50 @@ TEST_CASE("Keys that have no say in the discs are refused") {
 TEST_CASE("Discs listed in the scene must lie in the box and move") {
     const std::string head = "[box]\nsize = 10\n[discs]\nradius = 1\nlist = [\n";
     const std::string tail = "]\n[time]\nsteps = 1\n";
-    CHECK(problems_in(head + "[1, 9, 0, 0],\n[1, 9, 0, 0]\n" + tail).empty()); // at two walls, and overlapping
-    CHECK(places_of(problems_in(head + "[0.99, 5, 0, 0],\n[5, 5, 0, 0],\n[5, 9.01, 0, 0],\n[nan, 5, 0, 0],\n[5, 5, inf, 0],\n"
-                                       "[5, 5, 1e100, 0],\n[5, 5, 0, 1e-100],\n[5, 5, 0],\n[5, 5, 0, 0, 0],\n['a', 5, 0, 0]\n" + tail)) ==
-          Texts{"s.toml:6", "s.toml:8", "s.toml:9", "s.toml:10", "s.toml:11", "s.toml:12", "s.toml:13", "s.toml:14", "s.toml:15"});
-    const auto inline_rows = problems_in(good, {"discs.list=[[1, 2, 3], [5, 5, inf, nan], [0, nan, 1, 0], [5, 5, 0, 0]]", "discs.count=4"});
+    CHECK(problems_in(head + "[1, 9, 0, 0],\n[1, 9, 0, 0]\n" + tail)
+              .empty()); // at two walls, and overlapping
+    CHECK(
+        places_of(problems_in(
+            head +
+            "[0.99, 5, 0, 0],\n[5, 5, 0, 0],\n[5, 9.01, 0, 0],\n[nan, 5, 0, 0],\n[5, 5, inf, 0],\n"
+            "[5, 5, 1e100, 0],\n[5, 5, 0, 1e-100],\n[5, 5, 0],\n[5, 5, 0, 0, 0],\n['a', 5, 0, "
+            "0]\n" +
+            tail)) == Texts{"s.toml:6", "s.toml:8", "s.toml:9", "s.toml:10", "s.toml:11",
+                            "s.toml:12", "s.toml:13", "s.toml:14", "s.toml:15"});
+    const auto inline_rows = problems_in(
+        good, {"discs.list=[[1, 2, 3], [5, 5, inf, nan], [0, nan, 1, 0], [5, 5, 0, 0]]",
+               "discs.count=4"});
     CHECK(inline_rows.size() == 3); // they have no lines of their own
     CHECK(mentions(inline_rows, "row 1 of 'discs.list' must be four numbers"));
-    CHECK(mentions(inline_rows, "row 2 of 'discs.list': the velocity inf is not a finite number; the velocity nan is not"));
+    CHECK(mentions(
+        inline_rows,
+        "row 2 of 'discs.list': the velocity inf is not a finite number; the velocity nan is not"));
     CHECK(mentions(inline_rows, "row 3 of 'discs.list': the position nan is not"));
-    CHECK(places_of(problems_in("[box]\nsize = 10\n[discs]\nradius = 1\nlist = []\n[time]\nsteps = 1\n")) == Texts{"s.toml:5"});
+    CHECK(places_of(problems_in(
+              "[box]\nsize = 10\n[discs]\nradius = 1\nlist = []\n[time]\nsteps = 1\n")) ==
+          Texts{"s.toml:5"});
 }
 
 TEST_CASE("Streams need a region and a finite velocity") {
     const std::string head = good + "[[discs.streams]]\n";
     CHECK(problems_in(head + "region = [0, 0, 1, 1]\nvelocity = [1, 2]\n").empty());
-    for (const char* wrong : {"region = [0, 0, 1, nan]\nvelocity = [1, 2]\n", "region = [1, 0, 0, 1]\nvelocity = [1, 2]\n",
-                              "region = [0, 0, 1, 1]\nvelocity = [inf, 2]\n", "region = [0, 0, 1, 1]\nvelocity = 3\n",
-                              "region = [0, 0, 1, 1]\n", "velocity = [0, 1]\n",
-                              "region = [0, 0, 1, 1]\nvelocity = [1, 2]\nspeed = 3\n"}) {
+    for (const char* wrong :
+         {"region = [0, 0, 1, nan]\nvelocity = [1, 2]\n",
+          "region = [1, 0, 0, 1]\nvelocity = [1, 2]\n",
+          "region = [0, 0, 1, 1]\nvelocity = [inf, 2]\n", "region = [0, 0, 1, 1]\nvelocity = 3\n",
+          "region = [0, 0, 1, 1]\n", "velocity = [0, 1]\n",
+          "region = [0, 0, 1, 1]\nvelocity = [1, 2]\nspeed = 3\n"}) {
         CAPTURE(wrong);
         CHECK(problems_in(head + wrong).size() == 1);
     }
-    const auto several = problems_in(good, {"discs.streams=[{region=[0,0,1,1],velocity=[1,2]}, {region=[0,0,1],velocity=[1]}, "
-                                            "{region=[3,0,1,1],velocity=[inf,2]}, {region=[0,0,1,1],speed=2}]"});
+    const auto several = problems_in(
+        good, {"discs.streams=[{region=[0,0,1,1],velocity=[1,2]}, {region=[0,0,1],velocity=[1]}, "
+               "{region=[3,0,1,1],velocity=[inf,2]}, {region=[0,0,1,1],speed=2}]"});
     CHECK(several.size() == 6);
-    for (const char* text : {"stream 2: its region must be four", "stream 2: its velocity must be two", "stream 3: its region must be finite",
-                             "stream 3: the velocity inf", "stream 4: a stream has no 'speed'", "stream 4 needs region"})
+    for (const char* text :
+         {"stream 2: its region must be four", "stream 2: its velocity must be two",
+          "stream 3: its region must be finite", "stream 3: the velocity inf",
+          "stream 4: a stream has no 'speed'", "stream 4 needs region"})
         CHECK(mentions(several, text));
     CHECK(problems_in(with_line(5, "radius = 1\nstreams = 3")).size() == 1);
     CHECK(problems_in(with_line(5, "radius = 1\nstreams = [3]")).size() == 1);
@@ -371,11 +510,14 @@ TEST_CASE("Streams need a region and a finite velocity") {
 TEST_CASE("A wrong scene keeps what its lines of discs can be held to") {
     const auto partly = [](const std::string& more) {
         std::vector<Problem> problems;
-        const Scene scene = read_scene({"s.toml", "[time]\nsteps = -1\n[discs]\nfile = \"d\"\n" + more, 0, false}, {}, problems);
+        const Scene scene = read_scene(
+            {"s.toml", "[time]\nsteps = -1\n[discs]\nfile = \"d\"\n" + more, 0, false}, {},
+            problems);
         CHECK(problems.size() >= 1);
         CHECK(scene.reads_disc_lines());
         CHECK(scene.discs_file == "d");
-        return std::vector<double>{static_cast<double>(scene.n_discs), scene.box_size, scene.radius};
+        return std::vector<double>{static_cast<double>(scene.n_discs), scene.box_size,
+                                   scene.radius};
     };
     CHECK(partly("count = 2\nradius = 1\n[box]\nsize = 10") == std::vector<double>{2, 10, 1});
     CHECK(partly("count = 0\nradius = 1\n[box]\nsize = 10") == std::vector<double>{0, 0, 0});

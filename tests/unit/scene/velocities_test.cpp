@@ -44,8 +44,11 @@ const double root_n = std::sqrt(static_cast<double>(n_discs));
 TEST_CASE("Maxwell velocities: speeds, components and moments") {
     const double rms = 0.3;
     const Sample sample = sample_of(VelocityKind::maxwell, rms);
-    CHECK(kolmogorov_smirnov(sample.speed, [rms](double v) { return 1 - std::exp(-v * v / (rms * rms)); }) < 1.95);
-    const auto normal = [rms](double v) { return 0.5 * (1 + std::erf(v / rms)); }; // standard deviation rms / sqrt(2)
+    CHECK(kolmogorov_smirnov(
+              sample.speed, [rms](double v) { return 1 - std::exp(-v * v / (rms * rms)); }) < 1.95);
+    const auto normal = [rms](double v) {
+        return 0.5 * (1 + std::erf(v / rms));
+    }; // standard deviation rms / sqrt(2)
     CHECK(kolmogorov_smirnov(sample.vx, normal) < 1.95);
     CHECK(kolmogorov_smirnov(sample.vy, normal) < 1.95);
     CHECK(std::fabs(mean(sample.vx)) < 4 * rms / std::sqrt(2) / root_n);
@@ -66,7 +69,9 @@ TEST_CASE("Uniform velocities: speeds up to sqrt(3) times their root mean square
 
 TEST_CASE("The default seed's velocities stay what they are") {
     // A seed names its discs for ever: these are the bits of the first release.
-    for (const auto& [kind, bits] : {std::pair{VelocityKind::maxwell, "c74526b503958107f3be3495a260f322"}, std::pair{VelocityKind::uniform, "8688534e85de909de50fcf9ee869d5f5"}}) {
+    for (const auto& [kind, bits] :
+         {std::pair{VelocityKind::maxwell, "c74526b503958107f3be3495a260f322"},
+          std::pair{VelocityKind::uniform, "8688534e85de909de50fcf9ee869d5f5"}}) {
         Scene scene;
         scene.velocities = kind;
         StateHash hash;
