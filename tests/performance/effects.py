@@ -34,35 +34,35 @@ def classes(kinds):
 ROUGH = '[effects.contact]\nkind = "rough"\nrestitution = 0.999\ntangential_restitution = -0.99\nfriction = 0.5\n'
 COUNT, SIZE, STEPS = 3000, 300, 300
 
-# name: (rule, lines that the scene has more, what the cost should stay below)
+# name: (method, lines that the scene has more, what the cost should stay below)
 EFFECTS = {
-    "restitution 0.999 of discs": ("all", '[effects.contact]\nkind = "restitution"\nrestitution = 0.999\n', 1.1),
-    "restitution 0.999 of discs, rule one": ("one", '[effects.contact]\nkind = "restitution"\nrestitution = 0.999\n', 1.1),
-    "two walls of restitution 0.99": ("all", "[box.left]\nrestitution = 0.99\n[box.right]\nrestitution = 0.99\n", 1.1),
-    "a thermal wall": ("all", '[box.left]\nkind = "thermal"\ntemperature = 0.045\n', 1.1),
-    "a thermal wall, rule one": ("one", '[box.left]\nkind = "thermal"\ntemperature = 0.045\n', 1.1),
-    "gravity": ("all", "[effects.gravity]\ny = -0.0001\n", 1.15),
-    "drag": ("all", "[effects.drag]\nrate = 0.0001\n", 1.1),
-    "gravity and drag": ("all", "[effects.gravity]\ny = -0.0001\n[effects.drag]\nrate = 0.0001\n", 1.15),
-    "obstacles, 25 discs and 2 segments": ("all", "[effects.obstacles]\ndiscs = " + str([[x, y, 2] for x in range(30, 300, 60) for y in range(30, 300, 60)])
+    "restitution 0.999 of discs": ("event-driven", '[effects.contact]\nkind = "restitution"\nrestitution = 0.999\n', 1.1),
+    "restitution 0.999 of discs, time-stepped": ("time-stepped", '[effects.contact]\nkind = "restitution"\nrestitution = 0.999\n', 1.1),
+    "two walls of restitution 0.99": ("event-driven", "[box.left]\nrestitution = 0.99\n[box.right]\nrestitution = 0.99\n", 1.1),
+    "a thermal wall": ("event-driven", '[box.left]\nkind = "thermal"\ntemperature = 0.045\n', 1.1),
+    "a thermal wall, time-stepped": ("time-stepped", '[box.left]\nkind = "thermal"\ntemperature = 0.045\n', 1.1),
+    "gravity": ("event-driven", "[effects.gravity]\ny = -0.0001\n", 1.15),
+    "drag": ("event-driven", "[effects.drag]\nrate = 0.0001\n", 1.1),
+    "gravity and drag": ("event-driven", "[effects.gravity]\ny = -0.0001\n[effects.drag]\nrate = 0.0001\n", 1.15),
+    "obstacles, 25 discs and 2 segments": ("event-driven", "[effects.obstacles]\ndiscs = " + str([[x, y, 2] for x in range(30, 300, 60) for y in range(30, 300, 60)])
                                            + "\nsegments = [[60, 0, 60, 150], [240, 150, 240, 300]]\n", None),
-    "a moving wall": ("all", '[box.right]\nkind = "moving"\nspeed = -0.0005\n', 1.1),
-    "periodic sides": ("all", "".join(f'[box.{side}]\nkind = "periodic"\n' for side in ("left", "right", "bottom", "top")), 1.1),
-    "periodic sides, rule one": ("one", "".join(f'[box.{side}]\nkind = "periodic"\n' for side in ("left", "right", "bottom", "top")), 1.1),
-    "discs that do not meet": ("all", '[effects.contact]\nkind = "none"\n', None),
-    "two radii and masses": ("all", classes(2), 1.4),
-    "two radii and masses, rule one": ("one", classes(2), 1.4),
-    "each disc of a radius and a mass of its own": ("all", classes(COUNT), 1.4),
-    "each disc of a radius and a mass of its own, rule one": ("one", classes(COUNT), 1.4),
-    "rough discs": ("all", ROUGH, 1.5),
-    "rough discs, rule one": ("one", ROUGH, 1.5),
+    "a moving wall": ("event-driven", '[box.right]\nkind = "moving"\nspeed = -0.0005\n', 1.1),
+    "periodic sides": ("event-driven", "".join(f'[box.{side}]\nkind = "periodic"\n' for side in ("left", "right", "bottom", "top")), 1.1),
+    "periodic sides, time-stepped": ("time-stepped", "".join(f'[box.{side}]\nkind = "periodic"\n' for side in ("left", "right", "bottom", "top")), 1.1),
+    "discs that do not meet": ("event-driven", '[effects.contact]\nkind = "none"\n', None),
+    "two radii and masses": ("event-driven", classes(2), 1.4),
+    "two radii and masses, time-stepped": ("time-stepped", classes(2), 1.4),
+    "each disc of a radius and a mass of its own": ("event-driven", classes(COUNT), 1.4),
+    "each disc of a radius and a mass of its own, time-stepped": ("time-stepped", classes(COUNT), 1.4),
+    "rough discs": ("event-driven", ROUGH, 1.5),
+    "rough discs, time-stepped": ("time-stepped", ROUGH, 1.5),
 }
 
 
-def scene_text(packing, rule, lines, steps=STEPS, scale=1):
+def scene_text(packing, method, lines, steps=STEPS, scale=1):
     """`lines` may be a function of the packing; it names the discs then. `scale`: how many times as many discs, in fewer steps."""
     discs = "" if callable(lines) else f"count = {scale * COUNT}\npacking = {packing}\n"
-    return (f"[discs]\nspeed = 0.3\n{discs}[time]\nsteps = {max(1, steps // scale)}\nsync_every = 32\ncollisions = \"{rule}\"\n"
+    return (f"[discs]\nspeed = 0.3\n{discs}[time]\nsteps = {max(1, steps // scale)}\nsync_every = 32\nmethod = \"{method}\"\n"
             f"[box]\nsize = {SIZE * math.sqrt(scale)!r}\n{lines(packing) if callable(lines) else lines}")
 
 
@@ -101,16 +101,16 @@ def main():
                 file.write(text)
             return path
 
-        for name, (rule, lines, bound) in EFFECTS.items():
+        for name, (method, lines, bound) in EFFECTS.items():
             if options.only and not any(name.startswith(word) for word in options.only):
                 continue
             for packing in options.packing:
-                plain = stored("plain.toml", scene_text(packing, rule, "", STEPS, options.scale))
-                scene = stored("effect.toml", scene_text(packing, rule, lines, STEPS, options.scale))
-                if (rule, packing) not in plain_counts:
-                    plain_counts[rule, packing] = counted(options.program, plain)
-                count = counted(options.program, scene) / plain_counts[rule, packing]
-                plain, scene = (stored(name, scene_text(packing, rule, more, 10 * STEPS, options.scale)) for name, more in (("plain.toml", ""), ("effect.toml", lines)))
+                plain = stored("plain.toml", scene_text(packing, method, "", STEPS, options.scale))
+                scene = stored("effect.toml", scene_text(packing, method, lines, STEPS, options.scale))
+                if (method, packing) not in plain_counts:
+                    plain_counts[method, packing] = counted(options.program, plain)
+                count = counted(options.program, scene) / plain_counts[method, packing]
+                plain, scene = (stored(name, scene_text(packing, method, more, 10 * STEPS, options.scale)) for name, more in (("plain.toml", ""), ("effect.toml", lines)))
                 low, median, high = ratios_of_times(options.program, plain, scene, options.repeats)
                 print(f"| {name} | {packing} | {count:.3f} | {median:.2f} | {low:.2f} to {high:.2f} | {bound or ''} |", flush=True)
     return 0

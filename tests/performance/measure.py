@@ -21,11 +21,11 @@ MPI_SETTINGS = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM":
                 "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none"}
 
 
-def gas(n_discs, steps, packing=0.2, largest_speed=0.5, rule="one"):
+def gas(n_discs, steps, packing=0.2, largest_speed=0.5, method="time-stepped"):
     """A gas of discs of radius 1 with speeds spread evenly up to `largest_speed` (half a radius unless said)."""
     size = math.sqrt(n_discs * math.pi / packing)
     return (f"[box]\nsize = {size!r}\n[discs]\ncount = {n_discs}\nradius = 1.0\nvelocities = \"uniform\"\n"
-            f"speed = {largest_speed / math.sqrt(3)!r}\n[time]\nsteps = {steps}\ncollisions = \"{rule}\"\n", "toml")
+            f"speed = {largest_speed / math.sqrt(3)!r}\n[time]\nsteps = {steps}\nmethod = \"{method}\"\n", "toml")
 
 
 def fast(n_discs, steps):

@@ -60,20 +60,20 @@ class Case(NamedTuple):
         return round(SENT_TO_OWN * self.ns_gas, 1)
 
 
-def gas(case, rule="one"):
+def gas(case, method="time-stepped"):
     """Discs of radius 1; from a lattice, which the steps before those that count forget. Speeds are spread evenly where discs meet
     often enough to change that, else they are what that changes them to, Maxwell's."""
     size = math.sqrt(case.n_discs * math.pi / (0.2 / case.stands_for))
     return (f"[box]\nsize = {size!r}\n[discs]\ncount = {case.n_discs}\nradius = 1.0\ngenerator = \"lattice\"\n"
-            f"velocities = \"{'uniform' if case.stands_for == 1 else 'maxwell'}\"\nspeed = {case.speed!r}\n[time]\nsteps = {64 + case.steps}\ncollisions = \"{rule}\"\n")
+            f"velocities = \"{'uniform' if case.stands_for == 1 else 'maxwell'}\"\nspeed = {case.speed!r}\n[time]\nsteps = {64 + case.steps}\nmethod = \"{method}\"\n")
 
 
-def simulated(program, case, rule="one", timeout=3600):
+def simulated(program, case, method="time-stepped", timeout=3600):
     """One run's numbers, by the names in the program's heading."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "scene.toml")
         with open(path, "w", encoding="utf-8") as file:
-            file.write(gas(case, rule))
+            file.write(gas(case, method))
         numbers = [str(n) for n in (case.steps, case.ns_own, case.ns_halo, case.stands_for, case.window)]
         command = [program, PLATFORM, str(case.ranks), path, *numbers, "--log=root.thresh:warning"]
         heading = subprocess.run([program], capture_output=True, text=True, check=True).stdout.strip()
@@ -84,15 +84,15 @@ def simulated(program, case, rule="one", timeout=3600):
 
 
 def pinned(program):
-    return {rule: simulated(program, Case("pinned", 16, 16_000), rule, 600) for rule in ("one", "all")}
+    return {method: simulated(program, Case("pinned", 16, 16_000), method, 600) for method in ("time-stepped", "event-driven")}
 
 
 def record(program):
     with open(TABLE, "w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow(["rule", *PINNED])
-        for rule, found in pinned(program).items():
-            table.writerow([rule] + [found[name] for name in PINNED])
+        table.writerow(["method", *PINNED])
+        for method, found in pinned(program).items():
+            table.writerow([method] + [found[name] for name in PINNED])
 
 
 def compare(program):
@@ -100,10 +100,10 @@ def compare(program):
     now = pinned(program)
     with open(TABLE, encoding="utf-8") as file:
         for row in csv.DictReader(file):
-            found = now[row["rule"]]
+            found = now[row["method"]]
             for name in PINNED:
                 before, after = float(row[name]), float(found[name])
-                print(f"rule \"{row['rule']}\", per rank and step: {name} {after:g}, recorded {before:g}")
+                print(f"method \"{row['method']}\", per rank and step: {name} {after:g}, recorded {before:g}")
                 if abs(after - before) > TOLERANCE * before:
                     print("  if that is meant, record it and say why (tests/performance/simulate.py SIMULATED_CLUSTER --record)")
                     code = 1

@@ -5,7 +5,7 @@ source "$CARROM_SOURCE_DIR/tests/system/common.sh"
 
 # scene SIZE SPEED SYNC RULE: two discs of radius 1.
 scene() {
-    printf '[box]\nsize = %s\n[discs]\nradius = 1\nlist = [[3, 3, %s, 0], [7, 3, 0, 0]]\n[time]\nsteps = 1\nsync_every = %s\ncollisions = "%s"\n' \
+    printf '[box]\nsize = %s\n[discs]\nradius = 1\nlist = [[3, 3, %s, 0], [7, 3, 0, 0]]\n[time]\nsteps = 1\nsync_every = %s\nmethod = "%s"\n' \
         "$@" >scene.toml
 }
 ranks=2
@@ -20,11 +20,11 @@ expect_no_warning() {
     grep -q warning "$test_folder/err" && { complain "a warning: $1"; show; }
 }
 
-scene 10 1e6 64 one && expect_no_warning 'a million radii a step'
-scene 10 1e9 64 one && expect_warning 'a thousand million radii a step' 'in the rounding of a time'
-scene 10 1 1073741824 all && expect_warning 'a sync interval of 2^30' 'in the rounding of a time'
-scene 10 1 1024 all && expect_no_warning 'a sync interval of 2^10'
-scene 1e7 1 64 all && expect_warning 'a box of 1e7 radii' 'too coarse for contacts with walls'
+scene 10 1e6 64 time-stepped && expect_no_warning 'a million radii a step'
+scene 10 1e9 64 time-stepped && expect_warning 'a thousand million radii a step' 'in the rounding of a time'
+scene 10 1 1073741824 event-driven && expect_warning 'a sync interval of 2^30' 'in the rounding of a time'
+scene 10 1 1024 event-driven && expect_no_warning 'a sync interval of 2^10'
+scene 1e7 1 64 event-driven && expect_warning 'a box of 1e7 radii' 'too coarse for contacts with walls'
 
 # overlapping X: the second disc at X, two radii from the first at 5.
 overlapping() {
@@ -56,9 +56,9 @@ run 2 run scene.toml --quiet
 expect_code 2 'a million flights round a box'
 expect_told '1e+05 times through the box with periodic sides' 'a million flights round a box'
 discs periodic 3,3,1e3,0 5,7,0,0 && expect_no_warning 'a hundred flights round a box'
-for rule in one all; do
+for method in time-stepped event-driven; do
     discs wall 3,3,0,1 5,3,0,-1
-    run 1 run scene.toml --quiet --set time.method=$rule --set box.size=20
-    expect_told 'slide along each other' "a pair that slides, rule $rule"
+    run 1 run scene.toml --quiet --set time.method=$method --set box.size=20
+    expect_told 'slide along each other' "a pair that slides, $method"
 done
 finish

@@ -199,12 +199,12 @@ several() { # SCENE LINES...
 }
 several each.toml 'count = 144' 'file = "discs.txt"' 'columns = ["radius", "mass", "spin"]'
 several listed.toml "list = [$(sort -n discs.txt | awk '{ print "[" $2 "," $3 "," $4 "," $5 "," $6 "," $7 "," $8 "]," }')]"
-for rule in one all; do
-    run 3 run each.toml --set time.method=$rule --quiet --report each.json --set output.checkpoint.folder=each_$rule --set output.checkpoint.every_steps=25
-    expect_code 0 "discs of their own, rule $rule"
-    run 1 run listed.toml --set time.method=$rule --threads 2 --quiet --report listed.json
-    expect_code 0 "the same discs listed, rule $rule"
-    [ "$(json_value each.json state_hash)" = "$(json_value listed.json state_hash)" ] || complain "discs of a file have other bits than listed ones, rule $rule"
+for method in time-stepped event-driven; do
+    run 3 run each.toml --set time.method=$method --quiet --report each.json --set output.checkpoint.folder=each_$method --set output.checkpoint.every_steps=25
+    expect_code 0 "discs of their own, $method"
+    run 1 run listed.toml --set time.method=$method --threads 2 --quiet --report listed.json
+    expect_code 0 "the same discs listed, $method"
+    [ "$(json_value each.json state_hash)" = "$(json_value listed.json state_hash)" ] || complain "discs of a file have other bits than listed ones, $method"
 done
 [ "$(json_value each.json pair_collisions)" -gt 200 ] || complain 'discs of their own hardly meet'
 sed '17s/ [^ ]* [^ ]* [^ ]*$/ -1 0 x/; 30s/ [^ ]*$//' discs.txt >wrong.txt
@@ -215,15 +215,15 @@ expect_told "wrong.txt:30: expected 'id x y vx vy radius mass spin', found only 
 run 1 run each.toml --set discs.file=none.txt
 expect_code 2 'no file of columns'
 expect_told 'none.txt: cannot be opened' 'no file of columns'
-run 1 run --restart each_all/checkpoint-000000000050.h5 --steps 60 --set discs.radius=1
+run 1 run --restart each_event-driven/checkpoint-000000000050.h5 --steps 60 --set discs.radius=1
 expect_code 2 'a restart with other radii'
 run 1 run --restart mixed --steps 90 --set discs.file=discs.txt --set 'discs.columns=["radius"]'
 expect_code 2 'a restart with columns that its checkpoint does not have'
 rm discs.txt
-run 2 run --restart each_all/checkpoint-000000000050.h5 --steps 60 --quiet --report each_rest.json --set output.checkpoint.folder=elsewhere
+run 2 run --restart each_event-driven/checkpoint-000000000050.h5 --steps 60 --quiet --report each_rest.json --set output.checkpoint.folder=elsewhere
 expect_code 0 'discs of their own, after a restart'
 [ "$(json_value each_rest.json state_hash)" = "$(json_value each.json state_hash)" ] || complain 'discs of their own have another state hash after a restart'
-run 1 diff elsewhere/checkpoint-000000000060.h5 each_all/checkpoint-000000000060.h5
+run 1 diff elsewhere/checkpoint-000000000060.h5 each_event-driven/checkpoint-000000000060.h5
 expect_code 0 'checkpoints of discs of their own, interrupted and not'
 run 1 verify elsewhere/checkpoint-000000000060.h5
 expect_code 0 'a checkpoint of discs of their own'

@@ -6,26 +6,26 @@ source "$CARROM_SOURCE_DIR/tests/system/common.sh"
 gas_scene 40 400 0.3 1 90 >gas.toml
 asked=(--set 'output.measurements.quantities=["wall_pressure","radial_distribution","velocities","density","displacement"]'
        --set output.measurements.every_steps=7 --set output.measurements.from_step=10)
-for rule in one all; do
-    run 1 run gas.toml --quiet --set time.method=$rule "${asked[@]}" --set output.measurements.folder=whole_$rule --report $rule.json
-    expect_code 0 "rule $rule, one rank"
-    [ "$(ls whole_$rule | wc -l)" -eq 8 ] || complain "rule $rule: $(ls whole_$rule | tr '\n' ' ')"
-    grep -q '"radial_distribution": {' $rule.json || complain "rule $rule: no tables in the report"
-    run 3 run gas.toml --quiet --threads 2 --steps 50 --set time.method=$rule "${asked[@]}" --set output.measurements.folder=parts_$rule \
-        --set output.checkpoint.folder=kept_$rule
-    expect_code 0 "rule $rule, three ranks"
-    run 2 run gas.toml --quiet --set time.method=$rule "${asked[@]}" --set output.measurements.folder=parts_$rule \
-        --set output.checkpoint.folder=kept_$rule --restart latest
-    expect_code 0 "rule $rule, the second stretch"
-    diff -r whole_$rule parts_$rule >/dev/null || complain "rule $rule: other tables: $(diff -rq whole_$rule parts_$rule)"
+for method in time-stepped event-driven; do
+    run 1 run gas.toml --quiet --set time.method=$method "${asked[@]}" --set output.measurements.folder=whole_$method --report $method.json
+    expect_code 0 "$method, one rank"
+    [ "$(ls whole_$method | wc -l)" -eq 8 ] || complain "$method: $(ls whole_$method | tr '\n' ' ')"
+    grep -q '"radial_distribution": {' $method.json || complain "$method: no tables in the report"
+    run 3 run gas.toml --quiet --threads 2 --steps 50 --set time.method=$method "${asked[@]}" --set output.measurements.folder=parts_$method \
+        --set output.checkpoint.folder=kept_$method
+    expect_code 0 "$method, three ranks"
+    run 2 run gas.toml --quiet --set time.method=$method "${asked[@]}" --set output.measurements.folder=parts_$method \
+        --set output.checkpoint.folder=kept_$method --restart latest
+    expect_code 0 "$method, the second stretch"
+    diff -r whole_$method parts_$method >/dev/null || complain "$method: other tables: $(diff -rq whole_$method parts_$method)"
 done
-run 1 verify kept_all/checkpoint-000000000050.h5
+run 1 verify kept_event-driven/checkpoint-000000000050.h5
 expect_code 0 'a checkpoint with measurements'
 
 run 1 run gas.toml --quiet --steps 50 --set time.method=event-driven --set output.checkpoint.folder=plain
 grep -q measurements plain/checkpoint-000000000050.h5 && complain 'a checkpoint knows of measurements that nobody asked for'
 
-run 3 run --restart kept_all --set output.measurements.bins=10
+run 3 run --restart kept_event-driven --set output.measurements.bins=10
 expect_code 2 'other bins'
 expect_told 'begin anew with output.measurements.from_step = 90' 'other bins'
 run 1 run gas.toml --set output.measurements.every_steps=5 --set 'output.measurements.quantities=["densty"]'

@@ -25,17 +25,17 @@ laws=("double naive" "double naive --set time.contraction=true"
     "single stable" "single naive" "single naive --set time.contraction=true")
 : >hashes
 for name in dense fast; do
-    for rule in one all; do
+    for method in time-stepped event-driven; do
         for law in "${laws[@]}"; do
-            words=(run "$name.toml" --set "time.method=$rule" --set "time.precision=${law%% *}" --set "time.arithmetic=${law#* }")
+            words=(run "$name.toml" --set "time.method=$method" --set "time.precision=${law%% *}" --set "time.arithmetic=${law#* }")
             read -r -a words <<<"${words[*]}"
             hash=
             for shape in '1 1' '2 2 --window 0.3 --rebalance-every 1 --rebalance-above 0'; do
                 read -r ranks threads options <<<"$shape"
                 run "$ranks" "${words[@]}" --threads "$threads" $options --report report.json --quiet
-                expect_code 0 "$name, $rule, $law, $shape"
+                expect_code 0 "$name, $method, $law, $shape"
                 hash=${hash:-$(json_value report.json state_hash)}
-                [ "$(json_value report.json state_hash)" = "$hash" ] || complain "another state hash: $name, $rule, $law, $shape"
+                [ "$(json_value report.json state_hash)" = "$hash" ] || complain "another state hash: $name, $method, $law, $shape"
             done
             echo "$hash" >>hashes
         done
