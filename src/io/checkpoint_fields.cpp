@@ -59,7 +59,7 @@ bool has_spins(hid_t file) {
 
 void write_species(hid_t carrom, const std::vector<Species>& species) {
     if (species.empty()) return;
-    const h5::Group group = h5::create_group(carrom, "classes");
+    const h5::Group group = h5::create_group(carrom, "species");
     const auto write = [&](const char* name, hid_t type, auto field) {
         std::vector<std::remove_cvref_t<decltype(species[0].*field)>> numbers;
         for (const Species& one : species) numbers.push_back(one.*field);
