@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What the Slurm scripts share: the program, modules, how ranks are started and bound. To be sourced by them, with
-# MODULES, PROGRAM, LAUNCHER and LAUNCHER_OPTIONS set.
+# What the Slurm scripts share: the program, modules, how ranks are started and bound. They source
+# it with MODULES, PROGRAM, LAUNCHER and LAUNCHER_OPTIONS set. SRUN_MPI may name the plugin of `srun
+# --mpi` (default: pmix for Open MPI, pmi2 for MPICH).
 #
-# Slurm runs a copy of a script that lies elsewhere, so paths are taken from where it was submitted: the checkout's top.
+# Slurm runs a copy of the script from another folder. Paths begin where it was submitted: at the
+# checkout's top.
 
 say() { printf '%s\n' "$*" >&2; }
 die() { say "${SLURM_JOB_NAME:-job script}: $*"; exit 2; }
@@ -13,16 +15,21 @@ if [ -n "$MODULES" ]; then
     module load $MODULES
     set -u
 fi
+source job_scripts/mpi.sh
 [ -x "$PROGRAM" ] || die "no program $PROGRAM; build it, submit from the top of the checkout, or set PROGRAM"
 
-# launch_with RANKS THREADS: sets `launch`, the words that come before the program. Each rank is bound to THREADS cores
-# of its own, on which its threads may move; ranks fill one node after the other.
+# launch_with RANKS THREADS: sets `launch`, the words that come before the program. Each rank is
+# bound to THREADS cores of its own, on which its threads may move; ranks fill one node after the
+# other.
 launch_with() {
     local ranks=$1 threads=$2
     export OMP_NUM_THREADS=$threads
     case $LAUNCHER in
-    srun) launch=(srun --mpi=pmix --ntasks="$ranks" --cpus-per-task="$threads" --cpu-bind=cores) ;;
-    mpirun) launch=(mpirun -np "$ranks" --map-by "slot:PE=$threads") ;;
+    srun)
+        launch=(srun --mpi="${SRUN_MPI:-$(srun_plugin "$PROGRAM")}" --ntasks="$ranks"
+                --cpus-per-task="$threads" --cpu-bind=cores)
+        ;;
+    *mpirun* | *mpiexec*) launch=("$LAUNCHER" -n "$ranks" $(bind_to_cores "$LAUNCHER" "$threads")) ;;
     *) die "LAUNCHER is srun or mpirun, not $LAUNCHER" ;;
     esac
     launch+=($LAUNCHER_OPTIONS)

@@ -1,25 +1,33 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What run_local.sh and test_local.sh share: packages, build, and Open MPI's settings for one machine. To be sourced.
+# What run_local.sh, test_local.sh and sanitize.sh share: packages, build, settings. To be sourced.
 #
-# Nothing is installed that is there already, and nothing outside the build folder is written otherwise.
-# Settings that the caller has made (CMAKE_GENERATOR, OMPI_MCA_*, BUILD_DIR) are kept.
+# Nothing is installed that is there already. Nothing outside the build folder is written otherwise.
+# Variables that the user has set are kept: CMAKE_GENERATOR, those of mpi_settings.txt, and
+#   BUILD_DIR   the build folder; default build, or build-$MPI
+#   MPI         openmpi or mpich; default: the one whose HDF5 is installed, else openmpi
 
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-build=${BUILD_DIR:-$top/build}
-
-packages=(cmake ninja-build g++ pkg-config openmpi-bin libopenmpi-dev libhdf5-openmpi-dev
-          libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev
-          librandom123-dev libhwy-dev libxxhash-dev catch2)
+build=${BUILD_DIR:-$top/build${MPI:+-$MPI}}
+source "$top/job_scripts/mpi.sh"
 
 say() { printf '%s\n' "$*" >&2; }
 die() { say "$(basename "$0"): $*"; exit 1; }
 
-# What some tests need; they are skipped, with the reason, where these cannot be had: a Slurm of their own, failing disks,
-# Python programs that open our files, a simulated cluster, micro-benchmarks.
-test_packages=(slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge strace python3-venv libsimgrid-dev libbenchmark-dev)
+case ${MPI:-} in '' | openmpi | mpich) ;; *) die "MPI is openmpi or mpich, not $MPI" ;; esac
 
-# What job_scripts/sanitize.sh needs.
-sanitizer_packages=(clang-14 libclang-rt-14-dev libomp-14-dev valgrind)
+# What the program needs, without the MPI library and its HDF5.
+packages=(cmake ninja-build g++ pkg-config libfmt-dev libtomlplusplus-dev libcli11-dev
+          nlohmann-json3-dev librandom123-dev libhwy-dev libxxhash-dev)
+openmpi_packages=(openmpi-bin libopenmpi-dev libhdf5-openmpi-dev)
+mpich_packages=(mpich libmpich-dev libhdf5-mpich-dev)
+
+test_packages=(catch2 procps)
+# Some tests need these: a Slurm of their own, failing disks, Python programs that open our files, a
+# simulated cluster, micro-benchmarks. Such a test is skipped, with the reason, where they are not.
+optional_test_packages=(slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge strace
+                        python3-venv libsimgrid-dev libbenchmark-dev)
+
+sanitizer_packages=(clang libclang-rt-dev libomp-dev valgrind)
 
 # missing_packages PACKAGE...: those that are not installed
 missing_packages() {
@@ -29,29 +37,45 @@ missing_packages() {
     done
 }
 
-# On a system without apt the build itself says what it does not find.
+# has_apt: false on a system without it, where the build itself reports what it does not find
+has_apt() { command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; }
+
+# install PACKAGE...: false if some of them are missing and cannot be installed; they are in
+# `missing`
+missing=()
+install() {
+    has_apt || return 0
+    mapfile -t missing < <(missing_packages "$@")
+    [ ${#missing[@]} -eq 0 ] || install_missing "${missing[@]}"
+}
+
+# mpi_packages: of the library that MPI names, or of the one that is there
+mpi_packages() {
+    local library=${MPI:-openmpi}
+    if [ -z "${MPI:-}" ] && [ -z "$(missing_packages libhdf5-mpich-dev)" ] &&
+        [ -n "$(missing_packages libhdf5-openmpi-dev)" ]; then library=mpich; fi
+    [ $library = mpich ] && printf '%s\n' "${mpich_packages[@]}" || printf '%s\n' "${openmpi_packages[@]}"
+}
+
+# install_packages [PACKAGE...]: what the program needs, and these
 install_packages() {
-    local missing
-    command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || return 0
-    mapfile -t missing < <(missing_packages "${packages[@]}")
-    [ ${#missing[@]} -eq 0 ] || install_missing "${missing[@]}" || die "packages are missing. Ask for: apt-get install ${missing[*]}"
+    has_apt || return 0
+    local for_mpi
+    mapfile -t for_mpi < <(mpi_packages)
+    install "${packages[@]}" "${for_mpi[@]}" "$@" ||
+        die "packages are missing; try: apt-get install ${missing[*]}"
 }
 
-install_test_packages() {
-    local missing
-    command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || return 0
-    mapfile -t missing < <(missing_packages "${test_packages[@]}")
-    [ ${#missing[@]} -eq 0 ] || install_missing "${missing[@]}" || say "some tests will be skipped, for want of ${missing[*]}"
+# install_optional PACKAGE...: as many of them as this system has
+install_optional() {
+    local package
+    install "$@" && return
+    for package in "${missing[@]}"; do install "$package" || true; done
+    mapfile -t missing < <(missing_packages "$@")
+    [ ${#missing[@]} -eq 0 ] || say "left out, since these packages are missing: ${missing[*]}"
 }
 
-install_sanitizer_packages() {
-    local missing
-    command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || return 0
-    mapfile -t missing < <(missing_packages "${sanitizer_packages[@]}")
-    [ ${#missing[@]} -eq 0 ] || install_missing "${missing[@]}" || say "packages are missing: ${missing[*]}"
-}
-
-# install_missing PACKAGE...: false, with the reason told, if that does not work.
+# install_missing PACKAGE...: false, with the reason printed, if that does not work
 install_missing() {
     local as_root=()
     if [ "$(id -u)" -ne 0 ]; then
@@ -59,32 +83,43 @@ install_missing() {
         as_root=(sudo)
     fi
     say "installing $*"
-    local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300)
-    # The package lists may be old or not there at all: they are fetched only if the first try fails.
-    "${apt[@]}" install --no-install-recommends "$@" >&2 </dev/null ||
-        { "${apt[@]}" update >&2 </dev/null && "${apt[@]}" install --no-install-recommends "$@" >&2 </dev/null; } ||
+    # The package lists may be old or missing: they are fetched only if the first try fails.
+    apt_get install --no-install-recommends "$@" ||
+        { apt_get update && apt_get install --no-install-recommends "$@"; } ||
         { say "apt-get could not install: $*"; return 1; }
 }
-
-# build_target TARGET...: configure where needed, then build (all, if no target is named).
-build_target() {
-    export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}
-    cmake -S "$top" -B "$build" >&2 </dev/null || die "cmake could not configure the build in $build"
-    cmake --build "$build" --parallel "$(nproc)" ${1:+--target "$@"} >&2 </dev/null || die "the build failed"
+apt_get() {
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300 \
+        "$@" >&2 </dev/null
 }
 
-# Open MPI refuses to run as root and on more ranks than cores, binds a rank with all its threads to one core, and
-# spins while it waits, as OpenMP does. Each is undone only where it bites. n_workers: ranks x threads at once.
-launch_settings() {
-    local n_workers=$1
-    if [ "$(id -u)" -eq 0 ]; then
-        export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-    fi
-    # Open MPI counts whole cores, nproc counts hardware threads: with one rank per nproc its count may be exceeded.
-    export OMPI_MCA_rmaps_base_oversubscribe=${OMPI_MCA_rmaps_base_oversubscribe:-1}
-    export OMPI_MCA_hwloc_base_binding_policy=${OMPI_MCA_hwloc_base_binding_policy:-none}
-    if [ "$n_workers" -gt "$(nproc)" ]; then
-        export OMPI_MCA_mpi_yield_when_idle=${OMPI_MCA_mpi_yield_when_idle:-1}
-        export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive}
-    fi
+# mpi_words: cmake's words for the library that MPI names. Debian has several side by side, and an
+# HDF5 for each: all parts of one build must be of the same.
+mpi_words() {
+    [ -n "${MPI:-}" ] && command -v "mpicc.$MPI" >/dev/null || return 0
+    printf '%s\n' "-DMPI_C_COMPILER=$(command -v "mpicc.$MPI")" \
+        "-DMPIEXEC_EXECUTABLE=$(command -v "mpiexec.$MPI")" \
+        "-DHDF5_C_COMPILER_EXECUTABLE=$(command -v "h5pcc.$MPI")"
+}
+
+# configure WORD...: makes the build, or changes it by cmake's words
+configure() {
+    local words=()
+    export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}
+    [ -e "$build/CMakeCache.txt" ] || mapfile -t words < <(mpi_words)
+    cmake -S "$top" -B "$build" "${words[@]}" "$@" >&2 </dev/null ||
+        die "cmake could not configure the build in $build"
+}
+
+# build_targets [TARGET...]: all, if none is named
+build_targets() {
+    cmake --build "$build" --parallel "$(nproc)" ${1:+--target "$@"} >&2 </dev/null ||
+        die "the build in $build failed"
+}
+
+# mpi_launcher FOLDER: the one that belongs to the build there
+mpi_launcher() {
+    local launcher
+    launcher=$(sed -n 's/^MPIEXEC_EXECUTABLE:[A-Z]*=//p' "$1/CMakeCache.txt")
+    printf '%s\n' "${launcher:-mpiexec}"
 }

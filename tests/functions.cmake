@@ -1,20 +1,24 @@
-# The one place that knows how tests are built and launched: mpiexec and its environment, thread counts, labels,
-# time limits and the cores a test takes. `ctest -L unit`, `-L mpi`, `-L system` and `-L slurm` select by kind.
+# The one place that knows how tests are built and launched: mpiexec and its environment, thread
+# counts, labels, time limits and the cores a test takes. `ctest -L unit`, `-L mpi`, `-L system` and
+# `-L slurm` select by kind.
 
-# More ranks than cores, as root in a container, threads free to use any core, waiting ranks give way.
-set(CARROM_TEST_ENVIRONMENT
-    OMPI_ALLOW_RUN_AS_ROOT=1
-    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-    OMPI_MCA_rmaps_base_oversubscribe=1
-    OMPI_MCA_hwloc_base_binding_policy=none
-    OMPI_MCA_mpi_yield_when_idle=1
-    OMP_WAIT_POLICY=passive
-    PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe
-    CARROM_PROGRAM=${CMAKE_BINARY_DIR}/carrom
-    CARROM_MPIEXEC=${MPIEXEC_EXECUTABLE}
-    CARROM_SOURCE_DIR=${PROJECT_SOURCE_DIR})
+# More ranks than cores, as root in a container: a line of this file is a word and NAME=VALUE.
+set(settings ${PROJECT_SOURCE_DIR}/job_scripts/mpi_settings.txt)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${settings})
+file(STRINGS ${settings} CARROM_TEST_ENVIRONMENT REGEX "^[a-z]+ [A-Z]")
+list(TRANSFORM CARROM_TEST_ENVIRONMENT REPLACE "^[a-z]+ " "")
+list(APPEND CARROM_TEST_ENVIRONMENT
+     CARROM_PROGRAM=${CMAKE_BINARY_DIR}/carrom
+     CARROM_MPIEXEC=${MPIEXEC_EXECUTABLE}
+     CARROM_SOURCE_DIR=${PROJECT_SOURCE_DIR})
 if(CARROM_SANITIZE MATCHES "address|leak")
-  list(APPEND CARROM_TEST_ENVIRONMENT ASAN_OPTIONS=detect_leaks=0 LSAN_OPTIONS=detect_leaks=0) # MPI itself leaks
+  # MPI itself leaks
+  list(APPEND CARROM_TEST_ENVIRONMENT ASAN_OPTIONS=detect_leaks=0 LSAN_OPTIONS=detect_leaks=0)
+endif()
+set(CARROM_GIVE_WAY OFF)
+if("${MPI_C_LIBRARIES}" MATCHES "mpich" AND NOT CARROM_SANITIZE)
+  set(CARROM_GIVE_WAY ON)
+  list(APPEND CARROM_TEST_ENVIRONMENT LD_PRELOAD=${CMAKE_BINARY_DIR}/tests/libgive_way.so)
 endif()
 
 # A test's time limit in arg_TIMEOUT, `default` if it says nothing: it is what a busy machine needs, sanitizers need more.

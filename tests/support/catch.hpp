@@ -1,15 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Catch2 by one name, whichever of its two versions is installed: 2.13 (Debian 12) or 3 (Debian 13,
-// Ubuntu 24.04).
+// Catch2 by one name, whichever version is installed: 2.13 (Debian 12) or 3 (Debian 13, Ubuntu
+// 24.04).
+//
+// Version 3 has a header for each part: here are those that tests use. A main defines
+// CARROM_CATCH_MAIN before it includes this. It gets Catch2's session, the base class of listeners,
+// and what their `assertionEnded` returns.
 #pragma once
 
-#if __has_include(<catch2/catch_all.hpp>)
+#if __has_include(<catch2/catch_test_macros.hpp>)
+
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_message.hpp>
-#include <catch2/catch_template_test_macros.hpp>
 #include <catch2/catch_test_macros.hpp>
-#include <catch2/generators/catch_generators_all.hpp>
-#include <catch2/matchers/catch_matchers_all.hpp>
+#ifdef CARROM_CATCH_MAIN
+#include <catch2/catch_session.hpp>
+#include <catch2/catch_test_case_info.hpp>
+#include <catch2/reporters/catch_reporter_event_listener.hpp>
+#include <catch2/reporters/catch_reporter_registrars.hpp>
+
+using TestListener = Catch::EventListenerBase;
+using AfterAssertion = void;
+#endif
+
+using Catch::Approx; // version 2 does this itself
+
 #else
+
+#ifdef CARROM_CATCH_MAIN
+#define CATCH_CONFIG_RUNNER
+#endif
 #include <catch2/catch.hpp>
+#ifdef CARROM_CATCH_MAIN
+using TestListener = Catch::TestEventListenerBase;
+using AfterAssertion = bool; // whether to forget the assertion's messages
+#endif
+
 #endif

@@ -5,8 +5,8 @@
 // Rank 0 prints Catch2's report; the other ranks print a line for each failed assertion, at once,
 // so that it is seen even if the run hangs afterwards. A run that takes longer than
 // $CARROM_TEST_SECONDS is killed by its own alarm.
-#define CATCH_CONFIG_RUNNER
-#include <catch2/catch.hpp>
+#define CARROM_CATCH_MAIN
+#include "catch.hpp"
 
 #include <cstdlib>
 #include <iostream>
@@ -21,21 +21,21 @@ namespace {
 
 int test_rank = 0;
 
-class FailurePrinter : public Catch::TestEventListenerBase {
+class FailurePrinter : public TestListener {
 public:
-    using TestEventListenerBase::TestEventListenerBase;
+    using TestListener::TestListener;
 
     void testCaseStarting(const Catch::TestCaseInfo& info) override { case_ = info.name; }
 
-    bool assertionEnded(const Catch::AssertionStats& stats) override {
+    AfterAssertion assertionEnded(const Catch::AssertionStats& stats) override {
         const Catch::AssertionResult& result = stats.assertionResult;
-        if (test_rank == 0 || result.isOk()) return false;
+        if (test_rank == 0 || result.isOk()) return AfterAssertion();
         std::ostringstream line;
         line << "rank " << test_rank << ": " << case_ << ": " << result.getSourceInfo().file << ':'
              << result.getSourceInfo().line << ": " << result.getExpression() << " is "
              << result.getExpandedExpression() << ' ' << result.getMessage() << '\n';
         std::cerr << line.str() << std::flush;
-        return false;
+        return AfterAssertion();
     }
 
 private:

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main of every unit test: no MPI, so that test discovery at build time is quick.
-#define CATCH_CONFIG_MAIN
-#include <catch2/catch.hpp>
+#define CARROM_CATCH_MAIN
+#include "catch.hpp"
+
+int main(int argc, char** argv) { return Catch::Session().run(argc, argv); }

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# How each MPI library wants its ranks started. To be sourced by setup.sh and launch.sh.
+
+# mpi_library LAUNCHER: openmpi, mpich (and what is made from it), or unknown
+mpi_library() {
+    case $("$1" --version 2>&1 </dev/null) in
+        *'Open MPI'* | *OpenRTE* | *PRRTE*) echo openmpi ;;
+        *HYDRA* | *Intel*MPI*) echo mpich ;;
+        *) echo unknown ;;
+    esac
+}
+
+# bind_to_cores LAUNCHER THREADS: the launcher's words for ranks that have THREADS cores each to
+# themselves
+bind_to_cores() {
+    case $(mpi_library "$1") in
+        openmpi) echo "--map-by slot:PE=$2" ;;
+        mpich) echo "-bind-to core:$2" ;;
+    esac
+}
+
+# srun_plugin PROGRAM: what `srun --mpi` takes for the MPI library that it is linked with
+srun_plugin() {
+    case $(ldd "$1" 2>/dev/null) in
+        *libmpich* | *libmpi.so.12*) echo pmi2 ;;
+        *) echo pmix ;;
+    esac
+}
+
+# use_mpi_settings WORKERS: exports what mpi_settings.txt says for so many threads of all ranks
+# together
+use_mpi_settings() {
+    local when setting name
+    while read -r when setting; do
+        case $when in
+            always) ;;
+            crowded) [ "$1" -gt "$(nproc)" ] || continue ;;
+            *) continue ;;
+        esac
+        name=${setting%%=*}
+        [ -v "$name" ] || export "$setting"
+    done <"$(dirname "${BASH_SOURCE[0]}")/mpi_settings.txt"
+}
