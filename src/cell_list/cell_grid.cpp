@@ -6,7 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "cell_list/cell_places.hpp"
+#include "cell_list/disc_sorter_passes.hpp"
+#include "core/errors.hpp"
 
 namespace carrom {
 
@@ -18,9 +19,26 @@ constexpr double least_spacings = 1.15;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Windows of many lengths have cells of many sizes: memory of the smallest ones is not kept for
+/// all, and a few more cells than last time do not take twice the memory. What was in `numbers` may
+/// be gone.
+template <class T> void resize_close(std::vector<T>& numbers, std::size_t size) {
+    if (numbers.capacity() < size || numbers.capacity() > size + size / 2) {
+        std::vector<T>().swap(numbers);
+        numbers.reserve(size + size / 8);
+    }
+    numbers.resize(size);
+}
+
 int cells_along(double length, double width) {
     return static_cast<int>(std::clamp(std::ceil(length / width), 1.0, 1e9));
 }
+
+/// Where discs are without periodic sides.
+struct StoredPlaces {
+    static double x_of(const Disc& disc, double time) { return disc.x_at(time); }
+    static double y_of(const Disc& disc, double time) { return disc.y_at(time); }
+};
 
 } // namespace
 
@@ -50,6 +68,102 @@ GridFrame make_sparse_frame(double x_low, double x_high, double y_low, double y_
     const double area = std::max(x_high - x_low, 0.0) * std::max(y_high - y_low, 0.0);
     const double width = std::sqrt(2 * area / static_cast<double>(n_discs + 16)) / reach;
     return make_frame(x_low, x_high, y_low, y_high, reach, n_discs, width > 1 ? width : 0);
+}
+
+template <class Places>
+std::uint32_t CellGrid::column_at(const Places& places, const Disc& disc) const {
+    return static_cast<std::uint32_t>(frame_.column_of(places.x_of(disc, anchor_)));
+}
+
+template <class Places>
+std::uint32_t CellGrid::row_at(const Places& places, const Disc& disc) const {
+    return static_cast<std::uint32_t>(frame_.row_of(places.y_of(disc, anchor_)));
+}
+
+template <class Places>
+std::uint32_t CellGrid::cell_at(const Places& places, const Disc& disc) const {
+    return column_at(places, disc) * rows() + row_at(places, disc);
+}
+
+template <class Places>
+void CellGrid::place(const Places& places, float* flight, std::size_t length,
+                     const Disc& disc) const {
+    const double cells = frame_.cells_per_length();
+    flight[0] = static_cast<float>((places.x_of(disc, time_) - frame_.x_low) * cells);
+    flight[length] = static_cast<float>((places.y_of(disc, time_) - frame_.y_low) * cells);
+    flight[2 * length] = static_cast<float>(disc.vx * duration_ * cells);
+    flight[3 * length] = static_cast<float>(disc.vy * duration_ * cells);
+}
+
+void CellGrid::sort(std::span<Disc> own, const GridFrame& frame, double anchor, double time,
+                    double duration, int n_threads, const Periods& periods,
+                    const Companions& companions) {
+    frame_ = frame;
+    periods_ = periods;
+    anchor_ = anchor;
+    time_ = time;
+    duration_ = duration;
+    has_flights_ = true;
+    sort(own, n_threads, companions);
+    for (std::size_t lane = 1; lane <= 4; ++lane) {
+        std::fill_n(lanes_.begin() +
+                        static_cast<std::ptrdiff_t>(lane * lane_length_ - filter_padding),
+                    filter_padding, 0.0f);
+    }
+}
+
+void CellGrid::sort_cells(std::span<Disc> own, const GridFrame& frame, double time, int n_threads,
+                          const Periods& periods, const Companions& companions) {
+    frame_ = frame;
+    periods_ = periods;
+    anchor_ = time;
+    has_flights_ = false;
+    sort(own, n_threads, companions);
+}
+
+void CellGrid::sort(std::span<Disc> own, int n_threads, const Companions& companions) {
+    ensure(companions.states.empty() || companions.states.size() == own.size(),
+           "what goes with the own discs is as many");
+    ensure(companions.spins.empty() || companions.spins.size() == own.size(),
+           "there are as many spins as own discs");
+    apart_.clear();
+    longest_flight_ = 0;
+    halo_order_.clear();
+    n_own_ = own.size();
+    lane_length_ = n_own_ + filter_padding;
+    resize_close(lanes_, (has_flights_ ? 4 : 2) * lane_length_);
+    resize_close(cell_start_, static_cast<std::size_t>(frame_.n_columns) * rows() + 1);
+    if (periods_.are_any())
+        sort(periods_, own, n_threads, companions);
+    else
+        sort(StoredPlaces{}, own, n_threads, companions);
+}
+
+/// First which disc goes where, in the second of the lanes; then they go. Nearly all come from near
+/// by: a pass over the discs.
+template <class Places>
+void CellGrid::sort(const Places& places, std::span<Disc> own, int n_threads,
+                    const Companions& companions) {
+    const SortMemory memory{lanes_, lane_length_};
+    sorter_.find_order(
+        own, [&](const Disc& disc) { return cell_at(places, disc); },
+        static_cast<std::size_t>(frame_.n_columns), n_threads, cell_start_, memory);
+    if (!companions.spins.empty()) {
+        const Lent order = memory.order();
+        const std::vector<double> before(companions.spins.begin(), companions.spins.end());
+        for (std::size_t i = 0; i < n_own_; ++i) companions.spins[i] = before[order[i]];
+    }
+    const auto place_flight = [&](std::size_t i) {
+        if (has_flights_) place(places, lanes_.data() + i, lane_length_, own[i]);
+    };
+    if (!sorter_.share_out_travellers()) {
+        sorter_.rearrange({own, companions.states}, memory);
+#pragma omp parallel for num_threads(n_threads) schedule(static)
+        for (std::size_t i = 0; i < n_own_; ++i) place_flight(i);
+        return;
+    }
+    if (!companions.states.empty()) sorter_.carry(companions.states, memory, [](std::size_t) {});
+    sorter_.carry(own, memory, place_flight);
 }
 
 void CellGrid::add_halo(std::span<const Disc> halo) {

@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "cell_list/disc_sorter.hpp"
 #include "core/disc.hpp"
 #include "core/image.hpp"
 
@@ -194,23 +195,6 @@ public:
 private:
     static constexpr std::uint32_t no_halo = ~std::uint32_t{0};
 
-    /// A share of the discs, which lie in the cells first .. end, and where the counts of those
-    /// begin.
-    struct Sorter {
-        std::size_t first_disc = 0, end_disc = 0;
-        std::uint32_t first_cell = 0, end_cell = 0;
-        std::size_t counts = 0;
-    };
-    /// What a thread keeps while it brings its share of the places into order.
-    struct Carrier {
-        std::vector<Disc>
-            passed; ///< discs that were at the places before the present one, in a ring
-        std::vector<Disc>
-            travellers; ///< discs from so far away that they were set aside beforehand
-        std::vector<LocalIndex> arrivals; ///< their new places, ascending, and one that is none
-        std::vector<LocalIndex> sent;     ///< new places of such discs of this share, in no order
-    };
-
     static FlightLanes lanes_of(const std::vector<float>& lanes, std::size_t length) {
         const float* x = lanes.data();
         return {x, x + length, x + 2 * length, x + 3 * length};
@@ -241,21 +225,6 @@ private:
     template <class Places> std::uint32_t column_at(const Places& places, const Disc& disc) const;
     template <class Places> std::uint32_t row_at(const Places& places, const Disc& disc) const;
     template <class Places> std::uint32_t cell_at(const Places& places, const Disc& disc) const;
-    template <class Places> void order_alone(const Places& places, std::span<const Disc> own);
-    template <class Places>
-    void order_together(const Places& places, std::span<const Disc> own, int n_threads);
-    void share_out(std::size_t n_discs, int n_sorters);
-    bool make_room_for_counts(std::size_t n_cells);
-    template <class Visit>
-    void for_each_count(std::size_t begin, std::size_t end, const Visit& visit) const;
-    void begin_order(int n_threads);
-    void note_traveller(Carrier& carrier, std::uint32_t place);
-    bool share_out_travellers();
-    void set_travellers_aside(std::span<const Disc> discs, int n_threads);
-    template <class Placed> void carry(std::span<Disc> discs, int n_threads, const Placed& placed);
-    template <class Places>
-    void rearrange(const Places& places, std::span<Disc> own, int n_threads,
-                   std::span<Disc> companion);
     template <class Places> void add_halo(const Places& places, std::span<const Disc> halo);
     template <class Places>
     void place(const Places& places, float* flight, std::size_t length, const Disc& disc) const;
@@ -269,12 +238,8 @@ private:
     std::vector<std::uint32_t> cell_start_; ///< by cell, and one more
     std::size_t lane_length_ = 0;           ///< own discs and padding for whole vectors
     std::vector<float>
-        lanes_; ///< x, y, vx, vy by own disc, one after the other; before that what sorts discs
-    std::vector<Sorter> sorters_;     ///< scratch for several threads
-    std::vector<Carrier> carriers_;   ///< by thread
-    std::size_t n_passed_ = 1;        ///< how many of them are kept, a power of two
-    std::size_t most_travellers_ = 0; ///< of a share
-    bool are_in_disorder_ = false;    ///< whether too many discs come from afar
+        lanes_; ///< x, y, vx, vy by own disc, one after the other; before that the sorter's
+    DiscSorter sorter_;
 
     std::vector<std::uint32_t>
         halo_column_; ///< by column: where its cells begin in the next, or no_halo

@@ -14,6 +14,11 @@
 
 namespace carrom {
 
+/// First index of the `part`-th of `n_parts` equal shares of n.
+inline std::size_t share(std::size_t n, std::size_t part, std::size_t n_parts) {
+    return n * part / n_parts;
+}
+
 class SharedWork {
 public:
     /// Thread k's share is `bounds[k]` .. `bounds[k + 1]` - 1; chunks are of `chunk` items at most.

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
-#include "dynamics/drag.hpp"
 #include "dynamics/plain_dynamics.hpp"
 #include "engine/near_pairs.hpp"
 #include "parallel/exchange.hpp"
@@ -16,9 +16,6 @@
 namespace carrom {
 
 namespace {
-
-constexpr double motion_bound =
-    1e-13; // of speeds, by falling and by slowing down, from sync to sync
 
 /// One disc's part in a collision, for the rank that keeps its record.
 struct Part {
@@ -103,8 +100,59 @@ void StateCheck::look(const LocalView& now, std::int64_t micro_steps_done, Log l
     fail_if_found(first_other_energy(own, log), log);
 }
 
-StateCheck::Finding StateCheck::first_not_finite(std::span<const Disc> own,
-                                                 std::span<const double> spins) const {
+void StateCheck::fail_if_found(const Finding& mine, Log log) {
+    Finding first;
+    for (const Finding& finding : communicator_.all_gather(mine)) {
+        if (finding.is_found == 0) continue;
+        const auto key = [](const Finding& f) {
+            return std::tuple(f.invariant, f.disc, f.partner);
+        };
+        if (first.is_found == 0 || key(finding) < key(first)) first = finding;
+    }
+    if (first.is_found == 0) return;
+    if (first.rank < 0) {
+        const int keeper = slab_of_disc(first.disc);
+        if (keeper == communicator_.rank()) first.rank = known_[first.disc - first_id_].owner;
+        communicator_.broadcast(first.rank, keeper);
+    }
+    const std::int64_t step = micro_steps_done_ / scene_.micro_steps;
+    std::vector<InputDisc> discs;
+    std::vector<double> spins;
+    if (first.disc < scene_.n_discs) {
+        for (const SceneDisc& each :
+             discs_around(first, discs_before(), slab_of_disc(first.disc), log,
+                          scene_.effects.periods(scene_.box_size), communicator_)) {
+            discs.push_back(each.disc);
+            if (effects_.contact.kind == ContactKind::rough) spins.push_back(each.spin);
+        }
+    }
+    throw CheckFailure(text_of(first, scene_, obstacles_ ? &*obstacles_ : nullptr, step),
+                       first.invariant, step, first.disc, first.rank, std::move(discs),
+                       std::move(spins));
+}
+
+/// The discs of this rank's slab at the last look.
+std::vector<SceneDisc> StateCheck::discs_before() const {
+    const auto clock = static_cast<double>(micro_steps_before_ % scene_.sync_every);
+    const auto unit = static_cast<double>(scene_.micro_steps);
+    const Periods periods = scene_.effects.periods(scene_.box_size);
+    const auto inside = [&](double x, double period, double radius) {
+        return period != 0 ? wrapped(x, period) : std::clamp(x, radius, scene_.box_size - radius);
+    };
+    std::vector<SceneDisc> discs;
+    for (const Known& known : before_) {
+        const Disc& disc = known.disc;
+        const double radius = species_.of(disc.id).radius;
+        discs.push_back(
+            {{disc.id, inside(disc.x_at(clock), periods.x, radius),
+              inside(disc.y_at(clock), periods.y, radius), disc.vx * unit, disc.vy * unit},
+             known.spin * unit});
+    }
+    return discs;
+}
+
+Finding StateCheck::first_not_finite(std::span<const Disc> own,
+                                     std::span<const double> spins) const {
     for (std::size_t i = 0; i < own.size(); ++i) {
         if (!is_finite(own[i]) || !std::isfinite(spins.empty() ? 0 : spins[i]))
             return {Invariant::finite, communicator_.rank(), 1, own[i].id};
@@ -114,9 +162,8 @@ StateCheck::Finding StateCheck::first_not_finite(std::span<const Disc> own,
 
 /// Brings every disc to the rank that keeps its record. `value` of a finding: how many ranks, or
 /// places, own the disc.
-StateCheck::Finding StateCheck::take_records(std::span<const Disc> own,
-                                             std::span<const double> spins, const Frame& frame,
-                                             double time) {
+Finding StateCheck::take_records(std::span<const Disc> own, std::span<const double> spins,
+                                 const Frame& frame, double time) {
     std::vector<std::vector<Disc>> out(static_cast<std::size_t>(communicator_.size()));
     std::vector<std::vector<double>> spins_out(out.size());
     Finding finding;
@@ -181,7 +228,7 @@ void StateCheck::take_log(Log log) {
     n_pair_collisions_ += communicator_.sum(n_pairs);
 }
 
-StateCheck::Finding StateCheck::first_out_of_place(const LocalView& now) const {
+Finding StateCheck::first_out_of_place(const LocalView& now) const {
     const GridFrame& frame = now.grid->frame();
     const double allowed = scene_.effects.are_any() ? blur(64) : blur(4);
     const Extent box = extent_at(effects_, scene_.box_size, static_cast<double>(micro_steps_done_));
@@ -215,7 +262,7 @@ StateCheck::Finding StateCheck::first_out_of_place(const LocalView& now) const {
 
 /// Under both rules: what would run into an obstacle within a micro-step stops there. `partner`
 /// says which one it is.
-StateCheck::Finding StateCheck::first_in_obstacle(const LocalView& now) const {
+Finding StateCheck::first_in_obstacle(const LocalView& now) const {
     if (!obstacles_) return {};
     const double bound = 2 * tolerance_ + blur(64);
     for (const Disc& disc : now.population.discs.first(now.population.n_own)) {
@@ -229,7 +276,7 @@ StateCheck::Finding StateCheck::first_in_obstacle(const LocalView& now) const {
     return {};
 }
 
-StateCheck::Finding StateCheck::first_wrong_count() const {
+Finding StateCheck::first_wrong_count() const {
     for (std::size_t i = 0; i < known_.size(); ++i) {
         const Known &now = known_[i], &then = before_[i];
         const auto walls = static_cast<double>(now.disc.wall_collisions -
@@ -247,37 +294,13 @@ StateCheck::Finding StateCheck::first_wrong_count() const {
     return {};
 }
 
-StateCheck::Finding StateCheck::first_other_motion() const {
-    const bool is_free = !effects_.gravity.is_any() &&
-                         effects_.drag == 0; // velocities are rewritten by nothing then
-    const double left = slowing(),
-                 time = effects_.drag == 0 ? stretch() : drag_clock(effects_.drag, stretch());
-    const double gained = std::hypot(effects_.gravity.x, effects_.gravity.y) *
-                          (time + static_cast<double>(scene_.sync_every));
-    for (std::size_t i = 0; i < known_.size(); ++i) {
-        const Known& now = known_[i];
-        const Disc &disc = now.disc, &then = before_[i].disc;
-        if (now.pairs == 0 && now.spin != before_[i].spin) // `partner` says that it is the spin
-            return {Invariant::motion,
-                    now.owner,
-                    1,
-                    first_id_ + i,
-                    1,
-                    std::fabs(now.spin - before_[i].spin),
-                    0};
-        if (now.walls + now.pairs > 0) continue;
-        const double wx = disc.vx - (then.vx * left + effects_.gravity.x * time),
-                     wy = disc.vy - (then.vy * left + effects_.gravity.y * time);
-        const double bound = is_free ? 0
-                                     : motion_bound * (1 + n_syncs_since(micro_steps_before_)) *
-                                           (std::sqrt(squared_speed(then)) + gained);
-        if (!(std::fabs(wx) <= bound && std::fabs(wy) <= bound))
-            return {Invariant::motion, now.owner, 1, first_id_ + i, 0, std::hypot(wx, wy), bound};
-    }
-    return {};
+/// The lowest pair's finding stays.
+void StateCheck::keep_lowest(Finding& first, const Suspect& s) {
+    if (first.is_found == 0 || std::pair(s.p.id, s.q.id) < std::pair(first.disc, first.partner))
+        first = {Invariant::overlap, s.owner, 1, s.p.id, s.q.id, s.depth, s.bound};
 }
 
-StateCheck::Finding StateCheck::first_overlap(const LocalView& now) const {
+Finding StateCheck::first_overlap(const LocalView& now) const {
     if (effects_.contact.kind == ContactKind::none) return {}; // they pass through each other
     const bool is_one = scene_.method == Method::time_stepped;
     const double bound = (is_one ? 1 : 2) * tolerance_ + blur(64);
@@ -294,18 +317,13 @@ StateCheck::Finding StateCheck::first_overlap(const LocalView& now) const {
     });
     if (is_one) return first_unexplained(std::move(suspects));
     Finding first;
-    for (const Suspect& s : suspects) {
-        const Finding next{Invariant::overlap, s.owner, 1, s.p.id, s.q.id, s.depth, bound};
-        if (first.is_found == 0 ||
-            std::pair(next.disc, next.partner) < std::pair(first.disc, first.partner))
-            first = next;
-    }
+    for (const Suspect& s : suspects) keep_lowest(first, s);
     return first;
 }
 
 /// The ranks that keep the records of both discs are asked, one after the other, when the disc last
 /// had a collision.
-StateCheck::Finding StateCheck::first_unexplained(std::vector<Suspect> suspects) const {
+Finding StateCheck::first_unexplained(std::vector<Suspect> suspects) const {
     for (const bool is_first : {true, false}) {
         std::vector<std::vector<Suspect>> out(static_cast<std::size_t>(communicator_.size()));
         for (const Suspect& suspect : suspects)
@@ -326,29 +344,14 @@ StateCheck::Finding StateCheck::first_unexplained(std::vector<Suspect> suspects)
         const double gap = std::hypot(dx, dy) - diameter_of(s.p, s.q);
         if (gap <= blur(8 * (1 + n_syncs_since(s.free_from))))
             continue; // they were not apart yet, or their contact falls on that time
-        const Finding next{Invariant::overlap, s.owner, 1, s.p.id, s.q.id, s.depth, s.bound};
-        if (first.is_found == 0 ||
-            std::pair(next.disc, next.partner) < std::pair(first.disc, first.partner))
-            first = next;
+        keep_lowest(first, s);
     }
     return first;
-}
-
-double StateCheck::slowing() const {
-    return effects_.drag == 0 ? 1 : std::exp(-effects_.drag * stretch());
 }
 
 double StateCheck::n_syncs_since(std::int64_t micro_step) const {
     return static_cast<double>(micro_steps_done_ / scene_.sync_every -
                                micro_step / scene_.sync_every);
-}
-
-/// Where effects make discs faster, what is known of the fastest grows with them. **Collective.**
-void StateCheck::note_speeds() {
-    if (!scene_.effects.are_any()) return;
-    double square = 0;
-    for (const Known& known : known_) square = std::max(square, squared_speed(known.disc));
-    fastest_ = std::max(fastest_, std::sqrt(communicator_.max(square)));
 }
 
 int StateCheck::slab_of_disc(DiscId id) const {

@@ -21,7 +21,9 @@
 #include <vector>
 
 #include "check/check_failure.hpp"
+#include "check/finding.hpp"
 #include "check/shared_energy.hpp"
+#include "check/surroundings.hpp"
 #include "core/disc.hpp"
 #include "dynamics/obstacles.hpp"
 #include "engine/collision.hpp"
@@ -46,13 +48,6 @@ public:
               std::span<const double> spins = {});
 
 private:
-    struct Finding {
-        Invariant invariant{};
-        int rank = 0;
-        int is_found = 0;
-        DiscId disc = 0, partner = 0;
-        double value = 0, bound = 0;
-    };
     struct Known {
         Disc disc;
         double spin = 0;
@@ -72,12 +67,7 @@ private:
     /// The first finding of all ranks becomes a failure; nothing happens where there is none.
     /// **Collective.**
     void fail_if_found(const Finding& mine, Log log);
-    std::string text_of(const Finding& finding) const;
-    struct Around {
-        std::vector<InputDisc> discs;
-        std::vector<double> spins;
-    };
-    Around around(const Finding& finding, Log log) const;
+    std::vector<SceneDisc> discs_before() const;
 
     Finding first_not_finite(std::span<const Disc> own, std::span<const double> spins) const;
     Finding take_records(std::span<const Disc> own, std::span<const double> spins,
@@ -87,6 +77,7 @@ private:
     Finding first_in_obstacle(const LocalView& now) const;
     Finding first_wrong_count() const;
     Finding first_other_motion() const;
+    static void keep_lowest(Finding& first, const Suspect& s);
     Finding first_overlap(const LocalView& now) const;
     Finding first_unexplained(std::vector<Suspect> suspects) const;
     Finding first_other_energy(std::span<const Disc> own, Log log);

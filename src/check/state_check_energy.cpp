@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a check knows of energy: of discs that a step's collisions link, and of all.
+// What a check knows of motion and energy: of a disc between its collisions, of discs that a step's
+// collisions link, and of all.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +9,7 @@
 
 #include "check/shared_energy.hpp"
 #include "check/state_check.hpp"
+#include "dynamics/drag.hpp"
 #include "engine/state_sums.hpp"
 #include "parallel/exchange.hpp"
 
@@ -15,6 +17,8 @@ namespace carrom {
 
 namespace {
 
+/// Of speeds, by falling and by slowing down, from sync to sync.
+constexpr double motion_bound = 1e-13;
 constexpr double energy_bound = 1e-12;
 constexpr double energy_bound_per_collision = 32 * 0x1p-53;
 
@@ -32,7 +36,37 @@ bool StateCheck::may_lose_in_contacts() const {
     return contact.kind == ContactKind::rough && !(contact.restitution == 1 && keeps_slip);
 }
 
-StateCheck::Finding StateCheck::first_other_energy(std::span<const Disc> own, Log log) {
+Finding StateCheck::first_other_motion() const {
+    const bool is_free = !effects_.gravity.is_any() &&
+                         effects_.drag == 0; // velocities are rewritten by nothing then
+    const double left = slowing(),
+                 time = effects_.drag == 0 ? stretch() : drag_clock(effects_.drag, stretch());
+    const double gained = std::hypot(effects_.gravity.x, effects_.gravity.y) *
+                          (time + static_cast<double>(scene_.sync_every));
+    for (std::size_t i = 0; i < known_.size(); ++i) {
+        const Known& now = known_[i];
+        const Disc &disc = now.disc, &then = before_[i].disc;
+        if (now.pairs == 0 && now.spin != before_[i].spin) // `partner` says that it is the spin
+            return {Invariant::motion,
+                    now.owner,
+                    1,
+                    first_id_ + i,
+                    1,
+                    std::fabs(now.spin - before_[i].spin),
+                    0};
+        if (now.walls + now.pairs > 0) continue;
+        const double wx = disc.vx - (then.vx * left + effects_.gravity.x * time),
+                     wy = disc.vy - (then.vy * left + effects_.gravity.y * time);
+        const double bound = is_free ? 0
+                                     : motion_bound * (1 + n_syncs_since(micro_steps_before_)) *
+                                           (std::sqrt(squared_speed(then)) + gained);
+        if (!(std::fabs(wx) <= bound && std::fabs(wy) <= bound))
+            return {Invariant::motion, now.owner, 1, first_id_ + i, 0, std::hypot(wx, wy), bound};
+    }
+    return {};
+}
+
+Finding StateCheck::first_other_energy(std::span<const Disc> own, Log log) {
     std::vector<SharedEnergy> mine, all;
     for (std::size_t i = 0; i < known_.size(); ++i) {
         if (known_[i].walls + known_[i].pairs == 0) continue;
@@ -66,8 +100,8 @@ StateCheck::Finding StateCheck::first_other_energy(std::span<const Disc> own, Lo
 
 /// Of all discs together, since the check began; since the last look where effects take or give
 /// energy. **Collective.**
-StateCheck::Finding StateCheck::first_other_total(std::span<const Disc> own,
-                                                  const std::vector<SharedEnergy>& mine) {
+Finding StateCheck::first_other_total(std::span<const Disc> own,
+                                      const std::vector<SharedEnergy>& mine) {
     if (walls_give_energy_) return {};
     const double n = static_cast<double>(scene_.n_discs);
     const double bound = energy_bound + energy_bound_per_collision *
@@ -109,6 +143,14 @@ SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     return energy;
 }
 
+/// Where effects make discs faster, what is known of the fastest grows with them. **Collective.**
+void StateCheck::note_speeds() {
+    if (!scene_.effects.are_any()) return;
+    double square = 0;
+    for (const Known& known : known_) square = std::max(square, squared_speed(known.disc));
+    fastest_ = std::max(fastest_, std::sqrt(communicator_.max(square)));
+}
+
 /// Under gravity with that of height, counted from far enough below that roundings of places are
 /// small against it.
 double StateCheck::twice_energy(const Known& known) const {
@@ -134,6 +176,10 @@ double StateCheck::resting_gain(const Known& known) const {
                            std::max(std::fabs(effects_.gravity.x), std::fabs(effects_.gravity.y)) *
                            effects_.contact.contact_time;
     return 1.01 * mass_of(known.disc.id) * leaving * leaving * static_cast<double>(known.walls);
+}
+
+double StateCheck::slowing() const {
+    return effects_.drag == 0 ? 1 : std::exp(-effects_.drag * stretch());
 }
 
 /// Of the energy, but for what collisions take; under gravity drag takes an amount that depends on

@@ -77,14 +77,6 @@ public:
     void note_crossings_in(std::vector<Crossing>* crossings) { crossings_ = crossings; }
 
 protected:
-    /// Brings a state that a sync has rewritten into the box. Threads may call it for different
-    /// discs at once.
-    template <class Dynamics> void wrap(const Dynamics& dynamics, Disc& disc) {
-        const double x = disc.x, y = disc.y;
-        dynamics.wrap(disc);
-        if (crossings_ && (x != disc.x || y != disc.y))
-            note_crossing(disc, x, y, dynamics.periods());
-    }
     /// From (x, y) to where the disc is now. Threads may call it at once.
     void note_crossing(const Disc& disc, double x, double y, const Periods& periods);
     bool is_followed() const { return log_ != nullptr || impulses_ != nullptr; }

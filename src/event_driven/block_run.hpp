@@ -49,9 +49,7 @@ struct BlockGround {
     std::span<const Disc> discs;
     std::size_t n_own = 0;
     const CellGrid* grid = nullptr;
-    int first_own_column = 0,
-        end_own_column = 0; ///< own discs that rounding puts outside belong to the nearest one
-    int first_own_row = 0, end_own_row = 0; ///< the same
+    CellBlock own_cells; ///< own discs that rounding puts outside belong to the nearest of them
     BlockWindow window;
     bool is_logged = false;
     std::span<const double> spins{}; ///< by disc, of rough ones

@@ -118,7 +118,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     /// Whether what happens to a disc happens to all of its images at once.
     bool are_images_linked() const { return !next_image.empty(); }
     int owning_column(int column) const {
-        return std::clamp(column, ground.first_own_column, ground.end_own_column - 1);
+        return std::clamp(column, ground.own_cells.first_column, ground.own_cells.end_column - 1);
     }
     /// Slots of cells (column, first_row .. last_row) of our own, counted from `cells`' corner.
     SlotRange cell_run(int column, int first_row, int last_row) const {

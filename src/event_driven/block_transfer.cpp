@@ -91,8 +91,9 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own(const CellB
     too_fast = 0;
     cascade_begin = -1;
     cascade = 0;
-    const int first_row = own.first_row == ground.first_own_row ? cells.first_row : own.first_row;
-    const int end_row = own.end_row == ground.end_own_row ? cells.end_row : own.end_row;
+    const int first_row = own.first_row == ground.own_cells.first_row ? cells.first_row
+                                                                      : own.first_row;
+    const int end_row = own.end_row == ground.own_cells.end_row ? cells.end_row : own.end_row;
     for (int column = cells.first_column; column < cells.end_column; ++column) {
         const int owner = owning_column(column);
         if (owner < own.first_column || owner >= own.end_column) continue;

@@ -30,8 +30,6 @@ int cells_per_reach(double reach, double spacing) {
         std::clamp(std::round(reach / std::max(2 * spacing, reach / 4)), 1.0, 4.0));
 }
 
-double speed_of(const Disc& disc) { return std::sqrt(disc.vx * disc.vx + disc.vy * disc.vy); }
-
 int cells_along(double length, double width) {
     return static_cast<int>(std::clamp(std::ceil(length / width * (1 - 1e-9)), 1.0, 1e9));
 }
@@ -41,53 +39,30 @@ int cells_along(double length, double width) {
 template <class Dynamics>
 EventDrivenEngine<Dynamics>::EventDrivenEngine(const Scene& scene, StoredState state,
                                                const Communicator& communicator,
-                                               const Tuning& tuning, const BlockTuning& exact)
-    : communicator_(communicator), tuning_(tuning), block_tuning_(exact),
-      dynamics_(dynamics_of<Dynamics>(scene)), micro_steps_(scene.micro_steps),
-      sync_every_(scene.sync_every),
-      discs_(communicator, scene.box_size, std::move(state.discs),
-             scene.effects.periods(scene.box_size), Dynamics::has_spin, std::move(state.spins)),
-      n_micro_done_(state.micro_steps_done),
-      time_(static_cast<double>(n_micro_done_ % sync_every_)) {
+                                               const Tuning& tuning,
+                                               const BlockTuning& block_tuning)
+    : Base(scene, std::move(state), communicator, tuning), block_tuning_(block_tuning) {
     for (int thread = 0; thread < tuning_.threads; ++thread) block_runs_.emplace_back(dynamics_);
-    begin_interval();
-    set_departed_aside();
-    time_ = clock_at(n_micro_done_ % sync_every_);
-    if constexpr (!Dynamics::is_double) {
-        for (Disc& disc : discs_.all()) Dynamics::round(disc);
-    }
-    for (const Disc& disc : own()) largest_speed_ = std::max(largest_speed_, speed_of(disc));
     travel_speed_ = communicator_.max(largest_speed_);
-    discs_.rebalance(time_, tuning_.rebalance_above);
-    redistribute_now();
-    if (Dynamics::has_pairs && (Dynamics::parts_overlaps ||
-                                n_micro_done_ == 0)) // else the run itself may have come to them
-        refuse_overlaps(discs_.population(), discs_.grid(), time_,
+    this->distribute();
+    // Later on the run itself may have come to overlaps.
+    if (Dynamics::has_pairs && (Dynamics::parts_overlaps || n_micro_done_ == 0))
+        refuse_overlaps(population(), discs_.grid(), time_,
                         touching_of(dynamics_, discs_.periods()), communicator_, scene.name);
     discs_.forget_images();
-    clock_ = {};
+    phases_ = {};
 }
 
-template <class Dynamics>
-void EventDrivenEngine<Dynamics>::advance_towards(std::int64_t last_step) {
-    const std::int64_t last_sync = n_micro_done_ / sync_every_ * sync_every_;
-    const std::int64_t good_stop = (last_sync + sync_every_ + micro_steps_ - 1) / micro_steps_ *
-                                   micro_steps_;
-    const std::int64_t stop = std::min(last_step * micro_steps_, good_stop);
-    while (n_micro_done_ < stop) {
-        const std::int64_t sync_at = (n_micro_done_ / sync_every_ + 1) * sync_every_;
-        const std::int64_t target = std::min(stop, sync_at);
-        const double target_time = clock_at(target - (sync_at - sync_every_));
-        while (time_ < target_time) run_window(target_time);
-        n_micro_done_ = target;
-        if (target == sync_at) sync();
-    }
-    discs_.forget_images();
+template <class Dynamics> void EventDrivenEngine<Dynamics>::advance_to(std::int64_t target) {
+    const auto micro_steps = static_cast<double>(target - this->last_sync());
+    const double target_time = dynamics_.boundaries().clock_at(micro_steps);
+    while (time_ < target_time) run_window(target_time);
+    n_micro_done_ = target;
 }
 
 /// One window, to `target` at most.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_window(double target) {
-    set_departed_aside();
+    this->set_departed_aside();
     migrate();
     window_ = choose(target);
     halo_depth_ = first_halo_depth();
@@ -108,45 +83,61 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_window(double ta
     ++counts_.windows;
 }
 
-/// Discs that have left the box stay where they are in the arrays until those are put in order
-/// anyway.
-template <class Dynamics> void EventDrivenEngine<Dynamics>::set_departed_aside() {
-    if (dynamics_.boundaries().are_any_open()) discs_.set_departed_aside();
-}
-
 template <class Dynamics> void EventDrivenEngine<Dynamics>::migrate() {
-    const PhaseClock::Scope scope(clock_, Phase::exchange);
+    const PhaseClock::Scope scope(phases_, Phase::exchange);
     const double farthest = travel_speed_ * (time_ - redistributed_time_) * (1 + 1e-6) +
-                            64 * 0x1p-53 * dynamics_.box_size() + dynamics_.slack() + jumped_;
+                            this->place_margin() + jumped_;
     discs_.migrate(time_, farthest, nullptr);
     redistributed_time_ = time_;
     jumped_ = 0;
 }
 
 template <class Dynamics> BlockWindow EventDrivenEngine<Dynamics>::choose(double target) {
-    const PhaseClock::Scope scope(clock_, Phase::wait);
+    const PhaseClock::Scope scope(phases_, Phase::wait);
     BlockWindow window;
     window.begin = time_;
     window.holds_begin = time_ == 0;
-    // Largest speeds come and go: what was needed lately may be needed again.
-    window.speed_bound = std::max(communicator_.max(largest_speed_) * block_tuning_.speed_allowance,
-                                  0.99 * travel_speed_);
-    // Discs at rest on a floor become faster as the frame falls.
+    window.speed_bound = speed_bound_until(target);
+    const BlockNeeds needs = block_needs(window.speed_bound);
+    const double left = target - time_;
+    double longest = left;
+    if constexpr (Dynamics::is_periodic)
+        longest = std::min(longest, longest_in_period(dynamics_.box_size(), window.speed_bound));
+    if (!tuning_.window) longest = std::min(longest, caution_.most_hits() / needs.collision_rate);
+    choice_ = choose_block_window(needs, longest, tuning_.window);
+    if (Dynamics::is_periodic && is_one_block_ && !block_tuning_.halo && !block_tuning_.block_side)
+        choice_.halo = 1; // as far as images have to be seen
+    // Equal windows up to the target; the last one ends there exactly.
+    const double n_windows = std::ceil(left / choice_.duration * (1 - 1e-9));
+    window.end = n_windows > 1 ? time_ + left / n_windows : target;
+    if (!(window.end > time_) || window.end > target)
+        window.end = std::nextafter(time_, 2 * target);
+    return window;
+}
+
+/// Largest speeds come and go: the last window's bound may be needed again. Discs at rest on a
+/// floor become faster as the frame falls.
+template <class Dynamics>
+double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
+    const double now = communicator_.max(largest_speed_) * block_tuning_.speed_allowance;
     const double soon = std::min(time_ + 2 * last_duration_, target);
-    window.speed_bound += dynamics_.boundaries().speed_gained_at(soon) -
-                          dynamics_.boundaries().speed_gained_at(time_);
+    return std::max(now, 0.99 * travel_speed_) + (dynamics_.boundaries().speed_gained_at(soon) -
+                                                  dynamics_.boundaries().speed_gained_at(time_));
+}
+
+/// Takes what the last window teaches into account.
+template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(double speed_bound) {
     const auto n = static_cast<double>(discs_.n_total());
-    BlockNeeds needs{dynamics_.box_size(),
-                     dynamics_.radius() + dynamics_.slack(),
-                     n,
-                     window.speed_bound,
-                     0,
-                     time_,
-                     block_tuning_.halo,
-                     false};
     const bool is_alone = tuning_.threads == 1 ||
                           n < 2 * static_cast<double>(tuning_.discs_per_thread);
     is_one_block_ = communicator_.size() == 1 && is_alone && n <= most_discs_alone;
+    BlockNeeds needs;
+    needs.box_size = dynamics_.box_size();
+    needs.radius = dynamics_.radius() + dynamics_.slack();
+    needs.n_discs = n;
+    needs.speed_bound = speed_bound;
+    needs.time = time_;
+    needs.halo = block_tuning_.halo;
     needs.is_one_block = is_one_block_;
     needs.n_periodic_axes = (discs_.periods().x != 0) + (discs_.periods().y != 0);
     if (n_windows_ > 0)
@@ -156,22 +147,7 @@ template <class Dynamics> BlockWindow EventDrivenEngine<Dynamics>::choose(double
     caution_.learn(repeated_, collision_rate_ * last_duration_);
     needs.more_halo = caution_.more_halo();
     repeated_ = 0;
-    const double left = target - time_;
-    double longest = left;
-    if constexpr (Dynamics::is_periodic)
-        longest = std::min(longest, longest_in_period(dynamics_.box_size(), window.speed_bound));
-    choice_ = choose_block_window(
-        needs,
-        tuning_.window ? longest : std::min(longest, caution_.most_hits() / needs.collision_rate),
-        tuning_.window);
-    if (Dynamics::is_periodic && is_one_block_ && !block_tuning_.halo && !block_tuning_.block_side)
-        choice_.halo = 1; // as far as images have to be seen
-    // Equal windows up to the target; the last one ends there exactly.
-    const double n_windows = std::ceil(left / choice_.duration * (1 - 1e-9));
-    window.end = n_windows > 1 ? time_ + left / n_windows : target;
-    if (!(window.end > time_) || window.end > target)
-        window.end = std::nextafter(time_, 2 * target);
-    return window;
+    return needs;
 }
 
 /// The same reach at a higher speed: a shorter window. Where all were at rest until a wall came, a
@@ -188,90 +164,99 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::shorten() {
     window_.speed_bound = bound;
 }
 
-/// Brings the halo to every strip, all discs into cells and the own cells into blocks, all of which
-/// are to be replayed.
+/// Brings the halo to every strip, all discs into cells and the own cells into blocks, which are
+/// all to run.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
-    const PhaseClock::Scope scope(clock_, Phase::redistribute);
-    const double reach = block_reach(window_, dynamics_.search_diameter(), dynamics_.box_size());
-    const Extent box = extent();
-    const double x_from = std::max(box.x_low, discs_.strips().low(communicator_.rank()));
-    const double x_to = std::min(box.x_high, discs_.strips().high(communicator_.rank()));
-    const double spacing = std::sqrt(dynamics_.box_size() * std::max(x_to - x_from, 0.0) /
-                                     static_cast<double>(discs_.n_own() + 16));
-    GridFrame frame;
-    // Own columns end where the strip does: a block's halo counts from its last column, the rank's
-    // from the strip.
-    const double least_width = std::max(reach / cells_per_reach(reach, spacing), 0.7 * spacing);
-    frame.set_cell_width(std::max(
-        least_width, (x_to - x_from) / std::max(1.0, std::floor((x_to - x_from) / least_width))));
-    frame.n_reach = static_cast<int>(std::ceil(reach / frame.cell_width * (1 - 1e-9)));
-    const int n_halo = halo_depth_ * frame.n_reach,
-              n_beside = communicator_.size() > 1 ? n_halo : 0;
-    const int n_own_columns = cells_along(x_to - x_from, frame.cell_width),
-              n_own_rows = cells_along(box.y_high - box.y_low, frame.cell_width);
-    const bool goes_round_x = discs_.periods().x != 0, goes_round_y = discs_.periods().y != 0;
-    first_own_column_ = goes_round_x
-                            ? n_halo
-                            : std::min(n_beside, cells_along(x_from - box.x_low, frame.cell_width));
-    end_own_column_ = first_own_column_ + n_own_columns;
-    frame.n_columns = end_own_column_ +
-                      (goes_round_x
-                           ? n_halo
-                           : std::min(n_beside, cells_along(box.x_high - x_to, frame.cell_width)));
-    first_own_row_ = goes_round_y ? n_halo : 0;
-    end_own_row_ = first_own_row_ + n_own_rows;
-    frame.n_rows = end_own_row_ + first_own_row_;
-    frame.x_low = x_from - first_own_column_ * frame.cell_width;
-    frame.y_low = box.y_low - first_own_row_ * frame.cell_width;
-    discs_.sort_cells(frame, time_, tuning_.threads);
+    const PhaseClock::Scope scope(phases_, Phase::redistribute);
+    discs_.sort_cells(lay_cells(reach()), time_, tuning_.threads);
     {
-        const PhaseClock::Scope exchange(clock_, Phase::exchange);
-        discs_.fetch_halo(time_, halo_depth_ * reach, nullptr);
+        const PhaseClock::Scope exchange(phases_, Phase::exchange);
+        discs_.fetch_halo(time_, halo_depth_ * reach(), nullptr);
     }
     histories_.resize(discs_.all().size());
     make_blocks();
 }
 
+/// Own columns end where the strip does: a block's halo counts from its last column, the rank's
+/// from the strip.
+template <class Dynamics> GridFrame EventDrivenEngine<Dynamics>::lay_cells(double reach) {
+    const Extent box = extent();
+    const double x_from = std::max(box.x_low, discs_.strips().low(communicator_.rank()));
+    const double x_to = std::min(box.x_high, discs_.strips().high(communicator_.rank()));
+    const double spacing = std::sqrt(dynamics_.box_size() * std::max(x_to - x_from, 0.0) /
+                                     static_cast<double>(discs_.n_own() + 16));
+    const double least_width = std::max(reach / cells_per_reach(reach, spacing), 0.7 * spacing);
+    const double n_whole = std::max(1.0, std::floor((x_to - x_from) / least_width));
+    GridFrame frame;
+    frame.set_cell_width(std::max(least_width, (x_to - x_from) / n_whole));
+    frame.n_reach = static_cast<int>(std::ceil(reach / frame.cell_width * (1 - 1e-9)));
+    const int n_halo = halo_depth_ * frame.n_reach;
+    const bool goes_round_x = discs_.periods().x != 0, goes_round_y = discs_.periods().y != 0;
+    const auto n_beside = [&](double length) { // columns of other strips, or of images
+        if (goes_round_x) return n_halo;
+        return communicator_.size() > 1 ? std::min(n_halo, cells_along(length, frame.cell_width))
+                                        : 0;
+    };
+    own_cells_.first_column = n_beside(x_from - box.x_low);
+    own_cells_.end_column = own_cells_.first_column + cells_along(x_to - x_from, frame.cell_width);
+    frame.n_columns = own_cells_.end_column + n_beside(box.x_high - x_to);
+    own_cells_.first_row = goes_round_y ? n_halo : 0;
+    own_cells_.end_row = own_cells_.first_row +
+                         cells_along(box.y_high - box.y_low, frame.cell_width);
+    frame.n_rows = own_cells_.end_row + own_cells_.first_row;
+    frame.x_low = x_from - own_cells_.first_column * frame.cell_width;
+    frame.y_low = box.y_low - own_cells_.first_row * frame.cell_width;
+    return frame;
+}
+
 /// Cuts the own cells into blocks of about equal size. A block that exists already keeps its halo.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::make_blocks() {
-    const GridFrame& frame = discs_.grid().frame();
-    const int n_columns = end_own_column_ - first_own_column_,
-              n_rows = end_own_row_ - first_own_row_;
-    const double width = n_columns * frame.cell_width, height = n_rows * frame.cell_width;
-    double side = block_tuning_.block_side
-                      ? *block_tuning_.block_side * frame.cell_width * frame.n_reach
-                      : choice_.block_side;
-    if (is_one_block_ && !block_tuning_.block_side) side = 2 * std::max(width, height);
-    if (tuning_.threads > 1 && !is_one_block_)
-        side = std::min(side, std::sqrt(width * height / (blocks_per_thread * tuning_.threads)));
-    const auto parts = [&](double length, int n_cells) {
-        return std::clamp(static_cast<int>(std::ceil(length / side * (1 - 1e-9))), 1, n_cells);
-    };
+    const double cell_width = discs_.grid().frame().cell_width, side = block_side();
     const auto cells_each = [](int n_cells, int n_parts) {
         return (n_cells + n_parts - 1) / n_parts;
     };
-    block_columns_ = cells_each(n_columns, parts(width, n_columns));
-    block_rows_ = cells_each(n_rows, parts(height, n_rows));
+    const auto cells_of_block = [&](int n_cells) {
+        const double n_parts = std::ceil(n_cells * cell_width / side * (1 - 1e-9));
+        return cells_each(n_cells, std::clamp(static_cast<int>(n_parts), 1, n_cells));
+    };
+    const int n_columns = own_cells_.end_column - own_cells_.first_column,
+              n_rows = own_cells_.end_row - own_cells_.first_row;
+    block_columns_ = cells_of_block(n_columns);
+    block_rows_ = cells_of_block(n_rows);
     const int n_block_columns = cells_each(n_columns, block_columns_);
     n_block_rows_ = cells_each(n_rows, block_rows_);
     const auto n_blocks = static_cast<std::size_t>(n_block_columns) *
                           static_cast<std::size_t>(n_block_rows_);
     const bool is_new = halo_depth_ == first_halo_depth() || blocks_.size() != n_blocks;
     blocks_.resize(n_blocks);
+    std::size_t next = 0;
     for (int k = 0; k < n_block_columns; ++k) {
         for (int j = 0; j < n_block_rows_; ++j) {
-            Block& block =
-                blocks_[static_cast<std::size_t>(k) * static_cast<std::size_t>(n_block_rows_) +
-                        static_cast<std::size_t>(j)];
-            block.cells.first_column = first_own_column_ + k * block_columns_;
+            Block& block = blocks_[next++];
+            block.cells.first_column = own_cells_.first_column + k * block_columns_;
             block.cells.end_column = std::min(block.cells.first_column + block_columns_,
-                                              end_own_column_);
-            block.cells.first_row = first_own_row_ + j * block_rows_;
-            block.cells.end_row = std::min(block.cells.first_row + block_rows_, end_own_row_);
+                                              own_cells_.end_column);
+            block.cells.first_row = own_cells_.first_row + j * block_rows_;
+            block.cells.end_row = std::min(block.cells.first_row + block_rows_, own_cells_.end_row);
             block.is_marked = 1;
             if (is_new) block.halo = choice_.halo;
         }
     }
+}
+
+/// How long a block's sides should be.
+template <class Dynamics> double EventDrivenEngine<Dynamics>::block_side() const {
+    const GridFrame& frame = discs_.grid().frame();
+    const double width = (own_cells_.end_column - own_cells_.first_column) * frame.cell_width,
+                 height = (own_cells_.end_row - own_cells_.first_row) * frame.cell_width;
+    double side = choice_.block_side;
+    if (block_tuning_.block_side)
+        side = *block_tuning_.block_side * frame.cell_width * frame.n_reach;
+    else if (is_one_block_)
+        side = 2 * std::max(width, height);
+    if (tuning_.threads > 1 && !is_one_block_)
+        side = std::min(side, std::sqrt(width * height / (blocks_per_thread * tuning_.threads)));
+    return side;
 }
 
 /// Of all ranks' blocks those that are to be replayed. **Collective.**
@@ -283,10 +268,9 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::share_marked() con
 }
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
-    const PhaseClock::Scope scope(clock_, Phase::search);
-    const BlockGround ground{discs_.all(),    discs_.n_own(), &discs_.grid(), first_own_column_,
-                             end_own_column_, first_own_row_, end_own_row_,   window_,
-                             is_followed(),   discs_.spins()};
+    const PhaseClock::Scope scope(phases_, Phase::search);
+    const BlockGround ground{discs_.all(), discs_.n_own(),      &discs_.grid(), own_cells_,
+                             window_,      this->is_followed(), discs_.spins()};
     const int n_reach = discs_.grid().frame().n_reach;
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
     for (Block& block : blocks_) {
@@ -298,16 +282,15 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
     for (std::int64_t k = 0; k < n_blocks; ++k) {
         Block& block = blocks_[static_cast<std::size_t>(k)];
         if (block.is_marked == 0) continue;
-        BlockRun<Dynamics>& run_blocks =
-            block_runs_[static_cast<std::size_t>(omp_get_thread_num())];
-        run_blocks.run(ground, block.cells, block.halo * n_reach,
-                       Dynamics::is_periodic && sees_all(block), histories_, block.outcome);
+        BlockRun<Dynamics>& block_run = block_runs_[static_cast<std::size_t>(omp_get_thread_num())];
+        block_run.run(ground, block.cells, block.halo * n_reach,
+                      Dynamics::is_periodic && sees_all(block), histories_, block.outcome);
         block.is_marked = 0;
     }
 }
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
-    const PhaseClock::Scope scope(clock_, Phase::move);
+    const PhaseClock::Scope scope(phases_, Phase::move);
     Disc* const discs = discs_.all().data();
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
 #pragma omp parallel for num_threads(tuning_.threads) schedule(dynamic, 1)
@@ -325,7 +308,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
     for (const Block& block : blocks_) {
         n_events_ += block.outcome.n_events;
         largest_speed_ = std::max(largest_speed_, block.outcome.largest_speed_at_end);
-        if (is_followed()) log_events(block.outcome);
+        if (this->is_followed()) log_events(block.outcome);
     }
     for (Block& block : blocks_) block.has_run = false;
     last_duration_ = window_.duration();
@@ -333,91 +316,25 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
 
 template <class Dynamics>
 void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome& outcome) {
-    const std::int64_t last_sync = n_micro_done_ / sync_every_ * sync_every_;
     for (const LoggedEvent& event : outcome.log) {
         double mass = 1;
         if constexpr (Dynamics::has_species) mass = dynamics_.species_table().of(event.p).mass;
         const double unit = mass * (dynamics_.boundaries().frame_at(event.time).slowing *
-                                    static_cast<double>(micro_steps_));
-        if (impulses_ && event.is_wall && event.q <= 1)
-            impulses_->add(event.q, event.normal_impulse * unit);
-        if (log_)
-            log_->push_back({last_sync, dynamics_.boundaries().micro_steps_at(event.time),
-                             event.generation, event.p, event.is_wall ? Collision::wall : event.q,
-                             event.impulse * unit});
+                                    static_cast<double>(this->micro_steps_));
+        if (this->impulses_ && event.is_wall && event.q <= 1)
+            this->impulses_->add(event.q, event.normal_impulse * unit);
+        if (this->log_)
+            this->log_->push_back(
+                {this->last_sync(), dynamics_.boundaries().micro_steps_at(event.time),
+                 event.generation, event.p, event.is_wall ? Collision::wall : event.q,
+                 event.impulse * unit});
     }
 }
 
-template <class Dynamics> void EventDrivenEngine<Dynamics>::sync() {
-    const PhaseClock::Scope scope(clock_, Phase::sync);
-    discs_.forget_halo();
-    std::vector<Disc>& discs = discs_.all();
-    const auto n = static_cast<std::int64_t>(discs.size());
-#pragma omp parallel for num_threads(tuning_.threads) schedule(static)
-    for (std::int64_t i = 0; i < n; ++i) {
-        Disc& disc = discs[static_cast<std::size_t>(i)];
-        if (Dynamics::may_lose_discs && disc.has_departed()) continue;
-        Dynamics::advance(disc, time_);
-        dynamics_.boundaries().restart_frame(disc, time_);
-        if constexpr (Dynamics::is_periodic) this->wrap(dynamics_, disc);
-        disc.tau = 0;
-    }
+template <class Dynamics> void EventDrivenEngine<Dynamics>::finish_sync(double largest_speed) {
+    largest_speed_ = largest_speed;
     jumped_ += dynamics_.boundaries().jump_at(time_);
-    largest_speed_ = (largest_speed_ + dynamics_.boundaries().speed_gained_at(time_)) *
-                     dynamics_.boundaries().slowing_at(time_);
-    begin_interval();
-    redistributed_time_ -= time_;
-    time_ = 0;
-    ++n_syncs_;
-    if (tuning_.rebalance_every > 0 && n_syncs_ % tuning_.rebalance_every == 0) {
-        const PhaseClock::Scope wait(clock_, Phase::wait);
-        discs_.rebalance(0, tuning_.rebalance_above);
-    }
-}
-
-/// Tells the law where its walls are from here, the last sync, on.
-template <class Dynamics> void EventDrivenEngine<Dynamics>::begin_interval() {
-    dynamics_.begin_interval(n_micro_done_ / sync_every_ * sync_every_);
-    for (BlockRun<Dynamics>& run_blocks : block_runs_) run_blocks.change_dynamics(dynamics_);
-}
-
-/// What the clock shows so many micro-steps after a sync.
-template <class Dynamics>
-double EventDrivenEngine<Dynamics>::clock_at(std::int64_t micro_steps) const {
-    return dynamics_.boundaries().clock_at(static_cast<double>(micro_steps));
-}
-
-/// The walls in the coordinates of states, now.
-template <class Dynamics> Extent EventDrivenEngine<Dynamics>::extent() const {
-    Extent box = dynamics_.boundaries().extent_at(time_);
-    const Periods& periods = discs_.periods();
-    if (periods.x != 0) box.x_low = 0, box.x_high = periods.x;
-    if (periods.y != 0) box.y_low = 0, box.y_high = periods.y;
-    return box;
-}
-
-template <class Dynamics> Frame EventDrivenEngine<Dynamics>::frame() const {
-    Frame frame = dynamics_.boundaries().frame_at(time_);
-    if (!discs_.periods().are_any()) return frame;
-    frame.period_x = discs_.periods().x;
-    frame.period_y = discs_.periods().y;
-    frame.clock = time_;
-    frame.is_moving = true;
-    return frame;
-}
-
-template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute_now(double least_reach) {
-    set_departed_aside();
-    migrate();
-    const double touching = reach_of({dynamics_.box_size(), dynamics_.radius() + dynamics_.slack(),
-                                      static_cast<double>(discs_.n_total()), 0, 0, 0},
-                                     0);
-    const double reach = std::max(touching, least_reach);
-    const Extent seen = discs_.extent_seen(extent(), reach);
-    const GridFrame frame = make_sparse_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high,
-                                              reach, discs_.n_own());
-    discs_.sort_cells(frame, time_, tuning_.threads);
-    discs_.fetch_halo(time_, reach, nullptr);
+    for (BlockRun<Dynamics>& block_run : block_runs_) block_run.change_dynamics(dynamics_);
 }
 
 template <class Dynamics> RollbackCounts EventDrivenEngine<Dynamics>::rollback_counts() const {
@@ -425,21 +342,6 @@ template <class Dynamics> RollbackCounts EventDrivenEngine<Dynamics>::rollback_c
     counts.blocks = communicator_.sum(counts_.blocks);
     counts.blocks_redone = communicator_.sum(counts_.blocks_redone);
     return counts;
-}
-
-template <class Dynamics> LocalView EventDrivenEngine<Dynamics>::local_view(double reach) {
-    redistribute_now(reach * (1 + 1e-6));
-    return {discs_.population(), &discs_.grid(), &discs_.strips(), time_, frame(),
-            discs_.periods()};
-}
-
-template <class Dynamics> void EventDrivenEngine<Dynamics>::add_to(Totals& totals) {
-    redistribute_now();
-    if constexpr (Dynamics::has_pairs)
-        measure_overlaps(discs_.population(), discs_.grid(), time_,
-                         touching_of(dynamics_, discs_.periods()), communicator_, tuning_.threads,
-                         totals);
-    discs_.forget_images();
 }
 
 #define CARROM_DEFINE(Dynamics) template class EventDrivenEngine<Dynamics>;

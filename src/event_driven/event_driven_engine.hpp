@@ -15,15 +15,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
-#include "cell_list/cell_grid.hpp"
-#include "engine/engine.hpp"
-#include "engine/phase_clock.hpp"
-#include "engine/strip_discs.hpp"
+#include "engine/engine_base.hpp"
 #include "event_driven/block_run.hpp"
 #include "event_driven/block_window.hpp"
-#include "scene/scene.hpp"
 
 namespace carrom {
 
@@ -35,88 +32,72 @@ struct BlockTuning {
     bool is_validated = true;         ///< false gives wrong results
 };
 
-template <class Dynamics> class EventDrivenEngine final : public Engine {
+template <class Dynamics> class EventDrivenEngine final : public EngineBase<Dynamics> {
 public:
-    /// Refuses discs that overlap. **Collective.**
+    /// Overlapping discs are an error. **Collective.**
     EventDrivenEngine(const Scene& scene, StoredState state, const Communicator& communicator,
-                      const Tuning& tuning, const BlockTuning& exact = {});
+                      const Tuning& tuning, const BlockTuning& block_tuning = {});
 
-    void advance_towards(std::int64_t last_step) override;
-    void add_to(Totals& totals) override;
-    LocalView local_view(double reach) override;
-    void forget_images() override { discs_.forget_images(); }
     RollbackCounts rollback_counts() const override;
 
-    std::int64_t micro_steps_done() const override { return n_micro_done_; }
-    std::span<const Disc> own() const override { return discs_.own(); }
-    std::span<const double> spins() const override { return discs_.own_spins(); }
-    const SpeciesTable* species_table() const override {
-        if constexpr (Dynamics::has_species) return &dynamics_.species_table();
-        return nullptr;
-    }
-    double clock() const override { return time_; }
-    Frame frame() const override;
-    std::span<const Disc> departed() const override { return discs_.departed(); }
-    std::uint64_t n_discs() const override { return discs_.n_with_departed(); }
-    PhaseSeconds phase_seconds() const override { return clock_.seconds(); }
-
 private:
+    using Base = EngineBase<Dynamics>;
+    using Base::communicator_, Base::tuning_, Base::dynamics_, Base::discs_, Base::phases_;
+    using Base::largest_speed_, Base::travel_speed_;
+    using Base::population, Base::extent;
+    using Base::time_, Base::redistributed_time_, Base::n_micro_done_, Base::n_windows_;
+
     struct Block {
         CellBlock cells;
         int halo = 0;               ///< in reaches
-        std::uint8_t is_marked = 0; ///< has to be replayed
+        std::uint8_t is_marked = 0; ///< has to run
         bool has_run = false;       ///< in this window, before
         BlockOutcome outcome;
     };
     enum class Verdict { exact, repeat, too_fast };
 
+    void advance_to(std::int64_t target) override;
+    void migrate() override;
+    void finish_sync(double largest_speed) override;
+
     void run_window(double target);
-    void set_departed_aside();
-    void migrate();
     BlockWindow choose(double target);
+    BlockNeeds block_needs(double speed_bound);
+    double speed_bound_until(double target) const;
     void shorten();
     void redistribute();
+    GridFrame lay_cells(double reach);
     void make_blocks();
+    double block_side() const;
     void run_blocks();
+    void commit();
+    void log_events(const BlockOutcome& outcome);
+
     Verdict validate();
     void compare_histories(std::vector<LocalIndex>& foreign);
     void mark_owner(LocalIndex own_index);
     bool widen_marked();
+    int halo_depth_for(const Block& block) const;
     double share_marked() const;
-    /// With room for blocks at the strip's ends to look further: to fetch more is to replay all
-    /// ranks' blocks again.
-    int first_halo_depth() const {
-        return Dynamics::is_periodic && is_one_block_ ? choice_.halo : 2 * choice_.halo;
-    }
     bool sees_all(const Block& block) const;
     bool sees_all_images(const Block& block) const;
     void fail_on_cascade() const;
-    void commit();
-    void log_events(const BlockOutcome& outcome);
-    void sync();
-    void begin_interval();
-    double clock_at(std::int64_t micro_steps) const;
-    Extent extent() const;
-    void redistribute_now(double least_reach = 0);
 
-    Communicator communicator_;
-    Tuning tuning_;
+    /// Blocks at the strip's ends can look further at once: to fetch more makes all ranks run all
+    /// blocks again.
+    int first_halo_depth() const {
+        return Dynamics::is_periodic && is_one_block_ ? choice_.halo : 2 * choice_.halo;
+    }
+    double reach() const {
+        return block_reach(window_, dynamics_.search_diameter(), dynamics_.box_size());
+    }
+
     BlockTuning block_tuning_;
-    Dynamics dynamics_;
-    std::int64_t micro_steps_, sync_every_;
-
-    StripDiscs discs_;
-    std::int64_t n_micro_done_ = 0, n_syncs_ = 0, n_windows_ = 0;
-    double time_ = 0; ///< since the last sync
-    double redistributed_time_ = 0;
-    double jumped_ =
-        0; ///< how far the frame has moved under the discs since the last settling, in x
-    double travel_speed_ = 0;  ///< bounds the motion since the last settling; the same on all ranks
-    double largest_speed_ = 0; ///< of the own discs now
+    double jumped_ = 0;         ///< the frame's motion in x since the last migration
     double collision_rate_ = 0; ///< per disc and time, of the last window, on all ranks
     double last_duration_ = 1;  ///< of the last window
-    double repeated_ = 0; ///< replays of the last window that had to be repeated, in shares of all
-                          ///< its blocks; the same on all ranks
+    double repeated_ = 0; ///< block runs of the last window that were repeated, as a share of all
+                          ///< its blocks; equal on all ranks
     Caution caution_;
     std::uint64_t n_events_ = 0; ///< of this rank in the last window
     RollbackCounts counts_;      ///< blocks: of this rank
@@ -125,15 +106,12 @@ private:
     BlockWindow window_;
     bool is_one_block_ = false; ///< all discs in one block, for lack of threads and ranks
     int halo_depth_ = 0;        ///< reaches that the halo covers
-    int first_own_column_ = 0, end_own_column_ = 1;
-    int first_own_row_ = 0, end_own_row_ = 1;
+    CellBlock own_cells_{0, 1, 0, 1};
     int block_columns_ = 1, block_rows_ = 1; ///< cells to a block
     int n_block_rows_ = 1;
     std::vector<Block> blocks_;
     std::vector<std::uint64_t> histories_;       ///< by disc, own then halo
     std::vector<BlockRun<Dynamics>> block_runs_; ///< by thread
-
-    PhaseClock clock_;
 };
 
 /// The engine of the event-driven method with the law that the scene's precision and arithmetic ask

@@ -14,13 +14,13 @@ namespace carrom {
 /// Marks the blocks that have to be replayed, on all ranks.
 template <class Dynamics>
 typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::validate() {
-    const PhaseClock::Scope scope(clock_, Phase::resolve);
+    const PhaseClock::Scope scope(phases_, Phase::resolve);
     double fastest = 0;
     for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.too_fast);
     const bool is_too_fast = fastest > 0;
     std::vector<LocalIndex> foreign;
     {
-        const PhaseClock::Scope exchange(clock_, Phase::exchange);
+        const PhaseClock::Scope exchange(phases_, Phase::exchange);
         discs_.show(histories_);
     }
     compare_histories(foreign);
@@ -31,13 +31,13 @@ typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::valid
     }
     std::uint64_t updates[] = {is_too_fast ? 1u : 0u, n_marked, n_cascades};
     if (communicator_.size() > 1) {
-        const PhaseClock::Scope wait(clock_, Phase::wait);
+        const PhaseClock::Scope wait(phases_, Phase::wait);
         communicator_.sum(updates);
     }
     if (updates[0] > 0) return Verdict::too_fast;
     if (updates[2] > 0) fail_on_cascade();
     if (!block_tuning_.is_validated || updates[1] + updates[2] == 0) return Verdict::exact;
-    const PhaseClock::Scope exchange(clock_, Phase::exchange);
+    const PhaseClock::Scope exchange(phases_, Phase::exchange);
     std::vector<LocalIndex> named;
     discs_.name_to_owners(foreign, named);
     for (const LocalIndex index : named) mark_owner(index);
@@ -75,48 +75,33 @@ void EventDrivenEngine<Dynamics>::compare_histories(std::vector<LocalIndex>& for
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::mark_owner(LocalIndex own_index) {
     const CellGrid::Cell cell = discs_.grid().cell_of(own_index);
-    const int column = std::clamp(cell.column, first_own_column_, end_own_column_ - 1) -
-                       first_own_column_;
-    const int row = std::clamp(cell.row, first_own_row_, end_own_row_ - 1) - first_own_row_;
+    const int column = std::clamp(cell.column, own_cells_.first_column, own_cells_.end_column - 1) -
+                       own_cells_.first_column;
+    const int row = std::clamp(cell.row, own_cells_.first_row, own_cells_.end_row - 1) -
+                    own_cells_.first_row;
     const int k = column / block_columns_ * n_block_rows_ + row / block_rows_;
     std::atomic_ref(blocks_[static_cast<std::size_t>(k)].is_marked)
         .store(1, std::memory_order_relaxed);
 }
 
-/// Doubles the halo of all marked blocks that do not see the whole box yet. True if more halo has
-/// to be fetched for that; all blocks are to be replayed then. **Collective.**
+/// Doubles the halo of all marked blocks that do not see the whole box yet. True if that takes more
+/// of the rank's halo; then all blocks run again. **Collective.**
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
-    const int n_reach = discs_.grid().frame().n_reach;
-    const Periods& periods = discs_.periods();
-    const bool has_left = periods.x != 0 || communicator_.rank() > 0; // else: a wall
-    const bool has_right = periods.x != 0 || communicator_.rank() + 1 < communicator_.size();
     int deepest = halo_depth_;
     std::uint64_t n_widened = 0;
     for (Block& block : blocks_) {
         if (block.is_marked == 0) continue;
         if (sees_all(block)) {
-            block.is_marked = 0; // nothing can change its mind
+            block.is_marked = 0; // another run would end the same
             continue;
         }
         block.halo *= 2;
         ++n_widened;
-        const int to_left = block.cells.first_column - first_own_column_,
-                  to_right = end_own_column_ - block.cells.end_column;
-        if (has_left)
-            deepest = std::max(deepest, (block.halo * n_reach - to_left + n_reach - 1) / n_reach);
-        if (has_right)
-            deepest = std::max(deepest, (block.halo * n_reach - to_right + n_reach - 1) / n_reach);
-        if (periods.y == 0) continue;
-        const int to_rows = std::min(block.cells.first_row - first_own_row_,
-                                     end_own_row_ - block.cells.end_row);
-        deepest = std::max(deepest, (block.halo * n_reach - to_rows + n_reach - 1) / n_reach);
+        deepest = std::max(deepest, halo_depth_for(block));
     }
-    if (periods.are_any()) { // once around there is nothing new
-        const double reach = block_reach(window_, dynamics_.search_diameter(),
-                                         dynamics_.box_size());
-        deepest = std::max(
-            halo_depth_,
-            std::min(deepest, static_cast<int>(std::ceil(dynamics_.box_size() / reach)) + 3));
+    if (discs_.periods().are_any()) { // once around there is nothing new
+        const int around = static_cast<int>(std::ceil(dynamics_.box_size() / reach())) + 3;
+        deepest = std::max(halo_depth_, std::min(deepest, around));
     }
     ensure(communicator_.sum(n_widened) > 0, "blocks that have seen the whole box disagree");
     if (discs_.has_no_halo()) return false;
@@ -124,6 +109,26 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
     if (wanted == halo_depth_) return false;
     halo_depth_ = wanted;
     return true;
+}
+
+/// The rank's halo that the block's halo takes, in reaches. There is none beyond a wall.
+template <class Dynamics>
+int EventDrivenEngine<Dynamics>::halo_depth_for(const Block& block) const {
+    const int n_reach = discs_.grid().frame().n_reach;
+    const Periods& periods = discs_.periods();
+    int depth = 0;
+    const auto look = [&](bool is_open, int n_cells_inside) {
+        if (is_open)
+            depth = std::max(depth,
+                             (block.halo * n_reach - n_cells_inside + n_reach - 1) / n_reach);
+    };
+    look(periods.x != 0 || communicator_.rank() > 0,
+         block.cells.first_column - own_cells_.first_column);
+    look(periods.x != 0 || communicator_.rank() + 1 < communicator_.size(),
+         own_cells_.end_column - block.cells.end_column);
+    look(periods.y != 0, block.cells.first_row - own_cells_.first_row);
+    look(periods.y != 0, own_cells_.end_row - block.cells.end_row);
+    return depth;
 }
 
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::sees_all(const Block& block) const {
@@ -134,7 +139,7 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::sees_all(const Block
                                block.cells.end_column + halo >= frame.n_columns &&
                                block.cells.first_row <= halo &&
                                block.cells.end_row + halo >= frame.n_rows;
-    const double reach = block_reach(window_, dynamics_.search_diameter(), dynamics_.box_size());
+    const double reach = this->reach();
     const Extent box = extent();
     const bool rank_has_all = communicator_.size() == 1 ||
                               halo_depth_ * reach > box.x_high - box.x_low;
@@ -146,7 +151,7 @@ template <class Dynamics>
 bool EventDrivenEngine<Dynamics>::sees_all_images(const Block& block) const {
     const GridFrame& frame = discs_.grid().frame();
     const int halo = block.halo * frame.n_reach;
-    const double reach = block_reach(window_, dynamics_.search_diameter(), dynamics_.box_size());
+    const double reach = this->reach();
     const int around = static_cast<int>(std::ceil(dynamics_.box_size() / frame.cell_width)) + 1 +
                        frame.n_reach;
     const bool rank_has_all = communicator_.size() == 1 ||
@@ -160,11 +165,11 @@ bool EventDrivenEngine<Dynamics>::sees_all_images(const Block& block) const {
         return has_own && (own_is_all || seen_end >= first_own + around);
     };
     return rank_has_all &&
-           has_all(block.cells.first_column, block.cells.end_column, first_own_column_,
-                   end_own_column_, frame.n_columns, discs_.periods().x != 0,
+           has_all(block.cells.first_column, block.cells.end_column, own_cells_.first_column,
+                   own_cells_.end_column, frame.n_columns, discs_.periods().x != 0,
                    communicator_.size() == 1) &&
-           has_all(block.cells.first_row, block.cells.end_row, first_own_row_, end_own_row_,
-                   frame.n_rows, discs_.periods().y != 0, true);
+           has_all(block.cells.first_row, block.cells.end_row, own_cells_.first_row,
+                   own_cells_.end_row, frame.n_rows, discs_.periods().y != 0, true);
 }
 
 /// Ends the run on all ranks if a block that has seen the whole box has found no end.
@@ -174,15 +179,14 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::fail_on_cascade() co
     for (const Block& block : blocks_) {
         const BlockOutcome& outcome = block.outcome;
         if (!outcome.is_endless || !sees_all(block)) continue;
-        const auto micro_step = n_micro_done_ / sync_every_ * sync_every_;
         const std::string partner = outcome.cascade_partner == outcome.cascade_disc
                                         ? "a wall"
                                         : fmt::format("disc {}", outcome.cascade_partner);
         text = fmt::format(
             "disc {} collides without end at step {:.9g}, at last with {}: {}",
             outcome.cascade_disc,
-            (static_cast<double>(micro_step) + outcome.cascade_time) /
-                static_cast<double>(micro_steps_),
+            (static_cast<double>(this->last_sync()) + outcome.cascade_time) /
+                static_cast<double>(this->micro_steps_),
             partner,
             Dynamics::is_loose
                 ? "it has no room to move, or the scene's precision and arithmetic do not tell "

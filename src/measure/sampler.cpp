@@ -2,72 +2,17 @@
 #include "measure/sampler.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "engine/state_sums.hpp"
 #include "parallel/pieces.hpp"
-#include "statistics/pair_distances.hpp"
 
 namespace carrom {
 
 namespace {
-
-constexpr std::int64_t format = 1;
-
-/// Everything that is kept, in one order for writing and reading.
-template <class Sums, class Visit> void visit_all(Sums& s, const Visit& visit) {
-    visit(s.quantities), visit(s.every_steps), visit(s.wanted_from), visit(s.largest_distance),
-        visit(s.largest_velocity);
-    visit(s.first_step), visit(s.last_step), visit(s.speed_scale), visit(s.n_samples),
-        visit(s.n_discs), visit(s.area);
-    for (auto* counts : {&s.pairs, &s.vx, &s.vy, &s.speeds, &s.x, &s.y, &s.pending}) visit(*counts);
-    for (auto& count : s.wall_collisions) visit(count);
-    for (auto* numbers : {&s.ideal_pairs, &s.impulses, &s.displacements}) visit(*numbers);
-}
-
-std::vector<std::int64_t> packed(const SampleSums& sums) {
-    std::vector<std::int64_t> words = {format};
-    visit_all(sums, [&words](const auto& value) {
-        if constexpr (requires { value.size(); }) {
-            words.push_back(static_cast<std::int64_t>(value.size()));
-            for (const auto& item : value) words.push_back(std::bit_cast<std::int64_t>(item));
-        } else {
-            words.push_back(std::bit_cast<std::int64_t>(value));
-        }
-    });
-    return words;
-}
-
-/// Nothing where the words are not such sums.
-std::optional<SampleSums> unpacked(std::span<const std::int64_t> words) {
-    SampleSums sums;
-    std::size_t next = 0;
-    bool is_right = true;
-    const auto take = [&]() -> std::int64_t {
-        is_right = is_right && next < words.size();
-        return is_right ? words[next++] : 0;
-    };
-    if (take() != format) return std::nullopt;
-    visit_all(sums, [&](auto& value) {
-        if constexpr (requires { value.size(); }) {
-            const std::int64_t size = take();
-            is_right = is_right && size >= 0 &&
-                       static_cast<std::size_t>(size) <= words.size() - next;
-            value.resize(is_right ? static_cast<std::size_t>(size) : 0);
-            for (auto& item : value)
-                item = std::bit_cast<std::remove_reference_t<decltype(item)>>(take());
-        } else {
-            value = std::bit_cast<std::remove_reference_t<decltype(value)>>(take());
-        }
-    });
-    if (!is_right || next != words.size()) return std::nullopt;
-    return sums;
-}
 
 std::uint64_t quantities_of(const MeasurementOutput& output) {
     return (output.wall_pressure ? 1u : 0u) | (output.radial_distribution ? 2u : 0u) |
@@ -125,21 +70,6 @@ std::vector<Species> species_told_apart(const Scene& scene) {
     const std::vector<Species>& species = scene.effects.species;
     if (species.empty() || species.size() > most) return {{scene.n_discs, scene.radius, 1}};
     return species;
-}
-
-double share_of_ideal_pairs(double a, double b, double distance) {
-    const double r = distance;
-    return 4 / (a * a * b * b) * r * r *
-           (a * b * (0.25 * std::numbers::pi) - (a + b) * r / 3 + r * r / 8);
-}
-
-double share_of_ideal_pairs_around_x(double period, double b, double distance) {
-    const double r = distance;
-    return r * r / (period * b * b) * (std::numbers::pi * b - 4 * r / 3);
-}
-
-double share_of_ideal_pairs_around(double period, double distance) {
-    return std::numbers::pi * distance * distance / (period * period);
 }
 
 Sampler::Sampler(const Scene& scene, Simulation& simulation, const Communicator& ranks)

@@ -22,10 +22,12 @@
 #include "core/disc.hpp"
 #include "core/stored_samples.hpp"
 #include "engine/wall_impulses.hpp"
+#include "measure/sample_sums.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
 #include "simulation/simulation.hpp"
 #include "statistics/averages.hpp"
+#include "statistics/pair_distances.hpp"
 
 namespace carrom {
 
@@ -35,26 +37,6 @@ struct MeasuredTable {
     std::vector<std::string> remarks; ///< what it shows, and units
     std::vector<std::string> columns;
     std::vector<std::vector<double>> rows;
-};
-
-/// Sums over all samples so far, of all ranks together. Plain numbers: what a checkpoint keeps.
-struct SampleSums {
-    // What was asked for; sums of other keys are of no use.
-    std::uint64_t quantities = 0;
-    std::int64_t every_steps = 0, wanted_from = 0;
-    double largest_distance = 0, largest_velocity = 0;
-
-    std::int64_t first_step = 0, last_step = -1; ///< of the samples
-    double speed_scale = 0;                      ///< that the unit of impulses was chosen by
-    std::uint64_t n_samples = 0, n_discs = 0;    ///< n_discs: over all samples
-    std::vector<std::uint64_t> pairs, vx, vy, speeds, x,
-        y; ///< pairs: all bins of the first kind (pair_distances.hpp), then of the second ...
-    std::vector<double> ideal_pairs; ///< likewise, what discs without size would have
-    double area = 0;                 ///< of the box, over all samples
-    std::array<std::uint64_t, 4> wall_collisions{};
-    std::vector<double> impulses;       ///< of each interval: of the four sides
-    std::vector<double> displacements;  ///< of each sample: its mean square along x, along y
-    std::vector<std::uint64_t> pending; ///< impulses and collisions since the last sample
 };
 
 class Sampler {
@@ -112,16 +94,6 @@ private:
 /// The classes whose pairs are counted apart: the scene's, or one of all discs where they are alike
 /// or of more than eight classes.
 std::vector<Species> species_told_apart(const Scene& scene);
-
-/// The share of pairs of points, anywhere in a box of a by b independently, that are at most
-/// `distance` apart; up to the shorter side. (From the distribution of each component's difference,
-/// as in Ghosh, Bull. Calcutta Math. Soc. 43, 17 (1951).)
-double share_of_ideal_pairs(double a, double b, double distance);
-/// The same in a box with periodic sides, of nearest images, up to half a period: with walls along
-/// the side b ...
-double share_of_ideal_pairs_around_x(double period, double b, double distance);
-/// ... and without walls.
-double share_of_ideal_pairs_around(double period, double distance);
 
 /// The tables of sums.
 std::vector<MeasuredTable> tables_of(const SampleSums& sums, const Scene& scene);

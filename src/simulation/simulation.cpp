@@ -162,15 +162,6 @@ void Simulation::log_to(std::vector<Collision>* log) {
 
 void Simulation::add_impulses_to(WallImpulses* impulses) { engine_->add_impulses_to(impulses); }
 
-void Engine::note_crossing(const Disc& disc, double x, double y, const Periods& periods) {
-    const auto lengths = [](double far, double period) {
-        return period == 0 ? 0 : std::round(far / period);
-    };
-#pragma omp critical(crossings)
-    crossings_->push_back(
-        {disc.id, lengths(x - disc.x, periods.x), lengths(y - disc.y, periods.y)});
-}
-
 void Simulation::note_crossings_in(std::vector<Crossing>* crossings) {
     engine_->note_crossings_in(crossings);
 }

@@ -2,6 +2,7 @@
 #include "statistics/pair_distances.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "engine/near_pairs.hpp"
@@ -54,6 +55,21 @@ void count_pair_distances(const LocalView& local_view, double bin_width,
 #pragma omp critical(pair_distances)
         for (std::size_t k = 0; k < counts.size(); ++k) counts[k] += mine[k];
     }
+}
+
+double share_of_ideal_pairs(double a, double b, double distance) {
+    const double r = distance;
+    return 4 / (a * a * b * b) * r * r *
+           (a * b * (0.25 * std::numbers::pi) - (a + b) * r / 3 + r * r / 8);
+}
+
+double share_of_ideal_pairs_around_x(double period, double b, double distance) {
+    const double r = distance;
+    return r * r / (period * b * b) * (std::numbers::pi * b - 4 * r / 3);
+}
+
+double share_of_ideal_pairs_around(double period, double distance) {
+    return std::numbers::pi * distance * distance / (period * period);
 }
 
 } // namespace carrom

@@ -26,4 +26,14 @@ void count_pair_distances(const LocalView& local_view, double bin_width,
                           std::span<const DiscId> species_ends, int n_threads,
                           std::span<std::uint64_t> counts);
 
+/// The share of pairs of points, anywhere in a box of a by b independently, that are at most
+/// `distance` apart; up to the shorter side. (From the distribution of each component's difference,
+/// as in Ghosh, Bull. Calcutta Math. Soc. 43, 17 (1951).)
+double share_of_ideal_pairs(double a, double b, double distance);
+/// The same in a box with periodic sides, of nearest images, up to half a period: with walls along
+/// the side b ...
+double share_of_ideal_pairs_around_x(double period, double b, double distance);
+/// ... and without walls.
+double share_of_ideal_pairs_around(double period, double distance);
+
 } // namespace carrom

@@ -105,12 +105,23 @@ std::size_t LocalResolution::round_alone(const Population& population, std::vect
     return verdicts.kept.size() - old_kept;
 }
 
+/// Makes room for what all threads have kept and left, and says where each thread's part goes.
+void LocalResolution::join_lists(std::vector<Candidate>& live, Verdicts& verdicts) {
+    std::size_t kept_end = verdicts.kept.size(), live_end = 0;
+    for (std::size_t thread = 0; thread < kept_by_thread_.size(); ++thread) {
+        places_[thread] = {kept_end, live_end};
+        kept_end += kept_by_thread_[thread].size();
+        live_end += live_by_thread_[thread].size();
+    }
+    verdicts.kept.resize(kept_end);
+    live.resize(live_end);
+}
+
 std::size_t LocalResolution::round_together(const Population& population,
                                             std::vector<Candidate>& live, Verdicts& verdicts) {
     const TotalOrder before(population.discs);
     const std::size_t old_kept = verdicts.kept.size();
     const auto n_live = static_cast<std::int64_t>(live.size());
-    const std::size_t n_lists = kept_by_thread_.size();
 #pragma omp parallel num_threads(n_threads_)
     {
         std::vector<Candidate>& kept =
@@ -160,16 +171,7 @@ std::size_t LocalResolution::round_together(const Population& population,
             if (!candidate.is_wall()) write(first_[candidate.q], free_disc);
         }
 #pragma omp single
-        {
-            std::size_t n_kept = 0, n_rest = 0;
-            for (std::size_t thread = 0; thread < n_lists; ++thread) {
-                places_[thread] = {old_kept + n_kept, n_rest};
-                n_kept += kept_by_thread_[thread].size();
-                n_rest += live_by_thread_[thread].size();
-            }
-            verdicts.kept.resize(old_kept + n_kept);
-            live.resize(n_rest);
-        }
+        join_lists(live, verdicts);
         const auto [kept_place,
                     rest_place] = places_[static_cast<std::size_t>(omp_get_thread_num())];
         std::copy(kept.begin(), kept.end(),

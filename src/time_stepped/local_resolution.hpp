@@ -40,6 +40,7 @@ private:
     // many it has kept.
     std::size_t round_alone(const Population&, std::vector<Candidate>& live, Verdicts&);
     std::size_t round_together(const Population&, std::vector<Candidate>& live, Verdicts&);
+    void join_lists(std::vector<Candidate>& live, Verdicts&);
     void walk(const Population&, std::vector<Candidate>& live, Verdicts&);
 
     int n_threads_;

@@ -25,54 +25,25 @@ Tuning with_useful_threads(Tuning tuning, const Scene& scene, const Communicator
     return tuning;
 }
 
-double squared_speed_of(const Disc& disc) { return disc.vx * disc.vx + disc.vy * disc.vy; }
-
 } // namespace
 
 template <class Dynamics>
 TimeSteppedEngine<Dynamics>::TimeSteppedEngine(const Scene& scene, StoredState state,
                                                const Communicator& communicator,
                                                const Tuning& tuning)
-    : communicator_(communicator), tuning_(with_useful_threads(tuning, scene, communicator)),
-      dynamics_(dynamics_of<Dynamics>(scene)), micro_steps_(scene.micro_steps),
-      sync_every_(scene.sync_every), last_micro_step_(scene.steps * scene.micro_steps),
-      discs_(communicator, scene.box_size, std::move(state.discs),
-             scene.effects.periods(scene.box_size), Dynamics::has_spin, std::move(state.spins)),
-      n_micro_done_(state.micro_steps_done), micro_(static_cast<int>(n_micro_done_ % sync_every_)),
+    : Base(scene, std::move(state), communicator, with_useful_threads(tuning, scene, communicator)),
       search_(dynamics_, tuning_.threads), local_(tuning_.threads), across_strips_(communicator) {
-    if constexpr (!Dynamics::is_double) {
-        for (Disc& disc : discs_.all()) Dynamics::round(disc);
-    }
-    for (const Disc& disc : own())
-        largest_speed_ = std::max(largest_speed_, std::sqrt(squared_speed_of(disc)));
     const double density = static_cast<double>(discs_.n_total()) /
                            (dynamics_.box_size() * dynamics_.box_size());
     hits_per_micro_step_ = std::min(1.0, 2 * density * dynamics_.diameter() *
                                              communicator_.max(largest_speed_)); // a first guess
-    set_departed_aside();
-    discs_.rebalance(micro_, tuning_.rebalance_above);
-    redistribute_now(); // discs come in any order
+    this->distribute();
     discs_.forget_images();
-    clock_ = {};
+    phases_ = {};
 }
 
-/// Discs that have left the box stay where they are in the arrays until those are put in order
-/// anyway.
-template <class Dynamics> void TimeSteppedEngine<Dynamics>::set_departed_aside() {
-    if (dynamics_.boundaries().are_any_open()) discs_.set_departed_aside();
-}
-
-template <class Dynamics>
-void TimeSteppedEngine<Dynamics>::advance_towards(std::int64_t last_step) {
-    const std::int64_t next_sync = n_micro_done_ - micro_ + sync_every_;
-    const std::int64_t good_stop = (next_sync + micro_steps_ - 1) / micro_steps_ * micro_steps_;
-    const std::int64_t stop = std::min(last_step * micro_steps_, good_stop);
-    while (n_micro_done_ < stop) {
-        run_window(static_cast<int>(std::min(stop - n_micro_done_, sync_every_ - micro_)));
-        if (micro_ == sync_every_) sync();
-    }
-    discs_.forget_images();
-    if (n_micro_done_ == last_micro_step_) discs_.drop_grid(); // memory for what follows a run
+template <class Dynamics> void TimeSteppedEngine<Dynamics>::advance_to(std::int64_t target) {
+    while (n_micro_done_ < target) run_window(static_cast<int>(target - n_micro_done_));
 }
 
 /// Runs one window of at most `n_left` micro-steps: to its end, or to where discs have become too
@@ -80,7 +51,7 @@ void TimeSteppedEngine<Dynamics>::advance_towards(std::int64_t last_step) {
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::run_window(int n_left) {
     const Window window = redistribute(n_left);
     {
-        const PhaseClock::Scope scope(clock_, Phase::search);
+        const PhaseClock::Scope scope(phases_, Phase::search);
         search_.predict_all(population(), discs_.grid(), window,
                             reach_of(window_needs(), window.duration(), usual_speed_));
     }
@@ -95,77 +66,42 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::run_window(int n_lef
         part_ = 0;
     }
     n_micro_done_ += m - window.first_micro;
-    micro_ = m;
+    time_ = m;
 }
 
 /// Brings every disc to its strip, the halo to every strip and all into cells, for the window that
 /// it chooses.
 template <class Dynamics> Window TimeSteppedEngine<Dynamics>::redistribute(int n_left) {
-    const PhaseClock::Scope scope(clock_, Phase::redistribute);
-    if (part_ == 0) set_departed_aside();
+    const PhaseClock::Scope scope(phases_, Phase::redistribute);
     if (part_ == 0) {
+        this->set_departed_aside();
         agree_on_speed();
         if (n_windows_ == 0 || n_parts_ > 1) survey_speeds();
     }
     const Window window = choose(n_left);
-    migrate(window.anchor());
+    migrate_at(window.anchor());
     const double reach = reach_of(window_needs(), window.duration()),
                  usual_reach = reach_of(window_needs(), window.duration(), usual_speed_);
     sort(window, reach, usual_reach);
-    fetch_halo(window.anchor(), reach);
+    {
+        const PhaseClock::Scope exchange(phases_, Phase::exchange);
+        discs_.fetch_halo(window.anchor(), reach, companion());
+    }
     if (usual_reach < reach) discs_.grid().set_apart(usual_speed_ * (1 - 1e-6));
     states_.assign(discs_.all().size(), 0);
     return window;
 }
 
-template <class Dynamics> void TimeSteppedEngine<Dynamics>::redistribute_now(double least_reach) {
-    set_departed_aside();
-    agree_on_speed();
-    migrate(micro_);
-    const double touching = reach_of({dynamics_.box_size(), dynamics_.radius() + dynamics_.slack(),
-                                      static_cast<double>(discs_.n_total()), 0, 0, 0},
-                                     0);
-    const double reach = std::max(touching, least_reach);
-    const Extent seen = discs_.extent_seen({0, dynamics_.box_size(), 0, dynamics_.box_size()},
-                                           reach);
-    const GridFrame frame = make_sparse_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high,
-                                              reach, discs_.n_own());
-    discs_.sort_cells(frame, micro_, tuning_.threads);
-    fetch_halo(micro_, reach);
-}
-
-template <class Dynamics> LocalView TimeSteppedEngine<Dynamics>::local_view(double reach) {
-    redistribute_now(reach * (1 + 1e-6));
-    return {population(), &discs_.grid(),  &discs_.strips(), static_cast<double>(micro_),
-            frame(),      discs_.periods()};
-}
-
-/// Under this rule nothing falls: a frame that moves stands for places to be brought into the box.
-template <class Dynamics> Frame TimeSteppedEngine<Dynamics>::frame() const {
-    Frame frame;
-    frame.is_moving = discs_.periods().are_any();
-    frame.clock = micro_;
-    frame.period_x = discs_.periods().x;
-    frame.period_y = discs_.periods().y;
-    return frame;
-}
-
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::add_to(Totals& totals) {
     totals.rejected_candidates = communicator_.sum(n_candidates_ - n_kept_);
-    redistribute_now();
-    if constexpr (Dynamics::has_pairs)
-        measure_overlaps(population(), discs_.grid(), micro_,
-                         touching_of(dynamics_, discs_.periods()), communicator_, tuning_.threads,
-                         totals);
-    discs_.forget_images();
+    Base::add_to(totals);
 }
 
 /// Halo discs will come from within `reach`. Cells are made for `usual_reach`; discs that are too
 /// fast for it will be set apart.
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::sort(const Window& window, double reach, double usual_reach) {
-    const Extent seen = discs_.extent_seen({0, dynamics_.box_size(), 0, dynamics_.box_size()},
-                                           reach);
+    const Extent seen = discs_.extent_seen(extent(), reach);
     const GridFrame frame = make_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high,
                                        usual_reach, discs_.n_own(), tuning_.cell_width.value_or(0));
     discs_.sort(frame, window.anchor(), window.begin(), std::max(window.duration(), 1e-6),
@@ -174,7 +110,7 @@ void TimeSteppedEngine<Dynamics>::sort(const Window& window, double reach, doubl
 
 template <class Dynamics> Window TimeSteppedEngine<Dynamics>::choose(int n_left) {
     Window window;
-    window.first_micro = micro_;
+    window.first_micro = static_cast<int>(time_);
     if (part_ == 0) {
         window_speed_ = largest_speed_ * speed_allowance;
         speed_exceeded_ = false;
@@ -210,41 +146,39 @@ template <class Dynamics> WindowNeeds TimeSteppedEngine<Dynamics>::window_needs(
 }
 
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::agree_on_speed() {
-    const PhaseClock::Scope scope(clock_, Phase::wait);
+    const PhaseClock::Scope scope(phases_, Phase::wait);
     travel_speed_ = communicator_.max(largest_speed_);
     largest_speed_ = refreshed_speed_ > 0 ? std::exchange(refreshed_speed_, 0) : travel_speed_;
 }
 
-template <class Dynamics> void TimeSteppedEngine<Dynamics>::migrate(double time) {
-    // A disc was settled where its old flight would take it; it is where the new one does, which
-    // began no earlier than the states last changed. Between the parts of a micro-step no state
-    // changes.
-    const double from = part_ > 0 ? redistributed_time_ : unchanged_until_;
-    const double flown = (time - from) + std::fabs(redistributed_time_ - from);
-    const double farthest = travel_speed_ * flown * (1 + 1e-6) +
-                            64 * 0x1p-53 * dynamics_.box_size() + dynamics_.slack();
-    const PhaseClock::Scope scope(clock_, Phase::exchange);
-    discs_.migrate(time, farthest, companion());
-    redistributed_time_ = time;
-    if (part_ == 0) unchanged_until_ = micro_;
+template <class Dynamics> void TimeSteppedEngine<Dynamics>::migrate() {
+    agree_on_speed();
+    migrate_at(time_);
 }
 
-template <class Dynamics> void TimeSteppedEngine<Dynamics>::fetch_halo(double time, double reach) {
-    const PhaseClock::Scope scope(clock_, Phase::exchange);
-    discs_.fetch_halo(time, reach, companion());
+/// Discs went to their cells by their old flights. They are where the new ones take them, which
+/// began when states changed, not before `unchanged_until_`. Between parts no state changes.
+template <class Dynamics> void TimeSteppedEngine<Dynamics>::migrate_at(double time) {
+    const double from = part_ > 0 ? redistributed_time_ : unchanged_until_;
+    const double flown = (time - from) + std::fabs(redistributed_time_ - from);
+    const double farthest = travel_speed_ * flown * (1 + 1e-6) + this->place_margin();
+    const PhaseClock::Scope scope(phases_, Phase::exchange);
+    discs_.migrate(time, farthest, companion());
+    redistributed_time_ = time;
+    if (part_ == 0) unchanged_until_ = time_;
 }
 
 /// Decides and applies micro-step m. False, with nothing done, if discs have become faster than the
 /// window allows for.
 template <class Dynamics>
 bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
-    const PhaseClock::Scope resolving(clock_, Phase::resolve);
+    const PhaseClock::Scope resolving(phases_, Phase::resolve);
     search_.collect(window, m, states_, live_);
     const std::uint64_t n_candidates = count_ours(live_);
     if (in_parts_) strike_taken(live_);
     local_.resolve(population(), live_, verdicts_);
     if (!discs_.has_no_halo()) {
-        const PhaseClock::Scope scope(clock_, Phase::conflicts);
+        const PhaseClock::Scope scope(phases_, Phase::conflicts);
         across_strips_.resolve_boundary(population(), discs_.neighbours(), verdicts_.undecided,
                                         verdicts_.kept);
     }
@@ -253,12 +187,12 @@ bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
     std::uint64_t updates[2] = {verdicts_.undecided.size(),
                                 speed_exceeded_ && m > window.first_micro ? 1u : 0u};
     if (communicator_.size() > 1) {
-        const PhaseClock::Scope scope(clock_, Phase::wait);
+        const PhaseClock::Scope scope(phases_, Phase::wait);
         communicator_.sum(updates);
     }
     if (updates[1] > 0) return false;
     if (updates[0] > 0) {
-        const PhaseClock::Scope scope(clock_, Phase::conflicts);
+        const PhaseClock::Scope scope(phases_, Phase::conflicts);
         across_strips_.decide(population(), discs_.neighbours(), verdicts_.undecided, updates[0],
                               verdicts_.kept);
     }
@@ -291,61 +225,80 @@ void TimeSteppedEngine<Dynamics>::strike_taken(std::vector<Candidate>& live) con
 
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::apply(const Window& window, int m) {
     std::vector<Disc>& results = in_parts_ ? outcomes_ : discs_.all();
-    const bool is_last = m + 1 >= window.end_micro(); // nobody asks for these states any more
     {
-        const PhaseClock::Scope scope(clock_, Phase::move);
-        if (is_followed()) note_velocities(results);
-        const auto n_kept = static_cast<std::int64_t>(verdicts_.kept.size());
-        double fastest = 0;
-        hits_.resize(is_last ? 0 : 2 * verdicts_.kept.size());
-#pragma omp parallel for num_threads(tuning_.threads) schedule(static)                             \
-    reduction(max : fastest) if (n_kept > 256)
-        for (std::int64_t k = 0; k < n_kept; ++k) {
-            if (k + 16 < n_kept) {
-                const Candidate& later = verdicts_.kept[static_cast<std::size_t>(k + 16)];
-                for (const LocalIndex index : {later.p, later.q}) {
-                    if (index == wall) continue;
-                    __builtin_prefetch(&results[index], 1);
-                    if (!is_last) discs_.grid().prefetch_flight(index);
-                }
-            }
-            const Candidate& c = verdicts_.kept[static_cast<std::size_t>(k)];
-            if (c.is_wall()) {
-                dynamics_.bounce(results[c.p], m, c.time);
-                if constexpr (!Dynamics::has_mirror_walls)
-                    fastest = std::max(fastest, squared_speed_of(results[c.p]));
-                if (Dynamics::has_spin && Dynamics::may_lose_discs && results[c.p].has_departed())
-                    discs_.spins()[c.p] = 0;
-            } else {
-                // A spin has no say in what is found, so it need not wait for the micro-step's end
-                // as states in parts do.
-                if constexpr (Dynamics::has_spin)
-                    dynamics_.collide(results[c.p], results[c.q], m, c.time, discs_.spins()[c.p],
-                                      discs_.spins()[c.q]);
-                else
-                    dynamics_.collide(results[c.p], results[c.q], m, c.time);
-                fastest = std::max(
-                    {fastest, squared_speed_of(results[c.p]), squared_speed_of(results[c.q])});
-            }
-            if (is_last) continue;
-            const auto place = static_cast<std::size_t>(2 * k);
-            hits_[place] = c.p;
-            hits_[place + 1] = c.q;
-            for (const LocalIndex index : {c.p, c.q}) {
-                if (index == wall) continue;
-                states_[index] = window.state_after(m);
-                update_flight(index, results[index]);
-            }
-        }
-        if (is_followed()) log_collisions(results, m);
-        largest_speed_ = std::max(largest_speed_, std::sqrt(fastest));
+        const PhaseClock::Scope scope(phases_, Phase::move);
+        if (this->is_followed()) note_velocities(results);
+        const double fastest = collide_all(window, m, results);
+        if (this->is_followed()) log_collisions(results, m);
+        largest_speed_ = std::max(largest_speed_, fastest);
         speed_exceeded_ = largest_speed_ > window_speed_;
     }
-    if (is_last) return;
+    if (m + 1 >= window.end_micro()) return; // the window needs these states no more
     update_halo(window, m);
-    const PhaseClock::Scope scope(clock_, Phase::search);
+    const PhaseClock::Scope scope(phases_, Phase::search);
     const double reach = reach_of(window_needs(), window.duration());
     search_.predict_again(population(), discs_.grid(), window, m + 1, reach, hits_, states_);
+}
+
+template <class Dynamics>
+[[gnu::always_inline]] inline void TimeSteppedEngine<Dynamics>::prefetch(
+    const Candidate& candidate, const std::vector<Disc>& results, bool is_last) const {
+    for (const LocalIndex index : {candidate.p, candidate.q}) {
+        if (index == wall) continue;
+        __builtin_prefetch(&results[index], 1);
+        if (!is_last) discs_.grid().prefetch_flight(index);
+    }
+}
+
+/// Returns the square of the largest speed after it. Walls at rest that only mirror do not matter.
+template <class Dynamics>
+[[gnu::always_inline]] inline double TimeSteppedEngine<Dynamics>::collide(
+    const Candidate& c, int m, std::vector<Disc>& results) {
+    Disc& p = results[c.p];
+    if (c.is_wall()) {
+        dynamics_.bounce(p, m, c.time);
+        if constexpr (Dynamics::has_spin && Dynamics::may_lose_discs)
+            if (p.has_departed()) discs_.spins()[c.p] = 0;
+        return Dynamics::has_mirror_walls ? 0 : squared_speed_of(p);
+    }
+    Disc& q = results[c.q];
+    // A spin does not affect the search, so it need not wait for a cut micro-step's end.
+    if constexpr (Dynamics::has_spin)
+        dynamics_.collide(p, q, m, c.time, discs_.spins()[c.p], discs_.spins()[c.q]);
+    else
+        dynamics_.collide(p, q, m, c.time);
+    return std::max(squared_speed_of(p), squared_speed_of(q));
+}
+
+/// Carries out what was kept and returns the largest speed after it. Notes the discs for another
+/// search, unless the window ends here.
+template <class Dynamics>
+double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m,
+                                                std::vector<Disc>& results) {
+    constexpr std::int64_t prefetch_distance = 16;
+    const bool is_last = m + 1 >= window.end_micro();
+    const std::vector<Candidate>& kept = verdicts_.kept;
+    const auto n_kept = static_cast<std::int64_t>(kept.size());
+    hits_.resize(is_last ? 0 : 2 * kept.size());
+    double fastest = 0;
+#pragma omp parallel for num_threads(tuning_.threads) schedule(static)                             \
+    reduction(max : fastest) if (n_kept > 256)
+    for (std::int64_t k = 0; k < n_kept; ++k) {
+        if (k + prefetch_distance < n_kept)
+            prefetch(kept[static_cast<std::size_t>(k + prefetch_distance)], results, is_last);
+        const Candidate& c = kept[static_cast<std::size_t>(k)];
+        fastest = std::max(fastest, collide(c, m, results));
+        if (is_last) continue;
+        const auto place = static_cast<std::size_t>(2 * k);
+        hits_[place] = c.p;
+        hits_[place + 1] = c.q;
+        for (const LocalIndex index : {c.p, c.q}) {
+            if (index == wall) continue;
+            states_[index] = window.state_after(m);
+            update_flight(index, results[index]);
+        }
+    }
+    return std::sqrt(fastest);
 }
 
 template <class Dynamics>
@@ -365,7 +318,7 @@ void TimeSteppedEngine<Dynamics>::note_velocities(std::span<const Disc> results)
 /// Two ranks may know of a collision: the one that owns the first disc logs it.
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const Disc> results, int m) {
-    const auto k = static_cast<double>(micro_steps_);
+    const auto k = static_cast<double>(this->micro_steps_);
     for (std::size_t i = 0; i < unhit_.size(); ++i) {
         const Candidate& c = verdicts_.kept[i];
         if (c.p >= discs_.n_own()) continue;
@@ -374,15 +327,15 @@ void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const Disc> results, 
                      dy = (results[c.p].vy - unhit_[i].vy) * k;
         double mass = 1;
         if constexpr (Dynamics::has_species) mass = dynamics_.species_table().of(unhit_[i].id).mass;
-        if (impulses_ && c.is_wall()) {
+        if (this->impulses_ && c.is_wall()) {
             const auto [at_x, at_y] = dynamics_.met_walls(unhit_[i], m, c.time);
-            if (at_x) impulses_->add(0, mass * dx);
-            if (at_y) impulses_->add(1, mass * dy);
+            if (at_x) this->impulses_->add(0, mass * dx);
+            if (at_y) this->impulses_->add(1, mass * dy);
         }
-        if (log_)
-            log_->push_back({n_micro_done_ - micro_ + m, c.time, 0, unhit_[i].id,
-                             c.is_wall() ? Collision::wall : results[c.q].id,
-                             mass * std::sqrt(dx * dx + dy * dy)});
+        if (this->log_)
+            this->log_->push_back({this->last_sync() + m, c.time, 0, unhit_[i].id,
+                                   c.is_wall() ? Collision::wall : results[c.q].id,
+                                   mass * std::sqrt(dx * dx + dy * dy)});
     }
 }
 
@@ -391,7 +344,7 @@ void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const Disc> results, 
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::update_halo(const Window& window, int m) {
     if (discs_.has_no_halo()) return;
-    const PhaseClock::Scope scope(clock_, Phase::exchange);
+    const PhaseClock::Scope scope(phases_, Phase::exchange);
     std::erase(hits_, wall);
     updates_.clear();
     discs_.send_updates(hits_, updates_);
@@ -408,7 +361,7 @@ void TimeSteppedEngine<Dynamics>::update_halo(const Window& window, int m) {
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::survey_speeds() {
     if (!(largest_speed_ > 0)) return;
     SpeedSpread::Counts counts{};
-    for (const Disc& disc : own()) {
+    for (const Disc& disc : discs_.own()) {
         const double part = std::sqrt(squared_speed_of(disc)) / largest_speed_ *
                             SpeedSpread::n_parts;
         counts[std::min(static_cast<std::size_t>(part), SpeedSpread::n_parts - 1)] += 1;
@@ -417,37 +370,16 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::survey_speeds() {
     spread_ = SpeedSpread(counts, largest_speed_);
 }
 
-template <class Dynamics> void TimeSteppedEngine<Dynamics>::sync() {
-    const PhaseClock::Scope scope(clock_, Phase::sync);
-    const double time = micro_;
-    double fastest = 0;
-    discs_.forget_halo();
-    std::vector<Disc>& discs = discs_.all();
-    const auto n = static_cast<std::int64_t>(discs.size());
-#pragma omp parallel for num_threads(tuning_.threads) schedule(static) reduction(max : fastest)
-    for (std::int64_t i = 0; i < n; ++i) {
-        Disc& disc = discs[static_cast<std::size_t>(i)];
-        if (Dynamics::may_lose_discs && disc.has_departed()) continue;
-        Dynamics::advance(disc, time);
-        if constexpr (Dynamics::is_periodic) this->wrap(dynamics_, disc);
-        disc.tau = 0;
-        fastest = std::max(fastest, squared_speed_of(disc));
-    }
-    // Discs may have moved at the old largest speed since they were last settled: the next
-    // migration allows for that.
-    redistributed_time_ -= time;
-    unchanged_until_ -= time;
-    const PhaseClock::Scope wait(clock_, Phase::wait);
-    refreshed_speed_ = communicator_.max(std::sqrt(fastest));
+/// The next migration still allows for the largest speed before the sync.
+template <class Dynamics> void TimeSteppedEngine<Dynamics>::finish_sync(double largest_speed) {
+    unchanged_until_ -= time_;
+    const PhaseClock::Scope wait(phases_, Phase::wait);
+    refreshed_speed_ = communicator_.max(largest_speed);
     const std::uint64_t n_kept = communicator_.sum(n_kept_ -
                                                    std::exchange(n_kept_at_sync_, n_kept_));
     hits_per_micro_step_ = 2 * static_cast<double>(n_kept) /
                            (std::max(static_cast<double>(discs_.n_total()), 1.0) *
-                            static_cast<double>(sync_every_));
-    micro_ = 0;
-    ++n_syncs_;
-    if (tuning_.rebalance_every > 0 && n_syncs_ % tuning_.rebalance_every == 0)
-        discs_.rebalance(0, tuning_.rebalance_above);
+                            static_cast<double>(this->sync_every_));
 }
 
 std::unique_ptr<Engine> make_time_stepped_engine(const Scene& scene, StoredState state,

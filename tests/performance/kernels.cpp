@@ -228,12 +228,12 @@ void block_run(benchmark::State& state) {
     gas.sort_into(grid, block_reach(window, 2, gas.size), choice.duration);
     const GridFrame& frame = grid.frame();
     std::vector<std::uint64_t> histories(gas.discs.size());
-    BlockRun<PlainDynamics> run_blocks(dynamics);
+    BlockRun<PlainDynamics> block_run(dynamics);
     BlockOutcome outcome;
-    const BlockGround ground{gas.discs, gas.discs.size(), &grid,  0,    frame.n_columns,
-                             0,         frame.n_rows,     window, false};
+    const CellBlock all_cells{0, frame.n_columns, 0, frame.n_rows};
+    const BlockGround ground{gas.discs, gas.discs.size(), &grid, all_cells, window, false};
     for (auto _ : state) {
-        run_blocks.run(ground, {0, frame.n_columns, 0, frame.n_rows}, 0, false, histories, outcome);
+        block_run.run(ground, all_cells, 0, false, histories, outcome);
         benchmark::DoNotOptimize(outcome.n_events);
     }
     print_message(state, static_cast<double>(outcome.n_events), 0, 0);

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Brings discs into the order of their cells, in place.
+//
+// A counting sort finds which disc goes where. Then one pass over the discs moves them: nearly all
+// come from near by, from a place further on or from one passed lately. The few that come from afar
+// are set aside beforehand. Price: two passes, and no memory beside that of the flights, which are
+// written afterwards.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include "core/disc.hpp"
+
+namespace carrom {
+
+/// Whole numbers in memory of floats.
+class Lent {
+public:
+    explicit Lent(float* at) : at_(at) {}
+    std::uint32_t operator[](std::size_t k) const {
+        std::uint32_t number = 0;
+        std::memcpy(&number, at_ + k, sizeof number);
+        return number;
+    }
+    void set(std::size_t k, std::uint32_t number) { std::memcpy(at_ + k, &number, sizeof number); }
+    Lent from(std::size_t k) const { return Lent(at_ + k); }
+
+private:
+    float* at_;
+};
+
+/// What sorting borrows: lanes of `lane_length` numbers, the first for cells by disc, the second
+/// for the order, and what follows for counts.
+struct SortMemory {
+    std::vector<float>& lanes;
+    std::size_t lane_length = 0;
+
+    Lent cells() const { return Lent(lanes.data()); }
+    Lent order() const { return Lent(lanes.data() + lane_length); }
+    Lent counts() const { return Lent(lanes.data() + 2 * lane_length); }
+};
+
+class DiscSorter {
+public:
+    /// Sorts `discs` by `find_cell(disc)`, a number below that of cells. Writes which disc goes
+    /// where to `memory.order()`, and for each cell its first place to `cell_start`, which has one
+    /// entry more. `n_columns`: how many stretches of cells follow each other.
+    template <class CellOf>
+    void find_order(std::span<const Disc> discs, const CellOf& find_cell, std::size_t n_columns,
+                    int n_threads, std::vector<std::uint32_t>& cell_start, SortMemory memory) {
+        begin(discs.size(), n_columns, n_threads);
+        if (n_threads == 1)
+            order_alone(discs, find_cell, cell_start, memory);
+        else
+            order_together(discs, find_cell, cell_start, memory);
+    }
+
+    /// Shows each thread which of its places are travellers'. False if they are many: these discs
+    /// are in no order yet, and have to be rearranged.
+    bool share_out_travellers();
+    /// Brings discs to their places, ascending. Calls placed(i) when the disc of place i is there;
+    /// the order up to i is not needed any more.
+    template <class Placed>
+    void carry(std::span<Disc> discs, SortMemory memory, const Placed& placed) {
+        set_travellers_aside(discs, memory);
+        bring(discs, memory, placed);
+    }
+    /// The same for arrays of discs in no order; empty ones are left out.
+    void rearrange(std::initializer_list<std::span<Disc>> arrays, SortMemory memory);
+
+private:
+    /// A share of the discs, which lie in the cells first .. end, and where the counts of those
+    /// begin.
+    struct Sorter {
+        std::size_t first_disc = 0, end_disc = 0;
+        std::uint32_t first_cell = 0, end_cell = 0;
+        std::size_t counts = 0;
+    };
+    /// What a thread keeps while it brings its share of the places into order.
+    struct Carrier {
+        std::vector<Disc> passed;         ///< discs of the places before the present one, in a ring
+        std::vector<Disc> travellers;     ///< discs from afar, set aside beforehand
+        std::vector<LocalIndex> arrivals; ///< their new places, ascending, and one that is none
+        std::vector<LocalIndex> sent;     ///< new places of such discs of this share, in no order
+    };
+
+    void begin(std::size_t n_discs, std::size_t n_columns, int n_threads);
+    template <class CellOf>
+    void order_alone(std::span<const Disc> discs, const CellOf& find_cell,
+                     std::vector<std::uint32_t>& cell_start, SortMemory memory);
+    template <class CellOf>
+    void order_together(std::span<const Disc> discs, const CellOf& find_cell,
+                        std::vector<std::uint32_t>& cell_start, SortMemory memory);
+    template <class CellOf>
+    void find_cells(std::span<const Disc> discs, const CellOf& find_cell, SortMemory memory);
+    void turn_into_places(std::vector<std::uint32_t>& cell_start, Lent all_counts);
+    void share_out(std::size_t n_discs, std::size_t n_sorters);
+    bool make_room_for_counts(std::size_t n_cells, SortMemory memory);
+    template <class Visit>
+    void for_each_count(std::size_t begin, std::size_t end, const Visit& visit) const;
+    /// A disc whose new place is another thread's, or was passed so long ago that the disc that was
+    /// there is not at hand any more.
+    void note_traveller(Carrier& carrier, std::uint32_t place) const {
+        if (carrier.sent.size() <= most_travellers_) carrier.sent.push_back(place);
+    }
+    void set_travellers_aside(std::span<const Disc> discs, SortMemory memory);
+    template <class Placed>
+    void bring(std::span<Disc> discs, SortMemory memory, const Placed& placed);
+
+    int n_threads_ = 1;
+    std::size_t n_discs_ = 0;
+    std::vector<Sorter> sorters_;     ///< scratch for several threads
+    std::vector<Carrier> carriers_;   ///< by thread
+    std::size_t n_passed_ = 1;        ///< how many passed discs are kept, a power of two
+    std::size_t most_travellers_ = 0; ///< of a share
+    bool are_in_disorder_ = false;    ///< whether too many discs come from afar
+};
+
+} // namespace carrom

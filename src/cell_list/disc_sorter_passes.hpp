@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sorter's passes over discs, for the one file that calls them.
+#pragma once
+
+#include <algorithm>
+
+#include "cell_list/disc_sorter.hpp"
+#include "cell_list/shared_work.hpp"
+
+namespace carrom {
+
+/// One counting sort: states are read in the order in which they lie.
+template <class CellOf>
+void DiscSorter::order_alone(std::span<const Disc> discs, const CellOf& find_cell,
+                             std::vector<std::uint32_t>& cell_start, SortMemory memory) {
+    Lent cell_of = memory.cells(), order = memory.order();
+    std::fill(cell_start.begin(), cell_start.end(), 0u);
+    std::uint32_t* next = cell_start.data() +
+                          1; // by cell: how many discs, then the place of the next one
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        const std::uint32_t cell = find_cell(discs[i]);
+        cell_of.set(i, cell);
+        ++next[cell];
+    }
+    std::uint32_t start = 0;
+    for (std::size_t cell = 0; cell + 1 < cell_start.size(); ++cell) {
+        const std::uint32_t count = next[cell];
+        next[cell] = start;
+        start += count;
+    }
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        const std::uint32_t place = next[cell_of[i]]++;
+        order.set(place, static_cast<std::uint32_t>(i));
+        if (i + n_passed_ <= place) note_traveller(carriers_[0], place);
+    }
+}
+
+/// Files the discs under their cells, and notes which cells each sorter meets.
+template <class CellOf>
+void DiscSorter::find_cells(std::span<const Disc> discs, const CellOf& find_cell,
+                            SortMemory memory) {
+    Lent cell_of = memory.cells();
+    share_out(discs.size(), static_cast<std::size_t>(n_threads_));
+#pragma omp parallel for num_threads(n_threads_) schedule(static, 1)
+    for (std::size_t k = 0; k < sorters_.size(); ++k) {
+        Sorter& sorter = sorters_[k];
+        std::uint32_t first = ~std::uint32_t{0}, last = 0;
+        for (std::size_t i = sorter.first_disc; i < sorter.end_disc; ++i) {
+            const std::uint32_t cell = find_cell(discs[i]);
+            cell_of.set(i, cell);
+            first = std::min(first, cell);
+            last = std::max(last, cell);
+        }
+        sorter.first_cell = std::min(first, last);
+        sorter.end_cell = last + 1;
+    }
+}
+
+/// The same by several threads. Each sorter counts only between the first and the last cell of its
+/// share of the discs. Those lie nearly in the order of their cells, so all counts together are not
+/// many more than there are cells.
+template <class CellOf>
+void DiscSorter::order_together(std::span<const Disc> discs, const CellOf& find_cell,
+                                std::vector<std::uint32_t>& cell_start, SortMemory memory) {
+    find_cells(discs, find_cell, memory);
+    are_in_disorder_ = !make_room_for_counts(cell_start.size() - 1, memory);
+    const Lent cell_of = memory.cells(), all_counts = memory.counts();
+    Lent order = memory.order();
+#pragma omp parallel for num_threads(n_threads_) schedule(static, 1)
+    for (std::size_t k = 0; k < sorters_.size(); ++k) {
+        const Sorter& sorter = sorters_[k];
+        Lent counts = all_counts.from(sorter.counts);
+        for (std::uint32_t cell = sorter.first_cell; cell < sorter.end_cell; ++cell)
+            counts.set(cell - sorter.first_cell, 0);
+        for (std::size_t i = sorter.first_disc; i < sorter.end_disc; ++i) {
+            const std::uint32_t place = cell_of[i] - sorter.first_cell;
+            counts.set(place, counts[place] + 1);
+        }
+    }
+    turn_into_places(cell_start, all_counts);
+#pragma omp parallel for num_threads(n_threads_) schedule(static, 1)
+    for (std::size_t k = 0; k < sorters_.size(); ++k) {
+        const Sorter& sorter = sorters_[k];
+        Lent next = all_counts.from(sorter.counts);
+        for (std::size_t i = sorter.first_disc; i < sorter.end_disc; ++i) {
+            const std::uint32_t cell = cell_of[i] - sorter.first_cell, place = next[cell];
+            next.set(cell, place + 1);
+            order.set(place, static_cast<std::uint32_t>(i));
+            const bool is_near = place >= sorter.first_disc && place < sorter.end_disc &&
+                                 place < i + n_passed_;
+            if (!is_near && !are_in_disorder_) note_traveller(carriers_[k], place);
+        }
+    }
+    cell_start.back() = static_cast<std::uint32_t>(discs.size());
+}
+
+template <class Placed>
+void DiscSorter::bring(std::span<Disc> discs, SortMemory memory, const Placed& placed) {
+    constexpr std::size_t ahead = 16;
+    const Lent order = memory.order();
+    const std::size_t n_shares = carriers_.size(), mask = n_passed_ - 1;
+#pragma omp parallel for num_threads(n_threads_) schedule(static, 1)
+    for (std::size_t k = 0; k < n_shares; ++k) {
+        Disc* const at = discs.data();
+        Disc* const passed = carriers_[k].passed.data();
+        const Disc* traveller = carriers_[k].travellers.data();
+        const LocalIndex* arrival = carriers_[k].arrivals.data();
+        const std::size_t end = share(n_discs_, k + 1, n_shares);
+        for (std::size_t i = share(n_discs_, k, n_shares); i < end; ++i) {
+            __builtin_prefetch(at + order[std::min(i + ahead, end - 1)]);
+            const std::size_t from = order[i];
+            const Disc* source = from >= i ? at + from : passed + (from & mask);
+            if (i == *arrival) [[unlikely]] {
+                source = traveller++;
+                ++arrival;
+            }
+            if (source != at + i) {
+                passed[i & mask] = at[i];
+                at[i] = *source;
+            }
+            placed(i);
+        }
+    }
+}
+
+} // namespace carrom

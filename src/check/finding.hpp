@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An invariant that a disc breaks, as the ranks compare it and as it is printed.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "check/check_failure.hpp"
+#include "core/disc.hpp"
+#include "dynamics/obstacles.hpp"
+#include "scene/scene.hpp"
+
+namespace carrom {
+
+/// `partner`, `value` and `bound` depend on the invariant (text_of).
+struct Finding {
+    Invariant invariant{};
+    int rank = 0;
+    int is_found = 0;
+    DiscId disc = 0, partner = 0;
+    double value = 0, bound = 0;
+};
+
+/// `obstacles` may be null where the scene has none.
+std::string text_of(const Finding& finding, const Scene& scene, const Obstacles* obstacles,
+                    std::int64_t step);
+
+} // namespace carrom

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/engine_base.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/dynamics_of_scene.hpp"
+#include "engine/state_sums.hpp"
+#include "engine/window_choice.hpp"
+
+namespace carrom {
+
+void Engine::note_crossing(const Disc& disc, double x, double y, const Periods& periods) {
+    const auto lengths = [](double far, double period) {
+        return period == 0 ? 0 : std::round(far / period);
+    };
+#pragma omp critical(crossings)
+    crossings_->push_back(
+        {disc.id, lengths(x - disc.x, periods.x), lengths(y - disc.y, periods.y)});
+}
+
+template <class Dynamics>
+EngineBase<Dynamics>::EngineBase(const Scene& scene, StoredState state,
+                                 const Communicator& communicator, const Tuning& tuning)
+    : communicator_(communicator), tuning_(tuning), dynamics_(dynamics_of<Dynamics>(scene)),
+      micro_steps_(scene.micro_steps), sync_every_(scene.sync_every),
+      discs_(communicator, scene.box_size, std::move(state.discs),
+             scene.effects.periods(scene.box_size), Dynamics::has_spin, std::move(state.spins)),
+      n_micro_done_(state.micro_steps_done), last_micro_step_(scene.steps * scene.micro_steps) {
+    dynamics_.begin_interval(last_sync());
+    time_ = dynamics_.boundaries().clock_at(static_cast<double>(n_micro_done_ % sync_every_));
+    if constexpr (!Dynamics::is_double) {
+        for (Disc& disc : discs_.all()) Dynamics::round(disc);
+    }
+    for (const Disc& disc : own())
+        largest_speed_ = std::max(largest_speed_, std::sqrt(squared_speed_of(disc)));
+}
+
+template <class Dynamics> void EngineBase<Dynamics>::distribute() {
+    set_departed_aside();
+    discs_.rebalance(time_, tuning_.rebalance_above);
+    redistribute_now();
+}
+
+template <class Dynamics> void EngineBase<Dynamics>::set_departed_aside() {
+    if (dynamics_.boundaries().are_any_open()) discs_.set_departed_aside();
+}
+
+template <class Dynamics> void EngineBase<Dynamics>::redistribute_now(double least_reach) {
+    set_departed_aside();
+    migrate();
+    const double touching = reach_of({dynamics_.box_size(), dynamics_.radius() + dynamics_.slack(),
+                                      static_cast<double>(discs_.n_total()), 0, 0, 0},
+                                     0);
+    const double reach = std::max(touching, least_reach);
+    const Extent seen = discs_.extent_seen(extent(), reach);
+    const GridFrame frame = make_sparse_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high,
+                                              reach, discs_.n_own());
+    discs_.sort_cells(frame, time_, tuning_.threads);
+    const PhaseClock::Scope scope(phases_, Phase::exchange);
+    discs_.fetch_halo(time_, reach, nullptr);
+}
+
+/// Stops early, at the end of a step, where a sync is due: stops there cost nothing.
+template <class Dynamics> void EngineBase<Dynamics>::advance_towards(std::int64_t last_step) {
+    const std::int64_t step_after_sync = (last_sync() + sync_every_ + micro_steps_ - 1) /
+                                         micro_steps_;
+    const std::int64_t stop = std::min(last_step, step_after_sync) * micro_steps_;
+    while (n_micro_done_ < stop) {
+        const std::int64_t next_sync = last_sync() + sync_every_;
+        advance_to(std::min(stop, next_sync));
+        if (n_micro_done_ == next_sync) sync();
+    }
+    discs_.forget_images();
+    if (n_micro_done_ == last_micro_step_) discs_.drop_grid(); // memory for what follows a run
+}
+
+template <class Dynamics> void EngineBase<Dynamics>::sync() {
+    const PhaseClock::Scope scope(phases_, Phase::sync);
+    const double largest_speed = restart_states();
+    dynamics_.begin_interval(last_sync());
+    finish_sync(largest_speed);
+    redistributed_time_ -= time_;
+    time_ = 0;
+    ++n_syncs_;
+    if (tuning_.rebalance_every == 0 || n_syncs_ % tuning_.rebalance_every != 0) return;
+    const PhaseClock::Scope wait(phases_, Phase::wait);
+    discs_.rebalance(0, tuning_.rebalance_above);
+}
+
+/// Advances all own discs to `time_`, which becomes 0, and returns the largest speed.
+template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
+    discs_.forget_halo();
+    std::vector<Disc>& discs = discs_.all();
+    const auto n = static_cast<std::int64_t>(discs.size());
+    const bool frame_moves = dynamics_.boundaries().frame_at(time_).is_moving;
+    double fastest = 0;
+#pragma omp parallel for num_threads(tuning_.threads) schedule(static) reduction(max : fastest)
+    for (std::int64_t i = 0; i < n; ++i) {
+        Disc& disc = discs[static_cast<std::size_t>(i)];
+        if (Dynamics::may_lose_discs && disc.has_departed()) continue;
+        Dynamics::advance(disc, time_);
+        if (frame_moves) dynamics_.boundaries().restart_frame(disc, time_);
+        if constexpr (Dynamics::is_periodic) this->wrap(disc);
+        disc.tau = 0;
+        fastest = std::max(fastest, squared_speed_of(disc));
+    }
+    return std::sqrt(fastest);
+}
+
+/// Brings a state that a sync has rewritten into the box. Threads call it for different discs at
+/// once.
+template <class Dynamics> void EngineBase<Dynamics>::wrap(Disc& disc) {
+    if constexpr (Dynamics::is_periodic) {
+        const double x = disc.x, y = disc.y;
+        dynamics_.wrap(disc);
+        if (crossings_ && (x != disc.x || y != disc.y))
+            note_crossing(disc, x, y, dynamics_.periods());
+    }
+}
+
+template <class Dynamics> void EngineBase<Dynamics>::add_to(Totals& totals) {
+    redistribute_now();
+    if constexpr (Dynamics::has_pairs)
+        measure_overlaps(population(), discs_.grid(), time_,
+                         touching_of(dynamics_, discs_.periods()), communicator_, tuning_.threads,
+                         totals);
+    discs_.forget_images();
+}
+
+template <class Dynamics> LocalView EngineBase<Dynamics>::local_view(double reach) {
+    redistribute_now(reach * (1 + 1e-6));
+    return {population(), &discs_.grid(), &discs_.strips(), time_, frame(), discs_.periods()};
+}
+
+template <class Dynamics> Extent EngineBase<Dynamics>::extent() const {
+    Extent box = dynamics_.boundaries().extent_at(time_);
+    const Periods& periods = discs_.periods();
+    if (periods.x != 0) box.x_low = 0, box.x_high = periods.x;
+    if (periods.y != 0) box.y_low = 0, box.y_high = periods.y;
+    return box;
+}
+
+/// In a periodic box the frame moves in that places are to be brought into the box.
+template <class Dynamics> Frame EngineBase<Dynamics>::frame() const {
+    Frame frame = dynamics_.boundaries().frame_at(time_);
+    if (!discs_.periods().are_any()) return frame;
+    frame.period_x = discs_.periods().x;
+    frame.period_y = discs_.periods().y;
+    frame.clock = time_;
+    frame.is_moving = true;
+    return frame;
+}
+
+#define CARROM_DEFINE(Dynamics) template class EngineBase<Dynamics>;
+CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
+#undef CARROM_DEFINE
+
+} // namespace carrom

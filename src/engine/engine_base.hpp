@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What both methods do alike. They keep discs, clock and communicator, go from sync to sync, bring
+// discs to their ranks for a look at pairs, and report totals. A method adds its windows.
+//
+//   advance_towards   until the stop or the next sync:
+//     advance_to        the method's windows
+//     sync              all states at one time; times start again from 0; new cuts if they are due
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "dynamics/all_dynamics.hpp"
+#include "engine/engine.hpp"
+#include "engine/phase_clock.hpp"
+#include "engine/strip_discs.hpp"
+#include "scene/scene.hpp"
+
+namespace carrom {
+
+inline double squared_speed_of(const Disc& disc) { return disc.vx * disc.vx + disc.vy * disc.vy; }
+
+template <class Dynamics> class EngineBase : public Engine {
+public:
+    void advance_towards(std::int64_t last_step) final;
+    void add_to(Totals& totals) override;
+    LocalView local_view(double reach) final;
+    void forget_images() final { discs_.forget_images(); }
+
+    std::int64_t micro_steps_done() const final { return n_micro_done_; }
+    std::span<const Disc> own() const final { return discs_.own(); }
+    std::span<const Disc> departed() const final { return discs_.departed(); }
+    std::span<const double> spins() const final { return discs_.own_spins(); }
+    const SpeciesTable* species_table() const final {
+        if constexpr (Dynamics::has_species) return &dynamics_.species_table();
+        return nullptr;
+    }
+    double clock() const final { return time_; }
+    Frame frame() const final;
+    std::uint64_t n_discs() const final { return discs_.n_with_departed(); }
+    PhaseSeconds phase_seconds() const final { return phases_.seconds(); }
+
+protected:
+    /// Takes over the state. The method distributes it when its own members are ready.
+    EngineBase(const Scene& scene, StoredState state, const Communicator& communicator,
+               const Tuning& tuning);
+
+    /// Runs windows until `n_micro_done_` is `target`, which is no later than the next sync.
+    /// **Collective.**
+    virtual void advance_to(std::int64_t target) = 0;
+    /// Sends each own disc to the rank whose strip holds it now. **Collective.**
+    virtual void migrate() = 0;
+    /// Follows a sync at `time_`, before times start again from 0. No own disc is faster than
+    /// `largest_speed`. **Collective.**
+    virtual void finish_sync(double largest_speed) = 0;
+
+    /// Cuts the box anew and redistributes all discs, wherever they are. **Collective.**
+    void distribute();
+    /// Redistributes discs, halo and cells as they are now, for partners within a diameter or
+    /// `least_reach`. No state changes. **Collective.**
+    void redistribute_now(double least_reach = 0);
+    /// Takes departed discs out of the arrays. They stay there until then. **Collective.**
+    void set_departed_aside();
+
+    Population population() const { return discs_.population(); }
+    /// The walls in the coordinates of states, now.
+    Extent extent() const;
+    std::int64_t last_sync() const { return n_micro_done_ / sync_every_ * sync_every_; }
+    /// How far rounding can put a disc from its place.
+    double place_margin() const { return 64 * 0x1p-53 * dynamics_.box_size() + dynamics_.slack(); }
+
+    Communicator communicator_;
+    Tuning tuning_;
+    Dynamics dynamics_;
+    std::int64_t micro_steps_, sync_every_; ///< micro-steps to a step, and from sync to sync
+    StripDiscs discs_;
+
+    std::int64_t n_micro_done_ = 0, n_windows_ = 0;
+    double time_ = 0;               ///< the clock's, since the last sync
+    double redistributed_time_ = 0; ///< the last migration's
+    double largest_speed_ = 0;      ///< of the own discs
+    double travel_speed_ = 0; ///< bounds the motion since the last migration; equal on all ranks
+    PhaseClock phases_;
+
+private:
+    void sync();
+    double restart_states();
+    void wrap(Disc& disc);
+
+    std::int64_t last_micro_step_, n_syncs_ = 0;
+};
+
+#define CARROM_DECLARE(Dynamics) extern template class EngineBase<Dynamics>;
+CARROM_FOR_EACH_DYNAMICS(CARROM_DECLARE)
+#undef CARROM_DECLARE
+
+} // namespace carrom

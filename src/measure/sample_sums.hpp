@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a sampler has added up so far, and how a checkpoint keeps it: whole numbers in one order.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace carrom {
+
+/// Sums over all samples so far, of all ranks together. Plain numbers: what a checkpoint keeps.
+struct SampleSums {
+    // What was asked for; sums of other keys are of no use.
+    std::uint64_t quantities = 0;
+    std::int64_t every_steps = 0, wanted_from = 0;
+    double largest_distance = 0, largest_velocity = 0;
+
+    std::int64_t first_step = 0, last_step = -1; ///< of the samples
+    double speed_scale = 0;                      ///< that the unit of impulses was chosen by
+    std::uint64_t n_samples = 0, n_discs = 0;    ///< n_discs: over all samples
+    std::vector<std::uint64_t> pairs, vx, vy, speeds, x,
+        y; ///< pairs: all bins of the first kind (pair_distances.hpp), then of the second ...
+    std::vector<double> ideal_pairs; ///< likewise, what discs without size would have
+    double area = 0;                 ///< of the box, over all samples
+    std::array<std::uint64_t, 4> wall_collisions{};
+    std::vector<double> impulses;       ///< of each interval: of the four sides
+    std::vector<double> displacements;  ///< of each sample: its mean square along x, along y
+    std::vector<std::uint64_t> pending; ///< impulses and collisions since the last sample
+};
+
+std::vector<std::int64_t> packed(const SampleSums& sums);
+/// Nothing where the words are not such sums.
+std::optional<SampleSums> unpacked(std::span<const std::int64_t> words);
+
+} // namespace carrom
