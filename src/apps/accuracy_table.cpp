@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "apps/machine.hpp"
+#include "machine/machine.hpp"
 #include "apps/standard_streams.hpp"
 
 namespace carrom {

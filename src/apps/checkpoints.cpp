@@ -8,6 +8,7 @@
 #include "apps/restart.hpp"
 #include "io/checkpoint.hpp"
 #include "io/checkpoint_folder.hpp"
+#include "stored_scene/stored_scene.hpp"
 
 namespace carrom {
 
@@ -76,11 +77,7 @@ void Checkpoints::write(const Simulation& simulation, Recordings& recordings) {
     if (removal_.valid()) removal_.get(); // its room may be needed
     recordings
         .commit(); // a restart cuts them back to its step, but cannot make up for what is missing
-    CheckpointHeader header = header_of(scene_);
-    header.step = simulation.step();
-    header.micro_steps_done = simulation.micro_steps_done();
-    header.frame = simulation.frame();
-    header.has_spins = scene_.effects.contact.kind == ContactKind::rough;
+    const CheckpointHeader header = header_now(scene_, simulation);
     const std::string path = checkpoint_path(scene_.checkpoint->folder, header.step);
     write_checkpoint(path, header, simulation.discs(), ranks_, n_threads_, recordings.samples(),
                      simulation.spins());

@@ -8,7 +8,7 @@
 
 #include "apps/accuracy_command.hpp"
 #include "apps/file_commands.hpp"
-#include "apps/machine.hpp"
+#include "machine/machine.hpp"
 #include "apps/run_command.hpp"
 
 namespace carrom {

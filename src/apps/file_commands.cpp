@@ -18,6 +18,7 @@
 #include "io/checkpoint.hpp"
 #include "io/frame_file.hpp"
 #include "parallel/agreement.hpp"
+#include "stored_scene/stored_scene.hpp"
 
 namespace carrom {
 

@@ -9,12 +9,12 @@
 
 #include "apps/data_output.hpp"
 #include "apps/destinations.hpp"
-#include "apps/machine.hpp"
 #include "apps/outputs.hpp"
 #include "apps/report_file.hpp"
 #include "apps/restart.hpp"
 #include "apps/standard_streams.hpp"
-#include "initial_state/initial_state.hpp"
+#include "initial_state/scene_input.hpp"
+#include "machine/machine.hpp"
 #include "parallel/agreement.hpp"
 #include "scene/disc_reader.hpp"
 #include "scene/read_scene.hpp"
@@ -45,25 +45,6 @@ template <class Read> bool collect(Problems& problems, const Read& read) {
 std::unique_ptr<std::istream> open(const std::string& input) {
     if (input == "-") return std::make_unique<std::istream>(std::cin.rdbuf());
     return std::make_unique<std::ifstream>(open_input(input));
-}
-
-/// Replaces the text on every rank by that of rank 0. **Collective.**
-void broadcast(SceneText& text, const Communicator& ranks) {
-    ranks.broadcast(text.name);
-    ranks.broadcast(text.text);
-    ranks.broadcast(text.lines_before_discs);
-    int discs_follow = text.discs_follow ? 1 : 0;
-    ranks.broadcast(discs_follow);
-    text.discs_follow = discs_follow == 1;
-}
-
-/// The same for the columns of the file of discs. **Collective.**
-void broadcast(DiscColumns& columns, const Communicator& ranks) {
-    ranks.broadcast(columns.species);
-    ranks.broadcast(columns.spins);
-    int is_whole = columns.is_whole ? 1 : 0;
-    ranks.broadcast(is_whole);
-    columns.is_whole = is_whole == 1;
 }
 
 /// What the options alone name: a run must not end in a file that cannot be written, nor empty its
@@ -117,18 +98,6 @@ std::vector<NamedFile> read_for(const RunOptions& options, const Scene& scene) {
     std::vector<NamedFile> sources = read_by(options);
     if (!scene.discs_file.empty()) sources.push_back({"the file of discs", discs_path(scene)});
     return sources;
-}
-
-/// What the file of discs has beyond places and velocities; not whole where it cannot be read, for
-/// which the reader of its lines has the words. **Collective.**
-DiscColumns load_columns(const Scene& scene, const Communicator& ranks) {
-    DiscColumns columns;
-    columns.is_whole = false;
-    Problems ignored;
-    if (ranks.is_root())
-        collect(ignored, [&] { columns = read_disc_columns(*open(discs_path(scene)), scene); });
-    broadcast(columns, ranks);
-    return columns;
 }
 
 /// The scene; `stream`, on rank 0, is left at the first line of discs. **Collective.**
@@ -201,17 +170,6 @@ void check_memory(const Scene& scene, const Communicator& ranks) {
                                    scene.n_discs, needed / 1e9, ranks.size(), available / 1e9)}});
 }
 
-/// The discs that a scene starts with. **Collective.**
-std::vector<InputDisc> load_discs(const Scene& scene, std::unique_ptr<std::istream>& stream,
-                                  const Communicator& ranks) {
-    if (scene.reads_disc_lines() && !scene.discs_file.empty()) {
-        Problems unreadable;
-        if (ranks.is_root()) collect(unreadable, [&] { stream = open(discs_path(scene)); });
-        agree_on_problems(ranks, unreadable);
-    }
-    return initial_state(scene, scene.reads_disc_lines() ? stream.get() : nullptr, ranks);
-}
-
 } // namespace
 
 Loaded load(const RunOptions& options, const Problems& problems, const Communicator& ranks) {
@@ -245,7 +203,7 @@ Loaded load(const RunOptions& options, const Problems& problems, const Communica
         if (ranks.is_root() && !loaded.stored) append(all, problems_of_disc_lines(scene, *stream));
         agree_on_problems(ranks, all);
     }
-    if (!loaded.stored) loaded.discs = load_discs(scene, stream, ranks);
+    if (!loaded.stored) loaded.discs = load_discs(scene, stream.get(), ranks);
     if (ranks.is_root())
         for (const std::string& warning : scene.warnings)
             print_message("{}: warning: {}\n", scene.name, warning);

@@ -7,62 +7,17 @@
 #include <tuple>
 #include <utility>
 
-#include "apps/machine.hpp"
 #include "apps/measured_files.hpp"
-#include "apps/restart.hpp"
 #include "apps/standard_streams.hpp"
+#include "machine/machine.hpp"
 #include "parallel/sample_sort.hpp"
-#include "scene/compare.hpp"
+#include "stored_scene/stored_scene.hpp"
 
 namespace carrom {
 
 namespace {
 
 constexpr double seconds_between_commits = 5;
-
-CheckpointHeader run_of(const Scene& scene) {
-    CheckpointHeader run = header_of(scene);
-    run.n_discs = scene.n_discs;
-    return run;
-}
-
-/// Of a recorded run from that of the scene.
-std::string first_difference(const CheckpointHeader& there, const Scene& scene) {
-    try {
-        const std::vector<std::string> differences = physical_differences(scene_of(there, {}),
-                                                                          scene);
-        return differences.empty() ? "" : differences.front();
-    } catch (const InputError&) {
-        return "its scene cannot be read here";
-    }
-}
-
-TrajectoryLayout layout_of(const Scene& scene) {
-    const TrajectoryOutput& wanted = *scene.trajectory;
-    TrajectoryLayout layout;
-    layout.program_version = version();
-    layout.run = run_of(scene);
-    layout.n_discs = scene.n_discs;
-    const Extent end = extent_at(scene.effects, scene.box_size, static_cast<double>(scene.steps));
-    layout.box_size = std::max({scene.box_size, end.x_high, end.y_high}); // walls may move
-    layout.radius = scene.radius;
-    for (const Species& one : scene.effects.species) {
-        layout.radii.insert(layout.radii.end(), one.count, one.radius);
-        layout.masses.insert(layout.masses.end(), one.count, one.mass);
-    }
-    layout.is_periodic_x = scene.effects.is_periodic_x();
-    layout.is_periodic_y = scene.effects.is_periodic_y();
-    for (std::size_t side = 0; side < layout.open_boundaries.size(); ++side)
-        layout.open_boundaries[side] = scene.effects.boundaries[side].kind == BoundaryKind::open;
-    layout.velocity_unit = static_cast<double>(scene.micro_steps);
-    layout.has_position = wanted.has_position;
-    layout.has_velocity = wanted.has_velocity;
-    layout.has_collisions = wanted.has_collisions;
-    layout.has_angular_velocity = wanted.has_angular_velocity;
-    layout.is_single = wanted.is_single;
-    layout.compression = wanted.compression;
-    return layout;
-}
 
 /// The total order; q + 1 puts the wall, the largest number there is, before every disc.
 bool comes_before(const Collision& a, const Collision& b) {
@@ -96,7 +51,7 @@ Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_resta
         return first_difference(there, scene_);
     };
     if (scene_.trajectory) {
-        trajectory_.emplace(scene_.trajectory->file, layout_of(scene_), ranks_);
+        trajectory_.emplace(scene_.trajectory->file, layout_of(scene_, *scene_.trajectory), ranks_);
         if (is_restart)
             report_missing_frames(trajectory_->go_on(step, difference_from), step);
         else

@@ -7,12 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "apps/machine.hpp"
 #include "apps/setting_choice.hpp"
 #include "apps/standard_streams.hpp"
 #include "io/checkpoint_folder.hpp"
 #include "scene/compare.hpp"
-#include "scene/read_scene.hpp"
+#include "stored_scene/stored_scene.hpp"
 
 namespace carrom {
 
@@ -78,13 +77,7 @@ Checkpoint read_matching(const std::string& path, const RunOptions& options, Sce
             print_message(
                 "time.accuracy chooses at a run's start: going on with the checkpoint's setting\n");
     }
-    std::vector<Problem> problems;
-    for (const std::string& difference : physical_differences(there, here))
-        problems.push_back({"--restart " + path, 0, difference + "; a restart cannot change it"});
-    if (checkpoint.header.has_spins != (there.effects.contact.kind == ContactKind::rough))
-        problems.push_back({"--restart " + path, 0,
-                            "its scene and its columns do not agree on whether discs turn"});
-    if (!problems.empty()) throw InputError(std::move(problems));
+    refuse_other_run(checkpoint.header, here, "--restart " + path);
     scene = here;
     return checkpoint;
 }
@@ -159,41 +152,6 @@ OlderCheckpoints older_checkpoints(const Scene& scene, std::int64_t first, std::
         }
     }
     return older;
-}
-
-CheckpointHeader header_of(const Scene& scene) {
-    CheckpointHeader header;
-    header.program_version = version();
-    header.scene_name = scene.name;
-    header.scene_text = scene.text;
-    for (const std::string& override : scene.overrides) header.scene_overrides += override + '\n';
-    header.scene_lines_before_discs = scene.lines_before_discs;
-    header.scene_discs_follow = scene.discs_follow ? 1 : 0;
-    header.box_size = scene.box_size;
-    header.radius = scene.radius;
-    header.collisions = scene.method == Method::time_stepped ? "time-stepped" : "event-driven";
-    header.micro_steps = scene.micro_steps;
-    header.sync_every = scene.sync_every;
-    if (has_column(scene, DiscColumn::radius)) header.species = scene.effects.species;
-    return header;
-}
-
-Scene scene_of(const CheckpointHeader& header, const std::vector<std::string>& more_overrides) {
-    std::vector<std::string> overrides;
-    std::istringstream lines(header.scene_overrides);
-    for (std::string line; std::getline(lines, line);) overrides.push_back(line);
-    overrides.insert(overrides.end(), more_overrides.begin(), more_overrides.end());
-    SceneText text{header.scene_name,
-                   header.scene_text,
-                   header.scene_lines_before_discs,
-                   header.scene_discs_follow != 0,
-                   {}};
-    if (!header.species.empty()) text.columns = DiscColumns{header.species, {}, true};
-    Scene scene = read_scene(text, overrides);
-    if (has_column(scene, DiscColumn::radius) && !text.columns)
-        throw InputError({{header.scene_name, 0,
-                           "'discs.columns' names radii, and the checkpoint has none of them"}});
-    return scene;
 }
 
 std::vector<std::string> restart_candidates(const RunOptions& options, const Scene& scene,

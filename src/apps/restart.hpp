@@ -40,8 +40,4 @@ struct OlderCheckpoints {
 OlderCheckpoints older_checkpoints(const Scene& scene, std::int64_t first, std::int64_t last,
                                    const Communicator& ranks);
 
-/// The scene as a checkpoint keeps it, and back.
-CheckpointHeader header_of(const Scene& scene);
-Scene scene_of(const CheckpointHeader& header, const std::vector<std::string>& more_overrides);
-
 } // namespace carrom

@@ -14,7 +14,7 @@
 #include "apps/failure_scene.hpp"
 #include "apps/hard_cases.hpp"
 #include "apps/load.hpp"
-#include "apps/machine.hpp"
+#include "machine/machine.hpp"
 #include "apps/progress.hpp"
 #include "apps/recordings.hpp"
 #include "apps/report_file.hpp"

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "apps/machine.hpp"
+#include "machine/machine.hpp"
 
 namespace carrom {
 

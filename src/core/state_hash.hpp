@@ -6,33 +6,18 @@
 // some 10 ns a disc.
 #pragma once
 
-#include <compare>
-#include <cstdint>
 #include <span>
-#include <string>
+
+#include <carrom/totals.hpp>
 
 #include "core/disc.hpp"
 
 namespace carrom {
-
-struct StateHash {
-    std::uint64_t low = 0, high = 0;
-
-    StateHash& operator+=(const StateHash& other) {
-        low += other.low;
-        high += other.high;
-        return *this;
-    }
-    friend bool operator==(const StateHash&, const StateHash&) = default;
-};
 
 StateHash hash_of(const Disc& disc);
 StateHash hash_of(std::span<const Disc> discs);
 
 /// What a disc's spin adds, where discs turn.
 StateHash hash_of_spin(DiscId id, double spin);
-
-/// 32 hexadecimal digits, the high half first.
-std::string to_string(const StateHash& hash);
 
 } // namespace carrom

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/exact_sum.hpp"
+#include "core/state_hash.hpp"
 #include "engine/near_pairs.hpp"
 
 namespace carrom {

@@ -19,6 +19,8 @@
 #include <string>
 #include <vector>
 
+#include <carrom/measured_table.hpp>
+
 #include "core/disc.hpp"
 #include "core/stored_samples.hpp"
 #include "engine/wall_impulses.hpp"
@@ -26,18 +28,9 @@
 #include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
 #include "simulation/simulation.hpp"
-#include "statistics/averages.hpp"
 #include "statistics/pair_distances.hpp"
 
 namespace carrom {
-
-/// A table of what has been measured, as for a file of CSV.
-struct MeasuredTable {
-    std::string name;
-    std::vector<std::string> remarks; ///< what it shows, and units
-    std::vector<std::string> columns;
-    std::vector<std::vector<double>> rows;
-};
 
 class Sampler {
 public:

@@ -39,7 +39,15 @@ Communicator::Handle::~Handle() {
 Communicator Communicator::world(std::size_t max_message) {
     MPI_Comm comm = MPI_COMM_NULL;
     MPI_Comm_dup(MPI_COMM_WORLD, &comm);
+    abort_on_errors_of(comm); // MPI may have been started by somebody who has chosen otherwise
     return Communicator(std::make_shared<Handle>(comm, max_message));
+}
+
+Communicator Communicator::of_fortran(int number) {
+    MPI_Comm comm = MPI_COMM_NULL;
+    MPI_Comm_dup(MPI_Comm_f2c(static_cast<MPI_Fint>(number)), &comm);
+    abort_on_errors_of(comm);
+    return Communicator(std::make_shared<Handle>(comm, largest_message));
 }
 
 Communicator Communicator::of_this_rank() {

@@ -42,6 +42,9 @@ public:
     /// All ranks of the run. **Collective.** Needs a live `Mpi`, and must not outlive it.
     /// Data above `max_message` bytes (the same on all ranks) is split; tests make it small.
     static Communicator world(std::size_t max_message = largest_message);
+    /// A duplicate of the communicator that MPI knows by this Fortran number (MPI_Comm_c2f).
+    /// **Collective** over its ranks.
+    static Communicator of_fortran(int number);
     /// This rank and no other: what is collective over it involves nobody else. Not collective.
     static Communicator of_this_rank();
 

@@ -61,6 +61,9 @@ void wait_for(Requests& requests);
 void wait_or_abort(MPI_Request& request, const std::string& failure, double patience_seconds,
                    int code);
 
+/// From now on an error of MPI in `comm` prints rank and text and aborts all ranks.
+void abort_on_errors_of(MPI_Comm comm);
+
 /// Calls `act` on successive pieces of at most `limit` bytes.
 template <class Byte, class Act>
 void for_pieces(std::span<Byte> bytes, std::size_t limit, const Act& act) {

@@ -87,7 +87,60 @@ int agreed_code(const Communicator& communicator, const Outcome& outcome, double
 /// returns the error. Whoever has chosen one knows better.
 void choose_io() { setenv("OMPI_MCA_io", "^ompio", 0); }
 
+void start(int* argc, char*** argv) {
+    choose_io();
+    int provided = MPI_THREAD_SINGLE;
+    MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &provided);
+    MPI_Comm_rank(MPI_COMM_WORLD, &world_rank);
+    set_failure_handler(on_failure);
+    std::set_new_handler(on_no_memory);
+    if (provided < MPI_THREAD_FUNNELED)
+        abort_all("error", "this MPI library does not allow threads");
+    abort_on_errors_of(MPI_COMM_WORLD); // duplicates inherit it
+    abort_on_errors_of(MPI_COMM_SELF);
+}
+
 } // namespace
+
+void abort_on_errors_of(MPI_Comm comm) {
+    MPI_Errhandler handler = MPI_ERRHANDLER_NULL;
+    MPI_Comm_create_errhandler(on_mpi_error, &handler);
+    MPI_Comm_set_errhandler(comm, handler);
+    MPI_Errhandler_free(&handler);
+}
+
+bool has_mpi_started() {
+    int has_started = 0;
+    MPI_Initialized(&has_started);
+    return has_started != 0;
+}
+
+bool has_mpi_ended() {
+    int has_ended = 0;
+    MPI_Finalized(&has_ended);
+    return has_ended != 0;
+}
+
+void join_mpi() {
+    int provided = MPI_THREAD_SINGLE;
+    MPI_Query_thread(&provided);
+    if (provided < MPI_THREAD_FUNNELED)
+        throw InputError({{"MPI", 0,
+                           "was started without threads; start it with MPI_Init_thread and "
+                           "MPI_THREAD_FUNNELED or more"}});
+    MPI_Comm_rank(MPI_COMM_WORLD, &world_rank);
+    set_failure_handler(on_failure);
+}
+
+std::string mpi_version() {
+    std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> text{};
+    int length = 0;
+    MPI_Get_library_version(text.data(), &length);
+    std::string name(text.data(), static_cast<std::size_t>(length));
+    name.resize(std::min(name.find_first_of(",\n"), name.size())); // details follow
+    std::replace(name.begin(), name.end(), '\t', ' ');
+    return name;
+}
 
 void wait_or_abort(MPI_Request& request, const std::string& failure, double patience_seconds,
                    int code) {
@@ -110,21 +163,8 @@ void abort_from_signal(std::string_view text, int code) {
     ::_exit(code);
 }
 
-Mpi::Mpi(int& argc, char**& argv) {
-    choose_io();
-    int provided = MPI_THREAD_SINGLE;
-    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
-    MPI_Comm_rank(MPI_COMM_WORLD, &world_rank);
-    set_failure_handler(on_failure);
-    std::set_new_handler(on_no_memory);
-    if (provided < MPI_THREAD_FUNNELED)
-        abort_all("error", "this MPI library does not allow threads");
-    MPI_Errhandler handler = MPI_ERRHANDLER_NULL;
-    MPI_Comm_create_errhandler(on_mpi_error, &handler);
-    MPI_Comm_set_errhandler(MPI_COMM_WORLD, handler); // duplicates inherit it
-    MPI_Comm_set_errhandler(MPI_COMM_SELF, handler);
-    MPI_Errhandler_free(&handler);
-}
+Mpi::Mpi(int& argc, char**& argv) { start(&argc, &argv); }
+Mpi::Mpi() { start(nullptr, nullptr); }
 
 Mpi::~Mpi() { MPI_Finalize(); }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <string_view>
 
 #include "parallel/communicator.hpp"
@@ -16,10 +17,25 @@ namespace carrom {
 class Mpi {
 public:
     Mpi(int& argc, char**& argv);
+    /// For programs whose arguments are not MPI's.
+    Mpi();
     ~Mpi();
     Mpi(const Mpi&) = delete;
     Mpi& operator=(const Mpi&) = delete;
 };
+
+/// Whether MPI has been started; true after its end as well.
+bool has_mpi_started();
+/// Whether MPI has come to its end. It cannot be started again.
+bool has_mpi_ended();
+
+/// Takes part in a run of MPI that another part of the program has started: a failed `ensure`
+/// aborts all ranks from now on. Throws InputError where threads are not allowed
+/// (MPI_THREAD_FUNNELED).
+void join_mpi();
+
+/// The library's name and version, "Open MPI v4.1.4". Needs no started MPI.
+std::string mpi_version();
 
 /// Prints `text` as it is and ends all ranks with `code`: for handlers of signals that end the
 /// program. Should MPI not come to an end within ten seconds, this process does.

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <carrom/averages.hpp>
+
 #include "core/disc.hpp"
 #include "core/frame.hpp"
 #include "engine/collision.hpp"
@@ -19,7 +21,6 @@
 #include "engine/tuning.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
-#include "statistics/averages.hpp"
 
 namespace carrom {
 

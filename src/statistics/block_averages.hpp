@@ -12,9 +12,10 @@
 #include <span>
 #include <vector>
 
+#include <carrom/averages.hpp>
+
 #include "core/disc.hpp"
 #include "parallel/communicator.hpp"
-#include "statistics/averages.hpp"
 
 namespace carrom {
 

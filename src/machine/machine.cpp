@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/machine.hpp"
+#include "machine/machine.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run has to know of the machine it is on: cores to use, memory used, and the version of the
-// program.
+// What a run has to know of the machine it is on: cores to use, memory used, and what the program
+// was built with.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
+#include <carrom/version.hpp>
+
 #include "parallel/communicator.hpp"
 
 namespace carrom {
-
-/// "0.1.0"
-std::string version();
 
 /// What the program was built with, as measurements should say.
 struct BuildFacts {

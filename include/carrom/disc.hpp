@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A disc as the program that uses the library sees it.
+#pragma once
+
+#include <cstdint>
+
+namespace carrom::api {
+
+/// Lengths are in the scene's unit, times in steps.
+struct Disc {
+    std::uint64_t id = 0;  ///< 0 to N - 1
+    double x = 0, y = 0;   ///< the centre, at the present step; the box goes from 0 to its size
+    double vx = 0, vy = 0; ///< length per step
+    double spin = 0;       ///< of rough discs: angle per step, counterclockwise; else 0
+    std::uint64_t wall_collisions = 0; ///< since the scene's start
+    std::uint64_t pair_collisions = 0; ///< with other discs
+
+    friend bool operator==(const Disc&, const Disc&) = default;
+};
+
+} // namespace carrom::api

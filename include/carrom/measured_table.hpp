@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A table of what a scene's [output.measurements] asks for.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace carrom {
+
+/// Shape: `rows` are all as long as `columns`. The tables, their columns and units are listed in
+/// docs/user.md ("Measurements").
+struct MeasuredTable {
+    std::string name;                 ///< "radial_distribution", "speeds", ...
+    std::vector<std::string> remarks; ///< what it shows, and units
+    std::vector<std::string> columns;
+    std::vector<std::vector<double>> rows;
+};
+
+} // namespace carrom

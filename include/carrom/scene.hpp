@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is simulated: the keys of a scene (docs/user.md lists them), from a file, from TOML text, or
+// set one by one. A Scene is a value: copying it costs as much as its text.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <carrom/disc.hpp>
+
+namespace carrom::api {
+
+class Session;
+
+/// What a checked scene comes to. Lengths in the scene's unit.
+struct SceneFacts {
+    double box_size = 0; ///< L: the box is [0, L] x [0, L]
+    double radius = 0;   ///< the largest one, where there are several
+    double packing = 0;  ///< share of the box that discs cover
+    std::uint64_t n_discs = 0;
+    std::int64_t steps = 0;            ///< the last step
+    std::int64_t micro_steps = 1;      ///< per step
+    bool is_event_driven = false;      ///< else time-stepped
+    std::vector<std::string> warnings; ///< legal, but worth a line each
+};
+
+class Scene {
+public:
+    /// No key is set: set them all. Not collective.
+    Scene() = default;
+
+    /// The scene of a file: TOML where its name ends in `.toml`, else the legacy text format. Rank
+    /// 0 reads it. Throws InputError where it cannot be read. **Collective.**
+    static Scene from_file(const Session& session, const std::string& path);
+
+    /// The scene of TOML text. Messages name it `name`, which must end in `.toml`; files that the
+    /// scene names are taken from the folder of that name. Not collective.
+    static Scene from_text(std::string_view text, const std::string& name = "scene.toml");
+
+    /// Sets a key, as `--set key=value` of `carrom run` does: `set("time.steps", 100)`. A text may
+    /// be a word or any TOML value: `set("discs.streams", "[{region = [0, 0, 1, 1], velocity = [1,
+    /// 0]}]")`. It replaces an older value, and keys that exclude this one. Nothing is checked yet.
+    /// Not collective: every rank sets the same. Returns this scene.
+    Scene& set(std::string_view key, std::string_view value);
+    Scene& set(std::string_view key, const char* value) {
+        return set(key, std::string_view(value));
+    }
+    template <class Number>
+        requires std::integral<Number> || std::floating_point<Number>
+    Scene& set(std::string_view key, Number value) {
+        if constexpr (std::same_as<Number, bool>)
+            return set(key, value ? std::string_view("true") : std::string_view("false"));
+        else if constexpr (std::integral<Number>)
+            return set(key, std::string_view(std::to_string(value)));
+        else
+            return set_number(key, static_cast<double>(value));
+    }
+
+    /// The discs at the start, in any order: ids 0 to N - 1 once each, with positions and
+    /// velocities, and spins where one is not 0. The same on every rank. They become the scene's
+    /// `discs.list`, so files of the run hold them as text: some 80 bytes a disc, at most 64 MiB.
+    /// Use `discs.file` or a generator for more. Throws InputError for wrong ids. Not collective.
+    Scene& set_discs(std::span<const Disc> discs);
+
+    /// Checks every key. Throws InputError with all problems. Looks into no other file. Not
+    /// collective.
+    SceneFacts check() const;
+
+    struct Source {
+        std::string name = "scene.toml";
+        std::string text;
+        std::int64_t lines_before_discs = 0; ///< of legacy text
+        bool discs_follow = false;           ///< legacy text with discs behind its header
+        std::vector<std::string> settings;   ///< "key=value", in the order they were set
+    };
+    const Source& source() const { return source_; }
+
+private:
+    Scene& set_number(std::string_view key, double value);
+
+    Source source_;
+};
+
+} // namespace carrom::api

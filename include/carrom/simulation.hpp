@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A scene as it moves forward in time, and its checkpoints.
+//
+// The state is a function of the scene and the step alone: the same bits for any number of ranks
+// and threads, however the steps are divided into calls. Discs live on the ranks whose part of the
+// box they are in.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <carrom/averages.hpp>
+#include <carrom/disc.hpp>
+#include <carrom/measured_table.hpp>
+#include <carrom/scene.hpp>
+#include <carrom/session.hpp>
+#include <carrom/totals.hpp>
+
+namespace carrom::api {
+
+/// Choices that change how long a run takes, and never its result.
+struct Options {
+    int threads = 0; ///< of each rank; 0: OMP_NUM_THREADS, else its share of the node's cores
+};
+
+class Simulation {
+public:
+    /// The scene at step 0. Throws InputError with all problems of the scene and of its discs, and
+    /// for `time.accuracy`: choose `time.method` and `time.micro_steps` with `carrom accuracy`.
+    /// Of the tables under `output` it acts on `output.measurements` alone, and writes no file.
+    /// Memory: 94 bytes a disc and more (120 in the event-driven method), shared by the ranks.
+    /// The session must outlive it. **Collective.**
+    Simulation(const Session& session, const Scene& scene, const Options& options = {});
+
+    /// Goes on from a checkpoint, of this library or of `carrom run`, with the same bits as the
+    /// uninterrupted run. The file has the scene; `settings` ("time.steps=200") go on top and may
+    /// change the last step and what is measured. Throws CollectiveError (code 2) where the file is
+    /// damaged, InputError where a setting would make it another run. **Collective.**
+    static Simulation from_checkpoint(const Session& session, const std::string& path,
+                                      const std::vector<std::string>& settings = {},
+                                      const Options& options = {});
+
+    Simulation(Simulation&&) noexcept;
+    Simulation& operator=(Simulation&&) noexcept;
+    ~Simulation(); ///< **Collective.**
+
+    const SceneFacts& scene() const; ///< what is simulated; not collective
+    std::int64_t step() const;       ///< steps since the scene's start; not collective
+
+    /// Moves forward to the end of that step. Throws InputError where it lies behind the present
+    /// one, or beyond `time.steps`. **Collective.**
+    void advance_to(std::int64_t step);
+    void advance(std::int64_t n_steps) { advance_to(step() + n_steps); } ///< **Collective.**
+    void advance_to_end() { advance_to(scene().steps); }                 ///< **Collective.**
+
+    /// This rank's discs at the present step, in the order of their ids. All ranks together have
+    /// each disc once, those that have left the box included (at rest where they left it). Costs a
+    /// copy and a sort. Not collective.
+    std::vector<Disc> discs() const;
+
+    /// All discs, in the order of their ids, on rank 0; nothing on the others. Takes 72 bytes a
+    /// disc there. **Collective.**
+    std::vector<Disc> gathered_discs() const;
+
+    /// Sums over all discs; every rank gets them. Costs a pass over the discs and one search for
+    /// pairs that touch, about as much as a step. **Collective.**
+    Totals totals() const;
+
+    /// Averages since stepping began here, or since `restart_averages`. Costs a pass over the
+    /// discs. **Collective.**
+    Averages averages() const;
+    void restart_averages(); ///< forgets what has been averaged so far; **Collective.**
+
+    /// What the scene's `output.measurements` asks for, as sampled so far; nothing before the first
+    /// sample. Sampling happens inside `advance_to`. The same on every rank. Not collective.
+    std::vector<MeasuredTable> measurements() const;
+
+    /// Writes the state as a whole file or not at all. Its folder must exist. Throws
+    /// CollectiveError (code 4) where it fails; an older file of that name is then as it was.
+    /// 88 bytes a disc to disk. **Collective.**
+    void write_checkpoint(const std::string& path) const;
+
+    struct State; ///< the library's own
+    const State& state() const { return *state_; }
+
+private:
+    explicit Simulation(std::unique_ptr<State> state);
+
+    std::unique_ptr<State> state_;
+};
+
+} // namespace carrom::api

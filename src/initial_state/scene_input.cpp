@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "initial_state/scene_input.hpp"
+
+#include <fstream>
+
+#include "initial_state/initial_state.hpp"
+#include "parallel/agreement.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// The same for the columns of the file of discs. **Collective.**
+void broadcast(DiscColumns& columns, const Communicator& ranks) {
+    ranks.broadcast(columns.species);
+    ranks.broadcast(columns.spins);
+    int is_whole = columns.is_whole ? 1 : 0;
+    ranks.broadcast(is_whole);
+    columns.is_whole = is_whole == 1;
+}
+
+} // namespace
+
+void broadcast(SceneText& text, const Communicator& ranks) {
+    ranks.broadcast(text.name);
+    ranks.broadcast(text.text);
+    ranks.broadcast(text.lines_before_discs);
+    int discs_follow = text.discs_follow ? 1 : 0;
+    ranks.broadcast(discs_follow);
+    text.discs_follow = discs_follow == 1;
+}
+
+DiscColumns load_columns(const Scene& scene, const Communicator& ranks) {
+    DiscColumns columns;
+    columns.is_whole = false;
+    if (ranks.is_root()) {
+        try {
+            std::ifstream file = open_input(discs_path(scene));
+            columns = read_disc_columns(file, scene);
+        } catch (const InputError&) { // the reader of lines says it again, with all problems
+        }
+    }
+    broadcast(columns, ranks);
+    return columns;
+}
+
+std::vector<InputDisc> load_discs(const Scene& scene, std::istream* following,
+                                  const Communicator& ranks) {
+    if (!scene.reads_disc_lines() || scene.discs_file.empty())
+        return initial_state(scene, scene.reads_disc_lines() ? following : nullptr, ranks);
+    std::ifstream file;
+    std::vector<Problem> problems;
+    if (ranks.is_root()) {
+        try {
+            file = open_input(discs_path(scene));
+        } catch (const InputError& error) {
+            problems = error.problems();
+        }
+    }
+    agree_on_problems(ranks, problems);
+    return initial_state(scene, &file, ranks);
+}
+
+} // namespace carrom

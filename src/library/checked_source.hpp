@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a public Scene, which is keys and text, to a checked scene and its first discs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <carrom/scene.hpp>
+
+#include "parallel/communicator.hpp"
+#include "scene/read_scene.hpp"
+#include "scene/scene.hpp"
+
+namespace carrom::api {
+
+/// Runs `read` and names keys in the problems of its InputError as the program has set them, not as
+/// options of the command line.
+template <class Read> auto with_named_keys(const Read& read) {
+    try {
+        return read();
+    } catch (const InputError& error) {
+        std::vector<Problem> problems = error.problems();
+        const std::string option = "--set ";
+        for (Problem& problem : problems)
+            if (problem.place.starts_with(option)) problem.place.erase(0, option.size());
+        throw InputError(std::move(problems));
+    }
+}
+
+SceneFacts facts_of(const carrom::Scene& scene);
+
+struct FirstState {
+    carrom::Scene scene;
+    std::vector<InputDisc> discs;
+};
+
+/// The checked scene and this rank's share of its discs. Throws InputError on every rank with all
+/// problems. **Collective.**
+FirstState first_state(const Scene& scene, const Communicator& ranks);
+
+} // namespace carrom::api

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <carrom/scene.hpp>
+
+#include <algorithm>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "initial_state/scene_input.hpp"
+#include "library/checked_source.hpp"
+#include "library/session_state.hpp"
+#include "parallel/agreement.hpp"
+#include "scene/disc_reader.hpp"
+
+namespace carrom::api {
+
+namespace {
+
+constexpr std::size_t longest_list = std::size_t{1} << 26;
+
+SceneText text_of(const Scene::Source& source) {
+    return {source.name, source.text, source.lines_before_discs, source.discs_follow, {}};
+}
+
+carrom::Scene read(const SceneText& text, const Scene& scene) {
+    return with_named_keys([&] { return read_scene(text, scene.source().settings); });
+}
+
+/// What rank 0 alone finds wrong while it reads, on every rank. **Collective.**
+template <class Read> void read_on_root(const Communicator& ranks, const Read& read) {
+    std::vector<Problem> problems;
+    if (ranks.is_root()) {
+        try {
+            problems = read();
+        } catch (const InputError& error) {
+            problems = error.problems();
+        }
+    }
+    agree_on_problems(ranks, problems);
+}
+
+/// The scene with the radii, masses and spins of its file of discs. **Collective.**
+carrom::Scene read_with_columns(SceneText text, const Scene& scene, const carrom::Scene& without,
+                                const Communicator& ranks) {
+    text.columns = load_columns(without, ranks);
+    if (!text.columns->is_whole)
+        read_on_root(ranks, [&] {
+            std::ifstream file = open_input(discs_path(without));
+            std::vector<Problem> problems = disc_line_problems(file, without);
+            if (problems.empty())
+                problems.push_back({discs_path(without), 0, "changes while it is being read"});
+            return problems;
+        });
+    return read(text, scene);
+}
+
+} // namespace
+
+Scene Scene::from_file(const Session& session, const std::string& path) {
+    const Communicator& ranks = ranks_of(session);
+    SceneText text;
+    read_on_root(ranks, [&] {
+        std::ifstream file = open_input(path);
+        text = read_scene_text(file, path);
+        return std::vector<Problem>{};
+    });
+    broadcast(text, ranks);
+    Scene scene;
+    scene.source_ = {text.name, text.text, text.lines_before_discs, text.discs_follow, {}};
+    return scene;
+}
+
+Scene Scene::from_text(std::string_view text, const std::string& name) {
+    if (!name.ends_with(".toml"))
+        throw InputError({{name, 0, "the name of a scene's TOML text must end in .toml"}});
+    Scene scene;
+    scene.source_.name = name;
+    scene.source_.text = text;
+    return scene;
+}
+
+Scene& Scene::set(std::string_view key, std::string_view value) {
+    std::string setting = fmt::format("{}={}", key, value);
+    std::replace(setting.begin(), setting.end(), '\n', ' '); // files keep one setting a line
+    source_.settings.push_back(std::move(setting));
+    return *this;
+}
+
+Scene& Scene::set_number(std::string_view key, double value) {
+    return set(key, fmt::format("{}", value));
+}
+
+Scene& Scene::set_discs(std::span<const Disc> discs) {
+    std::vector<Disc> sorted(discs.begin(), discs.end());
+    std::sort(sorted.begin(), sorted.end(),
+              [](const Disc& a, const Disc& b) { return a.id < b.id; });
+    const bool has_spins = std::any_of(sorted.begin(), sorted.end(),
+                                       [](const Disc& disc) { return disc.spin != 0; });
+    std::string list = "[";
+    for (std::size_t k = 0; k < sorted.size(); ++k) {
+        const Disc& disc = sorted[k];
+        if (disc.id != k)
+            throw InputError({{"discs.list", 0,
+                               fmt::format("ids must be 0 to {}, once each; {} is {}",
+                                           sorted.size() - 1, disc.id < k ? disc.id : k,
+                                           disc.id < k ? "there twice" : "missing")}});
+        list += fmt::format("{}[{}, {}, {}, {}", k == 0 ? "" : ", ", disc.x, disc.y, disc.vx,
+                            disc.vy);
+        list += has_spins ? fmt::format(", {}]", disc.spin) : "]";
+    }
+    list += ']';
+    if (list.size() > longest_list)
+        throw InputError({{"discs.list", 0,
+                           fmt::format("{} discs are more than 64 MiB of text; write them to a "
+                                       "file and set discs.file",
+                                       sorted.size())}});
+    return set("discs.list", list);
+}
+
+SceneFacts Scene::check() const { return facts_of(read(text_of(source_), *this)); }
+
+SceneFacts facts_of(const carrom::Scene& scene) {
+    SceneFacts facts;
+    facts.box_size = scene.box_size;
+    facts.radius = scene.radius;
+    facts.packing = scene.packing();
+    facts.n_discs = scene.n_discs;
+    facts.steps = scene.steps;
+    facts.micro_steps = scene.micro_steps;
+    facts.is_event_driven = scene.method == Method::event_driven;
+    facts.warnings = scene.warnings;
+    return facts;
+}
+
+FirstState first_state(const Scene& scene, const Communicator& ranks) {
+    const SceneText text = text_of(scene.source());
+    FirstState first;
+    first.scene = read(text, scene);
+    if (!first.scene.disc_columns.empty() && !first.scene.discs_file.empty())
+        first.scene = read_with_columns(text, scene, first.scene, ranks);
+    if (first.scene.accuracy)
+        throw InputError({{"time.accuracy", 0,
+                           "the library does not choose a method; set time.method and "
+                           "time.micro_steps (carrom accuracy measures what they cost)"}});
+    std::ifstream lines;
+    read_on_root(ranks, [&] {
+        if (text.discs_follow) {
+            lines = open_input(text.name);
+            read_scene_text(lines, text.name); // up to the first disc
+        }
+        return std::vector<Problem>{};
+    });
+    first.discs = load_discs(first.scene, &lines, ranks);
+    return first;
+}
+
+} // namespace carrom::api

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/start_io.hpp"
+#include "library/session_state.hpp"
+
+namespace carrom::api {
+
+namespace {
+
+void join() {
+    if (!has_mpi_started())
+        throw InputError({{"Session", 0, "MPI does not run; start it before its communicators"}});
+    if (has_mpi_ended())
+        throw InputError({{"Session", 0, "MPI has ended; it starts once in a process"}});
+    join_mpi();
+}
+
+std::unique_ptr<Mpi> start() {
+    start_io();
+    return std::make_unique<Mpi>();
+}
+
+} // namespace
+
+Session::Session() {
+    if (has_mpi_started()) {
+        join();
+        state_.reset(new State{nullptr, Communicator::world()});
+    } else {
+        std::unique_ptr<Mpi> mpi = start();
+        state_.reset(new State{std::move(mpi), Communicator::world()});
+    }
+}
+
+Session::Session(int fortran_communicator) {
+    join();
+    state_.reset(new State{nullptr, Communicator::of_fortran(fortran_communicator)});
+}
+
+Session::~Session() = default;
+
+int Session::rank() const { return state_->ranks.rank(); }
+int Session::size() const { return state_->ranks.size(); }
+
+int Session::run(const std::function<int()>& body) const {
+    return run_on_all(state_->ranks, [&body](const Communicator&) { return body(); });
+}
+
+} // namespace carrom::api

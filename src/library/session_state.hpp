@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What stands behind a Session.
+#pragma once
+
+#include <memory>
+
+#include <carrom/session.hpp>
+
+#include "parallel/communicator.hpp"
+#include "parallel/mpi.hpp"
+
+namespace carrom::api {
+
+struct Session::State {
+    std::unique_ptr<Mpi> mpi; ///< where the session has started it; ends last
+    Communicator ranks;
+};
+
+inline const Communicator& ranks_of(const Session& session) { return session.state().ranks; }
+
+} // namespace carrom::api

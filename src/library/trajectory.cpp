@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/trajectory.hpp"
+
+#include <carrom/trajectory.hpp>
+
+#include <fmt/format.h>
+
+#include "io/frame_file.hpp"
+#include "library/session_state.hpp"
+#include "library/simulation_state.hpp"
+#include "parallel/agreement.hpp"
+#include "stored_scene/stored_scene.hpp"
+
+namespace carrom::api {
+
+namespace {
+
+TrajectoryOutput wanted_of(const TrajectoryFields& fields, const carrom::Scene& scene,
+                           const std::string& path) {
+    std::vector<Problem> problems;
+    if (fields.spins && scene.effects.contact.kind != ContactKind::rough)
+        problems.push_back({path, 0, "only rough discs have spins (effects.contact.kind)"});
+    if (fields.compression < 0 || fields.compression > 9)
+        problems.push_back(
+            {path, 0, fmt::format("compression is 0 to 9, not {}", fields.compression)});
+    if (!problems.empty()) throw InputError(std::move(problems));
+    TrajectoryOutput wanted;
+    wanted.file = path;
+    wanted.has_velocity = fields.velocities;
+    wanted.has_collisions = fields.collisions;
+    wanted.has_angular_velocity = fields.spins;
+    wanted.is_single = fields.single_precision;
+    wanted.compression = fields.compression;
+    return wanted;
+}
+
+} // namespace
+
+struct TrajectoryWriter::State {
+    State(const Simulation::State& run, const std::string& path, const TrajectoryFields& fields)
+        : of(run), file(path),
+          trajectory(path, layout_of(run.scene, wanted_of(fields, run.scene, path)), run.ranks) {}
+
+    const Simulation::State& of;
+    std::string file;
+    carrom::Trajectory trajectory;
+    std::int64_t last_step = -1; ///< that has a frame; the same on all ranks
+};
+
+TrajectoryWriter::TrajectoryWriter(const Simulation& simulation, const std::string& path,
+                                   const TrajectoryFields& fields)
+    : state_(std::make_unique<State>(simulation.state(), path, fields)) {
+    state_->trajectory.begin();
+}
+
+TrajectoryWriter TrajectoryWriter::going_on(const Simulation& simulation, const std::string& path,
+                                            const TrajectoryFields& fields) {
+    const Simulation::State& run = simulation.state();
+    auto state = std::make_unique<State>(run, path, fields);
+    state->last_step = state->trajectory.go_on(
+        run.simulation.step(),
+        [&run](const CheckpointHeader& there) { return first_difference(there, run.scene); });
+    run.ranks.broadcast(state->last_step); // rank 0 has read the file
+    return TrajectoryWriter(std::move(state));
+}
+
+TrajectoryWriter::TrajectoryWriter(std::unique_ptr<State> state) : state_(std::move(state)) {}
+TrajectoryWriter::TrajectoryWriter(TrajectoryWriter&&) noexcept = default;
+TrajectoryWriter::~TrajectoryWriter() = default;
+
+void TrajectoryWriter::append() {
+    const carrom::Simulation& simulation = state_->of.simulation;
+    const std::int64_t step = simulation.step();
+    if (step <= state_->last_step)
+        throw InputError({{state_->file, 0, fmt::format("step {} has a frame already", step)}});
+    state_->trajectory.append(step, simulation.shown(), simulation.clock(), simulation.spins());
+    state_->trajectory.commit();
+    state_->last_step = step;
+}
+
+void TrajectoryWriter::describe() { state_->trajectory.describe(); }
+
+struct FrameReader::State {
+    std::string path;
+    FrameFile file;
+};
+
+FrameReader::FrameReader(const Session& session, const std::string& path) {
+    const Communicator& ranks = ranks_of(session);
+    check_damage(path, ranks);
+    std::string failure;
+    try {
+        state_.reset(new State{path, FrameFile(path)});
+        if (state_->file.summary().kind == FileKind::collisions)
+            failure = path + ": is a log of collisions; it has no frames";
+    } catch (const InputError& error) {
+        failure = error.what();
+    }
+    agree(ranks, failure.empty(), failure, ExitCode::bad_input);
+}
+
+FrameReader::FrameReader(FrameReader&&) noexcept = default;
+FrameReader::~FrameReader() = default;
+
+const std::vector<std::int64_t>& FrameReader::steps() const { return state_->file.summary().steps; }
+std::uint64_t FrameReader::n_discs() const { return state_->file.summary().n_discs; }
+double FrameReader::box_size() const { return state_->file.summary().box_size; }
+std::string FrameReader::state_hash() const { return state_->file.summary().state_hash; }
+
+std::vector<Disc> FrameReader::read(std::size_t frame) const { return read(frame, 0, n_discs()); }
+
+std::vector<Disc> FrameReader::read(std::size_t frame, std::uint64_t begin,
+                                    std::uint64_t end) const {
+    if (frame >= steps().size() || begin > end || end > n_discs())
+        throw InputError({{state_->path, 0,
+                           fmt::format("has {} frames of {} discs; it has no discs {} to {} of "
+                                       "frame {}",
+                                       steps().size(), n_discs(), begin, end, frame)}});
+    std::vector<FrameRow> rows;
+    state_->file.read(frame, begin, end, rows);
+    std::vector<Disc> discs;
+    discs.reserve(rows.size());
+    for (const FrameRow& row : rows)
+        discs.push_back({begin + discs.size(), row.x, row.y, row.vx, row.vy, row.angular_velocity,
+                         row.wall_collisions, row.pair_collisions});
+    return discs;
+}
+
+} // namespace carrom::api

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stored_scene/stored_scene.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/errors.hpp"
+#include "machine/machine.hpp"
+#include "scene/compare.hpp"
+#include "scene/disc_columns.hpp"
+#include "scene/read_scene.hpp"
+
+namespace carrom {
+
+CheckpointHeader header_of(const Scene& scene) {
+    CheckpointHeader header;
+    header.program_version = version();
+    header.scene_name = scene.name;
+    header.scene_text = scene.text;
+    for (const std::string& override : scene.overrides) header.scene_overrides += override + '\n';
+    header.scene_lines_before_discs = scene.lines_before_discs;
+    header.scene_discs_follow = scene.discs_follow ? 1 : 0;
+    header.box_size = scene.box_size;
+    header.radius = scene.radius;
+    header.collisions = scene.method == Method::time_stepped ? "time-stepped" : "event-driven";
+    header.micro_steps = scene.micro_steps;
+    header.sync_every = scene.sync_every;
+    if (has_column(scene, DiscColumn::radius)) header.species = scene.effects.species;
+    return header;
+}
+
+CheckpointHeader header_now(const Scene& scene, const Simulation& simulation) {
+    CheckpointHeader header = header_of(scene);
+    header.step = simulation.step();
+    header.micro_steps_done = simulation.micro_steps_done();
+    header.frame = simulation.frame();
+    header.has_spins = scene.effects.contact.kind == ContactKind::rough;
+    return header;
+}
+
+Scene scene_of(const CheckpointHeader& header, const std::vector<std::string>& more_overrides) {
+    std::vector<std::string> overrides;
+    std::istringstream lines(header.scene_overrides);
+    for (std::string line; std::getline(lines, line);) overrides.push_back(line);
+    overrides.insert(overrides.end(), more_overrides.begin(), more_overrides.end());
+    SceneText text{header.scene_name,
+                   header.scene_text,
+                   header.scene_lines_before_discs,
+                   header.scene_discs_follow != 0,
+                   {}};
+    if (!header.species.empty()) text.columns = DiscColumns{header.species, {}, true};
+    Scene scene = read_scene(text, overrides);
+    if (has_column(scene, DiscColumn::radius) && !text.columns)
+        throw InputError({{header.scene_name, 0,
+                           "'discs.columns' names radii, and the checkpoint has none of them"}});
+    return scene;
+}
+
+void refuse_other_run(const CheckpointHeader& header, const Scene& scene,
+                      const std::string& place) {
+    const Scene there = scene_of(header, {});
+    std::vector<Problem> problems;
+    for (const std::string& difference : physical_differences(there, scene))
+        problems.push_back({place, 0, difference + "; a restart cannot change it"});
+    if (header.has_spins != (there.effects.contact.kind == ContactKind::rough))
+        problems.push_back(
+            {place, 0, "its scene and its columns do not agree on whether discs turn"});
+    if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+CheckpointHeader run_of(const Scene& scene) {
+    CheckpointHeader run = header_of(scene);
+    run.n_discs = scene.n_discs;
+    return run;
+}
+
+std::string first_difference(const CheckpointHeader& there, const Scene& scene) {
+    try {
+        const std::vector<std::string> differences = physical_differences(scene_of(there, {}),
+                                                                          scene);
+        return differences.empty() ? "" : differences.front();
+    } catch (const InputError&) {
+        return "its scene cannot be read here";
+    }
+}
+
+TrajectoryLayout layout_of(const Scene& scene, const TrajectoryOutput& wanted) {
+    TrajectoryLayout layout;
+    layout.program_version = version();
+    layout.run = run_of(scene);
+    layout.n_discs = scene.n_discs;
+    const Extent end = extent_at(scene.effects, scene.box_size, static_cast<double>(scene.steps));
+    layout.box_size = std::max({scene.box_size, end.x_high, end.y_high}); // walls may move
+    layout.radius = scene.radius;
+    for (const Species& one : scene.effects.species) {
+        layout.radii.insert(layout.radii.end(), one.count, one.radius);
+        layout.masses.insert(layout.masses.end(), one.count, one.mass);
+    }
+    layout.is_periodic_x = scene.effects.is_periodic_x();
+    layout.is_periodic_y = scene.effects.is_periodic_y();
+    for (std::size_t side = 0; side < layout.open_boundaries.size(); ++side)
+        layout.open_boundaries[side] = scene.effects.boundaries[side].kind == BoundaryKind::open;
+    layout.velocity_unit = static_cast<double>(scene.micro_steps);
+    layout.has_position = wanted.has_position;
+    layout.has_velocity = wanted.has_velocity;
+    layout.has_collisions = wanted.has_collisions;
+    layout.has_angular_velocity = wanted.has_angular_velocity;
+    layout.is_single = wanted.is_single;
+    layout.compression = wanted.compression;
+    return layout;
+}
+
+} // namespace carrom
