@@ -79,23 +79,28 @@ public:
     NewState() = default;
     explicit NewState(const Disc& disc)
         : x_(disc.x), y_(disc.y), vx_(disc.vx), vy_(disc.vy), tau_(disc.tau),
-          wall_collisions_(static_cast<std::uint32_t>(disc.wall_collisions)),
+          wall_collisions_(disc.wall_collisions & wall_bits), is_departed_(disc.is_departed),
           pair_collisions_(static_cast<std::uint32_t>(disc.pair_collisions)) {}
 
-    /// `disc` is as it was at the window's start; its counters grow by less than 2^32.
+    /// `disc` is as it was at the window's start; its counters grow by less than 2^31.
     void overwrite(Disc& disc) const {
         disc.x = x_;
         disc.y = y_;
         disc.vx = vx_;
         disc.vy = vy_;
         disc.tau = tau_;
-        disc.wall_collisions += wall_collisions_ - static_cast<std::uint32_t>(disc.wall_collisions);
+        disc.wall_collisions += (wall_collisions_ - disc.wall_collisions) & wall_bits;
         disc.pair_collisions += pair_collisions_ - static_cast<std::uint32_t>(disc.pair_collisions);
+        disc.is_departed = is_departed_;
     }
 
 private:
+    static constexpr std::uint64_t wall_bits = 0x7fffffff;
+
     double x_, y_, vx_, vy_, tau_;
-    std::uint32_t wall_collisions_, pair_collisions_; ///< their low halves
+    std::uint32_t wall_collisions_ : 31; ///< the counters' low parts
+    std::uint32_t is_departed_ : 1;
+    std::uint32_t pair_collisions_;
 };
 static_assert(sizeof(NewState) == 48);
 
