@@ -17,7 +17,8 @@ struct SharedEnergy {
     DiscId disc = 0;
     double before = 0, after = 0;
     double allowance = 0;
-    double n_reflections = 0; ///< from bodies at any angle, which round as collisions of pairs do
+    double n_reflections =
+        0; ///< from obstacles at any angle, which round as collisions of pairs do
 };
 
 /// A cluster of discs whose energy has changed: its lowest disc, the share by which it changed, and

@@ -55,9 +55,9 @@ template <class Dynamics> void EngineBase<Dynamics>::redistribute_now(double lea
                                      0);
     const double reach = std::max(touching, least_reach);
     const Extent seen = discs_.extent_seen(extent(), reach);
-    const GridFrame frame = make_sparse_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high,
-                                              reach, discs_.n_own());
-    discs_.sort_cells(frame, time_, tuning_.threads);
+    const GridGeometry geometry = make_sparse_geometry(seen.x_low, seen.x_high, seen.y_low,
+                                                       seen.y_high, reach, discs_.n_own());
+    discs_.sort_cells(geometry, time_, tuning_.threads);
     const PhaseClock::Scope scope(phases_, Phase::exchange);
     discs_.fetch_halo(time_, reach, nullptr);
 }

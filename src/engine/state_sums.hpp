@@ -25,7 +25,7 @@ void measure_departures(std::span<const Disc> own, double box_size,
                         const Communicator& communicator, Totals& totals);
 
 /// Fills in energy and momentum; `velocity_unit` turns stored velocities into those per step.
-/// `bodies`: null for masses of 1. **Collective.**
+/// `species_table`: null for masses of 1. **Collective.**
 void measure_motion(std::span<const Disc> own, const SpeciesTable* species_table,
                     double velocity_unit, const Communicator& communicator, Totals& totals);
 

@@ -15,7 +15,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A disc's new state and its place among the discs that went to this neighbour's halo.
-struct News {
+struct Update {
     Disc disc;
     std::uint64_t place;
 };
@@ -126,16 +126,16 @@ Companions StripDiscs::companions(std::vector<Disc>* states) {
     return with;
 }
 
-void StripDiscs::sort(const GridFrame& frame, double anchor, double time, double duration,
+void StripDiscs::sort(const GridGeometry& geometry, double anchor, double time, double duration,
                       int n_threads, std::vector<Disc>* companion) {
     const Companions with = companions(companion);
-    grid_.sort(own(), frame, anchor, time, duration, n_threads, periods_, with);
+    grid_.sort(own(), geometry, anchor, time, duration, n_threads, periods_, with);
     is_sorted_ = true;
 }
 
-void StripDiscs::sort_cells(const GridFrame& frame, double time, int n_threads) {
+void StripDiscs::sort_cells(const GridGeometry& geometry, double time, int n_threads) {
     const Companions with = companions(nullptr);
-    grid_.sort_cells(own(), frame, time, n_threads, periods_, with);
+    grid_.sort_cells(own(), geometry, time, n_threads, periods_, with);
     is_sorted_ = true;
 }
 
@@ -223,7 +223,7 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* compan
 void StripDiscs::send_updates(std::span<const LocalIndex> changed,
                               std::vector<LocalIndex>& updates) {
     if (has_no_halo()) return;
-    std::vector<std::vector<News>> out(halo_plan_.partners.size());
+    std::vector<std::vector<Update>> out(halo_plan_.partners.size());
     std::vector<std::vector<double>> spins_out(has_spins_ ? out.size() : 0);
     for (const LocalIndex index : changed) {
         if (index >= n_own_ || is_shown_[index] == 0) continue;
@@ -237,17 +237,17 @@ void StripDiscs::send_updates(std::span<const LocalIndex> changed,
             }
         }
     }
-    Received<News> in;
+    Received<Update> in;
     exchange_.exchange(std::span<const int>(halo_plan_.partners), out, in);
     Received<double> spins;
     if (has_spins_) exchange_.exchange(std::span<const int>(halo_plan_.partners), spins_out, spins);
     std::size_t n_received = 0;
     for (std::size_t k = 0; k < in.n_senders(); ++k) {
-        for (const News& item : in.from(k)) {
+        for (const Update& item : in.from(k)) {
             const auto index = static_cast<LocalIndex>(halo_offsets_[k] + item.place);
             if (has_spins_) spins_[index] = spins.items[n_received++];
             ensure(discs_[index].id == item.disc.id,
-                   "a neighbour's news is about another disc than the halo has there");
+                   "a neighbour's update is of another disc than the halo has there");
             const Image image = periods_.are_any() ? image_of(discs_[index]) : Image{};
             discs_[index] = item.disc;
             if (periods_.are_any()) set_image(discs_[index], image);
@@ -256,8 +256,8 @@ void StripDiscs::send_updates(std::span<const LocalIndex> changed,
     }
 }
 
-void StripDiscs::name_to_owners(std::span<const LocalIndex> of_halo,
-                                std::vector<LocalIndex>& named) {
+void StripDiscs::report_to_owners(std::span<const LocalIndex> of_halo,
+                                  std::vector<LocalIndex>& reported) {
     if (has_no_halo()) return;
     std::vector<std::vector<std::uint64_t>> out(halo_plan_.partners.size());
     for (const LocalIndex index : of_halo) {
@@ -269,7 +269,8 @@ void StripDiscs::name_to_owners(std::span<const LocalIndex> of_halo,
     Received<std::uint64_t> in;
     exchange_.exchange(std::span<const int>(halo_plan_.partners), out, in);
     for (std::size_t k = 0; k < in.n_senders(); ++k) {
-        for (const std::uint64_t place : in.from(k)) named.push_back(halo_plan_.leaving[k][place]);
+        for (const std::uint64_t place : in.from(k))
+            reported.push_back(halo_plan_.leaving[k][place]);
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A replay that sees all of a periodic box: images are linked, so that what happens to one happens
-// to all.
+// A block run that sees all of a periodic box: images are linked, so that what happens to one
+// happens to all.
 #include <bit>
 #include <utility>
 

@@ -10,8 +10,8 @@ namespace carrom {
 
 namespace {
 
-/// So many collisions of a block's discs within a law's `one_time` are without end, and some for
-/// each disc more.
+/// So many collisions of a block's discs within `Dynamics::one_time` are a collision cascade, and
+/// some for each disc more.
 constexpr std::uint64_t cascade_count = 100000, cascade_count_per_disc = 1000;
 
 } // namespace
@@ -43,7 +43,7 @@ void BlockRun<Dynamics>::run(const BlockGround& ground, const CellBlock& block, 
     outcome.ring.clear();
     outcome.log.clear();
     outcome.n_events = 0;
-    outcome.is_endless = false;
+    outcome.is_cascade = false;
     s.gather(ground, block, halo);
     s.mark_own(block);
     if constexpr (Dynamics::is_periodic) {
@@ -56,7 +56,7 @@ void BlockRun<Dynamics>::run(const BlockGround& ground, const CellBlock& block, 
         return s.discs[event.p].version() == event.p_version &&
                (is_wall(event.q) || s.discs[event.q].version() == event.q_version);
     };
-    for (Event event; s.queue.pop(event, before, is_current) && !outcome.is_endless;)
+    for (Event event; s.queue.pop(event, before, is_current) && !outcome.is_cascade;)
         s.happen(event);
     s.report(block, histories);
 }
@@ -122,8 +122,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_all() {
     std::uint32_t slot = 0;
     for (int column = 0; column < table.n_columns; ++column) {
         later_ends.clear();
-        filter_column(lanes, table, column, ground.grid->frame().n_reach, touching_squared, later,
-                      later_ends);
+        filter_column(lanes, table, column, ground.grid->geometry().n_reach, touching_squared,
+                      later, later_ends);
         std::uint32_t k = 0;
         for (const std::uint32_t end : later_ends) {
             for (; k < end; ++k) predict_pair(slot, later[k]);
@@ -239,7 +239,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
     if (is_corner && !has_left &&
         (Dynamics::has_mirror_walls ||
          discs[event.p].vy ==
-             vy_before)) { // nothing may come between its two sides: x and y are alike
+             vy_before)) { // nothing may come between the two walls: x and y are alike
         Event other_side = event;
         other_side.q = y_wall;
         other_side.generation += 1;

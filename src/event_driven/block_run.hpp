@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Replays a window of time in one block of cells, alone: every collision of its own discs and of
-// those around them, in the total order of the event-driven method (docs/method.md, sections 3 and
-// 8).
+// A speculative run of a window of time in one block of cells, alone: every collision of its own
+// discs and of those around them, in the total order of the event-driven method (docs/method.md,
+// sections 3 and 8).
 //
-// A replay knows nothing of what happens beyond its halo, and may be wrong without noticing. So it
-// also says what it has seen happen to the discs of the ring, those within one reach of its own
-// cells: it is right if their owners have seen the same. Block-local copies in the order of cells,
-// a line of 64 bytes and four floats a disc, stay in the L2 cache; whole runs of cells are rejected
-// in single precision, survivors judged by the double predicate.
+// A run does not see what happens beyond its halo, and may be wrong without noticing. So it also
+// reports the event histories of the ring, the discs within one reach of its own cells. It is right
+// if their owners have found the same. Block-local copies in the order of cells, a line of 64 bytes
+// and four floats a disc, stay in the L2 cache. Whole runs of cells are rejected in single
+// precision; the double predicate decides on the rest.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct BlockWindow {
     double begin = 0, end = 1;
     bool holds_begin = true;
     double speed_bound = 0; ///< no disc is faster at the start, none gets further than this takes
-                            ///< it, or the replay is void
+                            ///< it, or the run is void
 
     double duration() const { return end - begin; }
 };
@@ -55,8 +55,8 @@ struct BlockGround {
     std::span<const double> spins{}; ///< by disc, of rough ones
 };
 
-/// What a block has seen happen to a disc of its ring: 0 for nothing, else a hash of times,
-/// partners and results.
+/// The event history of a disc of a block's ring: 0 for no event, else a hash of times, partners
+/// and results.
 struct HaloRecord {
     LocalIndex index = 0;
     std::uint64_t history = 0;
@@ -113,7 +113,7 @@ struct BlockOutcome {
     std::uint64_t n_events = 0; ///< whose first disc is own
     double too_fast = 0;        ///< the largest speed of an own disc that got too far, else 0
     double largest_speed_at_end = 0;
-    bool is_endless = false; ///< the replay was given up: a disc collided without end at one time
+    bool is_cascade = false; ///< the run was given up in a collision cascade of this disc
     DiscId cascade_disc = 0, cascade_partner = 0; ///< equal if it is a wall that it meets
     double cascade_time = 0;
 };
@@ -125,11 +125,11 @@ public:
     ~BlockRun();
     BlockRun(BlockRun&&) noexcept;
 
-    /// Replays the own discs in `block` and what lies `halo` cells around it. Writes the history of
-    /// each own disc of the block to its place in `histories`. `is_whole`: in a periodic box, that
-    /// every disc is there with all that is within one reach of it; what happens to one of its
-    /// images happens to all then, and the replay is right. **Not collective**: blocks may be
-    /// replayed by many threads at once.
+    /// Runs the own discs in `block` and what lies `halo` cells around it. Writes the history of
+    /// each own disc of the block to its place in `histories`. `is_whole`: in a periodic box, every
+    /// disc is there with all that is within one reach of it. What happens to one of its images
+    /// happens to all then, and the run is right. **Not collective**: many threads may run blocks
+    /// at once.
     void run(const BlockGround& ground, const CellBlock& block, int halo, bool is_whole,
              std::span<std::uint64_t> histories, BlockOutcome& outcome);
 

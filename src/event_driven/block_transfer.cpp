@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a block takes over from its rank before a replay, and what it gives back afterwards.
+// What a block takes over from its rank before a run, and what it gives back afterwards.
 #include <algorithm>
 #include <cmath>
 
@@ -14,11 +14,11 @@ void BlockRun<Dynamics>::Scratch::gather(const BlockGround& of_rank, const CellB
                                          int halo) {
     ground = of_rank;
     const CellGrid& grid = *ground.grid;
-    const GridFrame& frame = grid.frame();
+    const GridGeometry& geometry = grid.geometry();
     cells.first_column = std::max(0, own.first_column - halo);
-    cells.end_column = std::min(frame.n_columns, own.end_column + halo);
+    cells.end_column = std::min(geometry.n_columns, own.end_column + halo);
     cells.first_row = std::max(0, own.first_row - halo);
-    cells.end_row = std::min(frame.n_rows, own.end_row + halo);
+    cells.end_row = std::min(geometry.n_rows, own.end_row + halo);
     cell_rows = static_cast<std::size_t>(cells.end_row - cells.first_row) + 1;
     cell_starts.clear();
     indices.clear();
@@ -50,10 +50,10 @@ void BlockRun<Dynamics>::Scratch::gather(const BlockGround& of_rank, const CellB
     lanes = {x.data(), y.data(), vx.data(), vy.data()};
 
     const BlockWindow& window = ground.window;
-    x_corner = frame.x_low + cells.first_column * frame.cell_width;
-    y_corner = frame.y_low + cells.first_row * frame.cell_width;
-    cells_per_length = 1 / frame.cell_width;
-    cells_per_speed = window.duration() / frame.cell_width;
+    x_corner = geometry.x_low + cells.first_column * geometry.cell_width;
+    y_corner = geometry.y_low + cells.first_row * geometry.cell_width;
+    cells_per_length = 1 / geometry.cell_width;
+    cells_per_speed = window.duration() / geometry.cell_width;
     windows_per_time = 1 / window.duration();
     const double sigma = dynamics.search_diameter() * cells_per_length;
     const double extent = std::max(cells.end_column - cells.first_column,
@@ -69,8 +69,8 @@ void BlockRun<Dynamics>::Scratch::gather(const BlockGround& of_rank, const CellB
                             0x1p-20 * looked_at * looked_at / sigma;
     touching_squared = static_cast<float>(touching * touching);
     farthest = static_cast<float>((reach + sigma) / 2 + 0x1p-18 * extent + 1e-6);
-    const double inner = dynamics.radius() + dynamics.slack() + 1e-3 * frame.cell_width +
-                         0x1p-18 * extent * frame.cell_width;
+    const double inner = dynamics.radius() + dynamics.slack() + 1e-3 * geometry.cell_width +
+                         0x1p-18 * extent * geometry.cell_width;
     const Extent walls = dynamics.walls_between(window.begin, window.end);
     x_inner_low = static_cast<float>((walls.x_low + inner - x_corner) * cells_per_length);
     y_inner_low = static_cast<float>((walls.y_low + inner - y_corner) * cells_per_length);
@@ -120,7 +120,7 @@ void BlockRun<Dynamics>::Scratch::report(const CellBlock& own, std::span<std::ui
     outcome->states.resize(n_hit);
     if constexpr (Dynamics::has_spin) outcome->spins.resize(n_hit);
     std::size_t next = 0;
-    const int ring = ground.grid->frame().n_reach;
+    const int ring = ground.grid->geometry().n_reach;
     const int first_column = std::max(cells.first_column, own.first_column - ring);
     const int end_column = std::min(cells.end_column, own.end_column + ring);
     for (int column = first_column; column < end_column; ++column) {

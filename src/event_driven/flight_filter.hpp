@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// First rejection of partners in a replay, many lanes at a time: which flights of some runs of
+// First rejection of partners in a block run, many lanes at a time: which flights of some runs of
 // slots might touch a given one between now and the window's end. It may keep pairs that never
 // touch; it never loses one that does.
 #pragma once

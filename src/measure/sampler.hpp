@@ -73,7 +73,7 @@ private:
     void sample_displacement(std::span<const Disc> discs, std::uint64_t n_discs, bool is_first);
     void place_first(std::span<const FirstPlace> places);
     void follow_walls();
-    void follow_seams();
+    void follow_crossings();
     void take_crossings() const;
     SampleSums wanted() const;
 
@@ -86,14 +86,14 @@ private:
     std::optional<WallImpulses> impulses_; ///< of this rank since the last sample
     std::uint64_t first_id_ = 0;
     std::vector<std::array<double, 2>> first_places_; ///< of this rank's run of ids, see pieces.hpp
-    mutable std::vector<Crossing> crossings_; ///< of a periodic box's own discs, not yet told
+    mutable std::vector<Crossing> crossings_; ///< of a periodic box's own discs, not yet reported
     mutable std::vector<std::array<double, 2>>
         lengths_; ///< along the first places, there: what discs have been brought back by
 };
 
-/// The classes whose pairs are counted apart: the scene's, or one of all discs where they are alike
-/// or of more than eight classes.
-std::vector<Species> species_told_apart(const Scene& scene);
+/// The species whose pairs are counted apart: the scene's, or one of all discs where they are alike
+/// or of more than eight species.
+std::vector<Species> species_apart(const Scene& scene);
 
 /// The tables of sums.
 std::vector<MeasuredTable> tables_of(const SampleSums& sums, const Scene& scene);

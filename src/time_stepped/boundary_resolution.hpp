@@ -35,7 +35,7 @@ public:
                           std::vector<Candidate>& undecided, std::vector<Candidate>& kept);
 
     /// Appends to `kept` those of this rank's `undecided` that happen; none is left undecided.
-    /// `n_contested` is their number over all ranks. **Collective.**
+    /// `n_conflicts` is their number over all ranks. **Collective.**
     void decide(const Population& population, std::span<const int> neighbours,
                 std::vector<Candidate>& undecided, std::uint64_t n_conflicts,
                 std::vector<Candidate>& kept);

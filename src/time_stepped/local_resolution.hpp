@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which candidates of one micro-step (or part of one) happen, as far as this rank can tell.
+// Which candidates of one micro-step (or part of one) happen, as far as this rank can decide.
 //
 // The rule is the sorted walk: keep a candidate if neither of its discs is taken yet. A candidate
 // that is first for both its discs is final, whatever comes later; take all such, strike their
