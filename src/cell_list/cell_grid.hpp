@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs sorted into square cells by where they are at a window's anchor, x-major: the cells of a
-// column that lie within reach of a disc are one contiguous run of slots, to be read 16 lanes at a
-// time.
+// The cell list: discs sorted into square cells by where they are at a window's anchor. Cells
+// follow each other column by column. So the cells of a column that lie within reach of a disc are
+// one contiguous run of slots, to be read 16 lanes at a time.
 //
 // Own discs are brought into that order themselves: their slots are their places, and neighbours in
 // space are neighbours in memory. Discs of the halo stay where messages have put them; they have
@@ -97,9 +97,9 @@ public:
     /// Puts discs that lie behind the own ones, in this order, into cells of theirs.
     void add_halo(std::span<const Disc> halo);
 
-    /// Takes the flights of discs that are faster than `speed`, in lengths per unit of time, out of
-    /// the lanes: no disc that looks at their slots will find them there. They are listed in
-    /// `apart()` until discs are sorted again.
+    /// Takes the flights of discs faster than `speed`, in lengths per unit of time, out of the
+    /// lanes, where no search finds them any more. They are listed in `apart()` until discs are
+    /// sorted again.
     void set_apart(double speed);
     std::span<const LocalIndex> apart() const { return apart_; }
     FlightLanes apart_lanes() const {

@@ -28,10 +28,9 @@ struct EnergyChange {
     double share = 0, bound = 0;
 };
 
-/// The worst of the clusters that `pairs` make of `discs`; none if each kept its energy to within
-/// the rounding of its collisions, 64 ulp for each disc and each collision. Discs of `pairs` that
-/// are not among `discs` are passed over. `may_fall`: collisions may take energy, and none is too
-/// little.
+/// The worst of the clusters that `pairs` make of `discs`. There is none if each kept its energy to
+/// within the rounding of its collisions, 64 ulp for each disc and each collision. Discs of `pairs`
+/// that are not among `discs` are left out. `may_fall`: collisions may take any energy.
 std::optional<EnergyChange> worst_energy_change(std::span<const SharedEnergy> discs,
                                                 std::span<const std::pair<DiscId, DiscId>> pairs,
                                                 bool may_fall = false);

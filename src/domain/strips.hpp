@@ -55,9 +55,9 @@ private:
     std::vector<double> cuts_;
 };
 
-/// The other ranks, ascending, that `rank` may have to send discs to or receive discs from when
-/// discs that were in their owners' `before` strips have moved by at most `distance` in x and go to
-/// their owners in `after`. Cost: the number of ranks.
+/// The other ranks, ascending, that `rank` may have to send discs to or receive discs from. Discs
+/// were in their owners' strips `before`, have moved by at most `distance` in x, and go to their
+/// owners in `after`. Cost: the number of ranks.
 std::vector<int> movers_between(const Strips& before, const Strips& after, int rank,
                                 double distance);
 

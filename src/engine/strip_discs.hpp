@@ -43,13 +43,13 @@ public:
     /// The same without flights.
     void sort_cells(const GridGeometry& geometry, double time, int n_threads);
 
-    /// Appends to the own discs, which have been sorted, those of other ranks within `reach` of the
-    /// own strip at `time`, that of the last migration and of the sorting, and puts them into
-    /// cells. **Collective.**
+    /// Appends to the own discs those of other ranks within `reach` of the own strip at `time`, and
+    /// puts them into cells. The own discs have migrated and been sorted for the same time.
+    /// **Collective.**
     void fetch_halo(double time, double reach, std::vector<Disc>* companion);
 
     /// Sends the new states of the own discs among `changed` to the ranks that have them in their
-    /// halo, takes over those of the own halo and appends their places to `updates`.
+    /// halo. Takes over those of the own halo, and appends their places to `updates`.
     /// **Collective.**
     void send_updates(std::span<const LocalIndex> changed, std::vector<LocalIndex>& updates);
 

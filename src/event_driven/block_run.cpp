@@ -166,8 +166,8 @@ void BlockRun<Dynamics>::Scratch::predict_pair(std::uint32_t a, std::uint32_t b)
     const auto contact = dynamics.event_contact(discs[a], discs[b]);
     if (!contact.exists()) return;
     const double time = contact.base + contact.delay;
-    // Two discs that have just collided with each other do not collide again at the same time: what
-    // rounding has left of their approach is too little for an impulse to mend.
+    // Two discs that have just collided with each other do not collide again at the same time. The
+    // rest of their approach, a rounding, is too small for an impulse to mend.
     if (have_just_collided(a, b, time)) return;
     push(time, a, b);
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a block takes over from its rank before a run, and what it gives back afterwards.
+// What a block takes over from its rank before a run, and what it gives back afterwards. A run that
+// sees all of a periodic box links images, so that what happens to one happens to all.
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "event_driven/block_scratch.hpp"
@@ -61,8 +64,8 @@ void BlockRun<Dynamics>::Scratch::gather(const BlockGround& of_rank, const CellB
                           8.0;
     const double reach = block_reach(window, dynamics.search_diameter(), dynamics.box_size()) *
                          cells_per_length;
-    // Positions carry an error of 2^-23 of the block's size; the rounding of the filter's other
-    // terms acts like a longer diameter by 2^-20 d^2 / diameter, d being the largest distance that
+    // Positions carry an error of 2^-23 of the block's size. The rounding of the filter's other
+    // terms acts like a longer diameter by 2^-20 d^2 / diameter, with the largest distance d that
     // is looked at.
     const double looked_at = 3 * reach + 3;
     const double touching = sigma * (1 + 0x1p-18) + 0x1p-20 * extent +
@@ -145,11 +148,63 @@ void BlockRun<Dynamics>::Scratch::report(const CellBlock& own, std::span<std::ui
     outcome->largest_speed_at_end = std::sqrt(end_squared) * (1 + 0x1p-50);
 }
 
+/// Makes rings of the images of each disc.
+template <class Dynamics> void BlockRun<Dynamics>::Scratch::link_images() {
+    constexpr std::uint32_t none = 0xffffffff;
+    const std::size_t n = discs.size(), size = std::bit_ceil(2 * n + 1);
+    next_image.resize(n);
+    image_table.assign(size, none);
+    for (std::uint32_t slot = 0; slot < n; ++slot) {
+        std::size_t place = ((discs[slot].id * 0x9e3779b97f4a7c15u) >> 20) & (size - 1);
+        while (image_table[place] != none && discs[image_table[place]].id != discs[slot].id)
+            place = (place + 1) & (size - 1);
+        next_image[slot] = slot;
+        if (image_table[place] == none)
+            image_table[place] = slot;
+        else
+            std::swap(next_image[slot], next_image[image_table[place]]);
+    }
+}
+
+/// What has happened to a disc has happened to all of its images.
+template <class Dynamics>
+void BlockRun<Dynamics>::Scratch::mirror(std::uint32_t slot, double time) {
+    for (std::uint32_t other = next_image[slot]; other != slot; other = next_image[other]) {
+        const Image image = image_of(discs[other]);
+        discs[other] = discs[slot];
+        set_image(discs[other], image);
+        past_events_of[other] = past_events_of[slot];
+        if constexpr (Dynamics::has_spin) spins[other] = spins[slot];
+        const double speed_squared = discs[other].vx * discs[other].vx +
+                                     discs[other].vy * discs[other].vy;
+        const float before = vx[other] * vx[other] + vy[other] * vy[other];
+        if (is_own[other] != 0 && (speed_squared > bound_squared || before > bound_lane_squared))
+            hold_to_schedule(other, time);
+        place(other, ground.window.begin);
+    }
+}
+
+/// A pair's contact is found several times then: the first one that is carried out makes the others
+/// stale.
+template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_images(std::uint32_t slot) {
+    for (std::uint32_t other = next_image[slot]; other != slot; other = next_image[other]) {
+        if (dynamics.has_walls()) predict_walls(other);
+        predict_pairs(other);
+    }
+}
+
 #define CARROM_DEFINE(Dynamics)                                                                    \
     template void BlockRun<Dynamics>::Scratch::gather(const BlockGround&, const CellBlock&, int);  \
     template void BlockRun<Dynamics>::Scratch::mark_own(const CellBlock&);                         \
     template void BlockRun<Dynamics>::Scratch::report(const CellBlock&, std::span<std::uint64_t>);
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
 #undef CARROM_DEFINE
+
+#define CARROM_DEFINE_IMAGES(Dynamics)                                                             \
+    template void BlockRun<Dynamics>::Scratch::link_images();                                      \
+    template void BlockRun<Dynamics>::Scratch::mirror(std::uint32_t, double);                      \
+    template void BlockRun<Dynamics>::Scratch::predict_images(std::uint32_t);
+CARROM_FOR_EACH_PERIODIC_DYNAMICS(CARROM_DEFINE_IMAGES)
+#undef CARROM_DEFINE_IMAGES
 
 } // namespace carrom

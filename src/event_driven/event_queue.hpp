@@ -2,9 +2,9 @@
 // Predicted collisions of one block run in their total order: time, generation, id of P, wall
 // before pair, id of Q.
 //
-// Predictions are not taken back: one whose discs have collided since is known by their versions
-// and passed over. Where discs without room collide millions of times in a window such predictions
-// pile up, so they are swept out whenever there are twice as many as there were good ones.
+// Predictions are not taken back. One whose discs have collided since is known by their versions
+// and passed over. Such predictions pile up where discs without room collide millions of times in a
+// window. So they are swept out whenever there are twice as many as there were good ones.
 #pragma once
 
 #include <algorithm>

@@ -2,12 +2,13 @@
 // What `[output.measurements]` asks for, sampled every so many steps. A run that does not ask has
 // none of this: no memory, and no work in any kernel.
 //
-// Everything is a count, or a sum in fixed point (exact_sum.hpp), so the tables have the same bits
-// for every machine shape, and a restart goes on with them. Price of a sample: for velocities and
-// density some nanoseconds a disc; for the radial distribution a halo and a look at all pairs
-// within its distance; for displacement each disc sent once to where its first place is kept (16
-// bytes a disc, as many again in a periodic box). Wall pressure is added up collision by collision,
-// as the log of collisions is.
+// Everything is a count, or a sum in fixed point (exact_sum.hpp). So the tables have the same bits
+// for every machine shape, and a restart goes on with them. Price of a sample:
+//   velocities, density   some nanoseconds a disc
+//   radial distribution   a halo, and a look at all pairs within its distance
+//   displacement          each disc sent once to where its first place is kept, 16 bytes a disc, as
+//                         many again in a periodic box
+// Wall pressure is added up collision by collision, as the log of collisions is.
 #pragma once
 
 #include <array>

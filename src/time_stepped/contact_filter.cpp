@@ -25,11 +25,11 @@ template <class D> struct Broadcast {
           touching(hn::Set(d, touching_squared)) {}
 };
 
-/// Which lanes of the vector of flights that begins at `slot` might touch `flight`, as bits. With d
-/// the separation and w the relative velocity over the window, b = d.w, a = w.w and c = d.d -
-/// touching^2: those that are near already, and those that approach, do not pass by, and are there
-/// before the window ends. All rounding in b^2 - a c and in c at the window's end together is less
-/// than 18 * 2^-24 a d.d, so c with d.d shortened by 2^-19 loses no contact.
+/// Which lanes of the vector of flights that begins at `slot` might touch `flight`, as bits: those
+/// that are near already, and those that approach, do not pass by, and arrive before the window
+/// ends. Let d be the separation and w the relative velocity over the window, b = d.w, a = w.w, and
+/// c = d.d - touching^2. All rounding in b^2 - a c, and in c at the window's end, is less than
+/// 18 * 2^-24 a d.d. So c with d.d shortened by 2^-19 loses no contact.
 template <class D>
 HWY_INLINE std::uint64_t lanes_that_touch(D d, const FlightLanes& lanes, std::uint32_t slot,
                                           std::uint32_t n_inside, const Broadcast<D>& flight) {
@@ -61,9 +61,9 @@ HWY_INLINE std::uint64_t lanes_that_touch(D d, const FlightLanes& lanes, std::ui
     return n_inside < 64 ? bits & ((std::uint64_t{1} << n_inside) - 1) : bits;
 }
 
-/// Writes (first, second) to `out` behind the first `n_pairs`, which has room, for each slot
-/// `second` of `run` in `lanes` that might touch `flight`; without (first, first) if `first` may be
-/// one of them. Returns how many pairs there are now.
+/// Writes (first, second) to `out`, behind the first `n_pairs`, for each slot `second` of `run` in
+/// `lanes` that might touch `flight`. Leaves out (first, first) if `first` may be one of them.
+/// Returns how many pairs there are now. `out` has room.
 template <bool is_one_of_them, class D>
 HWY_INLINE std::size_t write_pairs(D d, const Broadcast<D>& flight, std::uint32_t first,
                                    const FlightLanes& lanes, SlotRange run, DiscPair* out,

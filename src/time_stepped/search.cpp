@@ -139,7 +139,7 @@ void Search<Dynamics>::predict_column(const Population& population, const CellGr
     }
 }
 
-/// How far from a disc's path the cell of one that it touches can be: they are a diameter apart
+/// How far from a disc's path the cell of one that it touches can be. They are a diameter apart
 /// then, and the other one is half a reach less a radius from its cell.
 template <class Dynamics>
 float Search<Dynamics>::half_reach(const CellGrid& grid, double reach) const {
