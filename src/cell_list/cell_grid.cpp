@@ -125,8 +125,6 @@ void CellGrid::sort_cells(std::span<Disc> own, const GridGeometry& geometry, dou
 void CellGrid::sort(std::span<Disc> own, int n_threads, const Companions& companions) {
     ensure(companions.states.empty() || companions.states.size() == own.size(),
            "what goes with the own discs is as many");
-    ensure(companions.spins.empty() || companions.spins.size() == own.size(),
-           "there are as many spins as own discs");
     apart_.clear();
     longest_flight_ = 0;
     halo_order_.clear();
@@ -140,6 +138,15 @@ void CellGrid::sort(std::span<Disc> own, int n_threads, const Companions& compan
         sort(StoredPlaces{}, own, n_threads, companions);
 }
 
+void CellGrid::sort_columns(SideColumns& columns, Lent order) const {
+    columns.for_each([&](SideColumn column) {
+        std::vector<double>& values = columns[column];
+        ensure(values.size() == n_own_, "a side column is as long as the own discs");
+        const std::vector<double> before = values;
+        for (std::size_t i = 0; i < n_own_; ++i) values[i] = before[order[i]];
+    });
+}
+
 /// First which disc goes where, in the second of the lanes; then they go. Nearly all come from near
 /// by: a pass over the discs.
 template <class Places>
@@ -149,11 +156,7 @@ void CellGrid::sort(const Places& places, std::span<Disc> own, int n_threads,
     sorter_.find_order(
         own, [&](const Disc& disc) { return cell_at(places, disc); },
         static_cast<std::size_t>(geometry_.n_columns), n_threads, cell_start_, memory);
-    if (!companions.spins.empty()) {
-        const Lent order = memory.order();
-        const std::vector<double> before(companions.spins.begin(), companions.spins.end());
-        for (std::size_t i = 0; i < n_own_; ++i) companions.spins[i] = before[order[i]];
-    }
+    if (companions.columns) sort_columns(*companions.columns, memory.order());
     const auto place_flight = [&](std::size_t i) {
         if (has_flights_) place(places, lanes_.data() + i, lane_length_, own[i]);
     };

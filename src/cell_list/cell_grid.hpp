@@ -17,6 +17,7 @@
 #include "cell_list/disc_sorter.hpp"
 #include "core/disc.hpp"
 #include "core/image.hpp"
+#include "core/side_columns.hpp"
 
 namespace carrom {
 
@@ -79,7 +80,7 @@ inline constexpr std::size_t filter_padding = 64;
 /// What runs along the own discs and goes where they go; what is empty does not exist.
 struct Companions {
     std::span<Disc> states;
-    std::span<double> spins;
+    SideColumns* columns = nullptr;
 };
 
 class CellGrid {
@@ -222,6 +223,7 @@ private:
     template <class Places>
     void sort(const Places& places, std::span<Disc> own, int n_threads,
               const Companions& companions);
+    void sort_columns(SideColumns& columns, Lent order) const;
     template <class Places> std::uint32_t column_at(const Places& places, const Disc& disc) const;
     template <class Places> std::uint32_t row_at(const Places& places, const Disc& disc) const;
     template <class Places> std::uint32_t cell_at(const Places& places, const Disc& disc) const;

@@ -14,6 +14,7 @@
 #include "cell_list/cell_grid.hpp"
 #include "cell_list/population.hpp"
 #include "core/disc.hpp"
+#include "core/side_columns.hpp"
 #include "domain/strips.hpp"
 #include "domain/transfer.hpp"
 #include "dynamics/effects.hpp"
@@ -26,10 +27,10 @@ class StripDiscs {
 public:
     /// Takes discs that lie anywhere on any rank and gives them to the owners of equal strips.
     /// **Collective.** Where there are periods, own discs get the images in the box when they
-    /// migrate, and the halo has images of own discs, too. `spins` run along the discs; without
-    /// `has_spins` there are none, and empty ones are 0.
+    /// migrate, and the halo has images of own discs, too. `columns` run along the discs; what
+    /// they leave out is 0.
     StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs,
-               const Periods& periods = {}, bool has_spins = false, std::vector<double> spins = {});
+               const Periods& periods = {}, SideColumns columns = {});
 
     /// Forgets the halo and sends each own disc to the rank whose strip holds it at `time`. No disc
     /// has moved by more than `farthest` since the last migration. `companion` runs along the own
@@ -80,10 +81,12 @@ public:
     std::vector<Disc>& all() { return discs_; }
     std::span<const Disc> own() const { return std::span(discs_).first(n_own_); }
     std::span<Disc> own() { return std::span(discs_).first(n_own_); }
-    /// By disc, own and halo; empty where discs do not turn.
-    std::vector<double>& spins() { return spins_; }
-    std::span<const double> own_spins() const {
-        return std::span(spins_).first(has_spins_ ? n_own_ : 0);
+    /// By disc, own and halo.
+    SideColumns& columns() { return columns_; }
+    const SideColumns& columns() const { return columns_; }
+    /// Of own discs; empty where the column is not present.
+    std::span<const double> own_column(SideColumn column) const {
+        return std::span(columns_[column]).first(columns_.has(column) ? n_own_ : 0);
     }
     std::size_t n_own() const { return n_own_; }
     std::uint64_t n_total() const { return n_total_; } ///< over all ranks
@@ -112,7 +115,7 @@ public:
     /// Drops the halo's discs.
     void forget_halo() {
         discs_.resize(n_own_);
-        if (has_spins_) spins_.resize(n_own_);
+        columns_.resize(n_own_);
     }
 
     /// Each own disc lies in its strip at `time`, and all ranks together own each of 0 .. n-1 once,
@@ -120,6 +123,7 @@ public:
     bool is_valid(double time) const;
 
 private:
+    template <Message T> void move_along(const TransferPlan& plan, std::vector<T>& values);
     void set_home_images(double time, std::vector<Disc>* companion);
     TransferPlan migration_plan(double time, double farthest) const;
     std::vector<PlaceRange> places_outside(const Inside& inner) const;
@@ -128,9 +132,8 @@ private:
     Communicator communicator_;
     double box_size_;
     Periods periods_;
-    std::vector<Disc> discs_;   ///< own, then halo
-    std::vector<double> spins_; ///< likewise
-    bool has_spins_ = false;
+    std::vector<Disc> discs_; ///< own, then halo
+    SideColumns columns_;     ///< likewise
     std::size_t n_own_ = 0;
     std::uint64_t n_total_ = 0, n_with_departed_ = 0;
     std::vector<Disc> departed_; ///< where they have left

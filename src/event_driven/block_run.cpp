@@ -39,7 +39,6 @@ void BlockRun<Dynamics>::run(const BlockGround& ground, const CellBlock& block, 
     s.outcome = &outcome;
     outcome.hit.clear();
     outcome.states.clear();
-    outcome.spins.clear();
     outcome.ring.clear();
     outcome.log.clear();
     outcome.n_events = 0;
@@ -278,13 +277,14 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
             dynamics.bounce_off_at(p, event.q - first_obstacle, event.time);
     } else {
         if constexpr (Dynamics::has_spin)
-            dynamics.collide_at(p, discs[event.q], event.time, spins[event.p], spins[event.q]);
+            dynamics.collide_at(p, discs[event.q], event.time, columns[SideColumn::spin][event.p],
+                                columns[SideColumn::spin][event.q]);
         else
             dynamics.collide_at(p, discs[event.q], event.time);
         note(event.q, event.p, event);
     }
     if constexpr (Dynamics::has_spin && Dynamics::may_lose_discs)
-        if (p.has_departed()) spins[event.p] = 0;
+        if (p.has_departed()) columns[SideColumn::spin][event.p] = 0;
     note(event.p, event.q, event);
     if (is_own_image(event.p)) {
         outcome->n_events += 1;
@@ -304,7 +304,7 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
     past_events.partner = partner;
     const std::uint64_t partner_id = is_wall(partner) ? ~std::uint64_t{0} : discs[partner].id;
     double spin = 0;
-    if constexpr (Dynamics::has_spin) spin = spins[slot];
+    if constexpr (Dynamics::has_spin) spin = columns[SideColumn::spin][slot];
     past_events.add<Dynamics::has_spin>(event.time, disc, partner_id, spin);
     if (is_own[slot] != 0) {
         const float before = vx[slot] * vx[slot] + vy[slot] * vy[slot];

@@ -17,6 +17,7 @@
 
 #include "cell_list/cell_grid.hpp"
 #include "core/disc.hpp"
+#include "core/side_columns.hpp"
 #include "dynamics/all_dynamics.hpp"
 
 namespace carrom {
@@ -52,7 +53,7 @@ struct BlockGround {
     CellBlock own_cells; ///< own discs that rounding puts outside belong to the nearest of them
     BlockWindow window;
     bool is_logged = false;
-    std::span<const double> spins{}; ///< by disc, of rough ones
+    const SideColumns* columns = nullptr; ///< by disc
 };
 
 /// The event history of a disc of a block's ring: 0 for no event, else a hash of times, partners
@@ -107,7 +108,7 @@ static_assert(sizeof(NewState) == 48);
 struct BlockOutcome {
     std::vector<LocalIndex> hit;  ///< own discs that have collided
     std::vector<NewState> states; ///< what has become of them
-    std::vector<double> spins;    ///< likewise, of rough discs
+    SideColumns columns;          ///< likewise
     std::vector<HaloRecord> ring;
     std::vector<LoggedEvent> log;
     std::uint64_t n_events = 0; ///< whose first disc is own

@@ -163,7 +163,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     std::vector<std::uint32_t> cell_starts; ///< by column and row, and one more to each column
     std::vector<LocalIndex> indices;        ///< by slot, as all that follows
     std::vector<Disc> discs;
-    std::vector<double> spins; ///< of rough discs
+    SideColumns columns = side_columns_of<Dynamics>();
     std::vector<EventHistory> past_events_of;
     std::vector<std::uint8_t> is_own;
     std::vector<std::uint32_t>

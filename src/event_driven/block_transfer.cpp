@@ -43,10 +43,7 @@ void BlockRun<Dynamics>::Scratch::gather(const BlockGround& of_rank, const CellB
     row_limit = static_cast<float>(cells.end_row - cells.first_row - 1);
     discs.resize(n);
     past_events_of.assign(n, EventHistory{});
-    if constexpr (Dynamics::has_spin) {
-        spins.resize(n);
-        for (std::size_t slot = 0; slot < n; ++slot) spins[slot] = ground.spins[indices[slot]];
-    }
+    if (ground.columns) columns.gather(*ground.columns, indices);
     for (std::vector<float>* lane : {&x, &y, &vx, &vy}) {
         if (lane->size() < n + filter_padding) lane->resize(2 * n + filter_padding);
     }
@@ -121,7 +118,8 @@ void BlockRun<Dynamics>::Scratch::report(const CellBlock& own, std::span<std::ui
         n_hit += is_own[slot] != 0 && past_events_of[slot].history != 0;
     outcome->hit.resize(n_hit);
     outcome->states.resize(n_hit);
-    if constexpr (Dynamics::has_spin) outcome->spins.resize(n_hit);
+    outcome->columns = side_columns_of<Dynamics>();
+    outcome->columns.resize(n_hit);
     std::size_t next = 0;
     const int ring = ground.grid->geometry().n_reach;
     const int first_column = std::max(cells.first_column, own.first_column - ring);
@@ -140,7 +138,7 @@ void BlockRun<Dynamics>::Scratch::report(const CellBlock& own, std::span<std::ui
             if (past_events.history == 0) continue;
             outcome->hit[next] = indices[slot];
             outcome->states[next] = NewState(discs[slot]);
-            if constexpr (Dynamics::has_spin) outcome->spins[next] = spins[slot];
+            outcome->columns.copy(next, columns, slot);
             ++next;
         }
     }
@@ -174,7 +172,7 @@ void BlockRun<Dynamics>::Scratch::mirror(std::uint32_t slot, double time) {
         discs[other] = discs[slot];
         set_image(discs[other], image);
         past_events_of[other] = past_events_of[slot];
-        if constexpr (Dynamics::has_spin) spins[other] = spins[slot];
+        columns.copy(other, columns, slot);
         const double speed_squared = discs[other].vx * discs[other].vx +
                                      discs[other].vy * discs[other].vy;
         const float before = vx[other] * vx[other] + vy[other] * vy[other];

@@ -270,8 +270,8 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::share_marked() con
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
     const PhaseClock::Scope scope(phases_, Phase::search);
-    const BlockGround ground{discs_.all(), discs_.n_own(),      &discs_.grid(), own_cells_,
-                             window_,      this->is_followed(), discs_.spins()};
+    const BlockGround ground{discs_.all(), discs_.n_own(),      &discs_.grid(),   own_cells_,
+                             window_,      this->is_followed(), &discs_.columns()};
     const int n_reach = discs_.grid().geometry().n_reach;
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
     for (Block& block : blocks_) {
@@ -299,10 +299,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
         const BlockOutcome& outcome = blocks_[static_cast<std::size_t>(k)].outcome;
         for (std::size_t i = 0; i < outcome.hit.size(); ++i)
             outcome.states[i].overwrite(discs[outcome.hit[i]]);
-        if constexpr (Dynamics::has_spin) {
-            for (std::size_t i = 0; i < outcome.hit.size(); ++i)
-                discs_.spins()[outcome.hit[i]] = outcome.spins[i];
-        }
+        for (std::size_t i = 0; i < outcome.hit.size(); ++i)
+            discs_.columns().copy(outcome.hit[i], outcome.columns, i);
     }
     n_events_ = 0;
     largest_speed_ = 0;
