@@ -100,6 +100,31 @@ void check_flights(const CellGrid& grid, const std::vector<Disc>& discs, double 
 
 } // namespace
 
+TEST_CASE("side columns and companions go where discs go") {
+    std::mt19937 random(5);
+    std::vector<Disc> discs = gas(random, 3000);
+    std::vector<Disc> companions = discs;
+    carrom::SideColumns columns;
+    columns.add(carrom::SideColumn::spin);
+    columns.resize(discs.size());
+    const auto number_of = [](const Disc& disc) { return 0.5 * static_cast<double>(disc.id) - 7; };
+    for (const int n_threads : {1, 3}) {
+        for (const double time : {0.0, 4.0}) { // once in no order, then nearly in order
+            for (std::size_t i = 0; i < discs.size(); ++i)
+                columns[carrom::SideColumn::spin][i] = number_of(discs[i]);
+            CellGrid grid;
+            const GridGeometry geometry = carrom::make_geometry(0, box, 0, box, 4, discs.size(), 0);
+            grid.sort_cells(discs, geometry, time, n_threads, {}, {companions, &columns});
+            for (std::size_t i = 0; i < discs.size(); ++i) {
+                REQUIRE(companions[i].id == discs[i].id);
+                REQUIRE(columns[carrom::SideColumn::spin][i] == number_of(discs[i]));
+            }
+        }
+        std::shuffle(discs.begin(), discs.end(), random);
+        companions = discs;
+    }
+}
+
 TEST_CASE("threads bring discs into the order of the cells in which they are") {
     std::mt19937 random(11);
     const double time = 0.7, duration = 3;
