@@ -140,7 +140,7 @@ std::string flaw_of(const Disc& disc, double spin, double radius, const Checkpoi
                     const Extent& box) {
     const double clock = header.clock();
     if (disc.has_departed())
-        return disc.tau == Disc::departed && disc.vx == 0 && disc.vy == 0
+        return disc.vx == 0 && disc.vy == 0
                    ? ""
                    : fmt::format("disc {} has left the box, yet moves", disc.id);
     const Disc shown = header.frame.in_box(disc, clock);

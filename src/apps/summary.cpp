@@ -54,7 +54,7 @@ double deepest_overlap(const Scene& scene, const RunResult& result) {
 }
 
 bool is_own_work(std::string_view phase) {
-    static constexpr std::array others = {"wait", "exchange", "contested", "set-up", "output"};
+    static constexpr std::array others = {"wait", "exchange", "conflicts", "set-up", "output"};
     return std::find(others.begin(), others.end(), phase) == others.end();
 }
 

@@ -20,8 +20,8 @@ constexpr double least_spacings = 1.15;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Windows of many lengths have cells of many sizes: memory of the smallest ones is not kept for
-/// all, and a few more cells than last time do not take twice the memory. What was in `numbers` may
-/// be gone.
+/// all, and a few more cells than last time do not take twice the memory. The old
+/// numbers may be lost.
 template <class T> void resize_close(std::vector<T>& numbers, std::size_t size) {
     if (numbers.capacity() < size || numbers.capacity() > size + size / 2) {
         std::vector<T>().swap(numbers);
@@ -42,42 +42,43 @@ struct StoredPlaces {
 
 } // namespace
 
-GridFrame make_frame(double x_low, double x_high, double y_low, double y_high, double reach,
-                     std::size_t n_discs, double cell_width) {
+GridGeometry make_geometry(double x_low, double x_high, double y_low, double y_high, double reach,
+                           std::size_t n_discs, double cell_width) {
     const double width = std::max(x_high - x_low, 0.0), height = std::max(y_high - y_low, 0.0);
     const double sparse_width = std::sqrt(width / static_cast<double>(n_discs + 16)) *
                                 std::sqrt(height);
     // Two cells to the reach save a third of the pairs where cells of one reach would hold many
     // discs.
-    const double crowding = reach / std::max(sparse_width, reach * 1e-3);
+    const double discs_per_reach = reach / std::max(sparse_width, reach * 1e-3);
     // Cells much smaller than that would be more to the reach of fast discs than an int counts.
     const double wanted = cell_width > 0 ? std::max(cell_width, 1e-6) * reach
-                                         : (crowding > 2.4 ? reach / 2 : reach);
-    GridFrame frame;
-    frame.x_low = x_low;
-    frame.y_low = y_low;
-    frame.set_cell_width(std::max(wanted, least_spacings * sparse_width));
-    frame.n_reach = std::max(1, static_cast<int>(std::ceil(reach / frame.cell_width * (1 - 1e-9))));
-    frame.n_columns = cells_along(width, frame.cell_width);
-    frame.n_rows = cells_along(height, frame.cell_width);
-    return frame;
+                                         : (discs_per_reach > 2.4 ? reach / 2 : reach);
+    GridGeometry geometry;
+    geometry.x_low = x_low;
+    geometry.y_low = y_low;
+    geometry.set_cell_width(std::max(wanted, least_spacings * sparse_width));
+    geometry.n_reach = std::max(
+        1, static_cast<int>(std::ceil(reach / geometry.cell_width * (1 - 1e-9))));
+    geometry.n_columns = cells_along(width, geometry.cell_width);
+    geometry.n_rows = cells_along(height, geometry.cell_width);
+    return geometry;
 }
 
-GridFrame make_sparse_frame(double x_low, double x_high, double y_low, double y_high, double reach,
-                            std::size_t n_discs) {
+GridGeometry make_sparse_geometry(double x_low, double x_high, double y_low, double y_high,
+                                  double reach, std::size_t n_discs) {
     const double area = std::max(x_high - x_low, 0.0) * std::max(y_high - y_low, 0.0);
     const double width = std::sqrt(2 * area / static_cast<double>(n_discs + 16)) / reach;
-    return make_frame(x_low, x_high, y_low, y_high, reach, n_discs, width > 1 ? width : 0);
+    return make_geometry(x_low, x_high, y_low, y_high, reach, n_discs, width > 1 ? width : 0);
 }
 
 template <class Places>
 std::uint32_t CellGrid::column_at(const Places& places, const Disc& disc) const {
-    return static_cast<std::uint32_t>(frame_.column_of(places.x_of(disc, anchor_)));
+    return static_cast<std::uint32_t>(geometry_.column_of(places.x_of(disc, anchor_)));
 }
 
 template <class Places>
 std::uint32_t CellGrid::row_at(const Places& places, const Disc& disc) const {
-    return static_cast<std::uint32_t>(frame_.row_of(places.y_of(disc, anchor_)));
+    return static_cast<std::uint32_t>(geometry_.row_of(places.y_of(disc, anchor_)));
 }
 
 template <class Places>
@@ -88,17 +89,17 @@ std::uint32_t CellGrid::cell_at(const Places& places, const Disc& disc) const {
 template <class Places>
 void CellGrid::place(const Places& places, float* flight, std::size_t length,
                      const Disc& disc) const {
-    const double cells = frame_.cells_per_length();
-    flight[0] = static_cast<float>((places.x_of(disc, time_) - frame_.x_low) * cells);
-    flight[length] = static_cast<float>((places.y_of(disc, time_) - frame_.y_low) * cells);
+    const double cells = geometry_.cells_per_length();
+    flight[0] = static_cast<float>((places.x_of(disc, time_) - geometry_.x_low) * cells);
+    flight[length] = static_cast<float>((places.y_of(disc, time_) - geometry_.y_low) * cells);
     flight[2 * length] = static_cast<float>(disc.vx * duration_ * cells);
     flight[3 * length] = static_cast<float>(disc.vy * duration_ * cells);
 }
 
-void CellGrid::sort(std::span<Disc> own, const GridFrame& frame, double anchor, double time,
+void CellGrid::sort(std::span<Disc> own, const GridGeometry& geometry, double anchor, double time,
                     double duration, int n_threads, const Periods& periods,
                     const Companions& companions) {
-    frame_ = frame;
+    geometry_ = geometry;
     periods_ = periods;
     anchor_ = anchor;
     time_ = time;
@@ -112,9 +113,9 @@ void CellGrid::sort(std::span<Disc> own, const GridFrame& frame, double anchor, 
     }
 }
 
-void CellGrid::sort_cells(std::span<Disc> own, const GridFrame& frame, double time, int n_threads,
-                          const Periods& periods, const Companions& companions) {
-    frame_ = frame;
+void CellGrid::sort_cells(std::span<Disc> own, const GridGeometry& geometry, double time,
+                          int n_threads, const Periods& periods, const Companions& companions) {
+    geometry_ = geometry;
     periods_ = periods;
     anchor_ = time;
     has_flights_ = false;
@@ -124,19 +125,26 @@ void CellGrid::sort_cells(std::span<Disc> own, const GridFrame& frame, double ti
 void CellGrid::sort(std::span<Disc> own, int n_threads, const Companions& companions) {
     ensure(companions.states.empty() || companions.states.size() == own.size(),
            "what goes with the own discs is as many");
-    ensure(companions.spins.empty() || companions.spins.size() == own.size(),
-           "there are as many spins as own discs");
     apart_.clear();
     longest_flight_ = 0;
     halo_order_.clear();
     n_own_ = own.size();
     lane_length_ = n_own_ + filter_padding;
     resize_close(lanes_, (has_flights_ ? 4 : 2) * lane_length_);
-    resize_close(cell_start_, static_cast<std::size_t>(frame_.n_columns) * rows() + 1);
+    resize_close(cell_start_, static_cast<std::size_t>(geometry_.n_columns) * rows() + 1);
     if (periods_.are_any())
         sort(periods_, own, n_threads, companions);
     else
         sort(StoredPlaces{}, own, n_threads, companions);
+}
+
+void CellGrid::sort_columns(SideColumns& columns, Lent order) const {
+    columns.for_each([&](SideColumn column) {
+        std::vector<double>& values = columns[column];
+        ensure(values.size() == n_own_, "a side column is as long as the own discs");
+        const std::vector<double> before = values;
+        for (std::size_t i = 0; i < n_own_; ++i) values[i] = before[order[i]];
+    });
 }
 
 /// First which disc goes where, in the second of the lanes; then they go. Nearly all come from near
@@ -147,12 +155,8 @@ void CellGrid::sort(const Places& places, std::span<Disc> own, int n_threads,
     const SortMemory memory{lanes_, lane_length_};
     sorter_.find_order(
         own, [&](const Disc& disc) { return cell_at(places, disc); },
-        static_cast<std::size_t>(frame_.n_columns), n_threads, cell_start_, memory);
-    if (!companions.spins.empty()) {
-        const Lent order = memory.order();
-        const std::vector<double> before(companions.spins.begin(), companions.spins.end());
-        for (std::size_t i = 0; i < n_own_; ++i) companions.spins[i] = before[order[i]];
-    }
+        static_cast<std::size_t>(geometry_.n_columns), n_threads, cell_start_, memory);
+    if (companions.columns) sort_columns(*companions.columns, memory.order());
     const auto place_flight = [&](std::size_t i) {
         if (has_flights_) place(places, lanes_.data() + i, lane_length_, own[i]);
     };
@@ -178,7 +182,7 @@ template <class Places> void CellGrid::add_halo(const Places& places, std::span<
     halo_order_.resize(halo.size());
     halo_slot_.resize(halo.size());
     if (halo.empty()) return;
-    halo_column_.assign(static_cast<std::size_t>(frame_.n_columns), no_halo);
+    halo_column_.assign(static_cast<std::size_t>(geometry_.n_columns), no_halo);
     for (std::size_t i = 0; i < halo.size(); ++i) {
         halo_order_[i] = column_at(places, halo[i]); // for now, both
         halo_slot_[i] = row_at(places, halo[i]);
@@ -224,7 +228,7 @@ void CellGrid::update_flight_of_image(LocalIndex index, const Disc& disc) {
 }
 
 void CellGrid::set_apart(double speed) {
-    const double flight = speed * duration_ * frame_.cells_per_length();
+    const double flight = speed * duration_ * geometry_.cells_per_length();
     const auto longest = static_cast<float>(flight * flight);
     std::vector<float> kept; // four numbers a disc
     float longest_squared = 0;
@@ -259,7 +263,7 @@ void CellGrid::set_apart(double speed) {
 CellGrid::Cell CellGrid::cell_of(LocalIndex own_index) const {
     const auto behind = std::upper_bound(cell_start_.begin(), cell_start_.end(), own_index);
     const auto cell = static_cast<int>(behind - cell_start_.begin() - 1);
-    return {cell / frame_.n_rows, cell % frame_.n_rows};
+    return {cell / geometry_.n_rows, cell % geometry_.n_rows};
 }
 
 std::vector<SlotRange> CellGrid::outside(const Inside& inner) const {
@@ -267,8 +271,8 @@ std::vector<SlotRange> CellGrid::outside(const Inside& inner) const {
     // Cells first .. end - 1 of n from `origin` on lie within low .. high; those at the ends hold
     // what is beyond them, too.
     const auto cells_within = [this](double low, double high, double origin, int n) {
-        const double from = (low - origin) / frame_.cell_width + margin,
-                     to = (high - origin) / frame_.cell_width - margin;
+        const double from = (low - origin) / geometry_.cell_width + margin,
+                     to = (high - origin) / geometry_.cell_width - margin;
         SlotRange cells;
         cells.begin = static_cast<std::uint32_t>(
             low == -infinity ? 0 : std::clamp(std::floor(from) + 1, 1.0, static_cast<double>(n)));
@@ -276,10 +280,10 @@ std::vector<SlotRange> CellGrid::outside(const Inside& inner) const {
             high == infinity ? n : std::clamp(std::floor(to), 0.0, n - 1.0));
         return cells;
     };
-    const SlotRange columns = cells_within(inner.x_low, inner.x_high, frame_.x_low,
-                                           frame_.n_columns);
-    const SlotRange inner_rows = cells_within(inner.y_low, inner.y_high, frame_.y_low,
-                                              frame_.n_rows);
+    const SlotRange columns = cells_within(inner.x_low, inner.x_high, geometry_.x_low,
+                                           geometry_.n_columns);
+    const SlotRange inner_rows = cells_within(inner.y_low, inner.y_high, geometry_.y_low,
+                                              geometry_.n_rows);
     const auto n_own = static_cast<std::uint32_t>(n_own_);
     if (columns.begin >= columns.end || inner_rows.begin >= inner_rows.end) return {{0, n_own}};
     std::vector<SlotRange> ranges;
@@ -299,27 +303,27 @@ std::vector<std::int64_t> CellGrid::column_shares(int n_shares) const {
     for (int k = 0; k < n_shares; ++k) {
         const std::size_t before = share(n_own_, static_cast<std::size_t>(k),
                                          static_cast<std::size_t>(n_shares));
-        while (column < frame_.n_columns &&
+        while (column < geometry_.n_columns &&
                cell_start_[static_cast<std::size_t>(column) * rows()] < before)
             ++column;
         bounds.push_back(column);
     }
-    bounds.push_back(frame_.n_columns);
+    bounds.push_back(geometry_.n_columns);
     return bounds;
 }
 
 float CellGrid::touching_squared(double diameter) const {
-    // Positions and velocities carry an error of 2^-24 of the frame's size; the filter allows for
+    // Positions and velocities carry an error of 2^-24 of the grid's size; the filter allows for
     // its own rounding.
-    const double extent = std::max(frame_.n_columns, frame_.n_rows) +
-                          4.0 * std::max<double>(frame_.n_reach, longest_flight_);
-    const double touching = diameter / frame_.cell_width * (1 + 0x1p-18) + 0x1p-21 * extent;
+    const double extent = std::max(geometry_.n_columns, geometry_.n_rows) +
+                          4.0 * std::max<double>(geometry_.n_reach, longest_flight_);
+    const double touching = diameter / geometry_.cell_width * (1 + 0x1p-18) + 0x1p-21 * extent;
     return static_cast<float>(touching * touching);
 }
 
 float CellGrid::cells_of(double length) const {
-    return static_cast<float>(length / frame_.cell_width * (1 + 0x1p-18) +
-                              0x1p-20 * (std::max(frame_.n_columns, frame_.n_rows) + 8));
+    return static_cast<float>(length / geometry_.cell_width * (1 + 0x1p-18) +
+                              0x1p-20 * (std::max(geometry_.n_columns, geometry_.n_rows) + 8));
 }
 
 bool CellGrid::is_valid(std::size_t n_discs) const {

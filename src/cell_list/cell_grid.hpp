@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs sorted into square cells by where they are at a window's anchor, x-major: the cells of a
-// column that lie within reach of a disc are one contiguous run of slots, to be read 16 lanes at a
-// time.
+// The cell list: discs sorted into square cells by where they are at a window's anchor. Cells
+// follow each other column by column. So the cells of a column that lie within reach of a disc are
+// one contiguous run of slots, to be read 16 lanes at a time.
 //
 // Own discs are brought into that order themselves: their slots are their places, and neighbours in
 // space are neighbours in memory. Discs of the halo stay where messages have put them; they have
@@ -17,12 +17,13 @@
 #include "cell_list/disc_sorter.hpp"
 #include "core/disc.hpp"
 #include "core/image.hpp"
+#include "core/side_columns.hpp"
 
 namespace carrom {
 
-/// Where the cells lie. Discs outside the frame are put into its border cells, which brings no two
-/// discs further apart.
-struct GridFrame {
+/// Where the cells lie. Discs outside of all cells are put into its border cells, which brings no
+/// two discs further apart.
+struct GridGeometry {
     double x_low = 0, y_low = 0;
     double cell_width = 1; ///< see set_cell_width
     int n_columns = 1, n_rows = 1;
@@ -46,17 +47,17 @@ private:
     }
 };
 
-/// A frame of cells over [x_low, x_high] x [y_low, y_high] for partners within `reach`, not many
+/// Cells over [x_low, x_high] x [y_low, y_high] for partners within `reach`, not many
 /// more than `n_discs` cells. `cell_width` in units of reach, 0 for a choice by density.
-GridFrame make_frame(double x_low, double x_high, double y_low, double y_high, double reach,
-                     std::size_t n_discs, double cell_width);
+GridGeometry make_geometry(double x_low, double x_high, double y_low, double y_high, double reach,
+                           std::size_t n_discs, double cell_width);
 
 /// The same for a look now and then, with no more than half as many cells as discs: less memory,
 /// more pairs.
-GridFrame make_sparse_frame(double x_low, double x_high, double y_low, double y_high, double reach,
-                            std::size_t n_discs);
+GridGeometry make_sparse_geometry(double x_low, double x_high, double y_low, double y_high,
+                                  double reach, std::size_t n_discs);
 
-/// Free flights in slot order: position in cells from the frame's corner at the window's start,
+/// Free flights in slot order: position in cells from the grid's corner at the window's start,
 /// cells per window.
 struct FlightLanes {
     const float* x = nullptr;
@@ -79,7 +80,7 @@ inline constexpr std::size_t filter_padding = 64;
 /// What runs along the own discs and goes where they go; what is empty does not exist.
 struct Companions {
     std::span<Disc> states;
-    std::span<double> spins;
+    SideColumns* columns = nullptr;
 };
 
 class CellGrid {
@@ -87,19 +88,19 @@ public:
     /// Brings `own` into the order of their cells at `anchor`; flights begin at `time` and last for
     /// `duration`. Where there are periods discs are where their images are. There is no halo until
     /// one is added.
-    void sort(std::span<Disc> own, const GridFrame& frame, double anchor, double time,
+    void sort(std::span<Disc> own, const GridGeometry& geometry, double anchor, double time,
               double duration, int n_threads, const Periods& periods = {},
               const Companions& companions = {});
     /// The same for cells alone, by where discs are at `time`: `lanes()` and what is found by them
     /// say nothing.
-    void sort_cells(std::span<Disc> own, const GridFrame& frame, double time, int n_threads,
+    void sort_cells(std::span<Disc> own, const GridGeometry& geometry, double time, int n_threads,
                     const Periods& periods = {}, const Companions& companions = {});
     /// Puts discs that lie behind the own ones, in this order, into cells of theirs.
     void add_halo(std::span<const Disc> halo);
 
-    /// Takes the flights of discs that are faster than `speed`, in lengths per unit of time, out of
-    /// the lanes: no disc that looks at their slots will find them there. They are listed in
-    /// `apart()` until discs are sorted again.
+    /// Takes the flights of discs faster than `speed`, in lengths per unit of time, out of the
+    /// lanes, where no search finds them any more. They are listed in `apart()` until discs are
+    /// sorted again.
     void set_apart(double speed);
     std::span<const LocalIndex> apart() const { return apart_; }
     FlightLanes apart_lanes() const {
@@ -110,7 +111,7 @@ public:
     void update_flight(LocalIndex index, const Disc& disc);
     void update_flight_of_image(LocalIndex index, const Disc& disc);
 
-    const GridFrame& frame() const { return frame_; }
+    const GridGeometry& geometry() const { return geometry_; }
     std::size_t n_own() const { return n_own_; }
     bool has_halo() const { return !halo_order_.empty(); }
 
@@ -126,17 +127,17 @@ public:
 
     /// The column or row of a position in cells.
     int clamped_column(float x) const {
-        return x > 0 ? (x < static_cast<float>(frame_.n_columns) ? static_cast<int>(x)
-                                                                 : frame_.n_columns - 1)
+        return x > 0 ? (x < static_cast<float>(geometry_.n_columns) ? static_cast<int>(x)
+                                                                    : geometry_.n_columns - 1)
                      : 0;
     }
     int clamped_row(float y) const {
-        return y > 0 ? (y < static_cast<float>(frame_.n_rows) ? static_cast<int>(y)
-                                                              : frame_.n_rows - 1)
+        return y > 0 ? (y < static_cast<float>(geometry_.n_rows) ? static_cast<int>(y)
+                                                                 : geometry_.n_rows - 1)
                      : 0;
     }
 
-    /// Own discs of the cells (column, first_row .. last_row); rows are cut at the frame's ends.
+    /// Own discs of the cells (column, first_row .. last_row); rows are cut at the grid's ends.
     SlotRange run(int column, int first_row, int last_row) const {
         return run_from(cell_start_, static_cast<std::size_t>(column) * rows(), first_row,
                         last_row);
@@ -202,7 +203,7 @@ private:
     SlotRange run_from(const std::vector<std::uint32_t>& starts, std::size_t base, int first_row,
                        int last_row) const {
         const int low = first_row < 0 ? 0 : first_row;
-        const int high = last_row >= frame_.n_rows ? frame_.n_rows - 1 : last_row;
+        const int high = last_row >= geometry_.n_rows ? geometry_.n_rows - 1 : last_row;
         return {starts[base + static_cast<std::size_t>(low)],
                 starts[base + static_cast<std::size_t>(high) + 1]};
     }
@@ -212,16 +213,17 @@ private:
         const int column = clamped_column(lanes_[index]);
         const auto row = static_cast<std::size_t>(clamped_row(lanes_[index + lane_length_]));
         for (int other = column - 1; other <= column + 1; ++other)
-            if (other >= 0 && other < frame_.n_columns)
+            if (other >= 0 && other < geometry_.n_columns)
                 visit(static_cast<std::size_t>(other) * rows() + row);
     }
-    std::uint32_t rows() const { return static_cast<std::uint32_t>(frame_.n_rows); }
+    std::uint32_t rows() const { return static_cast<std::uint32_t>(geometry_.n_rows); }
 
     // `Places` says where discs are: their states, or their images.
     void sort(std::span<Disc> own, int n_threads, const Companions& companions);
     template <class Places>
     void sort(const Places& places, std::span<Disc> own, int n_threads,
               const Companions& companions);
+    void sort_columns(SideColumns& columns, Lent order) const;
     template <class Places> std::uint32_t column_at(const Places& places, const Disc& disc) const;
     template <class Places> std::uint32_t row_at(const Places& places, const Disc& disc) const;
     template <class Places> std::uint32_t cell_at(const Places& places, const Disc& disc) const;
@@ -230,7 +232,7 @@ private:
     void place(const Places& places, float* flight, std::size_t length, const Disc& disc) const;
     template <class Places> void update(const Places& places, LocalIndex index, const Disc& disc);
 
-    GridFrame frame_;
+    GridGeometry geometry_;
     Periods periods_;
     double anchor_ = 0, time_ = 0, duration_ = 1;
     bool has_flights_ = false;

@@ -2,8 +2,8 @@
 // Chunks of a loop for several threads: each takes those of its own share first, in order, then
 // what others have left.
 //
-// Shares are the same from one window to the next where the work is, so that what a thread needs is
-// in its own cache; and no thread waits while there is work.
+// Where the work is the same from window to window so are the shares, and a thread finds its data
+// in its own cache. No thread waits while there is work.
 #pragma once
 
 #include <atomic>

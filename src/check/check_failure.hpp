@@ -12,7 +12,7 @@
 
 namespace carrom {
 
-/// In the order in which they are looked for; the first one found is told.
+/// In the order in which they are looked for. The first one found is reported.
 enum class Invariant : int {
     finite,     ///< every number of every state is finite
     owned_once, ///< each of the discs 0 .. N-1 is some rank's own, and of one rank only
@@ -27,16 +27,16 @@ enum class Invariant : int {
     energy, ///< discs that have collided have the energy together that they had before; so have all
 };
 
-/// Thrown on every rank with the same contents; exit code 70. Discs of the neighbourhood: the named
-/// ones, those that they collided with and the nearest, as they were when the failed step began, in
-/// the order of their ids; empty where the named disc does not exist. Rough discs' spins, per step,
-/// run along them.
+/// Thrown on every rank with the same contents; exit code 70. `discs_around`: the reported discs,
+/// those that they collided with and the nearest, as they were when the failed step began, in the
+/// order of their ids. It is empty where the reported disc does not exist. Rough discs' spins, per
+/// step, run along them.
 class CheckFailure : public CollectiveError {
 public:
-    CheckFailure(const std::string& text, Invariant broken, std::int64_t at_step, DiscId named,
+    CheckFailure(const std::string& text, Invariant broken, std::int64_t at_step, DiscId reported,
                  int on_rank, std::vector<InputDisc> around, std::vector<double> their_spins = {})
         : CollectiveError(text, ExitCode::broken_invariant), invariant(broken), step(at_step),
-          disc(named), rank(on_rank), discs_around(std::move(around)),
+          disc(reported), rank(on_rank), discs_around(std::move(around)),
           spins(std::move(their_spins)) {}
 
     Invariant invariant;

@@ -17,7 +17,8 @@ struct SharedEnergy {
     DiscId disc = 0;
     double before = 0, after = 0;
     double allowance = 0;
-    double n_reflections = 0; ///< from bodies at any angle, which round as collisions of pairs do
+    double n_reflections =
+        0; ///< from obstacles at any angle, which round as collisions of pairs do
 };
 
 /// A cluster of discs whose energy has changed: its lowest disc, the share by which it changed, and
@@ -27,10 +28,9 @@ struct EnergyChange {
     double share = 0, bound = 0;
 };
 
-/// The worst of the clusters that `pairs` make of `discs`; none if each kept its energy to within
-/// the rounding of its collisions, 64 ulp for each disc and each collision. Discs of `pairs` that
-/// are not among `discs` are passed over. `may_fall`: collisions may take energy, and none is too
-/// little.
+/// The worst of the clusters that `pairs` make of `discs`. There is none if each kept its energy to
+/// within the rounding of its collisions, 64 ulp for each disc and each collision. Discs of `pairs`
+/// that are not among `discs` are left out. `may_fall`: collisions may take any energy.
 std::optional<EnergyChange> worst_energy_change(std::span<const SharedEnergy> discs,
                                                 std::span<const std::pair<DiscId, DiscId>> pairs,
                                                 bool may_fall = false);

@@ -229,7 +229,7 @@ void StateCheck::take_log(Log log) {
 }
 
 Finding StateCheck::first_out_of_place(const LocalView& now) const {
-    const GridFrame& frame = now.grid->frame();
+    const GridGeometry& geometry = now.grid->geometry();
     const double allowed = scene_.effects.are_any() ? blur(64) : blur(4);
     const Extent box = extent_at(effects_, scene_.box_size, static_cast<double>(micro_steps_done_));
     std::optional<Finding> first;
@@ -243,7 +243,7 @@ Finding StateCheck::first_out_of_place(const LocalView& now) const {
         const double x = now.periods.x_of(disc, now.time), y = now.periods.y_of(disc, now.time);
         const Disc seen = now.frame.in_box(disc, now.time);
         const double radius = species_.of(disc.id).radius;
-        // Between periodic sides it is the image's centre that is in the box.
+        // In a periodic box the image's centre is in the box.
         const double outside = std::max(
             now.periods.x != 0 ? beyond(0, x, now.periods.x)
                                : radius + beyond(box.x_low, seen.x, box.x_high),
@@ -254,7 +254,7 @@ Finding StateCheck::first_out_of_place(const LocalView& now) const {
             add(Invariant::in_strip, disc.id, now.strips->owner(x), 0);
         const auto index = static_cast<LocalIndex>(i);
         const CellGrid::Cell cell = is_filed ? now.grid->cell_of(index) : CellGrid::Cell{-1, -1};
-        if (cell.column != frame.column_of(x) || cell.row != frame.row_of(y))
+        if (cell.column != geometry.column_of(x) || cell.row != geometry.row_of(y))
             add(Invariant::in_cell, disc.id, 0, 0);
     }
     return first.value_or(Finding{});

@@ -2,17 +2,19 @@
 // Holds a run to its invariants, step by step (CheckFailure lists them; docs/stability.md has the
 // bounds).
 //
-// It keeps a record of each disc as it was at the last look, spread over the ranks by id, so that a
-// disc is compared with itself whoever owns it, and learns from the log which discs have collided.
-// In the time-stepped method discs may pass through each other; an overlap is explained if the pair
-// were closer than a diameter already when the last micro-step ended in which one of the two had a
-// collision, or when the check began. From then on both were free to collide, and flew straight:
-// had they been apart then, their contact was a candidate that nothing could have taken from them.
-// What effects do is allowed for: discs are looked at as the box sees them, fall and slow down as
-// they should, may overlap where they do not meet, and lose energy where collisions take some; what
-// they have from thermal and moving walls is not known beforehand, so the energy of discs that have
-// met a wall is not held to anything there. Energies are those with masses, and of spins. Price:
-// 128 bytes a disc, every disc and collision sent once a step, collisions to rank 0.
+// It keeps a record of each disc as it was at the last look, by id, so that a disc is compared with
+// itself whichever rank owns it. The log shows which discs have collided.
+//
+// In the time-stepped method discs may pass through each other. An overlap is explained if the pair
+// was closer than a diameter before both were free to collide: when the last micro-step ended in
+// which one of them had a collision, or when the check began. From then on they flew straight. Had
+// they been apart, nothing could have taken their contact from them.
+//
+// Effects are allowed for. Discs are looked at as the box sees them. They fall and slow down as
+// they should, may overlap where they do not meet, and lose energy in collisions that take some.
+// The check does not know beforehand what thermal and moving walls give, so it does not hold the
+// energy of discs there that have met a wall. Energies include masses and spins. Price: 128 bytes a
+// disc, every disc and collision sent once a step, collisions to rank 0.
 #pragma once
 
 #include <cstdint>

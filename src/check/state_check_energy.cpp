@@ -109,7 +109,7 @@ Finding StateCheck::first_other_total(std::span<const Disc> own,
     const double energy = energy_of(own);
     double expected = energy_, scale = energy_, allowed = bound * energy_;
     if (scene_.effects.are_any()) {
-        double gain = 0; // of few discs, if any: rounding has no say
+        double gain = 0; // of few discs, if any: rounding does not matter
         for (const Known& known : known_) gain += resting_gain(known);
         const double k = static_cast<double>(scene_.micro_steps);
         const double fall = std::fabs(effects_.gravity.x) + std::fabs(effects_.gravity.y);

@@ -16,20 +16,28 @@ using DiscId = std::uint64_t;
 /// A disc's place in one rank's arrays. Never compared between ranks, never part of an order.
 using LocalIndex = std::uint32_t;
 
-/// Lengths are in the scene's unit; velocities in lengths per micro-step; `tau` in micro-steps
-/// since the last sync.
+/// Lengths are in the scene's unit, velocities in lengths per micro-step, `tau` in micro-steps
+/// since the last sync. Counters have 47 bits: a disc that collides a million times a second
+/// reaches their end after four years.
 struct alignas(64) Disc {
     double x = 0, y = 0;
     double vx = 0, vy = 0;
     double tau = 0;
     DiscId id = 0;
-    std::uint64_t wall_collisions = 0;
-    std::uint64_t pair_collisions = 0;
+    std::uint64_t wall_collisions : 47 = 0;
+    std::uint64_t is_departed : 1 = 0; ///< see depart
+    std::int64_t image_x : 16 = 0;     ///< displaced by so many box lengths (image.hpp)
+    std::uint64_t pair_collisions : 47 = 0;
+    std::uint64_t : 1;
+    std::int64_t image_y : 16 = 0;
 
-    /// Has left the box at (x, y) through an open side: at rest there, it takes part in nothing any
-    /// more. No other state has such a time.
-    static constexpr double departed = -1;
-    bool has_departed() const { return tau < 0; }
+    /// The disc has left the box at (x, y) through an open side. It is at rest there, and takes
+    /// part in nothing any more.
+    void depart() {
+        vx = vy = tau = 0;
+        is_departed = 1;
+    }
+    bool has_departed() const { return is_departed != 0; }
 
     double x_at(double time) const { return x + vx * (time - tau); }
     double y_at(double time) const { return y + vy * (time - tau); }

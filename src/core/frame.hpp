@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the coordinates are that states are stored in, as seen from the box.
+// The frame of reference of stored states, as seen from the box.
 //
-// Under gravity states are stored in a frame that falls freely from each sync on, under drag in a
-// clock that slows down as discs do: there they fly straight and evenly, and what looks at pairs
-// need not know of either. In a periodic box stored states fly on where a disc leaves it. Without
-// these the frame is the box's, and nothing is computed.
+// Under gravity states are stored in a frame that falls freely from each sync on. Under drag they
+// are stored in a clock that slows down as discs do. There they fly straight and evenly, so pairs
+// need neither. In a periodic box stored states fly on where a disc leaves it. Without these
+// effects the frame is the box's, and nothing is computed.
 #pragma once
 
 #include "core/disc.hpp"

@@ -5,8 +5,8 @@
 // engine looks at is the state and by how many box lengths it is meant to be displaced, its image.
 // Two entries of the same disc differ in that alone. A pair's contact depends on the difference of
 // its two images, a whole number, which is the same for everybody who sees the pair. Images are
-// kept in the upper half of the wall counter, so that they go where the disc goes and nothing
-// grows; only engines see them, and a scene without periodic sides has none.
+// part of the state's cache line, so that they go where the disc goes. Only engines see them, and a
+// scene without periodic sides has none.
 #pragma once
 
 #include <cmath>
@@ -26,28 +26,21 @@ struct Image {
 };
 
 inline Image image_of(const Disc& disc) {
-    return {static_cast<std::int16_t>(disc.wall_collisions >> 48),
-            static_cast<std::int16_t>(disc.wall_collisions >> 32)};
+    return {static_cast<int>(disc.image_x), static_cast<int>(disc.image_y)};
 }
 
 /// Whether the disc's image is the one at its stored place, as nearly all are.
-inline bool is_unshifted(const Disc& disc) { return disc.wall_collisions >> 32 == 0; }
+inline bool is_unshifted(const Disc& disc) { return disc.image_x == 0 && disc.image_y == 0; }
 
 /// Whether the two discs' images are displaced by the same, as nearly all pairs' are.
 inline bool are_shifted_alike(const Disc& p, const Disc& q) {
-    return (p.wall_collisions ^ q.wall_collisions) >> 32 == 0;
+    return p.image_x == q.image_x && p.image_y == q.image_y;
 }
 
-/// Of collisions with walls, below 2^32 where there are images.
-inline std::uint64_t count_without_image(const Disc& disc) {
-    return disc.wall_collisions & 0xffffffffu;
-}
-
-/// That count stays what it is.
+/// Less than 16000 box lengths along each axis (Periods::home).
 inline void set_image(Disc& disc, Image image) {
-    const std::uint64_t x = static_cast<std::uint16_t>(image.x),
-                        y = static_cast<std::uint16_t>(image.y);
-    disc.wall_collisions = count_without_image(disc) | x << 48 | y << 32;
+    disc.image_x = static_cast<std::int16_t>(image.x);
+    disc.image_y = static_cast<std::int16_t>(image.y);
 }
 
 /// Places at which nothing has to be done about images, without end where a box does not repeat

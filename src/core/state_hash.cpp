@@ -7,20 +7,23 @@
 
 #include <xxhash.h>
 
+#include "core/disc_columns.hpp"
+
 namespace carrom {
 
 static_assert(std::endian::native == std::endian::little, "the hashed record is little-endian");
 
 StateHash hash_of(const Disc& disc) {
     // Adding +0 turns -0 into +0 and leaves every other number as it is.
-    const std::array<std::uint64_t, 8> record = {disc.id,
-                                                 std::bit_cast<std::uint64_t>(disc.x + 0.0),
-                                                 std::bit_cast<std::uint64_t>(disc.y + 0.0),
-                                                 std::bit_cast<std::uint64_t>(disc.vx + 0.0),
-                                                 std::bit_cast<std::uint64_t>(disc.vy + 0.0),
-                                                 std::bit_cast<std::uint64_t>(disc.tau + 0.0),
-                                                 disc.wall_collisions,
-                                                 disc.pair_collisions};
+    const std::array<std::uint64_t, 8> record = {
+        disc.id,
+        std::bit_cast<std::uint64_t>(disc.x + 0.0),
+        std::bit_cast<std::uint64_t>(disc.y + 0.0),
+        std::bit_cast<std::uint64_t>(disc.vx + 0.0),
+        std::bit_cast<std::uint64_t>(disc.vy + 0.0),
+        std::bit_cast<std::uint64_t>(columns::stored_time(disc) + 0.0),
+        disc.wall_collisions,
+        disc.pair_collisions};
     const XXH128_hash_t hash = XXH3_128bits(record.data(), sizeof record);
     return {hash.low64, hash.high64};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plans where sides are periodic: strips are neighbours across the seam too, and a rank is its own
+// Plans where boundaries are periodic: strips are neighbours across them too, and a rank is its own
 // neighbour.
 #include <algorithm>
 #include <cmath>

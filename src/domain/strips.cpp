@@ -45,8 +45,8 @@ int Strips::owner(double x) const {
 }
 
 bool Strips::are_within(int lower, int upper, double reach) const {
-    // Rounding is monotone: x < high(lower) has x + reach, rounded, at most this sum; and where x -
-    // reach of a sender above, rounded, is less than high(lower), the sum is at least x. A
+    // Rounding is monotone. For x < high(lower) the rounded x + reach is at most this sum. Where
+    // the rounded x - reach of a sender above is less than high(lower), the sum is at least x. A
     // difference of the two edges might miss both.
     return high(lower) + reach >= low(upper);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who owns which slab of x, and which ranks can therefore have anything to tell each other. Pure
-// arithmetic, no MPI.
+// Which rank owns which slab of x, and which ranks therefore may exchange discs. Pure arithmetic,
+// no MPI.
 //
-// All lists follow from numbers that every rank knows, so both sides of an exchange know of it
-// without a message, and they are symmetric: a lists b if and only if b lists a. They are complete
+// All lists follow from numbers that every rank knows, so both partners of an exchange know of it
+// without a message. They are symmetric: a lists b if and only if b lists a. They are complete
 // to the last bit for senders that pick receivers with `meets(x - reach, x + reach)` or `owner(x)`:
 // the comparisons round the same way.
 #pragma once
@@ -55,9 +55,9 @@ private:
     std::vector<double> cuts_;
 };
 
-/// The other ranks, ascending, that `rank` may have to send discs to or receive discs from when
-/// discs that were in their owners' `before` strips have moved by at most `distance` in x and go to
-/// their owners in `after`. Cost: the number of ranks.
+/// The other ranks, ascending, that `rank` may have to send discs to or receive discs from. Discs
+/// were in their owners' strips `before`, have moved by at most `distance` in x, and go to their
+/// owners in `after`. Cost: the number of ranks.
 std::vector<int> movers_between(const Strips& before, const Strips& after, int rank,
                                 double distance);
 

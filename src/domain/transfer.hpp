@@ -2,8 +2,8 @@
 // Who sends which discs to whom, and the sending: plan first, then move any array that goes along
 // with the discs.
 //
-// Halo and migration are two plans for the same move. Both sides of a plan know their partners from
-// the cuts and a bound on distances alone, so the only messages are those that carry discs, one to
+// Halo and migration are two plans for the same move. Both ends of a plan know their partners from
+// the cuts and a bound on distances alone. So the only messages are those that carry discs, one to
 // each partner.
 #pragma once
 

@@ -122,8 +122,7 @@ void Boundaries::bounce_at(Disc& disc, Axis axis, double time) const {
 void Boundaries::depart(Disc& disc, std::size_t side, double time) const {
     disc = frame_at(time).in_box(disc, time);
     (side / 2 == 0 ? disc.x : disc.y) = departure(disc, side);
-    disc.vx = disc.vy = 0;
-    disc.tau = Disc::departed;
+    disc.depart();
     disc.wall_collisions += 1;
 }
 
@@ -141,8 +140,7 @@ void Boundaries::rebound(Disc& disc, std::size_t side, double restitution, doubl
     if (effects_.boundaries[side].kind == BoundaryKind::thermal) {
         // What leaves a wall of temperature T: v_n with the density v_n / T exp(-v_n^2 / 2 T), the
         // other part Maxwell's. All images of a disc draw the same.
-        const std::uint64_t n_before = effects_.are_periodic() ? count_without_image(disc)
-                                                               : disc.wall_collisions;
+        const std::uint64_t n_before = disc.wall_collisions;
         DiscRandom random(effects_.thermal_seed, Purpose::thermal_wall, disc.id,
                           4 * n_before + side);
         const double temperature = effects_.boundaries[side].temperature /

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From what a scene asks for to the law that engines are compiled for: the one place where the
-// choice is made.
+// From a scene to the dynamics that engines are compiled for: the one place where the choice is
+// made.
 #pragma once
 
 #include <type_traits>
@@ -10,9 +10,9 @@
 
 namespace carrom {
 
-/// Calls `make.template operator()<Law>()` with the scene's law and returns what it gives, the same
-/// type for every law. Effects have the default precision and arithmetic: the reader of scenes sees
-/// to that.
+/// Calls `make.template operator()<Dynamics>()` with the scene's dynamics and returns the result,
+/// of one type for all. Effects have the default precision and arithmetic: the reader of scenes
+/// checks that.
 template <class Make> auto with_dynamics_of(const Scene& scene, const Make& make) {
     const bool is_periodic = scene.effects.are_periodic();
     if (scene.effects.contact.kind == ContactKind::rough)
@@ -46,7 +46,7 @@ template <class Make> auto with_dynamics_of(const Scene& scene, const Make& make
     return scene.precision == Precision::single ? with(float{}) : with(double{});
 }
 
-/// The law with the scene's numbers.
+/// The dynamics with the scene's numbers.
 template <class Dynamics> Dynamics dynamics_of(const Scene& scene) {
     if constexpr (std::is_constructible_v<Dynamics, double, double, const Effects&>)
         return Dynamics(scene.box_size, scene.radius,

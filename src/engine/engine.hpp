@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What moves a run's discs: one engine for each rule. A run has one of them from its start to its
+// What moves a run's discs: one engine for each method. A run has one of them from its start to its
 // end.
 #pragma once
 
@@ -44,11 +44,10 @@ public:
     /// Fills in what only the engine knows or finds: overlaps, rejected candidates, windows.
     /// **Collective.**
     virtual void add_to(Totals& totals) = 0;
-    /// Settles the discs where they are now, for a look at pairs within a diameter, or `reach`
-    /// where that is more; good until the next step. **Collective.**
+    /// Redistributes the discs as they are now, for a look at pairs within a diameter, or `reach`
+    /// where that is more. Good until the next step. **Collective.**
     virtual LocalView local_view(double reach = 0) = 0;
-    /// Makes own discs plain states again, for whoever asks for them after such a look in a
-    /// periodic box.
+    /// Takes the images of own discs away again after such a look in a periodic box.
     virtual void forget_images() = 0;
 
     /// **Collective.**
@@ -63,10 +62,10 @@ public:
     } ///< along `own()`; empty where discs do not turn
     virtual const SpeciesTable* species_table() const {
         return nullptr;
-    } ///< of laws that know several
+    } ///< of dynamics with several species
     virtual double clock() const = 0;
     virtual Frame frame() const { return {}; } ///< of the own discs' coordinates, at `clock()`
-    virtual std::uint64_t n_discs() const = 0; ///< over all ranks, those that are gone too
+    virtual std::uint64_t n_discs() const = 0; ///< over all ranks, departed ones too
     virtual PhaseSeconds phase_seconds() const = 0;
 
     /// See Simulation::log_to. Engines append what they carry out while `log_` is not null.

@@ -20,13 +20,23 @@ void Engine::note_crossing(const Disc& disc, double x, double y, const Periods& 
         {disc.id, lengths(x - disc.x, periods.x), lengths(y - disc.y, periods.y)});
 }
 
+namespace {
+
+template <class Dynamics> SideColumns stored_columns(StoredState& state) {
+    SideColumns columns = side_columns_of<Dynamics>();
+    if (columns.has(SideColumn::spin)) columns[SideColumn::spin] = std::move(state.spins);
+    return columns;
+}
+
+} // namespace
+
 template <class Dynamics>
 EngineBase<Dynamics>::EngineBase(const Scene& scene, StoredState state,
                                  const Communicator& communicator, const Tuning& tuning)
     : communicator_(communicator), tuning_(tuning), dynamics_(dynamics_of<Dynamics>(scene)),
       micro_steps_(scene.micro_steps), sync_every_(scene.sync_every),
       discs_(communicator, scene.box_size, std::move(state.discs),
-             scene.effects.periods(scene.box_size), Dynamics::has_spin, std::move(state.spins)),
+             scene.effects.periods(scene.box_size), stored_columns<Dynamics>(state)),
       n_micro_done_(state.micro_steps_done), last_micro_step_(scene.steps * scene.micro_steps) {
     dynamics_.begin_interval(last_sync());
     time_ = dynamics_.boundaries().clock_at(static_cast<double>(n_micro_done_ % sync_every_));
@@ -55,9 +65,9 @@ template <class Dynamics> void EngineBase<Dynamics>::redistribute_now(double lea
                                      0);
     const double reach = std::max(touching, least_reach);
     const Extent seen = discs_.extent_seen(extent(), reach);
-    const GridFrame frame = make_sparse_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high,
-                                              reach, discs_.n_own());
-    discs_.sort_cells(frame, time_, tuning_.threads);
+    const GridGeometry geometry = make_sparse_geometry(seen.x_low, seen.x_high, seen.y_low,
+                                                       seen.y_high, reach, discs_.n_own());
+    discs_.sort_cells(geometry, time_, tuning_.threads);
     const PhaseClock::Scope scope(phases_, Phase::exchange);
     discs_.fetch_halo(time_, reach, nullptr);
 }

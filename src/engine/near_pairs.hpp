@@ -13,20 +13,21 @@ namespace carrom {
 /// in the halo. Pairs in which both are the halo's are left to its owners.
 template <class Visit>
 void visit_near_pairs_of(const CellGrid& grid, int column, const Visit& visit) {
-    const GridFrame& frame = grid.frame();
-    const int last_column = std::min(column + frame.n_reach, frame.n_columns - 1);
-    for (int row = 0; row < frame.n_rows; ++row) {
+    const GridGeometry& geometry = grid.geometry();
+    const int last_column = std::min(column + geometry.n_reach, geometry.n_columns - 1);
+    for (int row = 0; row < geometry.n_rows; ++row) {
         const SlotRange cell = grid.run(column, row, row);
         if (cell.begin == cell.end) continue;
         for (int other = column; other <= last_column; ++other) {
-            const SlotRange run = grid.run(other, row - frame.n_reach, row + frame.n_reach);
+            const SlotRange run = grid.run(other, row - geometry.n_reach, row + geometry.n_reach);
             for (LocalIndex index = cell.begin; index < cell.end; ++index)
                 for (LocalIndex second = other == column ? index + 1 : run.begin; second < run.end;
                      ++second)
                     visit(index, second);
         }
-        for (int other = std::max(column - frame.n_reach, 0); other <= last_column; ++other) {
-            const SlotRange run = grid.halo_run(other, row - frame.n_reach, row + frame.n_reach);
+        for (int other = std::max(column - geometry.n_reach, 0); other <= last_column; ++other) {
+            const SlotRange run = grid.halo_run(other, row - geometry.n_reach,
+                                                row + geometry.n_reach);
             for (LocalIndex index = cell.begin; index < cell.end; ++index)
                 for (std::uint32_t slot = run.begin; slot < run.end; ++slot)
                     visit(index, grid.halo_index(slot));
@@ -37,7 +38,7 @@ void visit_near_pairs_of(const CellGrid& grid, int column, const Visit& visit) {
 /// Calls `visit(a, b)` once for each two discs in cells that lie within the grid's reach of each
 /// other, an own one among them.
 template <class Visit> void visit_near_pairs(const CellGrid& grid, const Visit& visit) {
-    for (int column = 0; column < grid.frame().n_columns; ++column)
+    for (int column = 0; column < grid.geometry().n_columns; ++column)
         visit_near_pairs_of(grid, column, visit);
 }
 

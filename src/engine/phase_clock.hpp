@@ -29,8 +29,8 @@ public:
     };
 
     std::vector<std::pair<std::string, double>> seconds() const {
-        static constexpr std::array names = {"settle", "search",   "resolve", "contested",
-                                             "move",   "exchange", "wait",    "sync"};
+        static constexpr std::array names = {"redistribute", "search",   "resolve", "conflicts",
+                                             "move",         "exchange", "wait",    "sync"};
         static_assert(names.size() == static_cast<std::size_t>(Phase::n_phases));
         std::vector<std::pair<std::string, double>> list;
         for (std::size_t k = 0; k < names.size(); ++k) list.emplace_back(names[k], seconds_[k]);

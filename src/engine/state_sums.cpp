@@ -30,8 +30,8 @@ void measure_collisions(std::span<const Disc> own, std::span<const double> spins
     totals.hash = {sums[2], sums[3]};
 }
 
-/// What has left stands a radius outside its side, exactly: the one coordinate that is furthest out
-/// tells which.
+/// A departed disc stands a radius outside its side, exactly. The coordinate that is furthest out
+/// shows which side it is.
 void measure_departures(std::span<const Disc> own, double box_size,
                         const Communicator& communicator, Totals& totals) {
     for (const Disc& disc : own) {
@@ -188,7 +188,7 @@ void measure_overlaps(const Population& population, const CellGrid& grid, double
     const PairsAt pairs(population, time, touching);
     std::uint64_t n_pairs = 0, n_touching = 0;
     double deepest = 0;
-    const int n_columns = grid.frame().n_columns;
+    const int n_columns = grid.geometry().n_columns;
 #pragma omp parallel for num_threads(n_threads) schedule(dynamic, 8)                               \
     reduction(+ : n_pairs, n_touching) reduction(max : deepest)
     for (int column = 0; column < n_columns; ++column) {

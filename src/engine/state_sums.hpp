@@ -25,7 +25,7 @@ void measure_departures(std::span<const Disc> own, double box_size,
                         const Communicator& communicator, Totals& totals);
 
 /// Fills in energy and momentum; `velocity_unit` turns stored velocities into those per step.
-/// `bodies`: null for masses of 1. **Collective.**
+/// `species_table`: null for masses of 1. **Collective.**
 void measure_motion(std::span<const Disc> own, const SpeciesTable* species_table,
                     double velocity_unit, const Communicator& communicator, Totals& totals);
 
@@ -63,12 +63,11 @@ Touching touching_of(const Dynamics& dynamics, const Periods& periods = {}) {
         return {dynamics.diameter(), dynamics.tolerance(), nullptr, periods};
 }
 
-/// Fills in the pairs that overlap at `time`, each counted once, how far the deepest overlaps, and
-/// the pairs that touch: which of them slide along each other, (d.w)^2 <= 4 tolerance sigma w.w
-/// with d, w their separation and relative velocity (the distance of closest approach is then a
-/// diameter to within the tolerance), and how many discs touch several. The grid holds the
-/// population at that time, and partners within a diameter and the tolerance are within its reach.
-/// **Collective.**
+/// Fills in the pairs that overlap at `time`, each counted once, how far the deepest overlaps, the
+/// pairs that touch, and how many discs touch several. Pairs that touch slide along each other
+/// where (d.w)^2 <= 4 tolerance sigma w.w, with d and w their separation and relative velocity.
+/// Their distance of closest approach is a diameter then, to within the tolerance. The grid holds
+/// the population at that time, for partners within a diameter and the tolerance. **Collective.**
 void measure_overlaps(const Population& population, const CellGrid& grid, double time,
                       const Touching& touching, const Communicator& communicator, int n_threads,
                       Totals& totals);

@@ -9,9 +9,8 @@
 
 namespace carrom {
 
-/// What a run can be continued from: discs as they are stored at the end of a step (velocities per
-/// micro-step, times since the last sync), and how many micro-steps since the scene's start have
-/// led there.
+/// Discs as they are stored at the end of a step: velocities per micro-step, times since the last
+/// sync. `micro_steps_done` counts from the scene's start.
 struct StoredState {
     std::vector<Disc> discs;
     std::int64_t micro_steps_done = 0;

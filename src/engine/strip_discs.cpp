@@ -15,7 +15,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A disc's new state and its place among the discs that went to this neighbour's halo.
-struct News {
+struct Update {
     Disc disc;
     std::uint64_t place;
 };
@@ -29,28 +29,27 @@ Strips equal_strips(double box_size, int n_ranks) {
 } // namespace
 
 StripDiscs::StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs,
-                       const Periods& periods, bool has_spins, std::vector<double> spins)
+                       const Periods& periods, SideColumns columns)
     : communicator_(communicator), box_size_(box_size), periods_(periods),
       strips_(equal_strips(box_size, communicator.size())), redistributed_strips_(strips_),
       exchange_(communicator) {
-    has_spins_ = has_spins;
-    if (has_spins) spins.resize(discs.size(), 0); // discs begin without spin
+    columns_ = std::move(columns);
+    columns_.resize(discs.size());
     if (communicator.size() == 1) {
         discs_ = std::move(discs);
-        spins_ = std::move(spins);
     } else {
-        std::vector<std::vector<Disc>> to_owner(static_cast<std::size_t>(communicator.size()));
-        for (const Disc& disc : discs)
-            to_owner[static_cast<std::size_t>(strips_.owner(wrapped(disc.x, periods.x)))].push_back(
-                disc);
-        if (has_spins) {
-            std::vector<std::vector<double>> spins_to_owner(to_owner.size());
+        const auto owner_of = [&](const Disc& disc) {
+            return static_cast<std::size_t>(strips_.owner(wrapped(disc.x, periods.x)));
+        };
+        const auto n_ranks = static_cast<std::size_t>(communicator.size());
+        columns_.for_each([&](SideColumn column) {
+            std::vector<std::vector<double>> to_owner(n_ranks);
             for (std::size_t i = 0; i < discs.size(); ++i)
-                spins_to_owner[static_cast<std::size_t>(
-                                   strips_.owner(wrapped(discs[i].x, periods.x)))]
-                    .push_back(spins[i]);
-            spins_ = send_to_owners(communicator, spins_to_owner).items;
-        }
+                to_owner[owner_of(discs[i])].push_back(columns_[column][i]);
+            columns_[column] = send_to_owners(communicator, to_owner).items;
+        });
+        std::vector<std::vector<Disc>> to_owner(n_ranks);
+        for (const Disc& disc : discs) to_owner[owner_of(disc)].push_back(disc);
         discs = {};
         discs_ = send_to_owners(communicator, to_owner).items;
     }
@@ -63,12 +62,13 @@ void StripDiscs::set_departed_aside() {
     // Not std::stable_partition: its buffer is aligned for less than a disc.
     const auto has_departed = [](const Disc& disc) { return disc.has_departed(); };
     std::copy_if(discs_.begin(), discs_.end(), std::back_inserter(departed_), has_departed);
-    if (has_spins_) {
+    columns_.for_each([&](SideColumn column) {
+        std::vector<double>& values = columns_[column];
         std::size_t n_left = 0;
         for (std::size_t i = 0; i < discs_.size(); ++i)
-            if (!has_departed(discs_[i])) spins_[n_left++] = spins_[i];
-        spins_.resize(n_left);
-    }
+            if (!has_departed(discs_[i])) values[n_left++] = values[i];
+        values.resize(n_left);
+    });
     if (std::erase_if(discs_, has_departed) > 0) is_sorted_ = false;
     n_own_ = discs_.size();
     n_total_ = communicator_.sum(std::uint64_t{n_own_});
@@ -80,23 +80,21 @@ void StripDiscs::migrate(double time, double farthest, std::vector<Disc>* compan
     if (periods_.are_any()) set_home_images(time, companion);
     if (communicator_.size() > 1) {
         const TransferPlan plan = migration_plan(time, farthest);
-        Received<Disc> arrived;
-        for (std::vector<Disc>* values : {&discs_, companion}) {
-            if (!values) continue;
-            transfer(exchange_, plan, std::span<const Disc>(*values), arrived);
-            remove_leaving(plan, *values);
-            values->insert(values->end(), arrived.items.begin(), arrived.items.end());
-        }
-        if (has_spins_) {
-            Received<double> spins;
-            transfer(exchange_, plan, std::span<const double>(spins_), spins);
-            remove_leaving(plan, spins_);
-            spins_.insert(spins_.end(), spins.items.begin(), spins.items.end());
-        }
+        move_along(plan, discs_);
+        if (companion) move_along(plan, *companion);
+        columns_.for_each([&](SideColumn column) { move_along(plan, columns_[column]); });
         n_own_ = discs_.size();
     }
     is_sorted_ = false;
     redistributed_strips_ = strips_;
+}
+
+/// Sends away what goes with the discs that leave, and appends what comes.
+template <Message T> void StripDiscs::move_along(const TransferPlan& plan, std::vector<T>& values) {
+    Received<T> arrived;
+    transfer(exchange_, plan, std::span<const T>(values), arrived);
+    remove_leaving(plan, values);
+    values.insert(values.end(), arrived.items.begin(), arrived.items.end());
 }
 
 /// Discs far from both ends of the strip when they were sorted cannot have left it.
@@ -122,20 +120,20 @@ Companions StripDiscs::companions(std::vector<Disc>* states) {
     forget_halo();
     Companions with;
     if (states) with.states = std::span(*states).first(n_own_);
-    if (has_spins_) with.spins = spins_;
+    with.columns = &columns_;
     return with;
 }
 
-void StripDiscs::sort(const GridFrame& frame, double anchor, double time, double duration,
+void StripDiscs::sort(const GridGeometry& geometry, double anchor, double time, double duration,
                       int n_threads, std::vector<Disc>* companion) {
     const Companions with = companions(companion);
-    grid_.sort(own(), frame, anchor, time, duration, n_threads, periods_, with);
+    grid_.sort(own(), geometry, anchor, time, duration, n_threads, periods_, with);
     is_sorted_ = true;
 }
 
-void StripDiscs::sort_cells(const GridFrame& frame, double time, int n_threads) {
+void StripDiscs::sort_cells(const GridGeometry& geometry, double time, int n_threads) {
     const Companions with = companions(nullptr);
-    grid_.sort_cells(own(), frame, time, n_threads, periods_, with);
+    grid_.sort_cells(own(), geometry, time, n_threads, periods_, with);
     is_sorted_ = true;
 }
 
@@ -210,7 +208,7 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* compan
             transfer(exchange_, halo_plan_, std::span<const Disc>(*values), halo);
         values->insert(values->end(), halo.items.begin(), halo.items.end());
     }
-    if (has_spins_) show(spins_);
+    columns_.for_each([&](SideColumn column) { show(columns_[column]); });
     halo_offsets_.clear();
     for (const std::size_t offset : halo.offsets) halo_offsets_.push_back(n_own_ + offset);
     is_shown_.resize(n_own_, 0);
@@ -223,8 +221,7 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* compan
 void StripDiscs::send_updates(std::span<const LocalIndex> changed,
                               std::vector<LocalIndex>& updates) {
     if (has_no_halo()) return;
-    std::vector<std::vector<News>> out(halo_plan_.partners.size());
-    std::vector<std::vector<double>> spins_out(has_spins_ ? out.size() : 0);
+    std::vector<std::vector<Update>> out(halo_plan_.partners.size());
     for (const LocalIndex index : changed) {
         if (index >= n_own_ || is_shown_[index] == 0) continue;
         for (std::size_t k = 0; k < out.size(); ++k) {
@@ -233,31 +230,38 @@ void StripDiscs::send_updates(std::span<const LocalIndex> changed,
                  place != shown.end() && *place == index; ++place) {
                 out[k].push_back(
                     {discs_[index], static_cast<std::uint64_t>(place - shown.begin())});
-                if (has_spins_) spins_out[k].push_back(spins_[index]);
             }
         }
     }
-    Received<News> in;
+    const std::size_t n_before = updates.size();
+    Received<Update> in;
     exchange_.exchange(std::span<const int>(halo_plan_.partners), out, in);
-    Received<double> spins;
-    if (has_spins_) exchange_.exchange(std::span<const int>(halo_plan_.partners), spins_out, spins);
-    std::size_t n_received = 0;
     for (std::size_t k = 0; k < in.n_senders(); ++k) {
-        for (const News& item : in.from(k)) {
+        for (const Update& item : in.from(k)) {
             const auto index = static_cast<LocalIndex>(halo_offsets_[k] + item.place);
-            if (has_spins_) spins_[index] = spins.items[n_received++];
             ensure(discs_[index].id == item.disc.id,
-                   "a neighbour's news is about another disc than the halo has there");
+                   "a neighbour's update is of another disc than the halo has there");
             const Image image = periods_.are_any() ? image_of(discs_[index]) : Image{};
             discs_[index] = item.disc;
             if (periods_.are_any()) set_image(discs_[index], image);
             updates.push_back(index);
         }
     }
+    columns_.for_each([&](SideColumn column) {
+        std::vector<double>& values = columns_[column];
+        std::vector<std::vector<double>> values_out(out.size());
+        for (std::size_t k = 0; k < out.size(); ++k)
+            for (const Update& item : out[k])
+                values_out[k].push_back(values[halo_plan_.leaving[k][item.place]]);
+        Received<double> values_in;
+        exchange_.exchange(std::span<const int>(halo_plan_.partners), values_out, values_in);
+        for (std::size_t i = 0; i < values_in.items.size(); ++i)
+            values[updates[n_before + i]] = values_in.items[i];
+    });
 }
 
-void StripDiscs::name_to_owners(std::span<const LocalIndex> of_halo,
-                                std::vector<LocalIndex>& named) {
+void StripDiscs::report_to_owners(std::span<const LocalIndex> of_halo,
+                                  std::vector<LocalIndex>& reported) {
     if (has_no_halo()) return;
     std::vector<std::vector<std::uint64_t>> out(halo_plan_.partners.size());
     for (const LocalIndex index : of_halo) {
@@ -269,7 +273,8 @@ void StripDiscs::name_to_owners(std::span<const LocalIndex> of_halo,
     Received<std::uint64_t> in;
     exchange_.exchange(std::span<const int>(halo_plan_.partners), out, in);
     for (std::size_t k = 0; k < in.n_senders(); ++k) {
-        for (const std::uint64_t place : in.from(k)) named.push_back(halo_plan_.leaving[k][place]);
+        for (const std::uint64_t place : in.from(k))
+            reported.push_back(halo_plan_.leaving[k][place]);
     }
 }
 

@@ -3,8 +3,8 @@
 // neighbours have sent. Moves them between ranks: migrate, sort, fetch the halo.
 //
 // Who may send to whom follows from the cuts and from bounds that all ranks share; so `farthest`
-// and `reach` must be the same on all ranks. Price of a settling: two passes over the own discs and
-// one message to each neighbour, twice.
+// and `reach` must be the same on all ranks. Price: two passes over the own
+// discs, and two messages to each neighbour.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@
 #include "cell_list/cell_grid.hpp"
 #include "cell_list/population.hpp"
 #include "core/disc.hpp"
+#include "core/side_columns.hpp"
 #include "domain/strips.hpp"
 #include "domain/transfer.hpp"
 #include "dynamics/effects.hpp"
@@ -26,30 +27,31 @@ class StripDiscs {
 public:
     /// Takes discs that lie anywhere on any rank and gives them to the owners of equal strips.
     /// **Collective.** Where there are periods, own discs get the images in the box when they
-    /// migrate, and the halo has images of own discs, too. `spins` run along the discs; without
-    /// `has_spins` there are none, and empty ones are 0.
+    /// migrate, and the halo has images of own discs, too. `columns` run along the discs; what
+    /// they leave out is 0.
     StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs,
-               const Periods& periods = {}, bool has_spins = false, std::vector<double> spins = {});
+               const Periods& periods = {}, SideColumns columns = {});
 
     /// Forgets the halo and sends each own disc to the rank whose strip holds it at `time`. No disc
-    /// has moved by more than `farthest` since it was last settled. `companion` runs along the own
+    /// has moved by more than `farthest` since the last migration. `companion` runs along the own
     /// discs, or is null. **Collective.**
     void migrate(double time, double farthest, std::vector<Disc>* companion);
 
     /// Brings the own discs, and what runs along them, into the order of their cells at `anchor`
     /// (CellGrid::sort), without a halo. `companion` as above.
-    void sort(const GridFrame& frame, double anchor, double time, double duration, int n_threads,
-              std::vector<Disc>* companion);
+    void sort(const GridGeometry& geometry, double anchor, double time, double duration,
+              int n_threads, std::vector<Disc>* companion);
     /// The same without flights.
-    void sort_cells(const GridFrame& frame, double time, int n_threads);
+    void sort_cells(const GridGeometry& geometry, double time, int n_threads);
 
-    /// Appends to the own discs, which have been sorted, those of other ranks within `reach` of the
-    /// own strip at `time`, that of the last migration and of the sorting, and puts them into
-    /// cells. **Collective.**
+    /// Appends to the own discs those of other ranks within `reach` of the own strip at `time`, and
+    /// puts them into cells. The own discs have migrated and been sorted for the same time.
+    /// **Collective.**
     void fetch_halo(double time, double reach, std::vector<Disc>* companion);
 
     /// Sends the new states of the own discs among `changed` to the ranks that have them in their
-    /// halo, takes over those of the own halo and appends their places to `news`. **Collective.**
+    /// halo. Takes over those of the own halo, and appends their places to `updates`.
+    /// **Collective.**
     void send_updates(std::span<const LocalIndex> changed, std::vector<LocalIndex>& updates);
 
     /// Of values that run along the own discs, sends those of discs in other ranks' halos; puts
@@ -62,9 +64,9 @@ public:
         values.insert(values.end(), in.items.begin(), in.items.end());
     }
 
-    /// Names discs of the halo to their owners; appends to `named` the own discs that others have
-    /// named. **Collective.**
-    void name_to_owners(std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& named);
+    /// Reports discs of the halo to their owners. Appends to `reported` the own discs that others
+    /// have reported. **Collective.**
+    void report_to_owners(std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& reported);
 
     /// Moves the cuts to equal shares by the discs' places at `time`, if the largest share exceeds
     /// the mean by a factor of more than `above`. The discs follow when they migrate next.
@@ -79,10 +81,12 @@ public:
     std::vector<Disc>& all() { return discs_; }
     std::span<const Disc> own() const { return std::span(discs_).first(n_own_); }
     std::span<Disc> own() { return std::span(discs_).first(n_own_); }
-    /// By disc, own and halo; empty where discs do not turn.
-    std::vector<double>& spins() { return spins_; }
-    std::span<const double> own_spins() const {
-        return std::span(spins_).first(has_spins_ ? n_own_ : 0);
+    /// By disc, own and halo.
+    SideColumns& columns() { return columns_; }
+    const SideColumns& columns() const { return columns_; }
+    /// Of own discs; empty where the column is not present.
+    std::span<const double> own_column(SideColumn column) const {
+        return std::span(columns_[column]).first(columns_.has(column) ? n_own_ : 0);
     }
     std::size_t n_own() const { return n_own_; }
     std::uint64_t n_total() const { return n_total_; } ///< over all ranks
@@ -95,7 +99,7 @@ public:
     const Periods& periods() const { return periods_; }
     /// Whether no rank has a halo, for want of neighbours.
     bool has_no_halo() const { return communicator_.size() == 1 && !periods_.are_any(); }
-    /// Makes own discs plain states again, for whoever looks at them.
+    /// Takes the images of own discs away.
     void forget_images();
 
     /// What a rank looks at that has a halo of `reach`, in a box of this extent where it is not
@@ -111,14 +115,15 @@ public:
     /// Drops the halo's discs.
     void forget_halo() {
         discs_.resize(n_own_);
-        if (has_spins_) spins_.resize(n_own_);
+        columns_.resize(n_own_);
     }
 
     /// Each own disc lies in its strip at `time`, and all ranks together own each of 0 .. n-1 once,
-    /// those that are gone too. **Collective.**
+    /// departed ones too. **Collective.**
     bool is_valid(double time) const;
 
 private:
+    template <Message T> void move_along(const TransferPlan& plan, std::vector<T>& values);
     void set_home_images(double time, std::vector<Disc>* companion);
     TransferPlan migration_plan(double time, double farthest) const;
     std::vector<PlaceRange> places_outside(const Inside& inner) const;
@@ -127,14 +132,13 @@ private:
     Communicator communicator_;
     double box_size_;
     Periods periods_;
-    std::vector<Disc> discs_;   ///< own, then halo
-    std::vector<double> spins_; ///< likewise
-    bool has_spins_ = false;
+    std::vector<Disc> discs_; ///< own, then halo
+    SideColumns columns_;     ///< likewise
     std::size_t n_own_ = 0;
     std::uint64_t n_total_ = 0, n_with_departed_ = 0;
     std::vector<Disc> departed_; ///< where they have left
     Strips strips_,
-        redistributed_strips_; ///< wanted, and those that the discs were last settled in
+        redistributed_strips_; ///< wanted, and those of the last migration
     NeighbourExchange exchange_;
     CellGrid grid_;
     bool is_sorted_ = false; ///< whether the grid has the own discs' places

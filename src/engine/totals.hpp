@@ -16,8 +16,7 @@ namespace carrom {
 struct RollbackCounts {
     std::uint64_t windows = 0, windows_redone = 0; ///< redone: in some block at least, on any rank
     std::uint64_t blocks = 0,
-                  blocks_redone =
-                      0; ///< replays of blocks on all ranks, first ones and repeated ones
+                  blocks_redone = 0; ///< block runs on all ranks, first and repeated
 };
 
 /// Seconds this rank has spent, by phase, in the order they are reported.

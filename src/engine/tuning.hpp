@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Choices that change how long a run takes, and never its result.
+// Choices that affect how long a run takes, and never its result.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,7 @@
 
 namespace carrom {
 
-/// Choices that cost or save time and have no say in the bits. Unset ones are chosen from the scene
-/// as it runs.
+/// Unset choices are made from the scene as it runs.
 struct Tuning {
     int threads = 1;
     std::uint64_t discs_per_thread = 2000; ///< a rank with fewer uses fewer threads

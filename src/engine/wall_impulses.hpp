@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What discs have handed over to each side of the box. Engines add to it only while somebody asks
-// for it; sums are exact, so the order of collisions, and who carries them out, have no say in
-// them.
+// The impulses of discs on each side of the box. Engines add to them only for a measurement. Sums
+// are exact: neither the order of collisions nor the rank that carries them out affects them.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How long a window should be: long ones share the cost of sorting discs into cells, but look
-// further. Pure arithmetic on numbers that all ranks know, so all choose the same; the choice costs
-// or saves time and has no say in the bits.
+// further. Pure arithmetic on numbers that all ranks know, so all choose the same. The choice
+// affects the run's time, not its bits.
 #pragma once
 
 #include <array>

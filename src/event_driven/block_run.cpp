@@ -10,8 +10,8 @@ namespace carrom {
 
 namespace {
 
-/// So many collisions of a block's discs within a law's `one_time` are without end, and some for
-/// each disc more.
+/// So many collisions of a block's discs within `Dynamics::one_time` are a collision cascade, and
+/// some for each disc more.
 constexpr std::uint64_t cascade_count = 100000, cascade_count_per_disc = 1000;
 
 } // namespace
@@ -39,11 +39,10 @@ void BlockRun<Dynamics>::run(const BlockGround& ground, const CellBlock& block, 
     s.outcome = &outcome;
     outcome.hit.clear();
     outcome.states.clear();
-    outcome.spins.clear();
     outcome.ring.clear();
     outcome.log.clear();
     outcome.n_events = 0;
-    outcome.is_endless = false;
+    outcome.is_cascade = false;
     s.gather(ground, block, halo);
     s.mark_own(block);
     if constexpr (Dynamics::is_periodic) {
@@ -56,7 +55,7 @@ void BlockRun<Dynamics>::run(const BlockGround& ground, const CellBlock& block, 
         return s.discs[event.p].version() == event.p_version &&
                (is_wall(event.q) || s.discs[event.q].version() == event.q_version);
     };
-    for (Event event; s.queue.pop(event, before, is_current) && !outcome.is_endless;)
+    for (Event event; s.queue.pop(event, before, is_current) && !outcome.is_cascade;)
         s.happen(event);
     s.report(block, histories);
 }
@@ -122,8 +121,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_all() {
     std::uint32_t slot = 0;
     for (int column = 0; column < table.n_columns; ++column) {
         later_ends.clear();
-        filter_column(lanes, table, column, ground.grid->frame().n_reach, touching_squared, later,
-                      later_ends);
+        filter_column(lanes, table, column, ground.grid->geometry().n_reach, touching_squared,
+                      later, later_ends);
         std::uint32_t k = 0;
         for (const std::uint32_t end : later_ends) {
             for (; k < end; ++k) predict_pair(slot, later[k]);
@@ -166,8 +165,8 @@ void BlockRun<Dynamics>::Scratch::predict_pair(std::uint32_t a, std::uint32_t b)
     const auto contact = dynamics.event_contact(discs[a], discs[b]);
     if (!contact.exists()) return;
     const double time = contact.base + contact.delay;
-    // Two discs that have just collided with each other do not collide again at the same time: what
-    // rounding has left of their approach is too little for an impulse to mend.
+    // Two discs that have just collided with each other do not collide again at the same time. The
+    // rest of their approach, a rounding, is too small for an impulse to mend.
     if (have_just_collided(a, b, time)) return;
     push(time, a, b);
 }
@@ -239,7 +238,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
     if (is_corner && !has_left &&
         (Dynamics::has_mirror_walls ||
          discs[event.p].vy ==
-             vy_before)) { // nothing may come between its two sides: x and y are alike
+             vy_before)) { // nothing may come between the two walls: x and y are alike
         Event other_side = event;
         other_side.q = y_wall;
         other_side.generation += 1;
@@ -278,13 +277,14 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
             dynamics.bounce_off_at(p, event.q - first_obstacle, event.time);
     } else {
         if constexpr (Dynamics::has_spin)
-            dynamics.collide_at(p, discs[event.q], event.time, spins[event.p], spins[event.q]);
+            dynamics.collide_at(p, discs[event.q], event.time, columns[SideColumn::spin][event.p],
+                                columns[SideColumn::spin][event.q]);
         else
             dynamics.collide_at(p, discs[event.q], event.time);
         note(event.q, event.p, event);
     }
     if constexpr (Dynamics::has_spin && Dynamics::may_lose_discs)
-        if (p.has_departed()) spins[event.p] = 0;
+        if (p.has_departed()) columns[SideColumn::spin][event.p] = 0;
     note(event.p, event.q, event);
     if (is_own_image(event.p)) {
         outcome->n_events += 1;
@@ -304,7 +304,7 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
     past_events.partner = partner;
     const std::uint64_t partner_id = is_wall(partner) ? ~std::uint64_t{0} : discs[partner].id;
     double spin = 0;
-    if constexpr (Dynamics::has_spin) spin = spins[slot];
+    if constexpr (Dynamics::has_spin) spin = columns[SideColumn::spin][slot];
     past_events.add<Dynamics::has_spin>(event.time, disc, partner_id, spin);
     if (is_own[slot] != 0) {
         const float before = vx[slot] * vx[slot] + vy[slot] * vy[slot];

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Replays a window of time in one block of cells, alone: every collision of its own discs and of
-// those around them, in the total order of the event-driven method (docs/method.md, sections 3 and
-// 8).
+// A speculative run of a window of time in one block of cells, alone. It carries out every
+// collision of its own discs and of those around them, in the total order of the event-driven
+// method (docs/method.md, sections 3 and 8).
 //
-// A replay knows nothing of what happens beyond its halo, and may be wrong without noticing. So it
-// also says what it has seen happen to the discs of the ring, those within one reach of its own
-// cells: it is right if their owners have seen the same. Block-local copies in the order of cells,
-// a line of 64 bytes and four floats a disc, stay in the L2 cache; whole runs of cells are rejected
-// in single precision, survivors judged by the double predicate.
+// A run does not see what happens beyond its halo, and may be wrong without noticing. So it also
+// reports the event histories of the ring, the discs within one reach of its own cells. It is right
+// if their owners have found the same. Block-local copies in the order of cells, a line of 64 bytes
+// and four floats a disc, stay in the L2 cache. Whole runs of cells are rejected in single
+// precision; the double predicate decides on the rest.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +17,7 @@
 
 #include "cell_list/cell_grid.hpp"
 #include "core/disc.hpp"
+#include "core/side_columns.hpp"
 #include "dynamics/all_dynamics.hpp"
 
 namespace carrom {
@@ -28,7 +29,7 @@ struct BlockWindow {
     double begin = 0, end = 1;
     bool holds_begin = true;
     double speed_bound = 0; ///< no disc is faster at the start, none gets further than this takes
-                            ///< it, or the replay is void
+                            ///< it, or the run is void
 
     double duration() const { return end - begin; }
 };
@@ -52,11 +53,11 @@ struct BlockGround {
     CellBlock own_cells; ///< own discs that rounding puts outside belong to the nearest of them
     BlockWindow window;
     bool is_logged = false;
-    std::span<const double> spins{}; ///< by disc, of rough ones
+    const SideColumns* columns = nullptr; ///< by disc
 };
 
-/// What a block has seen happen to a disc of its ring: 0 for nothing, else a hash of times,
-/// partners and results.
+/// The event history of a disc of a block's ring: 0 for no event, else a hash of times, partners
+/// and results.
 struct HaloRecord {
     LocalIndex index = 0;
     std::uint64_t history = 0;
@@ -79,36 +80,41 @@ public:
     NewState() = default;
     explicit NewState(const Disc& disc)
         : x_(disc.x), y_(disc.y), vx_(disc.vx), vy_(disc.vy), tau_(disc.tau),
-          wall_collisions_(static_cast<std::uint32_t>(disc.wall_collisions)),
+          wall_collisions_(disc.wall_collisions & wall_bits), is_departed_(disc.is_departed),
           pair_collisions_(static_cast<std::uint32_t>(disc.pair_collisions)) {}
 
-    /// `disc` is as it was at the window's start; its counters grow by less than 2^32.
+    /// `disc` is as it was at the window's start; its counters grow by less than 2^31.
     void overwrite(Disc& disc) const {
         disc.x = x_;
         disc.y = y_;
         disc.vx = vx_;
         disc.vy = vy_;
         disc.tau = tau_;
-        disc.wall_collisions += wall_collisions_ - static_cast<std::uint32_t>(disc.wall_collisions);
+        disc.wall_collisions += (wall_collisions_ - disc.wall_collisions) & wall_bits;
         disc.pair_collisions += pair_collisions_ - static_cast<std::uint32_t>(disc.pair_collisions);
+        disc.is_departed = is_departed_;
     }
 
 private:
+    static constexpr std::uint64_t wall_bits = 0x7fffffff;
+
     double x_, y_, vx_, vy_, tau_;
-    std::uint32_t wall_collisions_, pair_collisions_; ///< their low halves
+    std::uint32_t wall_collisions_ : 31; ///< the counters' low parts
+    std::uint32_t is_departed_ : 1;
+    std::uint32_t pair_collisions_;
 };
 static_assert(sizeof(NewState) == 48);
 
 struct BlockOutcome {
     std::vector<LocalIndex> hit;  ///< own discs that have collided
     std::vector<NewState> states; ///< what has become of them
-    std::vector<double> spins;    ///< likewise, of rough discs
+    SideColumns columns;          ///< likewise
     std::vector<HaloRecord> ring;
     std::vector<LoggedEvent> log;
     std::uint64_t n_events = 0; ///< whose first disc is own
     double too_fast = 0;        ///< the largest speed of an own disc that got too far, else 0
     double largest_speed_at_end = 0;
-    bool is_endless = false; ///< the replay was given up: a disc collided without end at one time
+    bool is_cascade = false; ///< the run was given up in a collision cascade of this disc
     DiscId cascade_disc = 0, cascade_partner = 0; ///< equal if it is a wall that it meets
     double cascade_time = 0;
 };
@@ -120,11 +126,11 @@ public:
     ~BlockRun();
     BlockRun(BlockRun&&) noexcept;
 
-    /// Replays the own discs in `block` and what lies `halo` cells around it. Writes the history of
-    /// each own disc of the block to its place in `histories`. `is_whole`: in a periodic box, that
-    /// every disc is there with all that is within one reach of it; what happens to one of its
-    /// images happens to all then, and the replay is right. **Not collective**: blocks may be
-    /// replayed by many threads at once.
+    /// Runs the own discs in `block` and what lies `halo` cells around it. Writes the history of
+    /// each own disc of the block to its place in `histories`. `is_whole`: in a periodic box, every
+    /// disc is there with all that is within one reach of it. What happens to one of its images
+    /// happens to all then, and the run is right. **Not collective**: many threads may run blocks
+    /// at once.
     void run(const BlockGround& ground, const CellBlock& block, int halo, bool is_whole,
              std::span<std::uint64_t> histories, BlockOutcome& outcome);
 

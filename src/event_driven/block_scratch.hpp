@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one replay works with: copies of the discs of a block and its halo, what has happened to
-// them, what will.
+// What a block run works with: copies of the discs of a block and its halo, their events so far,
+// and those to come.
 #pragma once
 
 #include <algorithm>
@@ -133,7 +133,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     }
 
     [[gnu::noinline]] void give_up(const Event& event) {
-        outcome->is_endless = true;
+        outcome->is_cascade = true;
         outcome->cascade_disc = discs[event.p].id;
         outcome->cascade_partner = is_wall(event.q) ? discs[event.p].id : discs[event.q].id;
         outcome->cascade_time = event.time;
@@ -163,7 +163,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     std::vector<std::uint32_t> cell_starts; ///< by column and row, and one more to each column
     std::vector<LocalIndex> indices;        ///< by slot, as all that follows
     std::vector<Disc> discs;
-    std::vector<double> spins; ///< of rough discs
+    SideColumns columns = side_columns_of<Dynamics>();
     std::vector<EventHistory> past_events_of;
     std::vector<std::uint8_t> is_own;
     std::vector<std::uint32_t>
@@ -178,7 +178,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         others_partners; ///< of one disc, and of the one that it has met
     std::vector<std::uint32_t> later,
         later_ends;           ///< of a column: partners behind its discs, and where each one's end
-    double cascade_begin = 0; ///< when the present crowd of collisions at one time began
+    double cascade_begin = 0; ///< when the present collision cascade began, if it is one
     std::uint64_t cascade = 0;
     BlockOutcome* outcome = nullptr;
     double bound_squared = 0;     ///< of the speed

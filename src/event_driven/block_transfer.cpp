@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a block takes over from its rank before a replay, and what it gives back afterwards.
+// What a block takes over from its rank before a run, and what it gives back afterwards. A run that
+// sees all of a periodic box links images, so that what happens to one happens to all.
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "event_driven/block_scratch.hpp"
@@ -14,11 +17,11 @@ void BlockRun<Dynamics>::Scratch::gather(const BlockGround& of_rank, const CellB
                                          int halo) {
     ground = of_rank;
     const CellGrid& grid = *ground.grid;
-    const GridFrame& frame = grid.frame();
+    const GridGeometry& geometry = grid.geometry();
     cells.first_column = std::max(0, own.first_column - halo);
-    cells.end_column = std::min(frame.n_columns, own.end_column + halo);
+    cells.end_column = std::min(geometry.n_columns, own.end_column + halo);
     cells.first_row = std::max(0, own.first_row - halo);
-    cells.end_row = std::min(frame.n_rows, own.end_row + halo);
+    cells.end_row = std::min(geometry.n_rows, own.end_row + halo);
     cell_rows = static_cast<std::size_t>(cells.end_row - cells.first_row) + 1;
     cell_starts.clear();
     indices.clear();
@@ -40,20 +43,17 @@ void BlockRun<Dynamics>::Scratch::gather(const BlockGround& of_rank, const CellB
     row_limit = static_cast<float>(cells.end_row - cells.first_row - 1);
     discs.resize(n);
     past_events_of.assign(n, EventHistory{});
-    if constexpr (Dynamics::has_spin) {
-        spins.resize(n);
-        for (std::size_t slot = 0; slot < n; ++slot) spins[slot] = ground.spins[indices[slot]];
-    }
+    if (ground.columns) columns.gather(*ground.columns, indices);
     for (std::vector<float>* lane : {&x, &y, &vx, &vy}) {
         if (lane->size() < n + filter_padding) lane->resize(2 * n + filter_padding);
     }
     lanes = {x.data(), y.data(), vx.data(), vy.data()};
 
     const BlockWindow& window = ground.window;
-    x_corner = frame.x_low + cells.first_column * frame.cell_width;
-    y_corner = frame.y_low + cells.first_row * frame.cell_width;
-    cells_per_length = 1 / frame.cell_width;
-    cells_per_speed = window.duration() / frame.cell_width;
+    x_corner = geometry.x_low + cells.first_column * geometry.cell_width;
+    y_corner = geometry.y_low + cells.first_row * geometry.cell_width;
+    cells_per_length = 1 / geometry.cell_width;
+    cells_per_speed = window.duration() / geometry.cell_width;
     windows_per_time = 1 / window.duration();
     const double sigma = dynamics.search_diameter() * cells_per_length;
     const double extent = std::max(cells.end_column - cells.first_column,
@@ -61,16 +61,16 @@ void BlockRun<Dynamics>::Scratch::gather(const BlockGround& of_rank, const CellB
                           8.0;
     const double reach = block_reach(window, dynamics.search_diameter(), dynamics.box_size()) *
                          cells_per_length;
-    // Positions carry an error of 2^-23 of the block's size; the rounding of the filter's other
-    // terms acts like a longer diameter by 2^-20 d^2 / diameter, d being the largest distance that
+    // Positions carry an error of 2^-23 of the block's size. The rounding of the filter's other
+    // terms acts like a longer diameter by 2^-20 d^2 / diameter, with the largest distance d that
     // is looked at.
     const double looked_at = 3 * reach + 3;
     const double touching = sigma * (1 + 0x1p-18) + 0x1p-20 * extent +
                             0x1p-20 * looked_at * looked_at / sigma;
     touching_squared = static_cast<float>(touching * touching);
     farthest = static_cast<float>((reach + sigma) / 2 + 0x1p-18 * extent + 1e-6);
-    const double inner = dynamics.radius() + dynamics.slack() + 1e-3 * frame.cell_width +
-                         0x1p-18 * extent * frame.cell_width;
+    const double inner = dynamics.radius() + dynamics.slack() + 1e-3 * geometry.cell_width +
+                         0x1p-18 * extent * geometry.cell_width;
     const Extent walls = dynamics.walls_between(window.begin, window.end);
     x_inner_low = static_cast<float>((walls.x_low + inner - x_corner) * cells_per_length);
     y_inner_low = static_cast<float>((walls.y_low + inner - y_corner) * cells_per_length);
@@ -118,9 +118,10 @@ void BlockRun<Dynamics>::Scratch::report(const CellBlock& own, std::span<std::ui
         n_hit += is_own[slot] != 0 && past_events_of[slot].history != 0;
     outcome->hit.resize(n_hit);
     outcome->states.resize(n_hit);
-    if constexpr (Dynamics::has_spin) outcome->spins.resize(n_hit);
+    outcome->columns = side_columns_of<Dynamics>();
+    outcome->columns.resize(n_hit);
     std::size_t next = 0;
-    const int ring = ground.grid->frame().n_reach;
+    const int ring = ground.grid->geometry().n_reach;
     const int first_column = std::max(cells.first_column, own.first_column - ring);
     const int end_column = std::min(cells.end_column, own.end_column + ring);
     for (int column = first_column; column < end_column; ++column) {
@@ -137,12 +138,57 @@ void BlockRun<Dynamics>::Scratch::report(const CellBlock& own, std::span<std::ui
             if (past_events.history == 0) continue;
             outcome->hit[next] = indices[slot];
             outcome->states[next] = NewState(discs[slot]);
-            if constexpr (Dynamics::has_spin) outcome->spins[next] = spins[slot];
+            outcome->columns.copy(next, columns, slot);
             ++next;
         }
     }
     ensure(next == n_hit, "a block's own discs lie in its own cells or next to them");
     outcome->largest_speed_at_end = std::sqrt(end_squared) * (1 + 0x1p-50);
+}
+
+/// Makes rings of the images of each disc.
+template <class Dynamics> void BlockRun<Dynamics>::Scratch::link_images() {
+    constexpr std::uint32_t none = 0xffffffff;
+    const std::size_t n = discs.size(), size = std::bit_ceil(2 * n + 1);
+    next_image.resize(n);
+    image_table.assign(size, none);
+    for (std::uint32_t slot = 0; slot < n; ++slot) {
+        std::size_t place = ((discs[slot].id * 0x9e3779b97f4a7c15u) >> 20) & (size - 1);
+        while (image_table[place] != none && discs[image_table[place]].id != discs[slot].id)
+            place = (place + 1) & (size - 1);
+        next_image[slot] = slot;
+        if (image_table[place] == none)
+            image_table[place] = slot;
+        else
+            std::swap(next_image[slot], next_image[image_table[place]]);
+    }
+}
+
+/// What has happened to a disc has happened to all of its images.
+template <class Dynamics>
+void BlockRun<Dynamics>::Scratch::mirror(std::uint32_t slot, double time) {
+    for (std::uint32_t other = next_image[slot]; other != slot; other = next_image[other]) {
+        const Image image = image_of(discs[other]);
+        discs[other] = discs[slot];
+        set_image(discs[other], image);
+        past_events_of[other] = past_events_of[slot];
+        columns.copy(other, columns, slot);
+        const double speed_squared = discs[other].vx * discs[other].vx +
+                                     discs[other].vy * discs[other].vy;
+        const float before = vx[other] * vx[other] + vy[other] * vy[other];
+        if (is_own[other] != 0 && (speed_squared > bound_squared || before > bound_lane_squared))
+            hold_to_schedule(other, time);
+        place(other, ground.window.begin);
+    }
+}
+
+/// A pair's contact is found several times then: the first one that is carried out makes the others
+/// stale.
+template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_images(std::uint32_t slot) {
+    for (std::uint32_t other = next_image[slot]; other != slot; other = next_image[other]) {
+        if (dynamics.has_walls()) predict_walls(other);
+        predict_pairs(other);
+    }
 }
 
 #define CARROM_DEFINE(Dynamics)                                                                    \
@@ -151,5 +197,12 @@ void BlockRun<Dynamics>::Scratch::report(const CellBlock& own, std::span<std::ui
     template void BlockRun<Dynamics>::Scratch::report(const CellBlock&, std::span<std::uint64_t>);
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
 #undef CARROM_DEFINE
+
+#define CARROM_DEFINE_IMAGES(Dynamics)                                                             \
+    template void BlockRun<Dynamics>::Scratch::link_images();                                      \
+    template void BlockRun<Dynamics>::Scratch::mirror(std::uint32_t, double);                      \
+    template void BlockRun<Dynamics>::Scratch::predict_images(std::uint32_t);
+CARROM_FOR_EACH_PERIODIC_DYNAMICS(CARROM_DEFINE_IMAGES)
+#undef CARROM_DEFINE_IMAGES
 
 } // namespace carrom

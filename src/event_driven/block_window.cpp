@@ -18,11 +18,11 @@ constexpr double cost_per_event = 160;
 constexpr double cost_per_partner = 1.0; ///< of each disc that a prediction looks at
 constexpr double discs_in_cache =
     24000; ///< of a block with its halo; most of them are looked at once only
-/// News travel by collisions. Where discs fly far compared with their size few go two reaches in a
-/// window.
+/// Changes spread by collisions. Where discs fly far compared with their size few go two reaches in
+/// a window.
 constexpr double thin_gas = 0.2; ///< diameter to reach
 
-// To repeat a block's replay with twice the halo costs two or three of it, a reach more of halo a
+// To repeat a block's run with twice the halo costs two or three of it, a reach more of halo a
 // tenth: docs/performance.md.
 constexpr double much_repeated = 0.08, mostly_repeated = 0.5;
 constexpr double memory = 0.9; ///< weight of the windows before the last one
@@ -54,11 +54,11 @@ double cost_per_time(const BlockNeeds& needs, const BlockChoice& choice) {
                         choice.reach;
     const double walled = (needs.is_one_block ? side : std::min(side + 2 * halo, needs.box_size)) /
                           side,
-                 endless = (side + 2 * halo) / side;
-    // Of discs replayed, halo included, to own ones.
+                 around = (side + 2 * halo) / side;
+    // Of discs in the run, halo included, to own ones.
     const double share = needs.n_periodic_axes == 0   ? walled * walled
-                         : needs.n_periodic_axes == 1 ? walled * endless
-                                                      : endless * endless;
+                         : needs.n_periodic_axes == 1 ? walled * around
+                                                      : around * around;
     const double looked_at = std::min(1.6 * choice.reach, needs.box_size) / needs.box_size;
     const double partners = needs.n_discs * looked_at * looked_at;
     const double events = needs.collision_rate * choice.duration;

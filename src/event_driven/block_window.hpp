@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How long a window of the event-driven method should be, how large its blocks. Pure arithmetic on
-// numbers that all ranks know; the choice costs or saves time and has no say in the bits.
+// numbers that all ranks know; the choice affects the run's time, not its bits.
 //
 // Long windows share the cost of sorting and copying discs, short ones look less far; large blocks
 // have less halo, small ones stay in the cache.
@@ -21,7 +21,7 @@ struct BlockNeeds {
     std::optional<int>
         halo; ///< reaches that blocks look beyond their own cells at first, if that is wanted
     bool is_one_block = false; ///< all discs in one block, whatever their number
-    int more_halo = 0;         ///< reaches more than where little has to be replayed again
+    int more_halo = 0;         ///< reaches more than where few runs are repeated
     int n_periodic_axes = 0;   ///< along which a halo does not end with the box: it has images, if
                                ///< need be many of each disc
 };
@@ -37,12 +37,12 @@ struct BlockChoice {
 BlockChoice choose_block_window(const BlockNeeds& needs, double longest,
                                 std::optional<double> wanted);
 
-/// What windows teach whose replays had to be repeated. News travel by collisions: where discs are
-/// dense, or lie in a heap, they go further in a window than its cells suggest. Then blocks look
-/// further around, and if that is not enough windows are shorter.
+/// Learns from windows whose block runs had to be repeated. Changes spread by collisions: where
+/// discs are dense, or lie in a heap, they go further in a window than its cells suggest. Then
+/// blocks look further around, and if that is not enough windows are shorter.
 class Caution {
 public:
-    /// Of a window: replays that were repeated, as a share of its blocks, and its collisions per
+    /// Of a window: block runs that were repeated, as a share of its blocks, and its collisions per
     /// disc.
     void learn(double repeated, double hits);
     int more_halo() const { return more_halo_; }

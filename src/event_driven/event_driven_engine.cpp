@@ -179,7 +179,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
 
 /// Own columns end where the strip does: a block's halo counts from its last column, the rank's
 /// from the strip.
-template <class Dynamics> GridFrame EventDrivenEngine<Dynamics>::lay_cells(double reach) {
+template <class Dynamics> GridGeometry EventDrivenEngine<Dynamics>::lay_cells(double reach) {
     const Extent box = extent();
     const double x_from = std::max(box.x_low, discs_.strips().low(communicator_.rank()));
     const double x_to = std::min(box.x_high, discs_.strips().high(communicator_.rank()));
@@ -187,31 +187,32 @@ template <class Dynamics> GridFrame EventDrivenEngine<Dynamics>::lay_cells(doubl
                                      static_cast<double>(discs_.n_own() + 16));
     const double least_width = std::max(reach / cells_per_reach(reach, spacing), 0.7 * spacing);
     const double n_whole = std::max(1.0, std::floor((x_to - x_from) / least_width));
-    GridFrame frame;
-    frame.set_cell_width(std::max(least_width, (x_to - x_from) / n_whole));
-    frame.n_reach = static_cast<int>(std::ceil(reach / frame.cell_width * (1 - 1e-9)));
-    const int n_halo = halo_depth_ * frame.n_reach;
+    GridGeometry geometry;
+    geometry.set_cell_width(std::max(least_width, (x_to - x_from) / n_whole));
+    geometry.n_reach = static_cast<int>(std::ceil(reach / geometry.cell_width * (1 - 1e-9)));
+    const int n_halo = halo_depth_ * geometry.n_reach;
     const bool goes_round_x = discs_.periods().x != 0, goes_round_y = discs_.periods().y != 0;
     const auto n_beside = [&](double length) { // columns of other strips, or of images
         if (goes_round_x) return n_halo;
-        return communicator_.size() > 1 ? std::min(n_halo, cells_along(length, frame.cell_width))
+        return communicator_.size() > 1 ? std::min(n_halo, cells_along(length, geometry.cell_width))
                                         : 0;
     };
     own_cells_.first_column = n_beside(x_from - box.x_low);
-    own_cells_.end_column = own_cells_.first_column + cells_along(x_to - x_from, frame.cell_width);
-    frame.n_columns = own_cells_.end_column + n_beside(box.x_high - x_to);
+    own_cells_.end_column = own_cells_.first_column +
+                            cells_along(x_to - x_from, geometry.cell_width);
+    geometry.n_columns = own_cells_.end_column + n_beside(box.x_high - x_to);
     own_cells_.first_row = goes_round_y ? n_halo : 0;
     own_cells_.end_row = own_cells_.first_row +
-                         cells_along(box.y_high - box.y_low, frame.cell_width);
-    frame.n_rows = own_cells_.end_row + own_cells_.first_row;
-    frame.x_low = x_from - own_cells_.first_column * frame.cell_width;
-    frame.y_low = box.y_low - own_cells_.first_row * frame.cell_width;
-    return frame;
+                         cells_along(box.y_high - box.y_low, geometry.cell_width);
+    geometry.n_rows = own_cells_.end_row + own_cells_.first_row;
+    geometry.x_low = x_from - own_cells_.first_column * geometry.cell_width;
+    geometry.y_low = box.y_low - own_cells_.first_row * geometry.cell_width;
+    return geometry;
 }
 
 /// Cuts the own cells into blocks of about equal size. A block that exists already keeps its halo.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::make_blocks() {
-    const double cell_width = discs_.grid().frame().cell_width, side = block_side();
+    const double cell_width = discs_.grid().geometry().cell_width, side = block_side();
     const auto cells_each = [](int n_cells, int n_parts) {
         return (n_cells + n_parts - 1) / n_parts;
     };
@@ -246,12 +247,12 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::make_blocks() {
 
 /// How long a block's sides should be.
 template <class Dynamics> double EventDrivenEngine<Dynamics>::block_side() const {
-    const GridFrame& frame = discs_.grid().frame();
-    const double width = (own_cells_.end_column - own_cells_.first_column) * frame.cell_width,
-                 height = (own_cells_.end_row - own_cells_.first_row) * frame.cell_width;
+    const GridGeometry& geometry = discs_.grid().geometry();
+    const double width = (own_cells_.end_column - own_cells_.first_column) * geometry.cell_width,
+                 height = (own_cells_.end_row - own_cells_.first_row) * geometry.cell_width;
     double side = choice_.block_side;
     if (block_tuning_.block_side)
-        side = *block_tuning_.block_side * frame.cell_width * frame.n_reach;
+        side = *block_tuning_.block_side * geometry.cell_width * geometry.n_reach;
     else if (is_one_block_)
         side = 2 * std::max(width, height);
     if (tuning_.threads > 1 && !is_one_block_)
@@ -259,7 +260,7 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::block_side() const
     return side;
 }
 
-/// Of all ranks' blocks those that are to be replayed. **Collective.**
+/// The share of all ranks' blocks that have to run. **Collective.**
 template <class Dynamics> double EventDrivenEngine<Dynamics>::share_marked() const {
     std::uint64_t n[] = {0, blocks_.size()};
     for (const Block& block : blocks_) n[0] += block.is_marked;
@@ -269,9 +270,9 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::share_marked() con
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
     const PhaseClock::Scope scope(phases_, Phase::search);
-    const BlockGround ground{discs_.all(), discs_.n_own(),      &discs_.grid(), own_cells_,
-                             window_,      this->is_followed(), discs_.spins()};
-    const int n_reach = discs_.grid().frame().n_reach;
+    const BlockGround ground{discs_.all(), discs_.n_own(),      &discs_.grid(),   own_cells_,
+                             window_,      this->is_followed(), &discs_.columns()};
+    const int n_reach = discs_.grid().geometry().n_reach;
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
     for (Block& block : blocks_) {
         if (block.is_marked == 0) continue;
@@ -298,10 +299,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
         const BlockOutcome& outcome = blocks_[static_cast<std::size_t>(k)].outcome;
         for (std::size_t i = 0; i < outcome.hit.size(); ++i)
             outcome.states[i].overwrite(discs[outcome.hit[i]]);
-        if constexpr (Dynamics::has_spin) {
-            for (std::size_t i = 0; i < outcome.hit.size(); ++i)
-                discs_.spins()[outcome.hit[i]] = outcome.spins[i];
-        }
+        for (std::size_t i = 0; i < outcome.hit.size(); ++i)
+            discs_.columns().copy(outcome.hit[i], outcome.columns, i);
     }
     n_events_ = 0;
     largest_speed_ = 0;

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The event-driven method on ranks and threads: windows of time, replayed block by block,
-// validated, then made true.
+// Event-driven molecular dynamics on ranks and threads, by speculative runs of blocks of cells
+// (docs/method.md, section 8). A window of time goes through these phases:
 //
-//   settle   own discs to their strips, halo discs from the neighbours, all into cells; the own
-//   cells into blocks replay   each block with its halo, alone, by whichever thread is free
-//   validate  each block's ring has seen the same as its owners, and no disc was faster than the
-//   bound; if not,
-//            the blocks that differ are replayed with twice the halo, in the end with the whole box
-//            (docs/method.md, 8)
-//   commit   new states for the discs that were hit
+//   redistribute  own discs to their strips, halo discs from the neighbours, all into cells; the
+//   own
+//                 cells into blocks
+//   run           each block with its halo, alone, by whichever thread is free
+//   validate      each block's ring has the histories that its owners found, and no disc was faster
+//                 than the bound; else rollback: blocks that differ run again with twice the halo,
+//                 in the end with the whole box
+//   commit        new states for the discs that were hit
 //
-// Nothing is rewritten before the window is validated, so every way back is safe.
+// A rollback costs nothing but the run: states are rewritten at the commit only.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +25,7 @@
 
 namespace carrom {
 
-/// What tests turn; nothing of it changes the bits, but for the validation.
+/// What tests vary. Only the validation affects the bits.
 struct BlockTuning {
     std::optional<int> halo;          ///< reaches that blocks look beyond their own cells at first
     std::optional<double> block_side; ///< in reaches
@@ -66,7 +67,7 @@ private:
     double speed_bound_until(double target) const;
     void shorten();
     void redistribute();
-    GridFrame lay_cells(double reach);
+    GridGeometry lay_cells(double reach);
     void make_blocks();
     double block_side() const;
     void run_blocks();
@@ -114,8 +115,7 @@ private:
     std::vector<BlockRun<Dynamics>> block_runs_; ///< by thread
 };
 
-/// The engine of the event-driven method with the law that the scene's precision and arithmetic ask
-/// for. **Collective.**
+/// The engine of the event-driven method with the scene's dynamics. **Collective.**
 std::unique_ptr<Engine> make_event_driven_engine(const Scene& scene, StoredState state,
                                                  const Communicator& communicator,
                                                  const Tuning& tuning);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Predicted collisions of one replay in their total order: time, generation, id of P, wall before
-// pair, id of Q.
+// Predicted collisions of one block run in their total order: time, generation, id of P, wall
+// before pair, id of Q.
 //
-// Predictions are not taken back: one whose discs have collided since is known by their versions
-// and passed over. Where discs without room collide millions of times in a window such predictions
-// pile up, so they are swept out whenever there are twice as many as there were good ones.
+// Predictions are not taken back. One whose discs have collided since is known by their versions
+// and passed over. Such predictions pile up where discs without room collide millions of times in a
+// window. So they are swept out whenever there are twice as many as there were good ones.
 #pragma once
 
 #include <algorithm>
@@ -99,7 +99,7 @@ public:
     /// false if there is none.
     template <class IsCurrent>
     bool pop(Event& first, const EventOrder& before, const IsCurrent& is_current) {
-        if (is_crowded()) [[unlikely]]
+        if (has_outgrown()) [[unlikely]]
             sweep(before, is_current);
         for (;;) {
             while (!now_.empty()) {
@@ -125,7 +125,7 @@ private:
     static constexpr std::uint32_t none = 0xffffffff;
     static constexpr std::size_t least_to_sweep = 4096;
 
-    bool is_crowded() const {
+    bool has_outgrown() const {
         return now_.size() > most_now_ || (first_free_ == none && pool_.size() > most_waiting_);
     }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// First rejection of partners in a replay, many lanes at a time: which flights of some runs of
-// slots might touch a given one between now and the window's end. It may keep pairs that never
-// touch; it never loses one that does.
+// First rejection of partners in a block run, many lanes at a time. It finds which flights in some
+// runs of slots might touch a given one before the window ends. It may keep pairs that never touch;
+// it never loses one that does.
 #pragma once
 
 #include <cstddef>
@@ -38,18 +38,18 @@ PartnerCounts filter_two_flights(const FlightLanes& lanes, std::span<const SlotR
                                  const Flight& p, const Flight& q, float touching_squared,
                                  std::uint32_t* p_out, std::uint32_t* q_out);
 
-/// Cells of a block, column by column: slots of cell (c, r) begin at starts[c * column_length + r]
-/// and end where the next cell's begin; column_length is one more than the rows.
+/// Cells of a block, column by column. Slots of cell (c, r) begin at starts[c * column_length + r]
+/// and end where the next cell's begin. There is one entry more to a column than rows.
 struct CellTable {
     const std::uint32_t* starts = nullptr;
     std::size_t column_length = 0;
     int n_columns = 0, n_rows = 0;
 };
 
-/// Every pair that might touch in the window, of a disc in `column` and one that comes after it:
-/// later in its own column or in a column to the right, `n_reach` cells away at most. Puts the
-/// second ones into `partners` (which only grows, so its size says nothing) and, for each disc of
-/// the column, appends where its partners end there to `ends`.
+/// Finds every pair that might touch in the window, of a disc in `column` and one that comes after
+/// it: later in its own column or in a column to the right, `n_reach` cells away at most. Puts the
+/// second ones into `partners`, which only grows. For each disc of the column it appends to `ends`
+/// where its partners end there.
 void filter_column(const FlightLanes& lanes, const CellTable& cells, int column, int n_reach,
                    float touching_squared, std::vector<std::uint32_t>& partners,
                    std::vector<std::uint32_t>& ends);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a window's replays are the truth (docs/method.md, section 8, rule A), and what to do
+// Whether a window's block runs are the truth (docs/method.md, section 8, rule A), and what to do
 // where they may not be.
 #include <algorithm>
 #include <atomic>
@@ -11,7 +11,7 @@
 
 namespace carrom {
 
-/// Marks the blocks that have to be replayed, on all ranks.
+/// Marks the blocks that have to run again, on all ranks.
 template <class Dynamics>
 typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::validate() {
     const PhaseClock::Scope scope(phases_, Phase::resolve);
@@ -27,7 +27,7 @@ typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::valid
     std::uint64_t n_marked = foreign.size(), n_cascades = 0;
     for (const Block& block : blocks_) {
         n_marked += block.is_marked;
-        n_cascades += block.outcome.is_endless;
+        n_cascades += block.outcome.is_cascade;
     }
     std::uint64_t updates[] = {is_too_fast ? 1u : 0u, n_marked, n_cascades};
     if (communicator_.size() > 1) {
@@ -38,9 +38,9 @@ typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::valid
     if (updates[2] > 0) fail_on_cascade();
     if (!block_tuning_.is_validated || updates[1] + updates[2] == 0) return Verdict::exact;
     const PhaseClock::Scope exchange(phases_, Phase::exchange);
-    std::vector<LocalIndex> named;
-    discs_.name_to_owners(foreign, named);
-    for (const LocalIndex index : named) mark_owner(index);
+    std::vector<LocalIndex> reported;
+    discs_.report_to_owners(foreign, reported);
+    for (const LocalIndex index : reported) mark_owner(index);
     return Verdict::repeat;
 }
 
@@ -55,7 +55,7 @@ void EventDrivenEngine<Dynamics>::compare_histories(std::vector<LocalIndex>& for
 #pragma omp for schedule(dynamic, 1)
         for (std::int64_t k = 0; k < n_blocks; ++k) {
             Block& block = blocks_[static_cast<std::size_t>(k)];
-            bool differs = block.outcome.is_endless;
+            bool differs = block.outcome.is_cascade;
             for (const HaloRecord& record : block.outcome.ring) {
                 if (record.history == histories_[record.index]) continue;
                 differs = true;
@@ -114,7 +114,7 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
 /// The rank's halo that the block's halo takes, in reaches. There is none beyond a wall.
 template <class Dynamics>
 int EventDrivenEngine<Dynamics>::halo_depth_for(const Block& block) const {
-    const int n_reach = discs_.grid().frame().n_reach;
+    const int n_reach = discs_.grid().geometry().n_reach;
     const Periods& periods = discs_.periods();
     int depth = 0;
     const auto look = [&](bool is_open, int n_cells_inside) {
@@ -133,12 +133,12 @@ int EventDrivenEngine<Dynamics>::halo_depth_for(const Block& block) const {
 
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::sees_all(const Block& block) const {
     if (Dynamics::is_periodic) return sees_all_images(block);
-    const GridFrame& frame = discs_.grid().frame();
-    const int halo = block.halo * frame.n_reach;
+    const GridGeometry& geometry = discs_.grid().geometry();
+    const int halo = block.halo * geometry.n_reach;
     const bool has_all_cells = block.cells.first_column <= halo &&
-                               block.cells.end_column + halo >= frame.n_columns &&
+                               block.cells.end_column + halo >= geometry.n_columns &&
                                block.cells.first_row <= halo &&
-                               block.cells.end_row + halo >= frame.n_rows;
+                               block.cells.end_row + halo >= geometry.n_rows;
     const double reach = this->reach();
     const Extent box = extent();
     const bool rank_has_all = communicator_.size() == 1 ||
@@ -149,27 +149,27 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::sees_all(const Block
 /// Along a periodic axis: once around from the block's own cells, and one reach more at both ends.
 template <class Dynamics>
 bool EventDrivenEngine<Dynamics>::sees_all_images(const Block& block) const {
-    const GridFrame& frame = discs_.grid().frame();
-    const int halo = block.halo * frame.n_reach;
+    const GridGeometry& geometry = discs_.grid().geometry();
+    const int halo = block.halo * geometry.n_reach;
     const double reach = this->reach();
-    const int around = static_cast<int>(std::ceil(dynamics_.box_size() / frame.cell_width)) + 1 +
-                       frame.n_reach;
+    const int around = static_cast<int>(std::ceil(dynamics_.box_size() / geometry.cell_width)) + 1 +
+                       geometry.n_reach;
     const bool rank_has_all = communicator_.size() == 1 ||
                               halo_depth_ * reach > dynamics_.box_size() + 2 * reach;
     const auto has_all = [&](int first, int end, int first_own, int end_own, int n_cells,
                              bool goes_round, bool own_is_all) {
         const int seen_first = std::max(0, first - halo), seen_end = std::min(n_cells, end + halo);
         if (!goes_round) return seen_first == 0 && seen_end == n_cells;
-        const bool has_own = seen_first <= first_own - frame.n_reach &&
-                             seen_end >= end_own + frame.n_reach;
+        const bool has_own = seen_first <= first_own - geometry.n_reach &&
+                             seen_end >= end_own + geometry.n_reach;
         return has_own && (own_is_all || seen_end >= first_own + around);
     };
     return rank_has_all &&
            has_all(block.cells.first_column, block.cells.end_column, own_cells_.first_column,
-                   own_cells_.end_column, frame.n_columns, discs_.periods().x != 0,
+                   own_cells_.end_column, geometry.n_columns, discs_.periods().x != 0,
                    communicator_.size() == 1) &&
            has_all(block.cells.first_row, block.cells.end_row, own_cells_.first_row,
-                   own_cells_.end_row, frame.n_rows, discs_.periods().y != 0, true);
+                   own_cells_.end_row, geometry.n_rows, discs_.periods().y != 0, true);
 }
 
 /// Ends the run on all ranks if a block that has seen the whole box has found no end.
@@ -178,7 +178,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::fail_on_cascade() co
     std::string text;
     for (const Block& block : blocks_) {
         const BlockOutcome& outcome = block.outcome;
-        if (!outcome.is_endless || !sees_all(block)) continue;
+        if (!outcome.is_cascade || !sees_all(block)) continue;
         const std::string partner = outcome.cascade_partner == outcome.cascade_disc
                                         ? "a wall"
                                         : fmt::format("disc {}", outcome.cascade_partner);

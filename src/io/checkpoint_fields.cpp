@@ -12,17 +12,8 @@
 
 namespace carrom {
 
-void set_bits(const Column& column, Disc& disc, std::uint64_t bits) {
-    std::visit(
-        [&](auto field) {
-            disc.*field = std::bit_cast<std::remove_reference_t<decltype(disc.*field)>>(bits);
-        },
-        column.field);
-}
-
-hid_t type_of(const Column& column) {
-    return std::holds_alternative<double Disc::*>(column.field) ? H5T_NATIVE_DOUBLE
-                                                                : H5T_NATIVE_UINT64;
+hid_t type_of(const DiscColumn& column) {
+    return column.is_real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_UINT64;
 }
 
 void write_header(hid_t group, const CheckpointHeader& header) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a checkpoint holds, in two tables that writer, reader and comparison loop over.
+// What a checkpoint holds beside the columns of discs (disc_columns.hpp), in tables that writer,
+// reader and comparison loop over.
 #pragma once
 
 #include <array>
@@ -7,26 +8,11 @@
 #include <string>
 #include <variant>
 
-#include "core/disc.hpp"
+#include "core/disc_columns.hpp"
 #include "io/checkpoint.hpp"
 #include "io/hdf5.hpp"
 
 namespace carrom {
-
-/// A dataset of /carrom/discs: one number of 8 bytes for each disc.
-struct Column {
-    const char* name;
-    std::variant<double Disc::*, std::uint64_t Disc::*> field;
-};
-
-inline constexpr std::array<Column, 7> checkpoint_columns = {
-    {{"x", &Disc::x},
-     {"y", &Disc::y},
-     {"vx", &Disc::vx},
-     {"vy", &Disc::vy},
-     {"tau", &Disc::tau},
-     {"wall_collisions", &Disc::wall_collisions},
-     {"pair_collisions", &Disc::pair_collisions}}};
 
 /// One more, of doubles, where discs turn: angles per micro-step.
 inline constexpr const char* spin_column = "/carrom/discs/spin";
@@ -90,9 +76,7 @@ inline constexpr std::array<SampleColumn, 4> sample_columns = {
 inline constexpr std::array<FrameField, 2> checkpoint_periods = {
     {{"period_x", &Frame::period_x}, {"period_y", &Frame::period_y}}};
 
-/// Sets the column's number of a disc by its 8 bytes.
-void set_bits(const Column& column, Disc& disc, std::uint64_t bits);
-hid_t type_of(const Column& column);
+hid_t type_of(const DiscColumn& column);
 
 void write_header(hid_t group, const CheckpointHeader& header);
 /// Throws FileError where something is missing or of another kind. Whether there are spins is for

@@ -37,7 +37,7 @@ CheckpointHeader header_of(const std::string& path, const Communicator& communic
         header.has_spins = has_spins(file.id());
         check_header(header);
         // A file that claims more discs than it has room for must not cost their memory.
-        if (header.n_discs > Descriptor(path, O_RDONLY).size() / (8 * checkpoint_columns.size()))
+        if (header.n_discs > Descriptor(path, O_RDONLY).size() / (8 * disc_columns.size()))
             throw FileError("has not got as many discs as it says");
         header.species = read_species(file.id(), header.n_discs);
     });
@@ -50,7 +50,7 @@ void read_columns(hid_t file, const std::string& path, std::uint64_t n, std::vec
                   const Communicator& communicator) {
     std::vector<h5::Dataset> datasets;
     on_all(communicator, path, ExitCode::bad_input, [&] {
-        for (const Column& column : checkpoint_columns) {
+        for (const DiscColumn& column : disc_columns) {
             datasets.push_back(
                 h5::open_checked(file, std::string("/carrom/discs/") + column.name, {n}));
         }
@@ -62,9 +62,9 @@ void read_columns(hid_t file, const std::string& path, std::uint64_t n, std::vec
             const std::uint64_t end = std::min<std::uint64_t>(begin + rows_per_piece, slab.size());
             for (std::size_t k = 0; k < datasets.size(); ++k) {
                 h5::read_rows(datasets[k].id(), {first + begin, first + end},
-                              type_of(checkpoint_columns[k]), numbers.data());
+                              type_of(disc_columns[k]), numbers.data());
                 for (std::uint64_t row = begin; row < end; ++row)
-                    set_bits(checkpoint_columns[k], slab[row], numbers[row - begin]);
+                    disc_columns[k].set(slab[row], numbers[row - begin]);
             }
         }
     });

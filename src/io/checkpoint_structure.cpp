@@ -61,7 +61,7 @@ void create_groups(hid_t file, const CheckpointHeader& header, const StoredSampl
     write_header(h5::create_group(carrom.id(), "run").id(), header);
     write_species(carrom.id(), header.species);
     const h5::Group columns = h5::create_group(carrom.id(), "discs");
-    for (const Column& column : checkpoint_columns)
+    for (const DiscColumn& column : disc_columns)
         create_column(columns.id(), column.name, std::array<hsize_t, 1>{header.n_discs},
                       type_of(column));
     if (header.has_spins)
@@ -112,15 +112,8 @@ std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const Store
                 return vector_of(shown.vx * k, shown.vy * k);
             });
         });
-    for (const Column& column : checkpoint_columns)
-        add(std::string("/carrom/discs/") + column.name, sizeof(std::uint64_t),
-            [&column](std::span<const Disc> discs, std::byte* out) {
-                std::visit(
-                    [&](auto field) {
-                        put_each(discs, out, [=](const Disc& disc) { return disc.*field; });
-                    },
-                    column.field);
-            });
+    for (const DiscColumn& column : disc_columns)
+        add(std::string("/carrom/discs/") + column.name, sizeof(std::uint64_t), column.put);
     if (header.has_spins)
         add(spin_column, sizeof(double), [&spins](std::span<const Disc> discs, std::byte* out) {
             put_each(discs, out, [&spins](const Disc& disc) { return spins.of(disc); });

@@ -170,10 +170,10 @@ void FrameFile::read(std::size_t frame, std::uint64_t begin, std::uint64_t end,
         if (summary_.kind == FileKind::checkpoint) {
             std::vector<Disc> discs(n);
             std::vector<std::uint64_t> numbers(n);
-            for (const Column& column : checkpoint_columns) {
+            for (const DiscColumn& column : disc_columns) {
                 read_block(file, std::string("/carrom/discs/") + column.name, 0, begin, end, 1,
                            type_of(column), numbers.data());
-                for (std::uint64_t i = 0; i < n; ++i) set_bits(column, discs[i], numbers[i]);
+                for (std::uint64_t i = 0; i < n; ++i) column.set(discs[i], numbers[i]);
             }
             const double clock = state_->header.clock(),
                          k = static_cast<double>(state_->header.micro_steps);

@@ -65,7 +65,7 @@ void add_over(const Communicator& ranks, std::vector<std::uint64_t>&& mine,
 
 } // namespace
 
-std::vector<Species> species_told_apart(const Scene& scene) {
+std::vector<Species> species_apart(const Scene& scene) {
     constexpr std::size_t most = 8;
     const std::vector<Species>& species = scene.effects.species;
     if (species.empty() || species.size() > most) return {{scene.n_discs, scene.radius, 1}};
@@ -90,7 +90,7 @@ SampleSums Sampler::wanted() const {
     sums.largest_distance = output_.largest_distance;
     sums.largest_velocity = output_.largest_velocity.value_or(0);
     if (output_.radial_distribution)
-        sums.pairs.assign(output_.bins * n_pair_kinds(species_told_apart(scene_).size()), 0);
+        sums.pairs.assign(output_.bins * n_pair_kinds(species_apart(scene_).size()), 0);
     sums.ideal_pairs.assign(sums.pairs.size(), 0);
     for (auto* counts : {&sums.vx, &sums.vy, &sums.speeds})
         if (output_.velocities) counts->assign(output_.bins, 0);
@@ -109,7 +109,7 @@ void Sampler::begin() {
     sums_.speed_scale = std::max(usual, driven);
     has_begun_ = true;
     follow_walls();
-    follow_seams();
+    follow_crossings();
 }
 
 void Sampler::follow_walls() {
@@ -119,9 +119,9 @@ void Sampler::follow_walls() {
     simulation_.add_impulses_to(&*impulses_);
 }
 
-/// Where discs fly on through the seams, what syncs bring them back by is part of how far they have
-/// got.
-void Sampler::follow_seams() {
+/// Where discs fly on through periodic boundaries, syncs bring them back. That is part of their
+/// displacement.
+void Sampler::follow_crossings() {
     if (output_.displacement && scene_.effects.are_periodic())
         simulation_.note_crossings_in(&crossings_);
 }
@@ -160,7 +160,7 @@ void Sampler::go_on(StoredSamples stored) {
     sums_ = *found;
     has_begun_ = true;
     follow_walls();
-    follow_seams();
+    follow_crossings();
     if (impulses_ && sums_.pending.size() == 12 && ranks_.is_root()) {
         for (std::size_t side = 0; side < 4; ++side) {
             impulses_->normal[side].add_words(sums_.pending[3 * side], sums_.pending[3 * side + 1]);
@@ -243,7 +243,7 @@ void Sampler::sample_distances(const Extent& box) {
     const std::size_t n = output_.bins;
     const double width = sums_.largest_distance / static_cast<double>(n);
     std::vector<std::uint64_t> pairs(sums_.pairs.size(), 0);
-    const std::vector<Species> species = species_told_apart(scene_);
+    const std::vector<Species> species = species_apart(scene_);
     std::vector<DiscId> species_ends;
     for (const Species& one : species)
         species_ends.push_back((species_ends.empty() ? 0 : species_ends.back()) + one.count);
@@ -340,8 +340,8 @@ void Sampler::place_first(std::span<const FirstPlace> places) {
     }
 }
 
-/// Tells the ranks that keep first places what discs have been brought back by. Whole numbers:
-/// their order has no say. **Collective.**
+/// Reports to the ranks that keep first places how far discs have been brought back. Whole numbers:
+/// their order does not matter. **Collective.**
 void Sampler::take_crossings() const {
     if (!output_.displacement || !scene_.effects.are_periodic()) return;
     const Pieces pieces(scene_.n_discs, ranks_.size());

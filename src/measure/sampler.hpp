@@ -2,12 +2,13 @@
 // What `[output.measurements]` asks for, sampled every so many steps. A run that does not ask has
 // none of this: no memory, and no work in any kernel.
 //
-// Everything is a count, or a sum in fixed point (exact_sum.hpp), so the tables have the same bits
-// for every machine shape, and a restart goes on with them. Price of a sample: for velocities and
-// density some nanoseconds a disc; for the radial distribution a halo and a look at all pairs
-// within its distance; for displacement each disc sent once to where its first place is kept (16
-// bytes a disc, as many again in a periodic box). Wall pressure is added up collision by collision,
-// as the log of collisions is.
+// Everything is a count, or a sum in fixed point (exact_sum.hpp). So the tables have the same bits
+// for every machine shape, and a restart goes on with them. Price of a sample:
+//   velocities, density   some nanoseconds a disc
+//   radial distribution   a halo, and a look at all pairs within its distance
+//   displacement          each disc sent once to where its first place is kept, 16 bytes a disc, as
+//                         many again in a periodic box
+// Wall pressure is added up collision by collision, as the log of collisions is.
 #pragma once
 
 #include <array>
@@ -66,7 +67,7 @@ private:
     void sample_displacement(std::span<const Disc> discs, std::uint64_t n_discs, bool is_first);
     void place_first(std::span<const FirstPlace> places);
     void follow_walls();
-    void follow_seams();
+    void follow_crossings();
     void take_crossings() const;
     SampleSums wanted() const;
 
@@ -79,14 +80,14 @@ private:
     std::optional<WallImpulses> impulses_; ///< of this rank since the last sample
     std::uint64_t first_id_ = 0;
     std::vector<std::array<double, 2>> first_places_; ///< of this rank's run of ids, see pieces.hpp
-    mutable std::vector<Crossing> crossings_; ///< of a periodic box's own discs, not yet told
+    mutable std::vector<Crossing> crossings_; ///< of a periodic box's own discs, not yet reported
     mutable std::vector<std::array<double, 2>>
         lengths_; ///< along the first places, there: what discs have been brought back by
 };
 
-/// The classes whose pairs are counted apart: the scene's, or one of all discs where they are alike
-/// or of more than eight classes.
-std::vector<Species> species_told_apart(const Scene& scene);
+/// The species whose pairs are counted apart: the scene's, or one of all discs where they are alike
+/// or of more than eight species.
+std::vector<Species> species_apart(const Scene& scene);
 
 /// The tables of sums.
 std::vector<MeasuredTable> tables_of(const SampleSums& sums, const Scene& scene);

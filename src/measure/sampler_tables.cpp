@@ -34,11 +34,11 @@ MeasuredTable radial_distribution(const SampleSums& s, const Scene& scene) {
                          "distances in the scene's unit of length; pairs: of all samples"},
                         {"from", "to", "pairs", "g"},
                         {}};
-    const std::size_t n_species = species_told_apart(scene).size(),
-                      n_kinds = n_pair_kinds(n_species), n = s.pairs.size() / n_kinds;
+    const std::size_t n_species = species_apart(scene).size(), n_kinds = n_pair_kinds(n_species),
+                      n = s.pairs.size() / n_kinds;
     if (n_kinds > 1)
-        table.remarks.push_back("pairs_a_b, g_a_b: of a disc of class a and one of class b, "
-                                "classes counted from 1 in the order of ids");
+        table.remarks.push_back("pairs_a_b, g_a_b: of a disc of species a and one of species b, "
+                                "species counted from 1 in the order of ids");
     for (std::size_t b = 1; b <= n_species && n_kinds > 1; ++b)
         for (std::size_t a = 1; a <= b; ++a)
             for (const char* what : {"pairs", "g"})

@@ -36,7 +36,7 @@ public:
     /// **Collective.**
     Simulation(const Scene& scene, std::vector<InputDisc> discs, const Communicator& communicator,
                const Tuning& tuning);
-    /// Goes on from a stored state of the same scene, spread over the ranks in any way.
+    /// Goes on from a stored state of the same scene, in any distribution over the ranks.
     /// **Collective.**
     Simulation(const Scene& scene, StoredState state, const Communicator& communicator,
                const Tuning& tuning);
@@ -50,7 +50,7 @@ public:
     std::int64_t micro_steps_done() const;
 
     /// Own discs in no particular order: velocities per micro-step, times on `clock()`. Those that
-    /// have left the box are among them (Disc::departed). Good until the next call.
+    /// have left the box are among them (Disc::has_departed). Good until the next call.
     std::span<const Disc> discs() const;
     /// Along `discs()`, in angles per micro-step; empty where discs are not rough.
     std::span<const double> spins() const;
@@ -77,8 +77,8 @@ public:
     void note_crossings_in(std::vector<Crossing>* crossings);
     /// Adds to counts[k] this rank's pairs of discs at distances from k to k + 1 times `bin_width`,
     /// now; over all ranks each pair is counted once. The counts of all bins reach no further than
-    /// half the box. `class_ends`: the ids before which classes end, the last one the number of
-    /// discs; as many counts follow each other for pairs of classes (0, 0), (0, 1), (1, 1), (0, 2)
+    /// half the box. `species_ends`: the ids before which species end, the last one the number of
+    /// discs. As many counts follow each other for pairs of species (0, 0), (0, 1), (1, 1), (0, 2)
     /// and so on. **Collective.**
     void count_pair_distances(double bin_width, std::span<const DiscId> species_ends,
                               std::span<std::uint64_t> counts) const;

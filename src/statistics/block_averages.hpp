@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The history of a run in blocks of about equal length, to tell how much its averages can be
+// The history of a run in blocks of about equal length, to show how much its averages can be
 // trusted.
 //
 // A block ends where a sync has ended: a place that depends on the scene alone. When there are

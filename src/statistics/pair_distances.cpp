@@ -27,7 +27,7 @@ void count_pair_distances(const LocalView& local_view, double bin_width,
     const double bins_per_length = 1 / bin_width, n_bins = static_cast<double>(n_each);
     const bool are_alike = species_ends.size() == 1;
     const bool is_periodic = local_view.periods.are_any();
-    const int n_columns = local_view.grid->frame().n_columns;
+    const int n_columns = local_view.grid->geometry().n_columns;
 #pragma omp parallel num_threads(n_threads)
     {
         std::vector<std::uint64_t> mine(counts.size(), 0);

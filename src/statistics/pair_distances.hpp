@@ -9,8 +9,8 @@
 
 namespace carrom {
 
-/// Of pairs of two of `n_classes` classes there are so many kinds: (0, 0), then (0, 1), (1, 1),
-/// then (0, 2) and so on.
+/// Pairs of `n_species` species are of so many kinds: (0, 0), then (0, 1), (1, 1), then (0, 2) and
+/// so on.
 constexpr std::size_t n_pair_kinds(std::size_t n_species) {
     return n_species * (n_species + 1) / 2;
 }
@@ -18,9 +18,9 @@ constexpr std::size_t pair_kind(std::size_t a, std::size_t b) {
     return n_pair_kinds(a < b ? b : a) + (a < b ? a : b);
 }
 
-/// Adds to counts[k] this rank's pairs at a distance from k to k + 1 times `bin_width`; the discs
-/// are settled for partners that far. `class_ends`: the ids before which classes end, the last one
-/// all; then as many counts follow for each kind of pair. Counts are whole numbers: threads and
+/// Adds to counts[k] this rank's pairs at a distance from k to k + 1 times `bin_width`. The discs
+/// are redistributed for partners that far. `species_ends`: the ids before which species end, the
+/// last one all. As many counts follow for each kind of pair. Counts are whole numbers: threads and
 /// ranks may add in any order.
 void count_pair_distances(const LocalView& local_view, double bin_width,
                           std::span<const DiscId> species_ends, int n_threads,

@@ -28,7 +28,7 @@ struct BoundaryResolution::Statement {
     DiscId p, q;
     std::uint32_t number;      ///< among the undecided of the rank that says it
     std::uint16_t is_first;    ///< for the own disc, among what is left
-    std::uint16_t is_mine = 0; ///< said here, not heard
+    std::uint16_t is_mine = 0; ///< found here, not received
 
     auto key() const { return std::tuple(time, p, q); }
 };
@@ -81,8 +81,8 @@ void BoundaryResolution::resolve_boundary(const Population& population,
     walk_own(population, taken, is_struck, undecided, kept);
 }
 
-/// Of undecided candidates in total order, tells which come first for all of this rank's discs that
-/// they have.
+/// Of undecided candidates in total order, reports which come first for all of this rank's discs
+/// that they have.
 void BoundaryResolution::find_first(const Population& population,
                                     const std::vector<Candidate>& undecided) {
     is_first_.clear();

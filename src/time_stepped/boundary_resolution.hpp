@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decides what no rank could decide alone: candidates that hang together across strips.
+// Decides what no rank can decide alone: conflict chains of candidates across strips.
 //
-// Neighbours talk first. Each tells for every candidate with discs of two ranks whether it comes
-// first for the own disc, among those that are left; a candidate that comes first for both is
-// final, one that the other rank does not name has been struck there. One message to each neighbour
-// settles nearly everything in a gas, whatever the number of ranks. A chain that zigzags between
-// strips takes a round for each crossing, so after a few rounds what is left goes to a distributed
-// sort: it is brought into the total order and walked, slice after slice, each slice told which
-// discs the ones before it took. A chain may span any number of strips. Price of the sort: two
-// any-to-any exchanges, and memory for these candidates alone.
+// Neighbours exchange messages first. For every candidate with discs of two ranks each reports
+// whether it comes first for the own disc, among those that are left. A candidate that comes first
+// for both is final. One that the other rank does not report has been struck there. One message to
+// each neighbour decides nearly everything in a gas, whatever the number of ranks.
+//
+// A chain that zigzags between strips takes a round for each crossing. So after a few rounds the
+// rest goes to a distributed sort. It is brought into the total order and walked, slice after
+// slice, and each slice passes on which discs are taken. A chain may span any number of strips.
+// Price of the sort: two any-to-any exchanges, and memory for these candidates alone.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +36,7 @@ public:
                           std::vector<Candidate>& undecided, std::vector<Candidate>& kept);
 
     /// Appends to `kept` those of this rank's `undecided` that happen; none is left undecided.
-    /// `n_contested` is their number over all ranks. **Collective.**
+    /// `n_conflicts` is their number over all ranks. **Collective.**
     void decide(const Population& population, std::span<const int> neighbours,
                 std::vector<Candidate>& undecided, std::uint64_t n_conflicts,
                 std::vector<Candidate>& kept);

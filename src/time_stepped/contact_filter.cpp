@@ -25,11 +25,11 @@ template <class D> struct Broadcast {
           touching(hn::Set(d, touching_squared)) {}
 };
 
-/// Which lanes of the vector of flights that begins at `slot` might touch `flight`, as bits. With d
-/// the separation and w the relative velocity over the window, b = d.w, a = w.w and c = d.d -
-/// touching^2: those that are near already, and those that approach, do not pass by, and are there
-/// before the window ends. All rounding in b^2 - a c and in c at the window's end together is less
-/// than 18 * 2^-24 a d.d, so c with d.d shortened by 2^-19 loses no contact.
+/// Which lanes of the vector of flights that begins at `slot` might touch `flight`, as bits: those
+/// that are near already, and those that approach, do not pass by, and arrive before the window
+/// ends. Let d be the separation and w the relative velocity over the window, b = d.w, a = w.w, and
+/// c = d.d - touching^2. All rounding in b^2 - a c, and in c at the window's end, is less than
+/// 18 * 2^-24 a d.d. So c with d.d shortened by 2^-19 loses no contact.
 template <class D>
 HWY_INLINE std::uint64_t lanes_that_touch(D d, const FlightLanes& lanes, std::uint32_t slot,
                                           std::uint32_t n_inside, const Broadcast<D>& flight) {
@@ -61,9 +61,9 @@ HWY_INLINE std::uint64_t lanes_that_touch(D d, const FlightLanes& lanes, std::ui
     return n_inside < 64 ? bits & ((std::uint64_t{1} << n_inside) - 1) : bits;
 }
 
-/// Writes (first, second) to `out` behind the first `n_pairs`, which has room, for each slot
-/// `second` of `run` in `lanes` that might touch `flight`; without (first, first) if `first` may be
-/// one of them. Returns how many pairs there are now.
+/// Writes (first, second) to `out`, behind the first `n_pairs`, for each slot `second` of `run` in
+/// `lanes` that might touch `flight`. Leaves out (first, first) if `first` may be one of them.
+/// Returns how many pairs there are now. `out` has room.
 template <bool is_one_of_them, class D>
 HWY_INLINE std::size_t write_pairs(D d, const Broadcast<D>& flight, std::uint32_t first,
                                    const FlightLanes& lanes, SlotRange run, DiscPair* out,
@@ -87,7 +87,7 @@ template <class T> T* room(std::vector<T>& buffer, std::size_t size, std::size_t
 
 /// touching^2 for find_near_passes, whose d x w is wrong by 5 * 2^-24 |d| |w| at most.
 float passing_squared(const CellGrid& grid, float touching_squared) {
-    const float margin = 0x1p-21f * 4 * static_cast<float>(grid.frame().n_reach + 2);
+    const float margin = 0x1p-21f * 4 * static_cast<float>(grid.geometry().n_reach + 2);
     const float passing = std::sqrt(touching_squared) + margin;
     return passing * passing * (1 + 0x1p-20f);
 }
@@ -99,9 +99,9 @@ struct NearPass {
 };
 
 /// Finds those among the flights of `cell` and the vectors of `run`: (d x w)^2 <= touching^2 w.w,
-/// with d and w as above. That is half as dear as to ask when they are near, and few vectors are
-/// left where discs fly much further than they are wide. No branch depends on what it finds. Writes
-/// to `out` behind the first n, which has room for all; returns how many there are.
+/// with d and w as above. That costs half as much as to find when they are near, and few vectors
+/// are left where discs fly much further than they are wide. No branch depends on what it finds.
+/// Writes to `out` behind the first n, which has room for all; returns how many there are.
 template <class D>
 HWY_INLINE std::size_t find_near_passes(D d, const FlightLanes& lanes, SlotRange cell,
                                         SlotRange run, float passing_squared, NearPass* out,
@@ -131,8 +131,8 @@ HWY_INLINE std::size_t filter_long_flights(D d, const CellGrid& grid, int column
                                            float touching_squared, std::vector<DiscPair>& pairs) {
     const FlightLanes lanes = grid.lanes();
     const auto n_lanes = static_cast<std::uint32_t>(hn::Lanes(d));
-    const int reach = grid.frame().n_reach, n_rows = grid.frame().n_rows;
-    const int last_column = HWY_MIN(column + reach, grid.frame().n_columns - 1);
+    const int reach = grid.geometry().n_reach, n_rows = grid.geometry().n_rows;
+    const int last_column = HWY_MIN(column + reach, grid.geometry().n_columns - 1);
     const float passing = passing_squared(grid, touching_squared);
     std::vector<NearPass> near;
     std::size_t n_pairs = 0;
@@ -169,8 +169,8 @@ template <class D>
 HWY_INLINE std::size_t filter_short_flights(D d, const CellGrid& grid, int column,
                                             float touching_squared, std::vector<DiscPair>& pairs) {
     const FlightLanes lanes = grid.lanes();
-    const int reach = grid.frame().n_reach, n_rows = grid.frame().n_rows;
-    const int last_column = HWY_MIN(column + reach, grid.frame().n_columns - 1);
+    const int reach = grid.geometry().n_reach, n_rows = grid.geometry().n_rows;
+    const int last_column = HWY_MIN(column + reach, grid.geometry().n_columns - 1);
     std::vector<SlotRange> runs(static_cast<std::size_t>(last_column - column));
     std::size_t n_pairs = 0;
     for (int row = 0; row < n_rows; ++row) {
@@ -211,12 +211,12 @@ template <class D>
 HWY_INLINE std::size_t filter_halo(D d, const CellGrid& grid, int column, float touching_squared,
                                    std::vector<DiscPair>& pairs, std::size_t n_pairs) {
     const FlightLanes lanes = grid.lanes();
-    const int reach = grid.frame().n_reach;
+    const int reach = grid.geometry().n_reach;
     const int first_column = HWY_MAX(column - reach, 0),
-              last_column = HWY_MIN(column + reach, grid.frame().n_columns - 1);
+              last_column = HWY_MIN(column + reach, grid.geometry().n_columns - 1);
     for (int other = first_column; other <= last_column; ++other) {
         if (!grid.has_halo_in(other)) continue;
-        for (int row = 0; row < grid.frame().n_rows; ++row) {
+        for (int row = 0; row < grid.geometry().n_rows; ++row) {
             const SlotRange run = grid.halo_run(other, row - reach, row + reach);
             if (run.begin == run.end) continue;
             const SlotRange cell = grid.run(column, row, row);
@@ -231,7 +231,7 @@ HWY_INLINE std::size_t filter_halo(D d, const CellGrid& grid, int column, float 
 std::size_t FilterColumn(const CellGrid& grid, int column, float touching_squared,
                          std::vector<DiscPair>& pairs) {
     const hn::ScalableTag<float> d;
-    const auto reach = static_cast<float>(grid.frame().n_reach);
+    const auto reach = static_cast<float>(grid.geometry().n_reach);
     const std::size_t n_pairs = reach * reach > 64 * touching_squared
                                     ? filter_long_flights(d, grid, column, touching_squared, pairs)
                                     : filter_short_flights(d, grid, column, touching_squared,

@@ -14,15 +14,15 @@
 namespace carrom {
 
 /// Writes to the front of `pairs`, which grows as needed, all pairs (first, second) that might
-/// touch: `first` an own disc in `column`; `second` an own one after it in the half stencil, later
-/// in its own column or in one to the right, or one of the halo all around it. Returns how many.
+/// touch. `first` is an own disc in `column`. `second` is an own one after it in the half stencil,
+/// later in its own column or in one to the right, or a halo disc around it. Returns how many.
 std::size_t filter_column(const CellGrid& grid, int column, float touching_squared,
                           std::vector<DiscPair>& pairs);
 
-/// Writes to `pairs` behind the first `n_pairs` the disc with each that it might touch between the
-/// fraction `from` of the window and its end, itself and pairs of the halo's discs excluded;
-/// returns how many pairs there are now. Only cells within `half_reach` of that part of its path
-/// are looked at: how far from where two discs touch the other one's cell can be.
+/// Writes to `pairs`, behind the first `n_pairs`, the disc with each that it might touch between
+/// the fraction `from` of the window and its end. Pairs of halo discs are left out. Returns how
+/// many pairs there are now. Only cells within `half_reach` of that part of its path are looked at:
+/// so far from where two discs touch can the other one's cell be.
 std::size_t filter_around(const CellGrid& grid, LocalIndex index, float from, float half_reach,
                           float touching_squared, std::vector<DiscPair>& pairs,
                           std::size_t n_pairs);

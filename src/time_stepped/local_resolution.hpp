@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which candidates of one micro-step (or part of one) happen, as far as this rank can tell.
+// Which candidates of one micro-step (or part of one) happen, as far as this rank can decide.
 //
 // The rule is the sorted walk: keep a candidate if neither of its discs is taken yet. A candidate
-// that is first for both its discs is final, whatever comes later; take all such, strike their
-// rivals, repeat: the same result (Blelloch, Fineman, Shun 2012). Gases need one to three rounds. A
-// long chain would need as many rounds as half its length, so after a few the rest is sorted and
-// walked. All candidates of an own disc are known here, those of a halo disc are not: a candidate
-// with a halo disc blocks its discs and stays undecided, and so does what depends on it.
+// that is first for both its discs is final, whatever comes later. To take all such, strike their
+// rivals and repeat gives the same result (Blelloch, Fineman, Shun 2012). Gases need one to three
+// rounds. A long chain would need as many rounds as half its length, so after a few the rest is
+// sorted and walked. A rank knows all candidates of its own discs, not those of halo discs. So a
+// candidate with a halo disc blocks its discs and stays undecided, with all that depend on it.
 #pragma once
 
 #include <cstdint>

@@ -70,17 +70,17 @@ template <class Dynamics> struct Search<Dynamics>::Bounds {
 
     Bounds(const Dynamics& dynamics, const CellGrid& grid)
         : touching_squared(grid.touching_squared(dynamics.search_diameter())) {
-        const GridFrame& frame = grid.frame();
-        const double margin = dynamics.radius() * 1e-6 / frame.cell_width +
-                              0x1p-18 * (std::max(frame.n_columns, frame.n_rows) + 8);
+        const GridGeometry& geometry = grid.geometry();
+        const double margin = dynamics.radius() * 1e-6 / geometry.cell_width +
+                              0x1p-18 * (std::max(geometry.n_columns, geometry.n_rows) + 8);
         const auto cells = [&](double length, double origin) {
-            return (length - origin) / frame.cell_width;
+            return (length - origin) / geometry.cell_width;
         };
         const double high = dynamics.box_size() - dynamics.radius();
-        x_low = static_cast<float>(cells(dynamics.radius(), frame.x_low) + margin);
-        x_high = static_cast<float>(cells(high, frame.x_low) - margin);
-        y_low = static_cast<float>(cells(dynamics.radius(), frame.y_low) + margin);
-        y_high = static_cast<float>(cells(high, frame.y_low) - margin);
+        x_low = static_cast<float>(cells(dynamics.radius(), geometry.x_low) + margin);
+        x_high = static_cast<float>(cells(high, geometry.x_low) - margin);
+        y_low = static_cast<float>(cells(dynamics.radius(), geometry.y_low) + margin);
+        y_high = static_cast<float>(cells(high, geometry.y_low) - margin);
     }
 
     bool reaches_wall(const FlightLanes& lanes, std::uint32_t slot) const {
@@ -97,7 +97,7 @@ template <class Dynamics>
 void Search<Dynamics>::predict_all(const Population& population, const CellGrid& grid,
                                    const Window& window, double reach) {
     const Bounds bounds(dynamics_, grid);
-    const int n_columns = grid.frame().n_columns;
+    const int n_columns = grid.geometry().n_columns;
     SharedWork columns(grid.column_shares(n_threads_), std::max(1, n_columns / (16 * n_threads_)));
     const auto n_apart = Dynamics::has_pairs ? static_cast<std::int64_t>(grid.apart().size()) : 0;
 #pragma omp parallel num_threads(n_threads_)
@@ -132,14 +132,14 @@ void Search<Dynamics>::predict_column(const Population& population, const CellGr
         [&](const DiscPair& pair) {
             predict_pair(population, window, window.first_micro, pair.first, pair.second, lists);
         });
-    const SlotRange own = grid.run(column, 0, grid.frame().n_rows - 1);
+    const SlotRange own = grid.run(column, 0, grid.geometry().n_rows - 1);
     for (LocalIndex index = own.begin; index < own.end; ++index) {
         if (bounds.reaches_wall(grid.lanes(), index) || dynamics_.has_obstacles())
             predict_wall(population, window, window.first_micro, index, lists);
     }
 }
 
-/// How far from a disc's path the cell of one that it touches can be: they are a diameter apart
+/// How far from a disc's path the cell of one that it touches can be. They are a diameter apart
 /// then, and the other one is half a reach less a radius from its cell.
 template <class Dynamics>
 float Search<Dynamics>::half_reach(const CellGrid& grid, double reach) const {

@@ -2,7 +2,7 @@
 // Finds the candidates of a window: every contact that falls into it, once, filed under its
 // micro-step.
 //
-// A prediction is a function of two stored states, so it stays good until one of them is rewritten:
+// A prediction is a function of two stored states. It stays good until one of them is rewritten, so
 // after a micro-step only the discs that were hit are predicted again. Threads own columns of cells
 // and keep lists of their own; nothing depends on the lists' order. Price: some 30 single-precision
 // tests a disc and window, a double one for each survivor.

@@ -102,9 +102,10 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::add_to(Totals& total
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::sort(const Window& window, double reach, double usual_reach) {
     const Extent seen = discs_.extent_seen(extent(), reach);
-    const GridFrame frame = make_frame(seen.x_low, seen.x_high, seen.y_low, seen.y_high,
-                                       usual_reach, discs_.n_own(), tuning_.cell_width.value_or(0));
-    discs_.sort(frame, window.anchor(), window.begin(), std::max(window.duration(), 1e-6),
+    const GridGeometry geometry = make_geometry(seen.x_low, seen.x_high, seen.y_low, seen.y_high,
+                                                usual_reach, discs_.n_own(),
+                                                tuning_.cell_width.value_or(0));
+    discs_.sort(geometry, window.anchor(), window.begin(), std::max(window.duration(), 1e-6),
                 tuning_.threads, companion());
 }
 
@@ -258,15 +259,17 @@ template <class Dynamics>
     if (c.is_wall()) {
         dynamics_.bounce(p, m, c.time);
         if constexpr (Dynamics::has_spin && Dynamics::may_lose_discs)
-            if (p.has_departed()) discs_.spins()[c.p] = 0;
+            if (p.has_departed()) discs_.columns()[SideColumn::spin][c.p] = 0;
         return Dynamics::has_mirror_walls ? 0 : squared_speed_of(p);
     }
     Disc& q = results[c.q];
     // A spin does not affect the search, so it need not wait for a cut micro-step's end.
-    if constexpr (Dynamics::has_spin)
-        dynamics_.collide(p, q, m, c.time, discs_.spins()[c.p], discs_.spins()[c.q]);
-    else
+    if constexpr (Dynamics::has_spin) {
+        std::vector<double>& spins = discs_.columns()[SideColumn::spin];
+        dynamics_.collide(p, q, m, c.time, spins[c.p], spins[c.q]);
+    } else {
         dynamics_.collide(p, q, m, c.time);
+    }
     return std::max(squared_speed_of(p), squared_speed_of(q));
 }
 

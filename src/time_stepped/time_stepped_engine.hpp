@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time-stepped method on ranks and threads: windows of time, each settled, searched, resolved
-// and applied.
+// The time-stepped method on ranks and threads. A window of time goes through these phases:
 //
-//   settle   own discs to their strips and into the order of their cells, halo discs from the
-//   neighbours search   every contact of the window, from stored states alone then for each
-//   micro-step of the window, in step on all ranks:
-//     resolve  local rounds; what hangs together across strips by a distributed sort
-//     apply    new states for the discs that were taken; neighbours are told of theirs; those discs
-//     are searched again
+//   redistribute  own discs to their strips and into their cells, halo discs from the neighbours
+//   search        every contact of the window, from stored states alone
+//   then for each micro-step of the window, in step on all ranks:
+//     resolve       local rounds; conflict chains across strips by a distributed sort
+//     apply         new states for the discs that were taken, updates of halos, another search
 //
 // When discs are fast a micro-step is cut into parts, each a window of its own. States then stay as
 // they were at the micro-step's start until it ends, so that every candidate is seen, and
@@ -90,8 +88,7 @@ private:
     std::uint64_t n_candidates_ = 0, n_kept_ = 0, n_kept_at_sync_ = 0;
 };
 
-/// The engine of the time-stepped method with the law that the scene's precision and arithmetic ask
-/// for. **Collective.**
+/// The engine of the time-stepped method with the scene's dynamics. **Collective.**
 std::unique_ptr<Engine> make_time_stepped_engine(const Scene& scene, StoredState state,
                                                  const Communicator& communicator,
                                                  const Tuning& tuning);

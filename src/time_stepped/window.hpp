@@ -11,13 +11,12 @@
 
 namespace carrom {
 
-/// Which of its states a disc is in: 0 for the one that it came into the window with, n + 1 for the
-/// one that the window's micro-step n (from 0) gave it. One byte a disc to look at instead of a
-/// cache line.
+/// Which of its states a disc is in: 0 for the one at the window's start, n + 1 for the one of the
+/// window's micro-step n, counted from 0. One byte a disc to look at instead of a cache line.
 using WindowState = std::uint8_t;
 inline constexpr int longest_window = 254; ///< micro-steps
 
-/// Micro-steps are counted from the last sync. A part's ends are in-step times; both sides of a cut
+/// Micro-steps are counted from the last sync. A part's ends are in-step times; both parts at a cut
 /// use the same number.
 struct Window {
     int first_micro = 0;
@@ -31,9 +30,9 @@ struct Window {
     WindowState state_after(int m) const { return static_cast<WindowState>(m - first_micro + 1); }
     double begin() const { return first_micro + part_begin; }
     double duration() const { return n_micro > 1 ? n_micro : part_end - part_begin; }
-    /// The time whose places say in which strip and cell a disc is. From the middle no disc gets
-    /// further away than half the window takes it; discs that fly on after a collision could, so a
-    /// window of several micro-steps uses its start.
+    /// Strips and cells are those of places at this time. From the middle no disc gets further away
+    /// than half the window takes it. Discs that fly on after a collision could, so a window of
+    /// several micro-steps uses its start.
     double anchor() const {
         return n_micro > 1 ? first_micro : first_micro + (part_begin + part_end) / 2;
     }

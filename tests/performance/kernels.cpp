@@ -60,10 +60,10 @@ struct Gas {
     }
 
     void sort_into(CellGrid& grid, double reach, double duration) {
-        grid.sort(discs, frame(reach), 0, 0, duration, 1);
+        grid.sort(discs, geometry(reach), 0, 0, duration, 1);
     }
-    GridFrame frame(double reach) const {
-        return make_frame(0, size, 0, size, reach, discs.size(), 0);
+    GridGeometry geometry(double reach) const {
+        return make_geometry(0, size, 0, size, reach, discs.size(), 0);
     }
     Population population() const { return {discs, discs.size()}; }
 };
@@ -105,15 +105,15 @@ BENCHMARK(contact_predicate);
 /// How many pairs filter_column looks at, over all columns: those of the half stencil.
 double tested_pairs(const CellGrid& grid) {
     double pairs = 0;
-    const int reach = grid.frame().n_reach;
-    for (int column = 0; column < grid.frame().n_columns; ++column) {
-        for (int row = 0; row < grid.frame().n_rows; ++row) {
+    const int reach = grid.geometry().n_reach;
+    for (int column = 0; column < grid.geometry().n_columns; ++column) {
+        for (int row = 0; row < grid.geometry().n_rows; ++row) {
             const SlotRange cell = grid.run(column, row, row);
             const double n = cell.end - cell.begin,
                          n_own = grid.run(column, row, row + reach).end - cell.begin;
             pairs += n * (n_own - (n + 1) / 2);
             for (int other = column + 1;
-                 other <= std::min(column + reach, grid.frame().n_columns - 1); ++other) {
+                 other <= std::min(column + reach, grid.geometry().n_columns - 1); ++other) {
                 const SlotRange run = grid.run(other, row - reach, row + reach);
                 pairs += n * static_cast<double>(run.end - run.begin);
             }
@@ -132,7 +132,7 @@ void vector_filter(benchmark::State& state) {
     std::vector<DiscPair> pairs;
     for (auto _ : state) {
         std::size_t n = 0;
-        for (int column = 0; column < grid.frame().n_columns; ++column)
+        for (int column = 0; column < grid.geometry().n_columns; ++column)
             n += filter_column(grid, column, touching, pairs);
         benchmark::DoNotOptimize(n);
     }
@@ -148,11 +148,11 @@ void cell_grid_sort(benchmark::State& state) {
     Gas gas(state.range(0));
     CellGrid grid;
     gas.sort_into(grid, reach_of_window(), window_steps);
-    const GridFrame frame = gas.frame(reach_of_window());
+    const GridGeometry geometry = gas.geometry(reach_of_window());
     double anchor = 0;
     for (auto _ : state) {
         anchor = window_steps - anchor;
-        grid.sort(gas.discs, frame, anchor, anchor, window_steps, 1);
+        grid.sort(gas.discs, geometry, anchor, anchor, window_steps, 1);
         benchmark::ClobberMemory();
     }
     print_message(state, static_cast<double>(gas.discs.size()), 14, 3 * sizeof(Disc) + 24 + 16);
@@ -226,11 +226,11 @@ void block_run(benchmark::State& state) {
     const BlockWindow window{0, choice.duration, true, needs.speed_bound};
     CellGrid grid;
     gas.sort_into(grid, block_reach(window, 2, gas.size), choice.duration);
-    const GridFrame& frame = grid.frame();
+    const GridGeometry& geometry = grid.geometry();
     std::vector<std::uint64_t> histories(gas.discs.size());
     BlockRun<PlainDynamics> block_run(dynamics);
     BlockOutcome outcome;
-    const CellBlock all_cells{0, frame.n_columns, 0, frame.n_rows};
+    const CellBlock all_cells{0, geometry.n_columns, 0, geometry.n_rows};
     const BlockGround ground{gas.discs, gas.discs.size(), &grid, all_cells, window, false};
     for (auto _ : state) {
         block_run.run(ground, all_cells, 0, false, histories, outcome);

@@ -50,14 +50,14 @@ Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance, Co
     return {base, c / (std::sqrt(discriminant) - b)};
 }
 
-bool has_left(const Disc& disc) { return disc.tau == -1; }
+bool has_left(const Disc& disc) { return disc.is_departed != 0; }
 
 void set_left(const Setting& setting, Disc& disc, std::size_t side) {
     const double radius = setting.radius_of(disc.id),
                  line = side % 2 == 0 ? -radius : setting.box_size + radius;
     (side < 2 ? disc.x : disc.y) = line;
-    disc.vx = disc.vy = 0;
-    disc.tau = -1;
+    disc.vx = disc.vy = disc.tau = 0;
+    disc.is_departed = 1;
 }
 
 void advance(Disc& disc, double time) {

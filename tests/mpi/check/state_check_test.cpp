@@ -401,7 +401,7 @@ TEST_CASE("check: a disc in another cell than it is filed under") {
     expect(Invariant::in_cell, [](OneStep& step) {
         if (Disc* const disc = step.own(7)) {
             const double y = disc->y_at(step.local_view.time),
-                         width = step.local_view.grid.frame().cell_width;
+                         width = step.local_view.grid.geometry().cell_width;
             disc->y += y > step.scene().box_size / 2 ? -width : width;
         }
         return 7;

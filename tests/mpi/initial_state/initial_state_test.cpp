@@ -43,7 +43,7 @@ Scene scene_of(const Texts& overrides) {
 
 StateHash hash_of_discs(const Discs& discs) {
     StateHash hash;
-    for (const InputDisc& d : discs) hash += hash_of(Disc{d.x, d.y, d.vx, d.vy, 0, d.id, 0, 0});
+    for (const InputDisc& d : discs) hash += hash_of(Disc{d.x, d.y, d.vx, d.vy, 0, d.id});
     return hash;
 }
 

@@ -19,6 +19,7 @@
 
 #include "catch.hpp"
 
+#include "core/disc_columns.hpp"
 #include "core/errors.hpp"
 #include "core/state_hash.hpp"
 #include "io/seal.hpp"
@@ -60,8 +61,8 @@ Disc odd_disc(DiscId id) {
     disc.vx = id % 5 == 0 ? -0.0 : std::ldexp(static_cast<double>(random() >> 11), -60);
     disc.vy = id % 7 == 0 ? std::numeric_limits<double>::denorm_min() : -disc.x;
     disc.tau = static_cast<double>(random() >> 11) * 0x1p-53 * 3;
-    disc.wall_collisions = random();
-    disc.pair_collisions = random();
+    disc.wall_collisions = random() & columns::all_of_counter;
+    disc.pair_collisions = random() & columns::all_of_counter;
     return disc;
 }
 

@@ -84,9 +84,9 @@ TEST_CASE("Imbalance is told where there are several ranks, of what ranks do wit
     CHECK(summary_text(small_scene(), result).find("imbalance") == std::string::npos);
     result.ranks = 2;
     result.phase_seconds = {{"search", 8},   {"move", 2},      {"sync", 0.5}, {"wait", 5},
-                            {"exchange", 7}, {"contested", 3}, {"set-up", 9}, {"output", 4}};
+                            {"exchange", 7}, {"conflicts", 3}, {"set-up", 9}, {"output", 4}};
     result.phase_imbalance = {{"search", 1.25}, {"move", 1.5},    {"sync", 1.75}, {"wait", 2},
-                              {"exchange", 2},  {"contested", 2}, {"set-up", 2},  {"output", 2}};
+                              {"exchange", 2},  {"conflicts", 2}, {"set-up", 2},  {"output", 2}};
     result.imbalance = 1.125;
     CHECK(busy_seconds(result.phase_seconds) == 10.5);
     const std::string text = summary_text(small_scene(), result);

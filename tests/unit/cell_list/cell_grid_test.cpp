@@ -13,7 +13,7 @@
 
 using carrom::CellGrid;
 using carrom::Disc;
-using carrom::GridFrame;
+using carrom::GridGeometry;
 using carrom::LocalIndex;
 
 namespace {
@@ -38,17 +38,17 @@ std::vector<Disc> gas(std::mt19937& random, std::size_t n) {
 /// lost or changed.
 void check_cells(const CellGrid& grid, const std::vector<Disc>& discs, double time,
                  const std::vector<Disc>& before) {
-    const GridFrame& frame = grid.frame();
+    const GridGeometry& geometry = grid.geometry();
     REQUIRE(grid.is_valid(discs.size()));
     std::vector<bool> is_placed(discs.size(), false), is_there(discs.size(), false);
     const auto check = [&](LocalIndex index, int column, int row) {
         REQUIRE_FALSE(is_placed[index]);
         is_placed[index] = true;
-        REQUIRE(frame.column_of(discs[index].x_at(time)) == column);
-        REQUIRE(frame.row_of(discs[index].y_at(time)) == row);
+        REQUIRE(geometry.column_of(discs[index].x_at(time)) == column);
+        REQUIRE(geometry.row_of(discs[index].y_at(time)) == row);
     };
-    for (int column = 0; column < frame.n_columns; ++column) {
-        for (int row = 0; row < frame.n_rows; ++row) {
+    for (int column = 0; column < geometry.n_columns; ++column) {
+        for (int row = 0; row < geometry.n_rows; ++row) {
             const carrom::SlotRange cell = grid.run(column, row, row),
                                     of_halo = grid.halo_run(column, row, row);
             REQUIRE(cell.begin <= cell.end);
@@ -73,30 +73,57 @@ void check_cells(const CellGrid& grid, const std::vector<Disc>& discs, double ti
     }
 }
 
-void check_flight(const GridFrame& frame, const carrom::FlightLanes& lanes, std::uint32_t slot,
-                  const Disc& disc, double time, double duration) {
-    CHECK(lanes.x[slot] ==
-          Approx((disc.x_at(time) - frame.x_low) / frame.cell_width).epsilon(1e-5).margin(1e-5));
-    CHECK(lanes.y[slot] ==
-          Approx((disc.y_at(time) - frame.y_low) / frame.cell_width).epsilon(1e-5).margin(1e-5));
+void check_flight(const GridGeometry& geometry, const carrom::FlightLanes& lanes,
+                  std::uint32_t slot, const Disc& disc, double time, double duration) {
+    CHECK(lanes.x[slot] == Approx((disc.x_at(time) - geometry.x_low) / geometry.cell_width)
+                               .epsilon(1e-5)
+                               .margin(1e-5));
+    CHECK(lanes.y[slot] == Approx((disc.y_at(time) - geometry.y_low) / geometry.cell_width)
+                               .epsilon(1e-5)
+                               .margin(1e-5));
     CHECK(lanes.vx[slot] ==
-          Approx(disc.vx * duration / frame.cell_width).epsilon(1e-5).margin(1e-5));
+          Approx(disc.vx * duration / geometry.cell_width).epsilon(1e-5).margin(1e-5));
     CHECK(lanes.vy[slot] ==
-          Approx(disc.vy * duration / frame.cell_width).epsilon(1e-5).margin(1e-5));
+          Approx(disc.vy * duration / geometry.cell_width).epsilon(1e-5).margin(1e-5));
 }
 
 void check_flights(const CellGrid& grid, const std::vector<Disc>& discs, double time,
                    double duration) {
     for (LocalIndex index = 0; index < discs.size(); ++index) {
         if (index < grid.n_own())
-            check_flight(grid.frame(), grid.lanes(), index, discs[index], time, duration);
+            check_flight(grid.geometry(), grid.lanes(), index, discs[index], time, duration);
         else
-            check_flight(grid.frame(), grid.halo_lanes(), grid.halo_slot(index), discs[index], time,
-                         duration);
+            check_flight(grid.geometry(), grid.halo_lanes(), grid.halo_slot(index), discs[index],
+                         time, duration);
     }
 }
 
 } // namespace
+
+TEST_CASE("side columns and companions go where discs go") {
+    std::mt19937 random(5);
+    std::vector<Disc> discs = gas(random, 3000);
+    std::vector<Disc> companions = discs;
+    carrom::SideColumns columns;
+    columns.add(carrom::SideColumn::spin);
+    columns.resize(discs.size());
+    const auto number_of = [](const Disc& disc) { return 0.5 * static_cast<double>(disc.id) - 7; };
+    for (const int n_threads : {1, 3}) {
+        for (const double time : {0.0, 4.0}) { // once in no order, then nearly in order
+            for (std::size_t i = 0; i < discs.size(); ++i)
+                columns[carrom::SideColumn::spin][i] = number_of(discs[i]);
+            CellGrid grid;
+            const GridGeometry geometry = carrom::make_geometry(0, box, 0, box, 4, discs.size(), 0);
+            grid.sort_cells(discs, geometry, time, n_threads, {}, {companions, &columns});
+            for (std::size_t i = 0; i < discs.size(); ++i) {
+                REQUIRE(companions[i].id == discs[i].id);
+                REQUIRE(columns[carrom::SideColumn::spin][i] == number_of(discs[i]));
+            }
+        }
+        std::shuffle(discs.begin(), discs.end(), random);
+        companions = discs;
+    }
+}
 
 TEST_CASE("threads bring discs into the order of the cells in which they are") {
     std::mt19937 random(11);
@@ -106,9 +133,9 @@ TEST_CASE("threads bring discs into the order of the cells in which they are") {
             for (const int n_threads : {1, 2, 3, 5, 16}) {
                 std::vector<Disc> discs = gas(random, n);
                 std::vector<Disc> before = discs;
-                const GridFrame frame = carrom::make_frame(0, box, 0, box, reach, n, 0);
+                const GridGeometry geometry = carrom::make_geometry(0, box, 0, box, reach, n, 0);
                 CellGrid grid;
-                grid.sort(discs, frame, time, time, duration, n_threads); // in no order
+                grid.sort(discs, geometry, time, time, duration, n_threads); // in no order
                 check_cells(grid, discs, time, before);
                 check_flights(grid, discs, time, duration);
                 for (Disc& disc : discs) disc.x += 5 * disc.vx;
@@ -122,14 +149,14 @@ TEST_CASE("threads bring discs into the order of the cells in which they are") {
                 std::vector<Disc> twins = discs; // what runs along goes where the discs go
                 std::vector<double> spins;
                 for (const Disc& disc : discs) spins.push_back(static_cast<double>(disc.id));
-                grid.sort(discs, frame, time, time, duration, n_threads, {},
+                grid.sort(discs, geometry, time, time, duration, n_threads, {},
                           {twins, spins}); // nearly in order, and some of anywhere behind
                 check_cells(grid, discs, time, before);
                 check_flights(grid, discs, time, duration);
                 for (std::size_t i = 0; i < discs.size(); ++i)
                     REQUIRE((twins[i].id == discs[i].id &&
                              spins[i] == static_cast<double>(discs[i].id)));
-                grid.sort_cells(discs, frame, time, n_threads); // in order
+                grid.sort_cells(discs, geometry, time, n_threads); // in order
                 check_cells(grid, discs, time, before);
             }
         }
@@ -144,9 +171,10 @@ TEST_CASE(
         for (const double reach : {2.0, 30.0}) {
             std::vector<Disc> discs = gas(random, 1000);
             const std::vector<Disc> halo = gas(random, n);
-            const GridFrame frame = carrom::make_frame(0, box, 0, box, reach, discs.size(), 0);
+            const GridGeometry geometry = carrom::make_geometry(0, box, 0, box, reach, discs.size(),
+                                                                0);
             CellGrid grid;
-            grid.sort(discs, frame, time, time, duration, 1);
+            grid.sort(discs, geometry, time, time, duration, 1);
             for (const Disc& disc : halo) {
                 discs.push_back(disc);
                 discs.back().x *= 0.3; // most columns have none
@@ -172,7 +200,7 @@ TEST_CASE("no disc outside of an inner part is left out of those that are listed
     for (const double reach : {1.0, 7.0, 90.0, 500.0}) {
         std::vector<Disc> discs = gas(random, 3000);
         CellGrid grid;
-        grid.sort(discs, carrom::make_frame(0, box, 0, box, reach, discs.size(), 0), 1, 1, 1, 1);
+        grid.sort(discs, carrom::make_geometry(0, box, 0, box, reach, discs.size(), 0), 1, 1, 1, 1);
         for (int k = 0; k < 200; ++k) {
             carrom::Inside inner{edge(random), edge(random), edge(random), edge(random)};
             if (k % 3 == 0) inner.y_low = -infinity, inner.y_high = infinity;
@@ -192,7 +220,7 @@ TEST_CASE("no disc outside of an inner part is left out of those that are listed
     }
     std::vector<Disc> discs = gas(random, 100'000);
     CellGrid grid;
-    grid.sort(discs, carrom::make_frame(0, box, 0, box, 2, discs.size(), 0), 0, 0, 1, 1);
+    grid.sort(discs, carrom::make_geometry(0, box, 0, box, 2, discs.size(), 0), 0, 0, 1, 1);
     std::size_t n_listed = 0;
     for (const carrom::SlotRange range : grid.outside({20, 180, -infinity, infinity}))
         n_listed += range.end - range.begin;

@@ -23,8 +23,8 @@ Disc some_disc(DiscId id, std::mt19937_64& engine) {
     disc.vy = number();
     disc.tau = number();
     disc.id = id;
-    disc.wall_collisions = engine() % 100;
-    disc.pair_collisions = engine() % 100;
+    disc.wall_collisions = engine() & 127;
+    disc.pair_collisions = engine() & 127;
     return disc;
 }
 
@@ -63,15 +63,22 @@ TEST_CASE("the state hash sees every field's last bit") {
             hashes.insert(to_string(hash_of(other)));
         }
     }
-    for (std::uint64_t Disc::* field :
-         {&Disc::id, &Disc::wall_collisions, &Disc::pair_collisions}) {
-        for (int bit = 0; bit < 64; ++bit) {
-            Disc other = disc;
-            other.*field ^= std::uint64_t{1} << bit;
-            hashes.insert(to_string(hash_of(other)));
-        }
+    for (int bit = 0; bit < 64; ++bit) {
+        Disc other = disc;
+        other.id ^= std::uint64_t{1} << bit;
+        hashes.insert(to_string(hash_of(other)));
     }
-    CHECK(hashes.size() == 1 + 8 * 64);
+    for (int bit = 0; bit < 47; ++bit) {
+        Disc more_walls = disc, more_pairs = disc;
+        more_walls.wall_collisions ^= std::uint64_t{1} << bit;
+        more_pairs.pair_collisions ^= std::uint64_t{1} << bit;
+        hashes.insert(to_string(hash_of(more_walls)));
+        hashes.insert(to_string(hash_of(more_pairs)));
+    }
+    Disc departed = disc;
+    departed.is_departed = 1;
+    hashes.insert(to_string(hash_of(departed)));
+    CHECK(hashes.size() == 1 + 6 * 64 + 2 * 47 + 1);
 }
 
 TEST_CASE("the state hash tells exchanged values and exchanged states apart") {

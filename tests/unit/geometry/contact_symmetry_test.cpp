@@ -128,8 +128,8 @@ TEST_CASE("the predicate and its second wording have the same bits") {
 TEST_CASE("a local time later than the contact's base moves nothing") {
     // The same two lines of flight, stored at exact places along them: the same contact, at base +
     // delay.
-    const Disc p{4, 4, 0.5, 0.25, 0, 0, 0, 0}, q{10, 7, -0.25, 0, 0, 1, 0, 0};
-    const Disc p_later{5, 4.5, 0.5, 0.25, 2, 0, 0, 0};
+    const Disc p{4, 4, 0.5, 0.25, 0, 0}, q{10, 7, -0.25, 0, 0, 1};
+    const Disc p_later{5, 4.5, 0.5, 0.25, 2, 0};
     const PairContact<double> early = pair_contact(p, q, 2.0, 0.0),
                               late = pair_contact(p_later, q, 2.0, 0.0);
     REQUIRE(early.exists());
