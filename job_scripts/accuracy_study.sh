@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Repeats the study of docs/accuracy.md: tables of CSV in a folder, then the figures. Goes on where it was stopped.
+# Repeats the study of docs/accuracy.md: tables of CSV in a folder, one for each gas, then the figures. Tables that are
+# there are kept, so a study that was stopped goes on with the same command.
 #
 #   job_scripts/accuracy_study.sh [FOLDER]           all of it on one core; default folder build/accuracy
 #   PYTHON=build/pictures/bin/python job_scripts/accuracy_study.sh   with the environment of docs/tools/README.md
@@ -19,14 +20,17 @@ mkdir -p "$folder"
 
 # study TABLE N PACKING Z OPTION...
 study() {
-    local table=$folder/$1$suffix.csv n=$2 packing=$3 z=$4
+    local table=$folder/$1-$2-$3$suffix.csv n=$2 packing=$3 z=$4
     shift 4
+    [ ! -e "$table" ] || return 0
+    rm -f "$table.unfinished"
     local box speed
     box=$(awk -v n="$n" -v p="$packing" 'BEGIN { printf "%.10g", sqrt(n * atan2(0, -1) / 4 / p) }')
     speed=$(awk -v z="$z" 'BEGIN { printf "%.6g", sqrt(2) * 0.25 / (4 / sqrt(atan2(0, -1)) * (z - 1)) }')
     echo "$(basename "$table"): $n discs, packing $packing" >&2
     "$carrom" accuracy "$here/docs/accuracy/gas.toml" --set box.size="$box" --set discs.count="$n" --set discs.speed="$speed" \
-        --share "$share" --output "$table" "$@"
+        --share "$share" --output "$table.unfinished" "$@"
+    mv "$table.unfinished" "$table"
 }
 
 # Error against cost and against nu dt.

@@ -25,7 +25,7 @@ GREYS = ["#000000", "#c05000", "#0060b0", "#777777", "#208040", "#a040a0"]
 FORMULAS = [("stable", "off"), ("naive", "off"), ("naive", "on")]
 NAMES = {("stable", "off"): "stable", ("naive", "off"): "naive", ("naive", "on"): "naive, contracted"}
 LAWS = [(precision, *formula) for precision in ("double", "single") for formula in FORMULAS]
-EXACT = ("all", 1, "double", "stable", "off")
+EXACT = ("event-driven", 1, "double", "stable", "off")
 
 
 def read(paths):
@@ -44,7 +44,7 @@ def read(paths):
 
 
 def setting_of(row):
-    return row["rule"], int(row["micro_steps"]), row["precision"], row["arithmetic"], row["contraction"]
+    return row["method"], int(row["micro_steps"]), row["precision"], row["arithmetic"], row["contraction"]
 
 
 class Point:
@@ -69,7 +69,7 @@ class Point:
         self.costs = np.percentile(list(self.runs.values()), [25, 50, 75]) if self.runs else np.full(3, np.nan)
         self.cost = self.costs[1]
         # What is no trajectory of hard discs any more: it stopped, or the event-driven method has let discs into each other.
-        self.failures = sum(1 for row in rows if row["failure"] or (row["rule"] == "all" and float(row["overlapping_pairs_per_disc"]) > 0))
+        self.failures = sum(1 for row in rows if row["failure"] or (row["method"] == "event-driven" and float(row["overlapping_pairs_per_disc"]) > 0))
 
     def cost_ratios(self, other):
         """Quartiles of the cost over that of another setting, within the same start and repetition."""
@@ -105,7 +105,7 @@ def points_by_gas(rows):
 
 def default_curve(points):
     """Points of the time-stepped method as runs use it, by K."""
-    return sorted((s[1], p) for s, p in points.items() if s[0] == "one" and s[2:] == ("double", "stable", "off"))
+    return sorted((s[1], p) for s, p in points.items() if s[0] == "time-stepped" and s[2:] == ("double", "stable", "off"))
 
 
 def exact_point(points):
@@ -116,8 +116,8 @@ def law_name(law):
     return f"{law[0]}, {NAMES[law[1:]]}"
 
 
-def curve_of(points, rule, law):
-    return sorted((s[1], p) for s, p in points.items() if s[0] == rule and s[2:] == law)
+def curve_of(points, method, law):
+    return sorted((s[1], p) for s, p in points.items() if s[0] == method and s[2:] == law)
 
 
 def bars(quartiles):
@@ -210,7 +210,7 @@ def figure_error_against_nu_dt(gases, path):
     panels[0].set(ylabel="collisions lost, of those of the event-driven method", ylim=(1e-4, 1.2))
     panels[1].set(ylabel="overlapping pairs that a disc is in")
     for axes in panels:
-        axes.set(xscale="log", yscale="log", xlabel=r"$\nu\,dt$: collisions per disc and micro-step (exact rule)")
+        axes.set(xscale="log", yscale="log", xlabel=r"$\nu\,dt$: collisions per disc and micro-step (event-driven)")
         axes.grid(True, which="major", color="0.92")
     panels[0].legend(fontsize=8)
     figure.savefig(path, dpi=120)
@@ -220,10 +220,10 @@ def figure_error_against_nu_dt(gases, path):
 def figure_cost_against_size(gases, path):
     figure, panels = plt.subplots(2, 2, figsize=(11, 8.4), layout="constrained", sharex=True)
     sizes = np.array([n for _, n in gases])
-    for column, (rule, title) in enumerate((("one", 'time-stepped method, K = 1'), ("all", 'event-driven method'))):
-        usual = [points[rule, 1, *LAWS[0]] for points in gases.values()]
+    for column, (method, title) in enumerate((("time-stepped", "time-stepped method, K = 1"), ("event-driven", "event-driven method"))):
+        usual = [points[method, 1, *LAWS[0]] for points in gases.values()]
         for index, law in enumerate(LAWS):
-            points = [gas[rule, 1, *law] for gas in gases.values()]
+            points = [gas[method, 1, *law] for gas in gases.values()]
             shift = sizes * 1.04 ** (index - 2.5) # side by side
             style = {"marker": STYLES[index][0], "linestyle": STYLES[index][1], "color": GREYS[index], "label": law_name(law), "markersize": 5, "capsize": 2}
             costs, cost_bars = bars([p.costs for p in points])
@@ -246,18 +246,18 @@ def figure_cost_against_size(gases, path):
 def figure_formulas(gases, path):
     (gas, points), = list(gases.items())[:1]
     figure, panels = plt.subplots(1, 2, figsize=(11, 4.8), layout="constrained", sharey=True)
-    for axes, rule in zip(panels, ("one", "all")):
-        base = dict(curve_of(points, rule, LAWS[0])) if rule == "one" else defaultdict(lambda: exact_point(points))
+    for axes, method in zip(panels, ("time-stepped", "event-driven")):
+        base = dict(curve_of(points, method, LAWS[0])) if method == "time-stepped" else defaultdict(lambda: exact_point(points))
         for index, law in enumerate(LAWS):
-            curve = curve_of(points, rule, law)
-            if not curve or (rule == "all" and index == 0):
+            curve = curve_of(points, method, law)
+            if not curve or (method == "event-driven" and index == 0):
                 continue
             shift = 1 + 0.02 * (index - 2.5)
             axes.errorbar([shift * k for k, _ in curve], [100 * ((1 + p.rate[0]) / (1 + base[k].rate[0]) - 1) for k, p in curve],
                           yerr=[100 * p.rate[1] / (1 + base[k].rate[0]) for k, p in curve], marker=STYLES[index][0],
                           linestyle=STYLES[index][1], color=GREYS[index], label=law_name(law), capsize=2, markersize=5, linewidth=1.2)
         axes.axhline(0, color="black", linewidth=0.8)
-        axes.set(xscale="log", xlabel="micro-steps K per step", title=f'rule "{rule}", packing {gas[0]:.3g}, {gas[1]} discs')
+        axes.set(xscale="log", xlabel="micro-steps K per step", title=f'{method} method, packing {gas[0]:.3g}, {gas[1]} discs')
         ticks = sorted({s[1] for s in points})
         axes.set_xticks(ticks, [str(k) for k in ticks])
         axes.minorticks_off()
@@ -273,7 +273,7 @@ def percent(mean):
 
 
 def table_of_errors(errors):
-    lines = ["| packing | the event-driven method costs (µs per disc and mean free time) | \"one\" at K = 1 | \"one\" costs as much at | and is wrong there by |", "|---|---|---|---|---|"]
+    lines = ["| packing | the event-driven method costs (µs per disc and mean free time) | time-stepped at K = 1 | time-stepped costs as much at | and is wrong there by |", "|---|---|---|---|---|"]
     for (packing, _), points in errors.items():
         crossing, first, exact = crossover(points), default_curve(points)[0][1], exact_point(points)
         lines.append(f"| {packing:.3g} | {exact.cost:.3f} ({exact.costs[0]:.3f} to {exact.costs[2]:.3f}) | {first.cost:.3f}, wrong by {100 * abs(first.rate[0]):.0f} % | " +
@@ -284,26 +284,26 @@ def table_of_errors(errors):
     spreads = [p.spread() for points in errors.values() for p in points.values() if len(p.runs) > p.n_starts]
     if spreads:
         lines += ["", f"The same trial, timed again in turns: the slowest over the fastest is {100 * np.median(spreads):.0f} % more in the median setting."]
-    lines += ["", "| packing | rule | K | ν dt | rate, % | pressure (virial), % | pressure (walls), % | overlapping pairs per disc | deepest, σ | distance after one collision, σ | cost, µs: median (quartiles) |",
+    lines += ["", "| packing | method | K | ν dt | rate, % | pressure (virial), % | pressure (walls), % | overlapping pairs per disc | deepest, σ | distance after one collision, σ | cost, µs: median (quartiles) |",
               "|---|---|---|---|---|---|---|---|---|---|---|"]
     for (packing, _), points in errors.items():
-        for rule in ("one", "all"):
-            for k, p in curve_of(points, rule, LAWS[0]):
-                lines.append(f"| {packing:.3g} | {rule} | {k} | {p.nu_dt:.4f} | {percent(p.rate)} | {percent(p.pressure)} | {percent(p.wall)} | {p.overlaps[0]:.4f} ± {p.overlaps[1]:.4f} | "
+        for method in ("time-stepped", "event-driven"):
+            for k, p in curve_of(points, method, LAWS[0]):
+                lines.append(f"| {packing:.3g} | {method} | {k} | {p.nu_dt:.4f} | {percent(p.rate)} | {percent(p.pressure)} | {percent(p.wall)} | {p.overlaps[0]:.4f} ± {p.overlaps[1]:.4f} | "
                              f"{p.deepest:.2f} | {p.distance[0]:.2g} | {p.cost:.3f} ({p.costs[0]:.3f} to {p.costs[2]:.3f}) |")
     return lines
 
 
 def table_of_laws(title, gases, wanted):
     """Lines for each precision and formula, of the K that `wanted` says; failures are marked."""
-    lines = ["", title, "", "| packing | N | rule | precision, formula | K | rate, % | overlapping pairs per disc | deepest, σ | distance after one collision, σ | cost, µs: median (quartiles) | |",
+    lines = ["", title, "", "| packing | N | method | precision, formula | K | rate, % | overlapping pairs per disc | deepest, σ | distance after one collision, σ | cost, µs: median (quartiles) | |",
              "|---|---|---|---|---|---|---|---|---|---|---|"]
     for (packing, n), points in gases.items():
-        for rule in ("one", "all"):
+        for method in ("time-stepped", "event-driven"):
             for law in LAWS:
-                for k, p in curve_of(points, rule, law):
+                for k, p in curve_of(points, method, law):
                     if wanted(k):
-                        lines.append(f"| {packing:.3g} | {n} | {rule} | {law_name(law)} | {k} | {percent(p.rate)} | {p.overlaps[0]:.2g} | {p.deepest:.2g} | {p.distance[0]:.2g} | "
+                        lines.append(f"| {packing:.3g} | {n} | {method} | {law_name(law)} | {k} | {percent(p.rate)} | {p.overlaps[0]:.2g} | {p.deepest:.2g} | {p.distance[0]:.2g} | "
                                      f"{p.cost:.3f} ({p.costs[0]:.3f} to {p.costs[2]:.3f}) | {'**fails**: discs in each other, or stopped' if p.failures else ''} |")
     return lines
 

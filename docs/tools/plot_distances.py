@@ -22,18 +22,18 @@ import numpy as np
 # (Benettin's method), 64 discs between hard walls, to 1 or 2 %: measured with another program.
 EXPONENTS = {0.1: 2.66, 0.2: 1.64, 0.3: 1.15, 0.4: 0.863, 0.5: 0.656}
 ROUNDING = {"double": 1e-16, "single": 6e-8}
-# (rule, K, precision): label, colour, line style, marker
+# (method, K, precision): label, colour, line style, marker
 CURVES = {
-    ("all", 16, "double"): ("all, double, other syncs (K = 16)", "#000000", "-", "o"),
-    ("all", 1, "single"): ("all, single", "#0060b0", "--", "s"),
-    ("one", 256, "double"): ("one, double, K = 256", "#c05000", "-.", "^"),
-    ("one", 16, "double"): ("one, double, K = 16", "#777777", ":", "D"),
-    ("one", 1, "double"): ("one, double, K = 1", "#208040", "-", "v"),
+    ("event-driven", 16, "double"): ("event-driven, double, other syncs (K = 16)", "#000000", "-", "o"),
+    ("event-driven", 1, "single"): ("event-driven, single", "#0060b0", "--", "s"),
+    ("time-stepped", 256, "double"): ("time-stepped, double, K = 256", "#c05000", "-.", "^"),
+    ("time-stepped", 16, "double"): ("time-stepped, double, K = 16", "#777777", ":", "D"),
+    ("time-stepped", 1, "double"): ("time-stepped, double, K = 1", "#208040", "-", "v"),
 }
 
 
 def read(paths):
-    """{packing: {(rule, K, precision): {collisions per disc: distances of all starts}}}; collisions are means over starts."""
+    """{packing: {(method, K, precision): {collisions per disc: distances of all starts}}}; collisions are means over starts."""
     looks = defaultdict(lambda: defaultdict(lambda: defaultdict(list)))
     for path in paths:
         with open(path, newline="") as table:
@@ -42,7 +42,7 @@ def read(paths):
                 raise SystemExit(f"{path}: is no table of `carrom accuracy --distances`")
             for row in lines:
                 if row["arithmetic"] == "stable":
-                    setting = row["rule"], int(row["micro_steps"]), row["precision"]
+                    setting = row["method"], int(row["micro_steps"]), row["precision"]
                     looks[float(row["packing"])][setting][int(row["step"])].append((float(row["collisions_per_disc"]), float(row["distance_rms"])))
     return {packing: {setting: common(steps) for setting, steps in settings.items()} for packing, settings in sorted(looks.items())}
 
@@ -90,7 +90,7 @@ def draw(gases, path):
                 axes.annotate(f"horizon, {precision}", (horizon, 2e-17), xytext=(-3, 0), textcoords="offset points", rotation=90, ha="right", va="bottom", fontsize=8)
             xs = np.array([0.22 * end, 0.22 * end + math.log(1e6) / exponent])
             axes.plot(xs, 1e-12 * np.exp(exponent * (xs - xs[0])), color="0.6", linewidth=4, alpha=0.6, zorder=0, label="slope: Lyapunov exponent")
-        axes.set(yscale="log", ylim=(1e-17, 1e2), xlim=(0, end), xlabel="collisions per disc (exact rule)", title=f"packing {packing:.3g}")
+        axes.set(yscale="log", ylim=(1e-17, 1e2), xlim=(0, end), xlabel="collisions per disc (event-driven)", title=f"packing {packing:.3g}")
         axes.grid(True, which="major", color="0.92")
     panels[0, 0].set_ylabel("r.m.s. distance to the exact run, in diameters")
     figure.legend(*panels.flat[0].get_legend_handles_labels(), fontsize=9, loc="outside lower center", ncols=3)
@@ -103,13 +103,13 @@ def first_above(looks, limit):
 
 
 def table(gases):
-    lines = ["| packing | rule | K | precision | 1e-6 σ after | 0.1 σ after (collisions per disc) | growth per collision | Lyapunov exponent |", "|---|---|---|---|---|---|---|---|"]
+    lines = ["| packing | method | K | precision | 1e-6 σ after | 0.1 σ after (collisions per disc) | growth per collision | Lyapunov exponent |", "|---|---|---|---|---|---|---|---|"]
     for packing, settings in gases.items():
-        for (rule, k, precision), looks in sorted(settings.items()):
-            found = growth(looks) if rule == "all" else None
+        for (method, k, precision), looks in sorted(settings.items()):
+            found = growth(looks) if method == "event-driven" else None
             text = f"{found[0]:.3f} ± {found[1]:.3f}" if found and precision == "double" else ""
             known = exponent_of(packing) if text else None
-            lines.append(f"| {packing:.3g} | {rule} | {k} | {precision} | {first_above(looks, 1e-6)} | {first_above(looks, 0.1)} | {text} | {known or ''} |")
+            lines.append(f"| {packing:.3g} | {method} | {k} | {precision} | {first_above(looks, 1e-6)} | {first_above(looks, 0.1)} | {text} | {known or ''} |")
     return "\n".join(lines) + "\n"
 
 

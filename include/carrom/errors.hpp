@@ -33,7 +33,7 @@ struct Problem {
     friend bool operator==(const Problem&, const Problem&) = default;
 };
 
-/// "place:line: text", or "place: text" where there is no line.
+/// "place:line: text", or "place: text" where there is no line. Control characters are escaped.
 std::string to_string(const Problem& problem);
 
 /// A wrong scene, disc list or argument. Thrown on every rank with the same problems, all that

@@ -17,8 +17,8 @@ namespace {
 constexpr const char* teaching =
     R"(Every setting is run from the same starts: discs that the event-driven method has brought to
 equilibrium. Starts are made from different seeds; discs that are listed are run on for longer and longer.
-FILE gets a line for each trial as soon as it is done, and a study that was stopped goes on with the
-same command. To share it out (a Slurm array): --share 1/8 ... --share 8/8, each with a FILE of its own.
+FILE is a new table; it gets a line for each trial as soon as it is done. To share the work out (a Slurm
+array), or to lose less when it is stopped: --share 1/8 ... --share 8/8, each with a FILE of its own.
 
 Examples:
   carrom accuracy inputs/gas.toml --set discs.count=2000 --output gas.csv
@@ -50,8 +50,8 @@ ExitCode study(const AccuracyOptions& options, std::vector<Problem> problems,
 /// The words of the command line as they stand.
 struct AccuracyWords {
     RunWords run;
-    std::string table, starts, repetitions, collisions, approach, micro_steps, arithmetic = "all",
-                                                                               share, threads;
+    std::string table, starts, repetitions, collisions, approach, micro_steps, share, threads;
+    std::string arithmetic = "all";
     bool of_distances = false;
 };
 
@@ -102,57 +102,43 @@ AccuracyOptions checked(const AccuracyWords& words, std::vector<Problem>& proble
     return options;
 }
 
+std::vector<Option> options_of(AccuracyWords& words) {
+    return {
+        {"INPUT", "", "SCENE.toml or FILE.in", &words.run.input, true},
+        {"--output", "FILE", "The new table of CSV; default accuracy.csv", &words.table},
+        {"--starts", "N", "Starts for each setting; default 8", &words.starts},
+        {"--repetitions", "R", "Of each trial, in turns, for its cost; default 3",
+         &words.repetitions},
+        {"--collisions", "C", "Collisions of a disc with others per trial; default 100",
+         &words.collisions},
+        {"--approach", "C", "And before it, to come to equilibrium; default 20", &words.approach},
+        {"--micro-steps", "K", "Largest K of 1, 2, 4, ...; default 256", &words.micro_steps},
+        {"--arithmetic", "all|stable|default",
+         "all: both precisions and formulas; stable: both precisions; default: what runs use",
+         &words.arithmetic},
+        {"--distances", "",
+         "Distances to the exact run along time, in the place of rates and costs; K = 1, 16, 256",
+         &words.of_distances},
+        {"--share", "K/N", "The K-th of N shares of the trials only", &words.share},
+        {"--threads", "T", "Threads; default 1", &words.threads},
+        {"--set", "KEY=VALUE", "Set any scene key; may be repeated", &words.run.overrides},
+        {"--quiet", "", "No progress", &words.run.quiet},
+    };
+}
+
 } // namespace
 
-void add_accuracy_command(CLI::App& app, Action& action) {
-    auto words = std::make_shared<AccuracyWords>();
-    CLI::App* command = app.add_subcommand(
-        "accuracy", "Measure what accuracy costs: a scene under many settings");
-    command->set_help_flag("-h,--help", "Print this help and exit");
-    command->add_option("INPUT", words->run.input, "SCENE.toml or FILE.in")
-        ->type_name("")
-        ->required();
-    command->add_option("--output", words->table, "The table of CSV; default accuracy.csv")
-        ->type_name("FILE");
-    command->add_option("--starts", words->starts, "Starts for each setting; default 8")
-        ->type_name("N");
-    command
-        ->add_option("--repetitions", words->repetitions,
-                     "Of each trial, in turns, for its cost; default 3")
-        ->type_name("R");
-    command
-        ->add_option("--collisions", words->collisions,
-                     "Collisions of a disc with others per trial; default 100")
-        ->type_name("C");
-    command
-        ->add_option("--approach", words->approach,
-                     "And before it, to come to equilibrium; default 20")
-        ->type_name("C");
-    command
-        ->add_option("--micro-steps", words->micro_steps, "Largest K of 1, 2, 4, ...; default 256")
-        ->type_name("K");
-    command
-        ->add_option(
-            "--arithmetic", words->arithmetic,
-            "all: both precisions and formulas; stable: both precisions; default: what runs use")
-        ->type_name("all|stable|default");
-    add_switch(
-        *command, "--distances", words->of_distances,
-        "Distances to the exact run along time, in the place of rates and costs; K = 1, 16, 256");
-    command->add_option("--share", words->share, "The K-th of N shares of the trials only")
-        ->type_name("K/N");
-    command->add_option("--threads", words->threads, "Threads; default 1")->type_name("T");
-    command->add_option("--set", words->run.overrides, "Set any scene key; may be repeated")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
-    add_switch(*command, "--quiet", words->run.quiet, "No progress");
-    command->footer(teaching);
-    command->callback([words, &action] {
-        std::vector<Problem> problems;
+Subcommand accuracy_subcommand() {
+    const auto words = std::make_shared<AccuracyWords>();
+    const auto action = [words](std::vector<Problem>& problems) -> Action {
         AccuracyOptions options = checked(*words, problems);
-        action = [options = std::move(options), problems = std::move(problems)](
-                     const Communicator& ranks) { return study(options, problems, ranks); };
-    });
+        return {[options = std::move(options), problems](const Communicator& ranks) {
+                    return study(options, problems, ranks);
+                },
+                true};
+    };
+    return {"accuracy", "Measure what accuracy costs: a scene under many settings", teaching,
+            options_of(*words), action};
 }
 
 } // namespace carrom

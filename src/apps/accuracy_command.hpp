@@ -3,13 +3,10 @@
 // settings from the same starts and writes a table; docs/tools/plot_accuracy.py draws it.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
-#include "apps/command_line.hpp"
+#include "apps/subcommand.hpp"
 
 namespace carrom {
 
-/// Declares the subcommand on `app`; parsing it puts the work into `action`.
-void add_accuracy_command(CLI::App& app, Action& action);
+Subcommand accuracy_subcommand();
 
 } // namespace carrom

@@ -3,16 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <functional>
-#include <optional>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "apps/accuracy_table.hpp"
-#include "apps/standard_streams.hpp"
-#include "apps/stopwatch.hpp"
+#include "apps/progress.hpp"
 #include "core/errors.hpp"
 #include "initial_state/initial_state.hpp"
 
@@ -20,8 +15,8 @@ namespace carrom {
 
 namespace {
 
-/// Both rules with K = 1, `factor`, factor^2, ...; the first one is the reference: the event-driven
-/// method as runs use it.
+/// Both methods with K = 1, `factor`, factor^2, ...; the first one is the reference: the
+/// event-driven method as runs use it.
 std::vector<RunSetting> settings_of(const StudyOptions& options, std::int64_t factor) {
     std::vector<RunSetting> settings;
     for (std::int64_t k = 1; k <= options.most_micro_steps; k *= factor) {
@@ -38,17 +33,32 @@ std::vector<RunSetting> settings_of(const StudyOptions& options, std::int64_t fa
     return settings;
 }
 
+/// What all trials of a study share.
+struct Study {
+    Study(const Scene& of_scene, const std::vector<InputDisc>& first_discs,
+          const StudyOptions& with_options, const Communicator& on_ranks)
+        : scene(of_scene), discs(first_discs), options(with_options), ranks(on_ranks) {
+        tuning.threads = options.threads;
+    }
+
+    const Scene& scene;
+    const std::vector<InputDisc>& discs;
+    const StudyOptions& options;
+    const Communicator& ranks;
+    Tuning tuning;
+};
+
 /// Independent starts: other seeds where discs are generated, else the same discs after more and
 /// more collisions.
-TrialStart make_start(const Scene& scene, const std::vector<InputDisc>& discs, int number,
-                      const StudyOptions& options, const Communicator& ranks,
-                      const Tuning& tuning) {
-    if (scene.generator == Generator::file)
-        return bring_to_equilibrium(scene, discs, options.approach * (number + 1), ranks, tuning);
-    Scene other = scene;
+TrialStart make_start(const Study& study, int number) {
+    const double approach = study.options.approach;
+    if (study.scene.generator == Generator::file)
+        return bring_to_equilibrium(study.scene, study.discs, approach * (number + 1), study.ranks,
+                                    study.tuning);
+    Scene other = study.scene;
     other.seed += static_cast<std::uint64_t>(number);
-    return bring_to_equilibrium(other, initial_state(other, nullptr, ranks), options.approach,
-                                ranks, tuning);
+    return bring_to_equilibrium(other, initial_state(other, nullptr, study.ranks), approach,
+                                study.ranks, study.tuning);
 }
 
 Distance distance_between(const std::vector<InputDisc>& a, const std::vector<InputDisc>& b,
@@ -65,43 +75,6 @@ Distance distance_between(const std::vector<InputDisc>& a, const std::vector<Inp
     return {std::sqrt(sum / static_cast<double>(a.size())) / diameter,
             std::sqrt(*middle) / diameter};
 }
-
-/// What is left to do, as time goes on. Costs are in the micro-steps of a start, about.
-class StudyProgress {
-public:
-    StudyProgress(double all, bool wanted)
-        : all_(all), wanted_(wanted), on_terminal_(isatty(STDERR_FILENO) == 1) {}
-    ~StudyProgress() {
-        if (wanted_ && on_terminal_) print_message("\n");
-    }
-    StudyProgress(const StudyProgress&) = delete;
-    StudyProgress& operator=(const StudyProgress&) = delete;
-
-    /// `measured` is false for what was there already.
-    void show(double cost, bool measured) {
-        (measured ? done_ : found_) += cost;
-        since_shown_ += watch_lap();
-        if (!wanted_ || !measured || since_shown_ < (on_terminal_ ? 0.2 : 20)) return;
-        since_shown_ = 0;
-        const auto left = static_cast<std::int64_t>(seconds_ * (all_ - found_ - done_) / done_ +
-                                                    0.5);
-        print_message("{}accuracy: {:.1f} % done, {}:{:02}:{:02} left{}", on_terminal_ ? "\r" : "",
-                      100 * (found_ + done_) / all_, left / 3600, left / 60 % 60, left % 60,
-                      on_terminal_ ? "\x1b[K" : "\n");
-        std::fflush(stderr);
-    }
-
-private:
-    double watch_lap() {
-        const double lap = watch_.lap();
-        seconds_ += lap;
-        return lap;
-    }
-
-    double all_, done_ = 0, found_ = 0, seconds_ = 0, since_shown_ = 1e9;
-    bool wanted_, on_terminal_;
-    Stopwatch watch_;
-};
 
 double cost_of(const RunSetting& setting) {
     return setting.method == Method::event_driven ? 5
@@ -127,38 +100,37 @@ std::vector<Item> items_of(const StudyOptions& options, const std::vector<RunSet
     return items;
 }
 
-/// Makes each start once and calls `run(item, start)`, which returns whether anything had to be
-/// done, for its items.
-void run_all(const Scene& scene, const std::vector<InputDisc>& discs, const StudyOptions& options,
-             const std::vector<Item>& items, const Communicator& ranks, const Tuning& tuning,
-             const std::function<bool(const Item&, const TrialStart&)>& run) {
-    double cost = 0;
-    for (const Item& item : items) cost += cost_of(item.setting);
-    StudyProgress progress(cost, !options.quiet);
-    std::optional<TrialStart> start;
+/// Makes each start once and calls `begin(start)`, then `run(item, start)` for its items.
+template <class Begin, class Run>
+void run_all(const Study& study, const std::vector<Item>& items, const Begin& begin,
+             const Run& run) {
+    double all = 0, done = 0;
+    for (const Item& item : items) all += cost_of(item.setting);
+    StatusLine status(!study.options.quiet);
+    TrialStart start;
     int number = -1;
     for (const Item& item : items) {
-        if (item.start != number)
-            start = make_start(scene, discs, number = item.start, options, ranks, tuning);
-        progress.show(cost_of(item.setting), run(item, *start));
+        if (item.start != number) {
+            number = item.start;
+            start = make_start(study, number);
+            begin(start);
+        }
+        run(item, start);
+        done += cost_of(item.setting);
+        if (status.is_due())
+            status.show(fmt::format("accuracy: {:.1f} % done, {} left", 100 * done / all,
+                                    time_text(status.seconds() * (all - done) / done)));
     }
-}
-
-Tuning tuning_of(const StudyOptions& options) {
-    Tuning tuning;
-    tuning.threads = options.threads;
-    return tuning;
 }
 
 /// Discs by id at each look: after about every collision of a disc. Throws InputError where a run
 /// cannot go on.
-std::vector<std::vector<InputDisc>> trace(const Scene& scene, const RunSetting& setting,
+std::vector<std::vector<InputDisc>> trace(const Study& study, const RunSetting& setting,
                                           const TrialStart& start, std::int64_t every,
-                                          std::int64_t steps, const Communicator& ranks,
-                                          const Tuning& tuning) {
-    Scene here = with_setting(scene, setting);
+                                          std::int64_t steps) {
+    Scene here = with_setting(study.scene, setting);
     here.steps = steps;
-    Simulation simulation(here, start.discs, ranks, tuning);
+    Simulation simulation(here, start.discs, study.ranks, study.tuning);
     std::vector<std::vector<InputDisc>> looks;
     for (std::int64_t step = every; step <= steps; step += every) {
         advance_to(simulation, step);
@@ -167,81 +139,79 @@ std::vector<std::vector<InputDisc>> trace(const Scene& scene, const RunSetting& 
     return looks;
 }
 
+/// A trial, or why it could not be run to its end.
+struct TrialOrFailure {
+    Trial trial;
+    std::string failure;
+};
+
+TrialOrFailure attempt(const Study& study, const RunSetting& setting, const TrialStart& start,
+                       const TrialLength& length) {
+    try {
+        return {run_trial(study.scene, setting, start, length, study.ranks, study.tuning), ""};
+    } catch (const InputError& error) {
+        return {{}, error.problems().front().text};
+    } catch (const CollectiveError& error) { // a collision cascade without end
+        return {{}, error.what()};
+    }
+}
+
+std::int64_t at_least_one(double number) { return std::max<std::int64_t>(1, std::llround(number)); }
+
 } // namespace
 
 void study_costs(const Scene& scene, const std::vector<InputDisc>& discs,
                  const StudyOptions& options, const Communicator& ranks) {
+    const Study study(scene, discs, options, ranks);
     AccuracyTable table(options.table);
     const std::vector<RunSetting> settings = settings_of(options, 2);
-    const Tuning tuning = tuning_of(options);
+    TrialLength length;
     std::vector<InputDisc> exact; // at the early step
-    int reference_start = -1;
-    run_all(scene, discs, options, items_of(options, settings, options.n_repetitions), ranks,
-            tuning, [&](const Item& item, const TrialStart& start) {
-                TrialLength length;
-                length.steps = std::max<std::int64_t>(
-                    1, std::llround(options.collisions / start.frequency));
-                length.early_step = std::clamp<std::int64_t>(std::llround(1 / start.frequency), 1,
-                                                             length.steps);
-                const TrialKey key{item.start, item.setting, length, item.repetition};
-                if (table.has(scene, start, key)) return false;
-                if (reference_start != item.start) {
-                    exact = run_trial(scene, settings[0], start,
-                                      {length.early_step, length.early_step, 1}, ranks, tuning)
-                                .early;
-                    reference_start = item.start;
-                }
-                std::string failure;
-                Trial trial;
-                try {
-                    trial = run_trial(scene, item.setting, start, length, ranks, tuning);
-                } catch (const InputError& error) {
-                    failure = error.problems().front().text;
-                } catch (const CollectiveError& error) { // collisions without end
-                    failure = error.what();
-                }
-                if (failure.empty())
-                    table.add(scene, start, key, trial,
-                              distance_between(trial.early, exact, 2 * scene.radius),
-                              options.threads);
-                else
-                    table.add_failure(scene, start, key, failure, options.threads);
-                return true;
-            });
+    const auto begin = [&](const TrialStart& start) {
+        length.steps = at_least_one(options.collisions / start.frequency);
+        length.early_step = std::min(at_least_one(1 / start.frequency), length.steps);
+        const TrialLength early = {length.early_step, length.early_step, 1};
+        exact = run_trial(scene, settings[0], start, early, ranks, study.tuning).early;
+    };
+    const auto run = [&](const Item& item, const TrialStart& start) {
+        const TrialKey key{item.start, item.setting, length, item.repetition};
+        const auto [trial, failure] = attempt(study, item.setting, start, length);
+        if (failure.empty())
+            table.add(scene, start, key, trial,
+                      distance_between(trial.early, exact, 2 * scene.radius), options.threads);
+        else
+            table.add_failure(scene, start, key, failure, options.threads);
+    };
+    run_all(study, items_of(options, settings, options.n_repetitions), begin, run);
 }
 
 void study_distances(const Scene& scene, const std::vector<InputDisc>& discs,
                      const StudyOptions& options, const Communicator& ranks) {
+    const Study study(scene, discs, options, ranks);
     DistanceTable table(options.table);
     const std::vector<RunSetting> settings = settings_of(options, 16);
-    const Tuning tuning = tuning_of(options);
-    std::vector<std::vector<InputDisc>> exact;
-    int reference_start = -1;
     std::vector<Item> items = items_of(options, settings, 1);
     std::erase_if(items, [&](const Item& item) {
         return item.setting == settings[0];
     }); // no distance from itself
-    run_all(scene, discs, options, items, ranks, tuning,
-            [&](const Item& item, const TrialStart& start) {
-                const TrialKey key{item.start, item.setting, {}, 0};
-                const auto every = std::max<std::int64_t>(1, std::llround(1 / start.frequency));
-                const std::int64_t n_looks = std::max<std::int64_t>(
-                    1, std::llround(options.collisions /
-                                    (start.frequency * static_cast<double>(every))));
-                if (table.has(scene, start, key, n_looks * every)) return false;
-                if (reference_start != item.start)
-                    exact = trace(scene, settings[0], start, every, n_looks * every, ranks, tuning);
-                reference_start = item.start;
-                const auto looks = trace(scene, item.setting, start, every, n_looks * every, ranks,
-                                         tuning);
-                for (std::size_t k = 0; k < looks.size(); ++k) {
-                    const auto step = static_cast<std::int64_t>(k + 1) * every;
-                    if (table.has(scene, start, key, step)) continue;
-                    table.add(scene, start, key, step, start.frequency * static_cast<double>(step),
-                              distance_between(looks[k], exact[k], 2 * scene.radius));
-                }
-                return true;
-            });
+    std::int64_t every = 1, last = 1;
+    std::vector<std::vector<InputDisc>> exact;
+    const auto begin = [&](const TrialStart& start) {
+        every = at_least_one(1 / start.frequency);
+        last = every *
+               at_least_one(options.collisions / (start.frequency * static_cast<double>(every)));
+        exact = trace(study, settings[0], start, every, last);
+    };
+    const auto run = [&](const Item& item, const TrialStart& start) {
+        const TrialKey key{item.start, item.setting, {}, 0};
+        const auto looks = trace(study, item.setting, start, every, last);
+        for (std::size_t k = 0; k < looks.size(); ++k) {
+            const auto step = static_cast<std::int64_t>(k + 1) * every;
+            table.add(scene, start, key, step, start.frequency * static_cast<double>(step),
+                      distance_between(looks[k], exact[k], 2 * scene.radius));
+        }
+    };
+    run_all(study, items, begin, run);
 }
 
 } // namespace carrom

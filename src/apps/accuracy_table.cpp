@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/accuracy_table.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "apps/words.hpp"
 #include "machine/machine.hpp"
-#include "apps/standard_streams.hpp"
 
 namespace carrom {
 
 namespace {
 
-constexpr std::string_view setting_columns =
-    "scene,box_size,radius,n_discs,packing,sync_every,start,start_hash,rule,micro_steps,precision,"
-    "arithmetic,contraction";
+constexpr std::string_view setting_columns = "scene,box_size,radius,n_discs,packing,sync_every,"
+                                             "start,start_hash,method,micro_steps,precision,"
+                                             "arithmetic,contraction";
 constexpr std::string_view number_columns =
     "pair_collisions,wall_collisions,collision_frequency,collision_frequency_error,wall_pressure,"
     "wall_pressure_error,"
@@ -27,34 +26,24 @@ constexpr std::string_view number_columns =
 constexpr std::size_t n_numbers = 15;
 constexpr std::string_view build_columns = "version,compiler,flags,machine";
 
-std::size_t n_columns(std::string_view columns) {
-    return static_cast<std::size_t>(std::count(columns.begin(), columns.end(), ',')) + 1;
-}
-
 std::string trial_columns() {
     return fmt::format("{},steps,early_step,repetition", setting_columns);
 }
-std::string distance_columns() { return fmt::format("{},step", setting_columns); }
 
 std::string setting_fields(const Scene& scene, const TrialStart& start, const TrialKey& key) {
     const RunSetting& s = key.setting;
-    return fmt::format(
-        "{},{},{},{},{:.6g},{},{},{},{},{},{},{},{}",
-        plain_field(std::filesystem::path(scene.name).filename().string()), scene.box_size,
-        scene.radius, scene.n_discs, scene.packing(), scene.sync_every, key.start,
-        to_string(start.hash), s.method == Method::time_stepped ? "time-stepped" : "event-driven",
-        s.micro_steps, s.precision == Precision::single ? "single" : "double",
-        s.arithmetic == Arithmetic::naive ? "naive" : "stable", s.contraction ? "on" : "off");
+    return fmt::format("{},{},{},{},{:.6g},{},{},{},{},{},{},{},{}",
+                       plain_field(std::filesystem::path(scene.name).filename().string()),
+                       scene.box_size, scene.radius, scene.n_discs, scene.packing(),
+                       scene.sync_every, key.start, to_string(start.hash), name_of(s.method),
+                       s.micro_steps, s.precision == Precision::single ? "single" : "double",
+                       s.arithmetic == Arithmetic::naive ? "naive" : "stable",
+                       s.contraction ? "on" : "off");
 }
 
 std::string trial_fields(const Scene& scene, const TrialStart& start, const TrialKey& key) {
     return fmt::format("{},{},{},{}", setting_fields(scene, start, key), key.length.steps,
                        key.length.early_step, key.repetition);
-}
-
-std::string distance_fields(const Scene& scene, const TrialStart& start, const TrialKey& key,
-                            std::int64_t step) {
-    return fmt::format("{},{}", setting_fields(scene, start, key), step);
 }
 
 std::string build_fields() {
@@ -66,19 +55,8 @@ std::string build_fields() {
 } // namespace
 
 AccuracyTable::AccuracyTable(const std::string& path)
-    : table_(path, {fmt::format("{},{},threads,failure,{}", trial_columns(), number_columns,
-                                build_columns),
-                    n_columns(trial_columns()), n_columns(build_columns), build_fields()}) {
-    if (table_.n_foreign() > 0)
-        print_message("{}: warning: {} of its lines are of another version, compiler or machine: "
-                      "costs of one setting and another are then not "
-                      "comparable\n",
-                      path, table_.n_foreign());
-}
-
-bool AccuracyTable::has(const Scene& scene, const TrialStart& start, const TrialKey& key) const {
-    return table_.has(trial_fields(scene, start, key));
-}
+    : table_(path, fmt::format("{},{},threads,failure,{}", trial_columns(), number_columns,
+                               build_columns)) {}
 
 void AccuracyTable::add(const Scene& scene, const TrialStart& start, const TrialKey& key,
                         const Trial& trial, const Distance& distance, int threads) {
@@ -103,25 +81,19 @@ void AccuracyTable::add_failure(const Scene& scene, const TrialStart& start, con
 
 void AccuracyTable::append(const std::string& key, const std::vector<std::string>& fields,
                            const std::string& failure, int threads) {
-    table_.append(key,
-                  fmt::format("{},{},{}", fmt::join(fields, ","), threads, plain_field(failure)));
+    table_.append(fmt::format("{},{},{},{},{}", key, fmt::join(fields, ","), threads,
+                              plain_field(failure), build_fields()));
 }
 
 DistanceTable::DistanceTable(const std::string& path)
-    : table_(path, {fmt::format("{},collisions_per_disc,distance_rms,distance_median,{}",
-                                distance_columns(), build_columns),
-                    n_columns(distance_columns()), n_columns(build_columns), build_fields()}) {}
-
-bool DistanceTable::has(const Scene& scene, const TrialStart& start, const TrialKey& key,
-                        std::int64_t step) const {
-    return table_.has(distance_fields(scene, start, key, step));
-}
+    : table_(path, fmt::format("{},step,collisions_per_disc,distance_rms,distance_median,{}",
+                               setting_columns, build_columns)) {}
 
 void DistanceTable::add(const Scene& scene, const TrialStart& start, const TrialKey& key,
                         std::int64_t step, double collisions, const Distance& distance) {
-    table_.append(distance_fields(scene, start, key, step),
-                  fmt::format("{:.6g},{:.6g},{:.6g}", collisions, distance.root_mean_square,
-                              distance.median));
+    table_.append(fmt::format("{},{},{:.6g},{:.6g},{:.6g},{}", setting_fields(scene, start, key),
+                              step, collisions, distance.root_mean_square, distance.median,
+                              build_fields()));
 }
 
 } // namespace carrom

@@ -26,10 +26,9 @@ struct Distance {
 
 class AccuracyTable {
 public:
-    /// Throws as CsvTable does; warns of lines from elsewhere.
+    /// Throws as CsvTable does.
     explicit AccuracyTable(const std::string& path);
 
-    bool has(const Scene& scene, const TrialStart& start, const TrialKey& key) const;
     /// Adds a line; `distance` is that to the exact run at the early step. Throws where that fails.
     void add(const Scene& scene, const TrialStart& start, const TrialKey& key, const Trial& trial,
              const Distance& distance, int threads);
@@ -50,9 +49,6 @@ public:
     /// Throws as CsvTable does.
     explicit DistanceTable(const std::string& path);
 
-    /// Whether a trial has its line at that step; the last one says that it is done.
-    bool has(const Scene& scene, const TrialStart& start, const TrialKey& key,
-             std::int64_t step) const;
     /// `collisions` are those that a disc has had with others in the exact run until then.
     void add(const Scene& scene, const TrialStart& start, const TrialKey& key, std::int64_t step,
              double collisions, const Distance& distance);

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program `carrom`: every rank runs this, and all of them leave with the same exit code.
 #include "apps/command_line.hpp"
-#include "apps/openmp_wait.hpp"
 #include "apps/standard_streams.hpp"
+#include "apps/stop_signals.hpp"
 #include "io/start_io.hpp"
 #include "parallel/mpi.hpp"
 
 int main(int argc, char** argv) {
     carrom::keep_standard_streams();
-    carrom::bound_openmp_wait(argv);
+    const carrom::Action action = carrom::parse_command_line(argc, argv);
+    if (action.stops_on_request) carrom::note_stop_signals();
     carrom::start_io();
-    const carrom::Mpi mpi(argc, argv);
-    return carrom::run_on_all(
-        carrom::Communicator::world(), [&](const carrom::Communicator& ranks) {
-            const carrom::Action action = carrom::parse_command_line(argc, argv);
-            return static_cast<int>(action(ranks));
-        });
+    const carrom::Mpi mpi(argc, argv,
+                          action.needs_mpi ? carrom::Mpi::Start::always
+                                           : carrom::Mpi::Start::under_launcher);
+    return carrom::run_on_all(carrom::Communicator::world(),
+                              [&action](const carrom::Communicator& ranks) {
+                                  return static_cast<int>(action.act(ranks));
+                              });
 }

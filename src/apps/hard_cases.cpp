@@ -39,21 +39,38 @@ void refuse_long_flights(const Scene& scene, double speed) {
                                    std::ceil(crossings / most_crossings))}});
 }
 
+/// In the rounding of a time, which counts from the last sync.
+double blurred_flight(const Scene& scene, double speed) {
+    return speed * static_cast<double>(scene.sync_every) * 0x1p-53;
+}
+
+/// Beyond a radius no contact can be told from any other place.
+void refuse_blurred_places(const Scene& scene, double speed) {
+    const double radii = blurred_flight(scene, speed) / scene.radius;
+    if (radii <= 1) return;
+    throw InputError(
+        {{scene.name, 0,
+          fmt::format("the fastest disc goes {:.3g} radii per micro-step, and {:.3g} radii in the "
+                      "rounding of a time, so where it meets others is unknown; take smaller "
+                      "speeds or {:.3g} times as many time.micro_steps",
+                      speed / scene.radius, radii, std::ceil(radii))}});
+}
+
 } // namespace
 
 void look_for_hard_cases(const Scene& scene, const Simulation& simulation,
                          const Communicator& ranks) {
     const double speed = largest_speed(simulation, ranks);
+    refuse_blurred_places(scene, speed);
     refuse_long_flights(scene, speed);
-    const double rounding = static_cast<double>(scene.sync_every) *
-                            0x1p-53; // times count from the last sync
+    const double blur = blurred_flight(scene, speed);
     // As far as the band before walls is wide: from there on bounces and overlaps show it.
-    if (!ranks.is_root() || speed * rounding <= 1e-8 * scene.radius) return;
+    if (!ranks.is_root() || blur <= 1e-8 * scene.radius) return;
     print_message(
         "{}: warning: the fastest disc goes {:.3g} radii per micro-step, and {:.3g} radii in the "
         "rounding of a time; "
         "more time.micro_steps or a smaller time.sync_every (now {}) keep overlaps smaller\n",
-        scene.name, speed / scene.radius, speed * rounding / scene.radius, scene.sync_every);
+        scene.name, speed / scene.radius, blur / scene.radius, scene.sync_every);
 }
 
 void warn_of_close_pairs(const Scene& scene, const Totals& start) {

@@ -64,18 +64,28 @@ std::vector<NamedFile> read_by(const RunOptions& options) {
     return sources;
 }
 
-void check_destinations(const RunOptions& options, Problems& problems) {
-    const auto check = [&problems](const char* option, const std::string& path,
-                                   const std::string& obstacle) {
-        if (!path.empty() && !obstacle.empty())
-            problems.push_back({fmt::format("{} {}", option, path), 0, obstacle});
+/// What disks or rights keep from being written; places that cannot be right go to `problems`.
+Problems check_destinations(const RunOptions& options, Problems& problems) {
+    Problems failures, found = problems_with(named_by(options), read_by(options));
+    const auto check = [&](const char* option, const std::string& path, const Obstacle& obstacle) {
+        if (!obstacle.text.empty())
+            (obstacle.is_failure ? failures : problems)
+                .push_back({fmt::format("{} {}", option, path), 0, obstacle.text});
     };
     if (!options.output.empty())
-        check("--output", options.output, obstacle_to_opening(options.output).text);
-    Problems found = problems_with(named_by(options), read_by(options));
+        check("--output", options.output, obstacle_to_opening(options.output));
     if (!options.report.empty() && found.empty())
         check("--report", options.report, obstacle_to_writing(options.report));
     append(problems, found);
+    return failures;
+}
+
+/// Ends with code 2 where there are problems, with code 4 where there are only failures.
+/// **Collective.**
+void agree_on_both(const Communicator& ranks, Problems problems, const Problems& failures) {
+    if (!problems.empty()) append(problems, failures);
+    agree_on_problems(ranks, problems);
+    agree(ranks, failures.empty(), InputError(failures).what(), ExitCode::output_failure);
 }
 
 /// What is wrong with the lines of discs of a run that will not begin, so that all is told at once.
@@ -103,15 +113,12 @@ std::vector<NamedFile> read_for(const RunOptions& options, const Scene& scene) {
 /// The scene; `stream`, on rank 0, is left at the first line of discs. **Collective.**
 Scene load_scene(const RunOptions& options, const Problems& problems_so_far,
                  const Communicator& ranks, std::unique_ptr<std::istream>& stream) {
-    Problems problems; // of all ranks together: each problem is listed by one rank
+    Problems problems, failures; // of all ranks together: each one is listed by one rank
     SceneText text;
     bool is_readable = true;
     if (ranks.is_root()) {
         problems = problems_so_far;
-        check_destinations(options, problems);
-        if (options.input.empty() && options.restart.empty())
-            problems.push_back({"carrom run", 0,
-                                "no input; name a SCENE.toml, a FILE.in, or - for standard input"});
+        failures = check_destinations(options, problems);
         is_readable = !options.input.empty() && collect(problems, [&] {
             stream = open(options.input);
             text = read_scene_text(*stream,
@@ -138,19 +145,19 @@ Scene load_scene(const RunOptions& options, const Problems& problems_so_far,
             append(problems, problems_of_outputs(scene, read_for(options, scene)));
         }
     }
-    agree_on_problems(ranks, problems);
+    agree_on_both(ranks, std::move(problems), failures);
     return scene;
 }
 
 /// A restart without a scene has fewer things to go wrong. **Collective.**
 void check_without_scene(const RunOptions& options, const Problems& problems_so_far,
                          const Communicator& ranks) {
-    Problems problems;
+    Problems problems, failures;
     if (ranks.is_root()) {
         problems = problems_so_far;
-        check_destinations(options, problems);
+        failures = check_destinations(options, problems);
     }
-    agree_on_problems(ranks, problems);
+    agree_on_both(ranks, std::move(problems), failures);
 }
 
 /// A mistake in the number of discs would end in the middle, without a word of why. **Collective.**

@@ -12,31 +12,50 @@
 
 namespace carrom {
 
-class Progress {
+class StatusLine {
 public:
     /// Shows nothing unless `wanted`: the caller decides which rank talks.
-    Progress(std::int64_t first_step, std::int64_t last_step, bool wanted);
-    ~Progress();
-    Progress(const Progress&) = delete;
-    Progress& operator=(const Progress&) = delete;
+    explicit StatusLine(bool wanted);
+    ~StatusLine() { finish(); }
+    StatusLine(const StatusLine&) = delete;
+    StatusLine& operator=(const StatusLine&) = delete;
 
-    /// To be called as often as one likes; prints when it is time to.
-    void show(std::int64_t step);
-
+    /// Whether it is time to show something.
+    bool is_due() const { return wanted_ && Clock::now() >= due_; }
+    void show(const std::string& text);
     /// Leaves the cursor on an empty line.
     void finish();
+    /// Since this was made.
+    double seconds() const;
 
 private:
     using Clock = std::chrono::steady_clock;
 
-    std::int64_t first_step_, last_step_;
     bool wanted_, on_terminal_, line_is_open_ = false;
     Clock::time_point start_, due_;
     std::chrono::duration<double> interval_;
 };
 
+/// The same of a run.
+class Progress {
+public:
+    Progress(std::int64_t first_step, std::int64_t last_step, bool wanted)
+        : first_step_(first_step), last_step_(last_step), line_(wanted) {}
+
+    /// To be called as often as one likes; prints when it is time to.
+    void show(std::int64_t step);
+    /// Leaves the cursor on an empty line.
+    void finish() { line_.finish(); }
+
+private:
+    std::int64_t first_step_, last_step_;
+    StatusLine line_;
+};
+
 /// "step 120 of 1000 (12.0 %), 345 steps/s, 0:02:33 left"
 std::string progress_text(std::int64_t step, std::int64_t first_step, std::int64_t last_step,
                           double seconds);
+/// "0:02:33"
+std::string time_text(double seconds);
 
 } // namespace carrom

@@ -6,11 +6,13 @@
 
 #include <string>
 
+#include "core/write_problem.hpp"
+
 namespace carrom {
 
-/// What would keep `write_whole_file` from writing to `path`, empty if nothing is known to. Leaves
+/// What would keep `write_whole_file` from writing to `path`, if anything is known to. Leaves
 /// nothing behind.
-std::string obstacle_to_writing(const std::string& path);
+Obstacle obstacle_to_writing(const std::string& path);
 
 /// Replaces `path` by a file with this text. Returns what went wrong, empty if nothing did.
 std::string write_whole_file(const std::string& path, const std::string& text);

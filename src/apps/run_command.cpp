@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -14,9 +13,9 @@
 #include "apps/failure_scene.hpp"
 #include "apps/hard_cases.hpp"
 #include "apps/load.hpp"
-#include "machine/machine.hpp"
 #include "apps/progress.hpp"
 #include "apps/recordings.hpp"
+#include "apps/report.hpp"
 #include "apps/report_file.hpp"
 #include "apps/run_options.hpp"
 #include "apps/setting_choice.hpp"
@@ -24,6 +23,7 @@
 #include "apps/stop_signals.hpp"
 #include "apps/stopwatch.hpp"
 #include "apps/summary.hpp"
+#include "machine/machine.hpp"
 #include "parallel/agreement.hpp"
 #include "simulation/simulation.hpp"
 
@@ -31,51 +31,26 @@ namespace carrom {
 
 namespace {
 
-/// The largest of the ranks' times over their mean; 1 where there is none. **Collective.**
-double imbalance_of(double seconds, const Communicator& ranks) {
-    const auto nanoseconds = static_cast<std::uint64_t>(
-        1e9 * seconds); // whole numbers: ranks add them in any order
-    const auto sum = static_cast<double>(ranks.sum(nanoseconds));
-    return sum > 0 ? static_cast<double>(ranks.max(nanoseconds)) * ranks.size() / sum : 1;
-}
+constexpr const char* teaching = R"(Input:
+  SCENE.toml   a scene; inputs/ has some, docs/user.md lists the keys
+  FILE.in      legacy text: N, L, r, S, print|perf, one per line, then nothing
+               or N lines `id x y vx vy`
+  -            legacy text on standard input (mpirun hands it to rank 0)
 
-/// Times as they are on the slowest rank, and how even they are. **Collective.**
-void fill_times(RunResult& result, const PhaseSeconds& mine, const Communicator& ranks) {
-    ensure(ranks.min(std::uint64_t{mine.size()}) == mine.size(), "ranks have different phases");
-    result.wall_seconds = ranks.max(result.wall_seconds);
-    for (const auto& [name, seconds] : mine) {
-        result.phase_seconds.emplace_back(name, ranks.max(seconds));
-        result.phase_imbalance.emplace_back(name, imbalance_of(seconds, ranks));
-    }
-    result.imbalance = imbalance_of(busy_seconds(mine), ranks);
-}
+Standard output gets the lines `step id x y vx vy`, ids ascending, and nothing
+else: steps 0 and S for `perf`, every step for `print`, what output.text says for
+a scene. The lines of the last step end in ` p_c w_c`: collisions with discs, with walls.
 
-/// **Collective.**
-void fill_machine(RunResult& result, const Communicator& ranks) {
-    result.ranks = ranks.size();
-    result.threads = static_cast<int>(ranks.max(std::int64_t{result.threads}));
-    const std::uint64_t bytes = ranks.sum(peak_resident_bytes());
-    result.peak_bytes_per_disc = static_cast<double>(bytes) /
-                                 static_cast<double>(result.end.n_discs);
-}
+Examples:
+  carrom run inputs/gas.toml --threads 2
+  mpirun -np 4 carrom run inputs/gas.toml --threads 2 --report report.json
+  carrom run inputs/gas.toml --steps 100 --set output.text=every_step > gas.txt
+  carrom run inputs/gas.toml --set output.checkpoint.folder=kept
+  carrom run inputs/gas.toml --set output.checkpoint.folder=kept --restart latest
+  carrom run --digits 8 - < input.in > output.txt
 
-/// For what is measured of effects: a fiftieth of the run's time, and some moments of a short run.
-CostsOfRun costs_of(const RunResult& result) {
-    constexpr double least_budget = 0.05, largest_budget = 0.5; // seconds
-    const std::uint64_t n_discs = result.end.n_discs - std::accumulate(result.end.departed.begin(),
-                                                                       result.end.departed.end(),
-                                                                       std::uint64_t{0});
-    const double n_disc_steps = static_cast<double>(n_discs) *
-                                static_cast<double>(result.last_step - result.first_step);
-    const double processor_seconds = result.wall_seconds * result.ranks * result.threads;
-    CostsOfRun costs;
-    costs.n_discs = n_discs;
-    costs.kinetic_energy = result.end.kinetic_energy;
-    if (n_disc_steps > 0)
-        costs.seconds_per_disc_step = std::max(processor_seconds / n_disc_steps, 1e-9);
-    costs.budget = std::clamp(0.02 * result.wall_seconds, least_budget, largest_budget);
-    return costs;
-}
+Exit codes: 0 done; 2 wrong input, nothing was done; 3 a rank failed; 4 output
+could not be written; 70 a broken invariant; 75 stopped on request before the end.)";
 
 /// Summary and report, by rank 0. If the report cannot be written every rank throws.
 /// **Collective.**
@@ -83,7 +58,7 @@ void print_result(const RunOptions& options, const Scene& scene, const RunResult
                   const Communicator& ranks) {
     std::string failure;
     if (ranks.is_root()) {
-        if (!options.quiet) print_message("{}", summary_text(scene, result));
+        if (!options.quiet) print_text(summary_text(scene, result));
         if (!options.report.empty())
             failure = write_whole_file(options.report, report_text(scene, result));
     }
@@ -139,6 +114,16 @@ void check_every_step(Simulation& simulation, const Scene& scene) {
     simulation.check_every_step(scene);
 }
 
+/// **Collective.**
+void warn_of_threads(int threads, bool are_chosen, const Communicator& ranks) {
+    const std::string unheeded = are_chosen ? "" : warning_of_thread_variable();
+    const std::string crowded = warning_of_shared_cores(threads, ranks);
+    if (!ranks.is_root()) return;
+    if (!unheeded.empty())
+        print_message("warning: {}: running with {} threads a rank\n", unheeded, threads);
+    if (!crowded.empty()) print_message("warning: {}\n", crowded);
+}
+
 /// The run itself. **Collective.**
 ExitCode run(const RunOptions& options, const std::vector<Problem>& problems,
              const Communicator& ranks) {
@@ -150,9 +135,7 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems,
     if (!signals) signals.emplace(ranks.is_root());
     Tuning tuning = options.tuning;
     tuning.threads = options.threads.value_or(default_threads(ranks));
-    if (const std::string warning = thread_warning();
-        !warning.empty() && !options.threads && ranks.is_root())
-        print_message("warning: {}: running with {} threads a rank\n", warning, tuning.threads);
+    warn_of_threads(tuning.threads, options.threads.has_value(), ranks);
     if (loaded.scene.accuracy)
         choose_setting(loaded.scene, loaded.discs, options.quiet, ranks, tuning);
     const Scene& scene = loaded.scene;
@@ -171,19 +154,11 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems,
     double output_seconds = 0;
     const bool is_done = step_to_end(simulation, result, output_seconds, options, scene, is_restart,
                                      std::move(loaded.samples), *signals, ranks);
-    result.last_step = simulation.step();
-    result.end = simulation.totals();
-    result.averages = simulation.averages();
-    result.runs = simulation.rollback_counts();
-
+    fill_end(result, simulation);
     PhaseSeconds phases = simulation.phase_seconds();
     phases.emplace_back("set-up", setup_seconds);
     phases.emplace_back("output", output_seconds);
     fill_times(result, phases, ranks);
-    fill_machine(result, ranks);
-    const bool is_reported = !options.quiet || !options.report.empty();
-    if (scene.effects.are_any() && ranks.is_root() && is_reported && is_done)
-        result.effect_costs = effect_costs(scene, costs_of(result));
     print_result(options, scene, result, ranks);
     if (!is_done && ranks.is_root())
         print_message(
@@ -194,35 +169,26 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems,
     return is_done ? ExitCode::success : ExitCode::stopped;
 }
 
-/// Words of the command line that fit nowhere. After an unknown option the others may be its
-/// values: left out then.
-void add_leftovers(const std::vector<std::string>& words, std::vector<Problem>& problems) {
-    bool has_unknown_option = false;
-    for (const std::string& word : words) {
-        if (word.size() < 2 || word.front() != '-') continue;
-        problems.push_back({word, 0, "no such option; carrom run --help lists them"});
-        has_unknown_option = true;
-    }
-    if (has_unknown_option) return;
-    for (const std::string& word : words)
-        problems.push_back({word, 0, "one input is enough; carrom run takes one at a time"});
-}
-
 } // namespace
 
-void add_run_command(CLI::App& app, Action& action) {
-    auto words = std::make_shared<RunWords>();
-    CLI::App* command = app.add_subcommand("run", "Run a scene");
-    declare_run_options(*command, *words);
-    command->callback([words, command, &action] {
-        std::vector<Problem> problems;
-        add_leftovers(command->remaining(), problems);
-        const bool input_is_certain = problems.empty();
+Subcommand run_subcommand() {
+    const auto words = std::make_shared<RunWords>();
+    const auto action = [words](std::vector<Problem>& problems) -> Action {
         RunOptions options = checked_run_options(*words, problems);
-        if (!input_is_certain) throw InputError(std::move(problems));
-        action = [options = std::move(options), problems = std::move(problems)](
-                     const Communicator& ranks) { return run(options, problems, ranks); };
-    });
+        if (options.input.empty() && options.restart.empty())
+            problems.push_back({"carrom run", 0,
+                                "no input; name a SCENE.toml, a FILE.in, or - for standard input"});
+        const bool has_input = !options.input.empty() || !options.restart.empty();
+        const bool reads_input = options.input == "-"; // which may keep us waiting
+        if (!has_input) return failing(problems);
+        return {[options = std::move(options), problems](const Communicator& ranks) {
+                    return run(options, problems, ranks);
+                },
+                true, !reads_input};
+    };
+    return {"run",    "Run a scene",
+            teaching, run_options(*words),
+            action,   "one input is enough; carrom run takes one at a time"};
 }
 
 } // namespace carrom

@@ -3,13 +3,10 @@
 // the end.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
-#include "apps/command_line.hpp"
+#include "apps/subcommand.hpp"
 
 namespace carrom {
 
-/// Declares the subcommand; when `app` has parsed one, `action` is to run it.
-void add_run_command(CLI::App& app, Action& action);
+Subcommand run_subcommand();
 
 } // namespace carrom

@@ -12,27 +12,6 @@ namespace carrom {
 
 namespace {
 
-constexpr const char* teaching = R"(Input:
-  SCENE.toml   a scene; inputs/ has some, docs/user.md lists the keys
-  FILE.in      legacy text: N, L, r, S, print|perf, one per line, then nothing
-               or N lines `id x y vx vy`
-  -            legacy text on standard input (mpirun hands it to rank 0)
-
-Standard output gets the lines `step id x y vx vy`, ids ascending, and nothing
-else: steps 0 and S for `perf`, every step for `print`, what output.text says for
-a scene. The lines of the last step end in ` p_c w_c`: collisions with discs, with walls.
-
-Examples:
-  carrom run inputs/gas.toml --threads 2
-  mpirun -np 4 carrom run inputs/gas.toml --threads 2 --report report.json
-  carrom run inputs/gas.toml --steps 100 --set output.text=every_step > gas.txt
-  carrom run inputs/gas.toml --set output.checkpoint.folder=kept
-  carrom run inputs/gas.toml --set output.checkpoint.folder=kept --restart latest
-  carrom run --digits 8 - < input.in > output.txt
-
-Exit codes: 0 done; 2 wrong input, nothing was done; 3 a rank failed; 4 output
-could not be written; 70 a broken invariant; 75 stopped on request before the end.)";
-
 template <class Number> std::optional<Number> number(std::string_view word) {
     Number value{};
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -87,83 +66,50 @@ private:
 
 } // namespace
 
-CLI::Option* add_switch(CLI::App& command, const std::string& name, bool& is_on,
-                        const std::string& what_it_does) {
-    const auto complaint = [](const std::string& word) {
-        return word == "true" ? std::string{} : "takes no value; leave \"=" + word + "\" out";
+std::vector<Option> run_options(RunWords& words) {
+    constexpr const char* costs = "Cost only, never bits";
+    return {
+        {"INPUT", "", "SCENE.toml, FILE.in, or - for standard input", &words.input},
+        {"--threads", "T",
+         "Threads per rank; default OMP_NUM_THREADS if set, else this rank's share of the cores",
+         &words.threads},
+        {"--restart", "FILE|FOLDER|latest",
+         "Go on from a checkpoint: a FILE, a FOLDER (its newest whole one), or `latest` in the "
+         "scene's folder; INPUT may be left out with FILE and FOLDER",
+         &words.restart},
+        {"--steps", "S", "Steps to run, instead of the input's", &words.steps},
+        {"--accuracy", "X",
+         "Let a short pilot choose the fastest method and micro-steps whose collision rate and "
+         "pressure are within this share of the truth",
+         &words.accuracy},
+        {"--set", "KEY=VALUE", "Set any scene key, as in --set time.steps=100; may be repeated",
+         &words.overrides},
+        {"--digits", "D",
+         "17 (the default): 17 significant digits, which read back as the same bits; 1 to 16: "
+         "that many decimals (8 gives the course program's look)",
+         &words.digits},
+        {"--output", "FILE",
+         "Write the lines to FILE, not to standard output (under mpirun only so a full disk is "
+         "noticed)",
+         &words.output},
+        {"--report", "FILE", "Write the summary's numbers to FILE as JSON", &words.report},
+        {"--quiet", "", "No progress and no summary; errors and warnings are still printed",
+         &words.quiet},
+        {"--check", "",
+         "After every step check the state's invariants; a broken one ends the run with code 70 "
+         "and leaves a scene of the discs around it",
+         &words.check},
+        {"--window", "W",
+         "Micro-steps per window; below 1 a micro-step is cut into parts, at most 100000",
+         &words.window, false, costs},
+        {"--cell-width", "C", "Width of a cell, in reaches of the window", &words.cell_width, false,
+         costs},
+        {"--rebalance-every", "K", "Syncs between looks at the load; 0 keeps the first strips",
+         &words.rebalance_every, false, costs},
+        {"--rebalance-above", "X",
+         "Largest over mean load that is tolerated; 0 moves the cuts at every look",
+         &words.rebalance_above, false, costs},
     };
-    return command.add_flag(name, is_on, what_it_does)->check(CLI::Validator(complaint, ""));
-}
-
-void declare_run_options(CLI::App& command, RunWords& words) {
-    command.set_help_flag("-h,--help", "Print this help and exit");
-    command.add_option("INPUT", words.input, "SCENE.toml, FILE.in, or - for standard input")
-        ->type_name("");
-    command
-        .add_option(
-            "--threads", words.threads,
-            "Threads per rank; default OMP_NUM_THREADS if set, else this rank's share of the cores")
-        ->type_name("T");
-    command
-        .add_option("--restart", words.restart,
-                    "Go on from a checkpoint: a FILE, a FOLDER (its newest whole one), or `latest` "
-                    "in the scene's folder; "
-                    "INPUT may be left out with FILE and FOLDER")
-        ->type_name("FILE|FOLDER|latest");
-    command.add_option("--steps", words.steps, "Steps to run, instead of the input's")
-        ->type_name("S");
-    command
-        .add_option("--accuracy", words.accuracy,
-                    "Let a short pilot choose the cheapest rule and micro-steps whose collision "
-                    "rate and pressure are within "
-                    "this share of the truth")
-        ->type_name("X");
-    command
-        .add_option("--set", words.overrides,
-                    "Set any scene key, as in --set time.steps=100; may be repeated")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
-    command
-        .add_option("--digits", words.digits,
-                    "17 (the default): 17 significant digits, which read back as the same bits; "
-                    "1 to 16: that many decimals (8 gives the course program's look)")
-        ->type_name("D");
-    command
-        .add_option("--output", words.output,
-                    "Write the lines to FILE, not to standard output (under mpirun only so a full "
-                    "disk is noticed)")
-        ->type_name("FILE");
-    command.add_option("--report", words.report, "Write the summary's numbers to FILE as JSON")
-        ->type_name("FILE");
-    add_switch(command, "--quiet", words.quiet,
-               "No progress and no summary; errors are still told");
-    add_switch(command, "--check", words.check,
-               "After every step hold the state to its invariants; exit code 70 and the scene of "
-               "the discs around where "
-               "one is broken");
-    const std::string group = "Cost only, never bits";
-    command
-        .add_option(
-            "--window", words.window,
-            "Micro-steps per window; below 1 a micro-step is cut into parts, at most 100000")
-        ->type_name("W")
-        ->group(group);
-    command
-        .add_option("--cell-width", words.cell_width, "Width of a cell, in reaches of the window")
-        ->type_name("C")
-        ->group(group);
-    command
-        .add_option("--rebalance-every", words.rebalance_every,
-                    "Syncs between looks at the load; 0 keeps the first strips")
-        ->type_name("K")
-        ->group(group);
-    command
-        .add_option("--rebalance-above", words.rebalance_above,
-                    "Largest over mean load that is tolerated; 0 moves the cuts at every look")
-        ->type_name("X")
-        ->group(group);
-    command.footer(teaching);
-    command.allow_extras();
 }
 
 RunOptions checked_run_options(const RunWords& words, std::vector<Problem>& problems) {

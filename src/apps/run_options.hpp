@@ -6,19 +6,17 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "apps/subcommand.hpp"
 #include "core/errors.hpp"
-#include "simulation/simulation.hpp"
+#include "engine/tuning.hpp"
 
 namespace carrom {
 
 struct RunOptions {
     static constexpr int round_trip_digits = 17;
 
-    std::string input; ///< a file's name, or "-" for standard input
-    std::string
-        restart; ///< a checkpoint, a folder of them, or "latest"; empty for a run from its start
+    std::string input;   ///< a file's name, or "-" for standard input
+    std::string restart; ///< a checkpoint, a folder of them, or "latest"; empty for a fresh run
     std::vector<std::string> overrides; ///< key=value, over what the input says
     int digits = round_trip_digits;
     std::string output; ///< a file for the lines of text; empty for standard output
@@ -37,13 +35,8 @@ struct RunWords {
     bool quiet = false, check = false;
 };
 
-/// A flag that takes no value: `NAME=no` would else be read as its opposite, and any other value as
-/// none.
-CLI::Option* add_switch(CLI::App& command, const std::string& name, bool& is_on,
-                        const std::string& what_it_does);
-
-/// Declares the options on `command`. `words` must live until it has parsed.
-void declare_run_options(CLI::App& command, RunWords& words);
+/// The options of `carrom run`, which set `words`.
+std::vector<Option> run_options(RunWords& words);
 
 /// Appends what is wrong with the words to `problems`.
 RunOptions checked_run_options(const RunWords& words, std::vector<Problem>& problems);

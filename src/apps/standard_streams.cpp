@@ -2,11 +2,24 @@
 #include "apps/standard_streams.hpp"
 
 #include <csignal>
+#include <cstdio>
+#include <string>
 
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "core/printable.hpp"
+
 namespace carrom {
+
+namespace {
+
+void write_to_log(const std::string& text) {
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    std::fflush(stderr);
+}
+
+} // namespace
 
 void keep_standard_streams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
@@ -15,6 +28,15 @@ void keep_standard_streams() {
         if (open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) == -1) break;
     }
     std::signal(SIGPIPE, SIG_IGN);
+}
+
+void print_text(std::string_view text) { write_to_log(printable(text, true)); }
+
+bool has_terminal() { return isatty(STDERR_FILENO) == 1; }
+
+void rewrite_line(std::string_view text) {
+    constexpr const char *begin = "\r", *erase_rest = "\x1b[K";
+    write_to_log(begin + printable(text) + erase_rest);
 }
 
 } // namespace carrom

@@ -2,10 +2,9 @@
 // Standard error, whatever it is: a run of days must not end because its log is full or closed.
 #pragma once
 
-#include <cstdio>
-#include <utility>
+#include <string_view>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace carrom {
 
@@ -15,12 +14,18 @@ namespace carrom {
 /// the process. Call before anything is opened.
 void keep_standard_streams();
 
-/// Prints to standard error. What cannot be written there is dropped: there is nobody left to tell.
+/// Prints to standard error; control characters but ends of lines are escaped. What cannot be
+/// written there is dropped: there is nobody left to tell.
+void print_text(std::string_view text);
+
 template <class... Values>
 void print_message(fmt::format_string<Values...> format, Values&&... values) {
-    fmt::memory_buffer text;
-    fmt::format_to(fmt::appender(text), format, std::forward<Values>(values)...);
-    std::fwrite(text.data(), 1, text.size(), stderr);
+    print_text(fmt::vformat(format, fmt::make_format_args(values...)));
 }
+
+/// Whether standard error is a terminal, whose last line can be written anew.
+bool has_terminal();
+/// Replaces the last line of a terminal.
+void rewrite_line(std::string_view text);
 
 } // namespace carrom

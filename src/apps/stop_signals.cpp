@@ -14,25 +14,34 @@ namespace {
 volatile std::sig_atomic_t signal_that_has_come = 0, is_answer_due = 0;
 
 /// Calls only what a handler may call.
+void answer(int number) {
+    constexpr std::string_view text = "\ntold to stop: the steps under way are finished first, two "
+                                      "seconds' worth of them or one";
+    constexpr std::string_view advice = "; once more ends the run at once";
+    for (const std::string_view part :
+         {text, number == SIGINT ? advice : std::string_view(), std::string_view("\n")}) {
+        // Nobody is left to hear of it if this fails.
+        [[maybe_unused]] const ssize_t n_written = write(STDERR_FILENO, part.data(), part.size());
+    }
+}
+
 void note_signal(int number) {
     signal_that_has_come = number;
     if (is_answer_due == 0) return;
     is_answer_due = 0;
-    constexpr std::string_view text = "\ntold to stop: the steps under way are finished first, two "
-                                      "seconds' worth of them or one\n";
-    constexpr std::string_view text_of_interrupt =
-        "\ntold to stop: the steps under way are finished first, two seconds' worth of them or "
-        "one; once more ends the run at once\n";
-    const std::string_view answer = number == SIGINT ? text_of_interrupt : text;
     const int number_of_error = errno;
-    [[maybe_unused]] const ssize_t n_written = write(STDERR_FILENO, answer.data(),
-                                                     answer.size()); // nobody to tell if it fails
+    answer(number);
     errno = number_of_error;
 }
 
-void handle(void (*handler)(int)) {
+} // namespace
+
+void note_stop_signals() {
+    static bool are_noted = false;
+    if (are_noted) return; // else a second INT would not find the default
+    are_noted = true;
     struct sigaction action{};
-    action.sa_handler = handler;
+    action.sa_handler = note_signal;
     action.sa_flags = SA_RESTART; // reads and writes under way go on
     sigemptyset(&action.sa_mask);
     sigaction(SIGUSR1, &action, nullptr);
@@ -44,14 +53,16 @@ void handle(void (*handler)(int)) {
     sigaction(SIGINT, &action, nullptr);
 }
 
-} // namespace
-
 StopSignals::StopSignals(bool are_reported) {
-    is_answer_due = are_reported ? 1 : 0;
-    handle(note_signal);
+    note_stop_signals();
+    if (!are_reported) return;
+    is_answer_due = 1;
+    if (signal_that_has_come == 0 || is_answer_due == 0) return;
+    is_answer_due = 0;
+    answer(signal_that_has_come);
 }
 
-StopSignals::~StopSignals() { handle(SIG_DFL); }
+StopSignals::~StopSignals() { is_answer_due = 0; }
 
 bool StopSignals::has_come() const { return signal_that_has_come != 0; }
 

@@ -5,13 +5,16 @@
 
 namespace carrom {
 
-/// From its making on these signals no longer end the process; one per program.
+/// From here on these signals no longer end the process, to its very end: one that comes after the
+/// last step must not make a failure of a complete run. To be called before MPI starts.
+void note_stop_signals();
+
 class StopSignals {
 public:
-    /// Where `are_told` the first one is answered on standard error at once, for the end of a step
-    /// may be far away.
+    /// Notes them from here on if `note_stop_signals` has not been called. Where `are_reported`,
+    /// the first one is answered on standard error at once: the end of a step may be far away.
     explicit StopSignals(bool are_reported);
-    ~StopSignals();
+    ~StopSignals(); ///< no answers any more
     StopSignals(const StopSignals&) = delete;
     StopSignals& operator=(const StopSignals&) = delete;
 

@@ -2,29 +2,16 @@
 #include "apps/summary.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string_view>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include "apps/words.hpp"
 #include "machine/machine.hpp"
 
 namespace carrom {
 
 namespace {
-
-const char* name_of(Method method) {
-    return method == Method::time_stepped ? "time-stepped" : "event-driven";
-}
-
-double disc_steps(const RunResult& result) {
-    return static_cast<double>(result.end.n_discs) *
-           static_cast<double>(result.last_step - result.first_step);
-}
-
-double ratio(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
 /// What leaves the default's bits, and so its promise; empty for the default.
 std::string arithmetic_text(const Scene& scene) {
@@ -36,26 +23,11 @@ std::string arithmetic_text(const Scene& scene) {
     return text;
 }
 
-/// Pairs that a disc takes part in, on average, as with collisions.
-double overlapping_pairs_per_disc(const RunResult& result) {
-    return ratio(2 * static_cast<double>(result.end.overlapping_pairs),
-                 static_cast<double>(result.end.n_discs));
-}
-
 std::string radii_text(const Scene& scene) {
     double least = scene.radius;
     for (const Species& one : scene.effects.species) least = std::min(least, one.radius);
     return least < scene.radius ? fmt::format("radii {:g} to {:g}", least, scene.radius)
                                 : fmt::format("radius {:g}", scene.radius);
-}
-
-double deepest_overlap(const Scene& scene, const RunResult& result) {
-    return ratio(result.end.deepest_overlap, 2 * scene.radius);
-}
-
-bool is_own_work(std::string_view phase) {
-    static constexpr std::array others = {"wait", "exchange", "conflicts", "set-up", "output"};
-    return std::find(others.begin(), others.end(), phase) == others.end();
 }
 
 std::string phases_text(const RunResult& result) {
@@ -124,69 +96,6 @@ std::string speeds_text(const Scene& scene, const Averages& averages) {
                        2 * n / (n + 1));
 }
 
-/// JSON has no infinity and no NaN: null then.
-nlohmann::ordered_json number_or_null(double value) {
-    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
-
-nlohmann::ordered_json estimate_json(const Estimate& estimate) {
-    return {{"value", number_or_null(estimate.value)}, {"error", number_or_null(estimate.error)}};
-}
-
-nlohmann::ordered_json averages_json(const Averages& averages) {
-    return {{"from_step", averages.first_step},
-            {"over_steps", averages.steps},
-            {"blocks", averages.n_blocks},
-            {"collision_frequency", estimate_json(averages.collision_frequency)},
-            {"mean_free_time", estimate_json(averages.mean_free_time)},
-            {"wall_pressure", estimate_json(averages.wall_pressure)},
-            {"virial_pressure", estimate_json(averages.virial_pressure)},
-            {"mean_speed", estimate_json(averages.mean_speed)},
-            {"speed_kurtosis", estimate_json(averages.speed_kurtosis)}};
-}
-
-/// Columns of numbers; null where there is none.
-nlohmann::ordered_json tables_json(const std::vector<MeasuredTable>& tables) {
-    nlohmann::ordered_json all = nlohmann::ordered_json::object();
-    for (const MeasuredTable& table : tables) {
-        nlohmann::ordered_json columns = nlohmann::ordered_json::object();
-        columns["remarks"] = table.remarks;
-        for (std::size_t k = 0; k < table.columns.size(); ++k) {
-            nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
-            for (const std::vector<double>& row : table.rows)
-                numbers.push_back(number_or_null(row[k]));
-            columns[table.columns[k]] = std::move(numbers);
-        }
-        all[table.name] = std::move(columns);
-    }
-    return all;
-}
-
-std::string effects_text(const RunResult& result) {
-    std::string text;
-    for (const EffectCost& cost : result.effect_costs) {
-        const std::string time = cost.time_ratio
-                                     ? fmt::format("{:.0f} % of the time", 100 * cost.time_share)
-                                     : "time not measured";
-        text += fmt::format("{}{} ({}, {:g} bytes per disc)", text.empty() ? "" : "; ", cost.name,
-                            time, cost.bytes_per_disc);
-    }
-    return text;
-}
-
-nlohmann::ordered_json effect_costs_json(const RunResult& result) {
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const EffectCost& cost : result.effect_costs) {
-        const bool is_measured = cost.time_ratio.has_value();
-        list.push_back(
-            {{"effect", cost.name},
-             {"time_share", is_measured ? nlohmann::ordered_json(cost.time_share) : nullptr},
-             {"time_ratio", is_measured ? nlohmann::ordered_json(*cost.time_ratio) : nullptr},
-             {"bytes_per_disc", cost.bytes_per_disc}});
-    }
-    return list;
-}
-
 std::string measured_text(const Scene& scene, const std::vector<MeasuredTable>& tables) {
     if (tables.empty())
         return fmt::format("nothing yet: the first sample is that of step {}",
@@ -215,159 +124,92 @@ std::string plural(int count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-} // namespace
-
-double ns_per_disc_step(const RunResult& result) {
-    return ratio(1e9 * result.wall_seconds, disc_steps(result));
-}
-
-double busy_seconds(const PhaseSeconds& phases) {
-    double busy = 0;
-    for (const auto& [name, seconds] : phases) busy += is_own_work(name) ? seconds : 0;
-    return busy;
-}
-
-double energy_drift(const RunResult& result) {
-    const auto all = [](const Totals& totals) {
-        return totals.kinetic_energy + totals.rotational_energy + totals.potential_energy;
-    };
-    return ratio(all(result.end) - all(result.start), all(result.start));
-}
-
-double collisions_per_disc(const Scene& scene, const RunResult& result) {
-    const std::uint64_t taken_part = (result.end.wall_collisions - result.start.wall_collisions) +
-                                     2 * (result.end.pair_collisions -
-                                          result.start.pair_collisions);
-    return ratio(static_cast<double>(taken_part),
-                 disc_steps(result) * static_cast<double>(scene.micro_steps));
-}
-
-double rejected_share(const RunResult& result) {
-    const auto kept = static_cast<double>(
-        (result.end.wall_collisions - result.start.wall_collisions) +
-        (result.end.pair_collisions - result.start.pair_collisions));
-    const auto rejected = static_cast<double>(result.end.rejected_candidates);
-    return ratio(rejected, kept + rejected);
-}
-
-std::string summary_text(const Scene& scene, const RunResult& result) {
-    const auto line = [](const char* label, const std::string& text) {
-        return fmt::format("{:<12}{}\n", label, text);
-    };
-    const std::int64_t n_steps = result.last_step - result.first_step;
-    std::string text;
-    text += line("scene",
-                 fmt::format("{}: {} discs of {} in a box of {:g}, packing {:.4g}", scene.name,
+std::string scene_lines(const Scene& scene) {
+    std::string text = labelled_line(
+        "scene", fmt::format("{}: {} discs of {} in a box of {:g}, packing {:.4g}", scene.name,
                              scene.n_discs, radii_text(scene), scene.box_size, scene.packing()));
-    text += line("rule", fmt::format("collisions = \"{}\", micro_steps = {}, sync_every = {}{}",
-                                     name_of(scene.method), scene.micro_steps, scene.sync_every,
-                                     arithmetic_text(scene)));
-    if (scene.effects.are_any())
-        text += line("effects", result.effect_costs.empty() ? description(scene.effects)
-                                                            : effects_text(result));
-    text += line("steps", fmt::format("{} in {:.4g} s: {:.4g} steps/s, {:.4g} ns per disc-step",
-                                      n_steps, result.wall_seconds,
-                                      ratio(static_cast<double>(n_steps), result.wall_seconds),
-                                      ns_per_disc_step(result)));
-    text += line("machine",
-                 fmt::format("{} x {}, {:.0f} bytes per disc at the peak",
-                             plural(result.ranks, "rank"), plural(result.threads, "thread"),
-                             result.peak_bytes_per_disc));
-    text += line("phases", phases_text(result));
-    if (result.ranks > 1) text += line("imbalance", imbalance_text(result));
-    text += line("collisions",
-                 fmt::format("{} with walls, {} of pairs; {:.4g} per disc and micro-step (nu dt)",
-                             result.end.wall_collisions, result.end.pair_collisions,
-                             collisions_per_disc(scene, result)));
-    if (result.averages.steps > 0) {
-        if (!std::isnan(result.averages.collision_frequency.value))
-            text += line("frequency", collision_rate_text(result.averages));
-        if (!scene.effects.are_any()) text += line("pressure", pressure_text(result.averages));
-        text += line("speeds", speeds_text(scene, result.averages));
-    }
+    text += labelled_line("method", fmt::format("{}, micro_steps = {}, sync_every = {}{}",
+                                                name_of(scene.method), scene.micro_steps,
+                                                scene.sync_every, arithmetic_text(scene)));
+    if (scene.effects.are_any()) text += labelled_line("effects", description(scene.effects));
+    return text;
+}
+
+std::string time_lines(const RunResult& result) {
+    const std::int64_t n_steps = result.last_step - result.first_step;
+    std::string text = labelled_line(
+        "steps",
+        fmt::format("{} in {:.4g} s: {:.4g} steps/s, {:.4g} ns per disc-step", n_steps,
+                    result.wall_seconds, ratio(static_cast<double>(n_steps), result.wall_seconds),
+                    ns_per_disc_step(result)));
+    text += labelled_line("machine", fmt::format("{} x {}, {:.0f} bytes per disc at the peak",
+                                                 plural(result.ranks, "rank"),
+                                                 plural(result.threads, "thread"),
+                                                 result.peak_bytes_per_disc));
+    text += labelled_line("phases", phases_text(result));
+    if (result.ranks > 1) text += labelled_line("imbalance", imbalance_text(result));
+    return text;
+}
+
+std::string average_lines(const Scene& scene, const Averages& averages) {
+    std::string text;
+    if (averages.steps == 0) return text;
+    if (!std::isnan(averages.collision_frequency.value))
+        text += labelled_line("frequency", collision_rate_text(averages));
+    if (!scene.effects.are_any()) text += labelled_line("pressure", pressure_text(averages));
+    return text + labelled_line("speeds", speeds_text(scene, averages));
+}
+
+/// What the method made of the collisions.
+std::string method_line(const Scene& scene, const RunResult& result) {
     if (scene.method == Method::event_driven)
-        text += line("windows", windows_text(result.runs));
-    else
-        text += line(
-            "rejected",
-            fmt::format("{} candidates lost a disc to an earlier collision, {:.3g} % of all",
-                        result.end.rejected_candidates, 100 * rejected_share(result)));
-    text += line(
+        return labelled_line("windows", windows_text(result.runs));
+    return labelled_line(
+        "rejected",
+        fmt::format("{} candidates lost a disc to an earlier collision, {:.3g} % of all",
+                    result.end.rejected_candidates, 100 * rejected_share(result)));
+}
+
+std::string collision_lines(const Scene& scene, const RunResult& result) {
+    const Totals& end = result.end;
+    std::string text = labelled_line(
+        "collisions",
+        fmt::format("{} with walls, {} of pairs; {:.4g} per disc and micro-step "
+                    "(nu dt)",
+                    end.wall_collisions, end.pair_collisions, collisions_per_disc(scene, result)));
+    text += average_lines(scene, result.averages) + method_line(scene, result);
+    text += labelled_line(
         "overlapping",
-        fmt::format(
-            "{} pairs at the end, {:.3g} per disc, by up to {:.2g} diameters; {} at the start",
-            result.end.overlapping_pairs, overlapping_pairs_per_disc(result),
-            deepest_overlap(scene, result), result.start.overlapping_pairs));
-    if (const std::string departed = departed_text(scene, result.end); !departed.empty())
-        text += line("gone", departed);
+        fmt::format("{} pairs at the end, {:.3g} per disc, by up to {:.2g} diameters; {} at the "
+                    "start",
+                    end.overlapping_pairs, overlapping_pairs_per_disc(result),
+                    deepest_overlap(scene, result), result.start.overlapping_pairs));
+    if (const std::string departed = departed_text(scene, end); !departed.empty())
+        text += labelled_line("departed", departed);
+    return text;
+}
+
+std::string energy_text(const Scene& scene, const RunResult& result) {
     std::string others;
     if (scene.effects.contact.kind == ContactKind::rough)
         others += fmt::format(", {:.17g} of spin", result.end.rotational_energy);
     if (scene.effects.gravity.is_any())
         others += fmt::format(", {:.17g} of height", result.end.potential_energy);
     const std::string what = others.empty() ? "," : " of motion" + others + "; the sum has";
-    text += line("energy", fmt::format("{:.17g}{} changed by {:.4g} of itself",
-                                       result.end.kinetic_energy, what, energy_drift(result)));
-    if (scene.measurements) text += line("measured", measured_text(scene, result.tables));
-    text += line("momentum",
-                 fmt::format("{:.17g} {:.17g}", result.end.momentum_x, result.end.momentum_y));
-    text += line("state hash", to_string(result.end.hash));
-    return text;
+    return fmt::format("{:.17g}{} changed by {:.4g} of itself", result.end.kinetic_energy, what,
+                       energy_drift(result));
 }
 
-std::string report_text(const Scene& scene, const RunResult& result) {
-    nlohmann::ordered_json phases = nlohmann::ordered_json::object();
-    for (const auto& [name, seconds] : result.phase_seconds) phases[name] = seconds;
-    nlohmann::ordered_json phase_imbalance = nlohmann::ordered_json::object();
-    for (const auto& [name, imbalance] : result.phase_imbalance) phase_imbalance[name] = imbalance;
-    nlohmann::ordered_json report = {
-        {"version", version()},
-        {"scene", scene.name},
-        {"state_hash", to_string(result.end.hash)},
-        {"n_discs", result.end.n_discs},
-        {"gone", result.end.departed},
-        {"packing", scene.packing()},
-        {"rule", name_of(scene.method)},
-        {"micro_steps", scene.micro_steps},
-        {"precision", scene.precision == Precision::single ? "single" : "double"},
-        {"arithmetic", scene.arithmetic == Arithmetic::naive ? "naive" : "stable"},
-        {"contraction", scene.contraction},
-        {"sync_every", scene.sync_every},
-        {"first_step", result.first_step},
-        {"steps", result.last_step - result.first_step},
-        {"wall_collisions", result.end.wall_collisions},
-        {"pair_collisions", result.end.pair_collisions},
-        {"rejected_candidates", result.end.rejected_candidates},
-        {"rejected_share", rejected_share(result)},
-        {"overlapping_pairs", result.end.overlapping_pairs},
-        {"overlapping_pairs_per_disc", overlapping_pairs_per_disc(result)},
-        {"deepest_overlap", deepest_overlap(scene, result)},
-        {"collisions_per_disc_per_micro_step", collisions_per_disc(scene, result)},
-        {"averages", averages_json(result.averages)},
-        {"kinetic_energy", result.end.kinetic_energy},
-        {"energy_drift", energy_drift(result)},
-        {"momentum", {result.end.momentum_x, result.end.momentum_y}},
-        {"wall_seconds", result.wall_seconds},
-        {"ns_per_disc_step", ns_per_disc_step(result)},
-        {"ranks", result.ranks},
-        {"threads", result.threads},
-        {"windows", result.runs.windows},
-        {"windows_redone", result.runs.windows_redone},
-        {"block_replays", result.runs.blocks},
-        {"block_replays_redone", result.runs.blocks_redone},
-        {"phase_seconds", phases},
-        {"phase_imbalance", phase_imbalance},
-        {"imbalance", result.imbalance},
-        {"peak_bytes_per_disc", result.peak_bytes_per_disc},
-    };
-    if (scene.effects.contact.kind == ContactKind::rough)
-        report["rotational_energy"] = result.end.rotational_energy;
-    if (scene.effects.gravity.is_any()) report["potential_energy"] = result.end.potential_energy;
-    if (scene.measurements) report["measurements"] = tables_json(result.tables);
-    if (scene.effects.are_any()) report["effects"] = description(scene.effects);
-    if (scene.effects.are_any()) report["effect_costs"] = effect_costs_json(result);
-    // A scene's name is whatever bytes the file system allows; replaced where they are not UTF-8.
-    return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+} // namespace
+
+std::string summary_text(const Scene& scene, const RunResult& result) {
+    const Totals& end = result.end;
+    std::string text = scene_lines(scene) + time_lines(result) + collision_lines(scene, result);
+    text += labelled_line("energy", energy_text(scene, result));
+    if (scene.measurements) text += labelled_line("measured", measured_text(scene, result.tables));
+    text += labelled_line("momentum",
+                          fmt::format("{:.17g} {:.17g}", end.momentum_x, end.momentum_y));
+    return text + labelled_line("state hash", to_string(end.hash));
 }
 
 } // namespace carrom

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "core/printable.hpp"
+
 namespace carrom {
 
 namespace {
@@ -28,9 +30,9 @@ FailureHandler failure_handler = print_and_abort;
 } // namespace
 
 std::string to_string(const Problem& problem) {
-    std::string text = problem.place;
-    if (problem.line > 0) text += ':' + std::to_string(problem.line);
-    return text.empty() ? problem.text : text + ": " + problem.text;
+    std::string place = problem.place;
+    if (problem.line > 0) place += ':' + std::to_string(problem.line);
+    return printable(place.empty() ? problem.text : place + ": " + problem.text);
 }
 
 InputError::InputError(std::vector<Problem> problems)

@@ -135,6 +135,7 @@ File open_file(const std::string& path, const Properties& access) {
 
 File open_file(const std::string& path, Access access, const Communicator& communicator) {
     be_quiet();
+    if (native(communicator) == MPI_COMM_NULL) return open_file(path, access);
     const Properties list = properties(H5P_FILE_ACCESS);
     checked(H5Pset_fapl_mpio(list.id(), native(communicator), MPI_INFO_NULL),
             "cannot choose MPI-IO");

@@ -28,7 +28,13 @@ int default_threads(const Communicator& ranks);
 
 /// What to say where OMP_NUM_THREADS is set to something that is no number of threads; empty where
 /// all is well.
-std::string thread_warning();
+std::string warning_of_thread_variable();
+
+/// What to say where threads of several ranks share cores, and wait for each other as GNU's OpenMP
+/// library does by default: they spin for milliseconds, on the very core that the awaited thread
+/// needs. (Within one process the library sees that itself, and sleeps.) Empty where all is well.
+/// **Collective.**
+std::string warning_of_shared_cores(int threads, const Communicator& ranks);
 
 /// The memory this rank may take, in bytes: what its node has, or its control group or limits
 /// allow, shared out among the ranks of the node; the largest number where the system does not

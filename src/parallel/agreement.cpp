@@ -34,6 +34,10 @@ void agree(const Communicator& communicator, bool ok, const std::string& text, E
            double patience_seconds) {
     Communicator::Handle& handle = communicator.handle();
     ++handle.traffic.collectives;
+    if (handle.is_alone()) {
+        if (!ok) throw CollectiveError(text, code);
+        return;
+    }
     const int mine = ok ? handle.size : handle.rank;
     int failing = mine, agreed_code = static_cast<int>(code);
     MPI_Request request = MPI_REQUEST_NULL;
@@ -80,6 +84,18 @@ void agree_on_problems(const Communicator& communicator, const std::vector<Probl
     if (agreed.size() < total)
         agreed.push_back({"", 0, std::to_string(total - agreed.size()) + " more problems"});
     throw InputError(std::move(agreed));
+}
+
+void let_root(const Communicator& communicator, const std::function<void()>& work) {
+    std::vector<Problem> problems;
+    if (communicator.is_root()) {
+        try {
+            work();
+        } catch (const InputError& error) {
+            problems = error.problems();
+        }
+    }
+    agree_on_problems(communicator, problems);
 }
 
 } // namespace carrom

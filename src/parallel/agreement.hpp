@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,5 +26,8 @@ void agree(const Communicator& communicator, bool ok, const std::string& text,
 /// one. Beyond `most` problems a last one says how many were left out. **Collective.**
 void agree_on_problems(const Communicator& communicator, const std::vector<Problem>& problems,
                        std::size_t most = 1000);
+
+/// Lets rank 0 work alone; an InputError that it meets is thrown on every rank. **Collective.**
+void let_root(const Communicator& communicator, const std::function<void()>& work);
 
 } // namespace carrom

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parallel/communicator.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -16,30 +17,42 @@ namespace {
 template <class T>
 T reduce(Communicator::Handle& handle, T value, MPI_Datatype type, MPI_Op operation) {
     ++handle.traffic.collectives;
+    if (handle.is_alone()) return value;
     T result = value;
     MPI_Allreduce(&value, &result, 1, type, operation, handle.comm);
     return result;
+}
+
+/// Null where MPI has not been started.
+MPI_Comm duplicate_of(MPI_Comm original) {
+    int is_started = 0;
+    MPI_Comm comm = MPI_COMM_NULL;
+    MPI_Initialized(&is_started);
+    if (is_started != 0) MPI_Comm_dup(original, &comm);
+    return comm;
 }
 
 } // namespace
 
 Communicator::Handle::Handle(MPI_Comm duplicated, std::size_t limit)
     : comm(duplicated), max_message(limit) {
+    ensure(0 < limit && limit <= largest_message, "the message limit is out of range");
+    if (is_alone()) return;
     MPI_Comm_rank(comm, &rank);
     MPI_Comm_size(comm, &size);
-    ensure(0 < limit && limit <= largest_message, "the message limit is out of range");
 }
 
 Communicator::Handle::~Handle() {
+    if (is_alone()) return;
     int is_over = 0;
     MPI_Finalized(&is_over);
     if (is_over == 0) MPI_Comm_free(&comm);
 }
 
 Communicator Communicator::world(std::size_t max_message) {
-    MPI_Comm comm = MPI_COMM_NULL;
-    MPI_Comm_dup(MPI_COMM_WORLD, &comm);
-    abort_on_errors_of(comm); // MPI may have been started by somebody who has chosen otherwise
+    MPI_Comm comm = duplicate_of(MPI_COMM_WORLD);
+    // MPI may have been started by somebody who has chosen otherwise.
+    if (comm != MPI_COMM_NULL) abort_on_errors_of(comm);
     return Communicator(std::make_shared<Handle>(comm, max_message));
 }
 
@@ -51,9 +64,7 @@ Communicator Communicator::of_fortran(int number) {
 }
 
 Communicator Communicator::of_this_rank() {
-    MPI_Comm comm = MPI_COMM_NULL;
-    MPI_Comm_dup(MPI_COMM_SELF, &comm);
-    return Communicator(std::make_shared<Handle>(comm, largest_message));
+    return Communicator(std::make_shared<Handle>(duplicate_of(MPI_COMM_SELF), largest_message));
 }
 
 int Communicator::rank() const { return handle_->rank; }
@@ -91,6 +102,7 @@ void Communicator::sum(std::span<std::uint64_t> values) const {
                                                     handle_->max_message / sizeof(std::uint64_t));
     for_pieces(values, limit, [this](std::span<std::uint64_t> piece) {
         ++handle_->traffic.collectives;
+        if (handle_->is_alone()) return;
         MPI_Allreduce(MPI_IN_PLACE, piece.data(), static_cast<int>(piece.size()), MPI_UINT64_T,
                       MPI_SUM, handle_->comm);
     });
@@ -112,6 +124,7 @@ void Communicator::sum(ExactSum& value) const {
 
 std::uint64_t Communicator::sum_before(std::uint64_t value) const {
     ++handle_->traffic.collectives;
+    if (handle_->is_alone()) return 0;
     std::uint64_t result = 0; // MPI leaves rank 0's as it is
     MPI_Exscan(&value, &result, 1, MPI_UINT64_T, MPI_SUM, handle_->comm);
     return rank() == 0 ? 0 : result;
@@ -119,7 +132,7 @@ std::uint64_t Communicator::sum_before(std::uint64_t value) const {
 
 void Communicator::barrier() const {
     ++handle_->traffic.collectives;
-    MPI_Barrier(handle_->comm);
+    if (!handle_->is_alone()) MPI_Barrier(handle_->comm);
 }
 
 void Communicator::broadcast(std::string& text, int root) const {
@@ -132,6 +145,7 @@ void Communicator::broadcast(std::string& text, int root) const {
 void Communicator::broadcast_bytes(std::span<std::byte> bytes, int root) const {
     for_pieces(bytes, handle_->max_message, [this, root](std::span<std::byte> piece) {
         ++handle_->traffic.collectives;
+        if (handle_->is_alone()) return;
         MPI_Bcast(piece.data(), static_cast<int>(piece.size()), MPI_BYTE, root, handle_->comm);
     });
 }
@@ -142,6 +156,10 @@ void Communicator::all_gather_bytes(std::span<const std::byte> mine,
     ensure(all.size() == mine.size() * static_cast<std::size_t>(size()),
            "a gather needs room for every rank's value");
     ++handle_->traffic.collectives;
+    if (handle_->is_alone()) {
+        std::copy(mine.begin(), mine.end(), all.begin());
+        return;
+    }
     const int length = static_cast<int>(mine.size());
     MPI_Allgather(mine.data(), length, MPI_BYTE, all.data(), length, MPI_BYTE, handle_->comm);
 }
@@ -165,6 +183,7 @@ void start_receive(Communicator::Handle& handle, std::span<std::byte> bytes, int
 }
 
 void wait_for(Requests& requests) {
+    if (requests.empty()) return; // MPI may not have been started
     MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
     requests.clear();
 }

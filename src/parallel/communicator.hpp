@@ -39,7 +39,8 @@ class Communicator {
 public:
     static constexpr std::size_t largest_message = std::size_t{1} << 30;
 
-    /// All ranks of the run. **Collective.** Needs a live `Mpi`, and must not outlive it.
+    /// All ranks of the run; this process alone where MPI has not been started. **Collective.**
+    /// Must not outlive `Mpi`.
     /// Data above `max_message` bytes (the same on all ranks) is split; tests make it small.
     static Communicator world(std::size_t max_message = largest_message);
     /// A duplicate of the communicator that MPI knows by this Fortran number (MPI_Comm_c2f).

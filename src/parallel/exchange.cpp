@@ -10,8 +10,9 @@ namespace carrom::detail {
 std::vector<std::uint64_t> announce(const Communicator& communicator,
                                     std::span<const std::uint64_t> bytes_to) {
     Communicator::Handle& handle = communicator.handle();
-    std::vector<std::uint64_t> bytes_from(bytes_to.size());
+    std::vector<std::uint64_t> bytes_from(bytes_to.begin(), bytes_to.end());
     ++handle.traffic.collectives;
+    if (handle.is_alone()) return bytes_from;
     MPI_Alltoall(bytes_to.data(), 1, MPI_UINT64_T, bytes_from.data(), 1, MPI_UINT64_T, handle.comm);
     return bytes_from;
 }
@@ -39,6 +40,7 @@ std::vector<std::uint64_t> gather_to_root(const Communicator& communicator, std:
     std::vector<std::uint64_t> values(communicator.is_root() ? static_cast<std::size_t>(handle.size)
                                                              : 0);
     ++handle.traffic.collectives;
+    if (handle.is_alone()) return {value};
     MPI_Gather(&value, 1, MPI_UINT64_T, values.data(), 1, MPI_UINT64_T, 0, handle.comm);
     return values;
 }

@@ -28,14 +28,18 @@ inline constexpr int last = 32767; ///< what MPI promises at least
 } // namespace tag
 
 struct Communicator::Handle {
+    /// MPI_COMM_NULL: of this process alone, without MPI.
     Handle(MPI_Comm duplicated, std::size_t limit);
     ~Handle();
     Handle(const Handle&) = delete;
     Handle& operator=(const Handle&) = delete;
 
+    /// Whether MPI has not been started: then nothing may be asked of it.
+    bool is_alone() const { return comm == MPI_COMM_NULL; }
+
     MPI_Comm comm;
     int rank = 0;
-    int size = 0;
+    int size = 1;
     std::size_t max_message;
     int next_tag = tag::first_free;
     Traffic traffic;

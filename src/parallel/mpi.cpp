@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "core/errors.hpp"
+#include "core/printable.hpp"
 #include "parallel/handle.hpp"
 
 namespace carrom {
@@ -24,15 +25,21 @@ namespace {
 
 constexpr int abort_code = 70;
 
-int world_rank = -1; // kept, so that any thread may print it without a call of MPI
+int world_rank = 0;          // kept, so that any thread may print it without a call of MPI
+bool is_mpi_running = false; // the same for handlers of signals
+
+/// Ends all ranks; this process where MPI does not run.
+[[noreturn]] void end_all(int code) {
+    if (is_mpi_running) MPI_Abort(MPI_COMM_WORLD, code);
+    std::_Exit(code);
+}
 
 [[noreturn]] void abort_all(const char* kind, std::string_view text, int code = abort_code) {
     std::fflush(stdout);
     std::fprintf(stderr, "carrom: %s on rank %d: %.*s\n", kind, world_rank,
-                 static_cast<int>(text.size()), text.data());
+                 static_cast<int>(text.size()), text.data()); // there may be no memory left
     std::fflush(stderr);
-    MPI_Abort(MPI_COMM_WORLD, code);
-    std::abort();
+    end_all(code);
 }
 
 void on_failure(std::string_view text, const char* file, int line) {
@@ -66,7 +73,7 @@ Outcome run(const Communicator& communicator, const std::function<int(const Comm
     } catch (const CollectiveError& error) {
         return {static_cast<int>(error.code()), error.what()};
     } catch (const std::exception& error) {
-        abort_all("unexpected error", error.what());
+        abort_all("unexpected error", printable(error.what()));
     } catch (...) {
         abort_all("unexpected error", "an exception of unknown type");
     }
@@ -75,6 +82,7 @@ Outcome run(const Communicator& communicator, const std::function<int(const Comm
 /// The largest code of any rank; waits without limit after a return, for `patience_seconds` after
 /// an error.
 int agreed_code(const Communicator& communicator, const Outcome& outcome, double patience_seconds) {
+    if (communicator.handle().is_alone()) return outcome.code;
     int largest = outcome.code;
     MPI_Request request = MPI_REQUEST_NULL;
     MPI_Iallreduce(&outcome.code, &largest, 1, MPI_INT, MPI_MAX, communicator.handle().comm,
@@ -83,14 +91,36 @@ int agreed_code(const Communicator& communicator, const Outcome& outcome, double
     return largest;
 }
 
-/// Open MPI's own MPI-IO hangs in a collective write to a full disk; ROMIO, which it also has,
-/// returns the error. Whoever has chosen one knows better.
-void choose_io() { setenv("OMPI_MCA_io", "^ompio", 0); }
+/// Settings of Open MPI that the user has not chosen.
+void choose_settings() {
+    // Its own MPI-IO hangs in a collective write to a full disk; ROMIO, which it also has, returns
+    // the error.
+    setenv("OMPI_MCA_io", "^ompio", 0);
+    // A process without a launcher starts a daemon, in case it wants to start other processes. It
+    // never does, and the daemon takes 0.4 s. Open MPI 5 and MPICH start none.
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+}
 
-void start(int* argc, char*** argv) {
-    choose_io();
+/// Whether a launcher has started this process, as the first of several perhaps. One that is
+/// missing here leaves each process to itself.
+bool has_launcher() {
+    constexpr std::array variables = {
+        "OMPI_COMM_WORLD_SIZE", // mpirun of Open MPI
+        "PMIX_RANK",
+        "PMI_RANK",      // what many launchers speak, srun and MPICH's among them
+        "SLURM_STEP_ID", // srun
+        "PALS_RANKID",
+        "ALPS_APP_PE", // Cray
+        "FLUX_TASK_RANK"};
+    return std::any_of(variables.begin(), variables.end(),
+                       [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
+void start_mpi(int* argc, char*** argv) {
+    choose_settings();
     int provided = MPI_THREAD_SINGLE;
     MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &provided);
+    is_mpi_running = true;
     MPI_Comm_rank(MPI_COMM_WORLD, &world_rank);
     set_failure_handler(on_failure);
     std::set_new_handler(on_no_memory);
@@ -128,6 +158,7 @@ void join_mpi() {
         throw InputError({{"MPI", 0,
                            "was started without threads; start it with MPI_Init_thread and "
                            "MPI_THREAD_FUNNELED or more"}});
+    is_mpi_running = true;
     MPI_Comm_rank(MPI_COMM_WORLD, &world_rank);
     set_failure_handler(on_failure);
 }
@@ -150,7 +181,7 @@ void wait_or_abort(MPI_Request& request, const std::string& failure, double pati
     auto pause = std::chrono::microseconds(1);
     while (MPI_Test(&request, &is_done, MPI_STATUS_IGNORE) == MPI_SUCCESS && is_done == 0) {
         if (!failure.empty() && std::chrono::steady_clock::now() - start > patience)
-            abort_all("error that other ranks did not meet", failure, code);
+            abort_all("error that other ranks did not meet", printable(failure, true), code);
         std::this_thread::sleep_for(pause);
         pause = std::min(2 * pause, std::chrono::microseconds(2000));
     }
@@ -159,14 +190,21 @@ void wait_or_abort(MPI_Request& request, const std::string& failure, double pati
 void abort_from_signal(std::string_view text, int code) {
     static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
     ::alarm(10);
-    MPI_Abort(MPI_COMM_WORLD, code);
-    ::_exit(code);
+    end_all(code);
 }
 
-Mpi::Mpi(int& argc, char**& argv) { start(&argc, &argv); }
-Mpi::Mpi() { start(nullptr, nullptr); }
+Mpi::Mpi(int& argc, char**& argv, Start start) {
+    set_failure_handler(on_failure);
+    std::set_new_handler(on_no_memory);
+    if (start == Start::under_launcher && !has_launcher()) return;
+    start_mpi(&argc, &argv);
+}
+Mpi::Mpi() { start_mpi(nullptr, nullptr); }
 
-Mpi::~Mpi() { MPI_Finalize(); }
+Mpi::~Mpi() {
+    if (is_mpi_running) MPI_Finalize();
+    is_mpi_running = false;
+}
 
 int run_on_all(const Communicator& communicator,
                const std::function<int(const Communicator&)>& body, double patience_seconds) {
@@ -175,7 +213,7 @@ int run_on_all(const Communicator& communicator,
     // speak.
     if (communicator.is_root() && !outcome.text.empty()) {
         std::fflush(stdout);
-        std::fprintf(stderr, "%s\n", outcome.text.c_str());
+        std::fprintf(stderr, "%s\n", printable(outcome.text, true).c_str());
         std::fflush(stderr);
     }
     return agreed_code(communicator, outcome, patience_seconds);

@@ -16,7 +16,12 @@ namespace carrom {
 /// ranks; where memory runs out, on any thread, the code is 3. One per program.
 class Mpi {
 public:
-    Mpi(int& argc, char**& argv);
+    enum class Start {
+        always,
+        under_launcher ///< not by hand: `Communicator::world()` is this process alone then
+    };
+
+    Mpi(int& argc, char**& argv, Start start = Start::always);
     /// For programs whose arguments are not MPI's.
     Mpi();
     ~Mpi();

@@ -45,22 +45,102 @@ for number in 2 ' 2' 2,1 ''; do
 done
 unset OMP_NUM_THREADS
 
-# Threads that wait spin for a bounded time, unless the user has said how they shall wait.
-printf '2\n10\n1\n1000000000\nperf\n' >endless.in
-for policy in none passive; do
-    if [ "$policy" = none ]; then setting=(env -u OMP_WAIT_POLICY -u GOMP_SPINCOUNT); else setting=(env OMP_WAIT_POLICY=passive); fi
-    "${setting[@]}" "$CARROM_PROGRAM" run endless.in --quiet >/dev/null 2>&1 &
-    program=$!
-    sleep 1
-    spins=$(tr '\0' '\n' <"/proc/$program/environ" | grep -c '^GOMP_SPINCOUNT=3000$')
-    [ "$spins" -eq "$([ "$policy" = none ] && echo 1 || echo 0)" ] || complain "spinning with the policy $policy: $spins"
-    [ "$(cat "/proc/$program/comm")" = carrom ] || complain 'the process has another name'
-    kill -KILL "$program"
-    wait "$program" 2>/dev/null
+# Ranks whose threads share cores wait for each other busily unless told otherwise: warned of, once.
+cores=$(nproc)
+unset OMP_WAIT_POLICY
+run 2 run tiny.in --quiet --threads "$cores"
+expect_code 0 'ranks that share cores'
+expect_told "warning: 2 ranks of $cores threads share $cores cores" 'ranks that share cores'
+[ "$(grep -c 'share' "$test_folder/err")" -eq 1 ] || complain 'shared cores are told on every rank'
+run 1 run tiny.in --quiet --threads $((2 * cores)) # the OpenMP library sees that by itself
+[ ! -s "$test_folder/err" ] || { complain 'a lone rank with more threads than cores is warned of'; show; }
+export OMP_WAIT_POLICY=passive
+run 2 run tiny.in --quiet --threads "$cores"
+[ ! -s "$test_folder/err" ] || { complain 'warned of threads that wait asleep'; show; }
+
+# No MPI where none is needed, and no daemon of its own for a run without mpirun. MPI makes itself known by its libraries'
+# settings, a daemon by being another program.
+run 1 run tiny.in --quiet --set output.trajectory.file=t.h5 --set output.checkpoint.folder=kept
+expect_code 0 'a run with files'
+file=kept/$(ls kept)
+if command -v strace >/dev/null; then
+    # opened WORD...: sets `n_mpi`, how many of MPI's settings are read, and `n_started`, how many programs are started.
+    opened() {
+        strace -f -qq -e trace=openat,execve -o "$test_folder/trace" "$CARROM_PROGRAM" "$@" >"$test_folder/out" 2>"$test_folder/err" </dev/null
+        n_mpi=$(grep -cE 'openmpi-mca-params|pmix-mca-params|/mpich|mca_[a-z]+_' "$test_folder/trace")
+        n_started=$(grep -c 'execve(.*= 0$' "$test_folder/trace")
+    }
+    while read -r words; do
+        opened $words
+        [ "$n_mpi $n_started" = '0 1' ] || complain "MPI was started by: carrom $words ($n_mpi, $n_started)"
+    done <<WORDS
+--help
+--version
+run
+run --help
+walk
+info $file
+verify $file
+verify t.h5
+diff $file $file
+convert $file --to csv
+WORDS
+    opened run tiny.in --quiet
+    [ "$n_mpi" -gt 0 ] || complain 'the test does not notice that MPI is started'
+    [ "$n_started" -eq 1 ] || complain "a run without mpirun starts another program: $(grep execve "$test_folder/trace")"
+else
+    printf 'not looked at, for want of strace: what starts MPI\n'
+fi
+for command in info verify diff convert; do
+    run 1 "$command" --help
+    expect_code 0 "$command --help"
+    grep -q "^  carrom $command " "$test_folder/out" || complain "the help of $command has no example"
 done
-"${CARROM_MPIEXEC}" -n 3 env -u OMP_WAIT_POLICY -u GOMP_SPINCOUNT "$CARROM_PROGRAM" run - --quiet --steps 1 <tiny.in >"$test_folder/out" 2>"$test_folder/err"
-[ "$(wc -l <"$test_folder/out")" -eq 4 ] || { complain 'not the lines of a run on standard input with spinning bounded'; show; }
-rm tiny.in endless.in
+
+# Empty words come from variables that are not set.
+for option in --output --report --restart; do
+    run 1 run tiny.in "$option" ''
+    expect_code 2 "$option with an empty word"
+    expect_told "$option: has an empty value" "$option with an empty word"
+done
+
+# Control characters of files do not reach the terminal.
+esc=$(printf '\033')
+name="red$esc[31m.in"
+cp tiny.in "$name"
+run 1 run "$name"
+expect_code 0 'a name with control characters'
+expect_told 'red\x1b[31m.in' 'a name with control characters'
+printf 'x\n' >"$name"
+for ranks in 1 2; do
+    run "$ranks" run "$name"
+    expect_code 2 'a wrong scene whose name has control characters'
+    grep -q "$esc" "$test_folder/err" && complain 'control characters in a message'
+done
+rm -r "$name" kept t.h5
+
+# A place without rights, or on a disk that cannot be written to, is an output that failed: code 4.
+mkdir locked
+chmod 555 locked
+if ! touch locked/probe 2>/dev/null; then readonly_place=locked
+elif chattr +i locked 2>/dev/null; then readonly_place=locked
+else readonly_place=; fi
+if [ -n "$readonly_place" ]; then
+    for option in --output --report; do
+        run 2 run tiny.in "$option" "$readonly_place/file"
+        expect_code 4 "$option where there are no rights"
+        expect_silence "$option where there are no rights"
+    done
+    run 1 run tiny.in --report locked/file --steps -1
+    expect_code 2 'a wrong option beside an output that fails'
+    expect_told 'locked/file' 'a wrong option beside an output that fails'
+else
+    printf 'not looked at, for want of a folder without rights: the code of --output and --report there\n'
+fi
+chattr -i locked 2>/dev/null
+chmod 755 locked
+rm -r locked
+rm tiny.in
 
 run 3
 expect_code 2 'no subcommand'

@@ -30,4 +30,15 @@ expect_value threads 2
 [[ $(json_value report.json state_hash) =~ ^[0-9a-f]{32}$ ]] || complain 'the state hash is not 32 hexadecimal digits'
 expect_told "$(json_value report.json state_hash)" 'the summary'
 [ "$(ls -A)" = report.json ] || complain "more than the report was written: $(ls -A)"
+
+# Files that look like a report being written are somebody else's.
+printf 'precious\n' >victim
+ln -s victim report.json.partial
+run 1 run "$expected/three_discs.in" --quiet --report report.json
+expect_code 0 'a report beside a link'
+[ "$(cat victim)" = precious ] || complain 'a report was written through a link'
+printf 'of another run\n' >other.json.partial
+run 1 run nowhere.in --report other.json
+expect_code 2 'a missing input'
+[ "$(cat other.json.partial)" = 'of another run' ] || complain 'a file of another run is gone'
 finish

@@ -56,6 +56,28 @@ code=$?
 expect_code 75 'USR1 while discs are made'
 [ "$(ls kept)" = checkpoint-000000000000.h5 ] || complain "USR1 while discs are made did not leave the start: $(ls kept)"
 
+# A signal at any moment, from MPI's start to its end, does not make a failure of a short run: it is complete, or has
+# stopped with a checkpoint.
+printf '2\n10\n1\n100\nperf\n' >short.in
+n_complete=0
+for ((k = 0; k < 24; ++k)); do
+    rm -rf kept
+    "$CARROM_PROGRAM" run short.in --quiet "${store[@]}" >"$test_folder/out" 2>"$test_folder/err" &
+    program=$!
+    for ((i = 0; i < 1000; ++i)); do
+        caught=$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$program/status" 2>/dev/null)
+        [ $((16#${caught:-0} & 16#200)) -eq 0 ] || break
+    done
+    sleep "$(printf '0.%02d' $((k % 12)))"
+    kill -USR1 "$program" 2>/dev/null
+    wait "$program"
+    code=$?
+    [ "$code" -eq 0 ] && n_complete=$((n_complete + 1))
+    [ "$code" -eq 0 ] || [ "$code" -eq 75 ] || { complain "code $code after a signal at moment $k"; show; }
+    [ "$(ls kept | wc -l)" -ge 1 ] || complain "no checkpoint after a signal at moment $k"
+done
+[ "$n_complete" -lt 24 ] || complain 'no signal came early enough to stop a short run'
+
 # Without a folder for checkpoints the run ends in order too: its recordings are whole, and it says that nothing else is.
 for signal in TERM USR1; do
     "$CARROM_PROGRAM" run "${scene[@]}" --steps 100000000 --set output.trajectory.file=t.h5 --set output.trajectory.every_steps=1000 \

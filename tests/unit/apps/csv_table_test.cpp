@@ -17,7 +17,7 @@ using namespace carrom;
 
 namespace {
 
-const CsvTable::Layout layout{"key,number,origin", 1, 1, "here"};
+constexpr const char* header = "key,number";
 
 std::string text_of(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
@@ -59,45 +59,38 @@ private:
 
 } // namespace
 
-TEST_CASE("A table that a disk has no room for ends with a whole line, with code 4, and is gone on "
-          "with") {
+TEST_CASE("A table that a disk has no room for ends with a whole line, with code 4") {
     const OwnFile file("full_table.csv");
-    const std::string& path = file.path();
-    {
-        CsvTable table(path, layout);
-        table.append("a", "1");
-        const Limit limit(text_of(path).size() + 4);
-        try {
-            table.append("b", "2");
-            FAIL("a line went to a disk without room");
-        } catch (const CollectiveError& error) {
-            CHECK(error.code() == ExitCode::output_failure);
-        }
-        CHECK_FALSE(table.has("b"));
-        CHECK(text_of(path) == "key,number,origin\na,1,here\n");
+    CsvTable table(file.path(), header);
+    table.append("a,1");
+    const Limit limit(text_of(file.path()).size() + 2);
+    try {
+        table.append("b,2");
+        FAIL("a line went to a disk without room");
+    } catch (const CollectiveError& error) {
+        CHECK(error.code() == ExitCode::output_failure);
     }
-    CsvTable table(path, layout);
-    CHECK((table.has("a") && !table.has("b")));
-    table.append("b", "2");
-    CHECK(text_of(path) == "key,number,origin\na,1,here\nb,2,here\n");
+    CHECK(text_of(file.path()) == "key,number\na,1\n");
 }
 
-TEST_CASE("A table drops half a line and half a header, and nothing else") {
-    const OwnFile file("cut_table.csv");
-    const std::string& path = file.path();
-    const std::string whole = "key,number,origin\na,1,here\nb,2,there\n";
-    for (std::size_t size = 0; size <= whole.size(); ++size) {
-        std::ofstream(path, std::ios::binary) << whole.substr(0, size);
-        const CsvTable table(path, layout);
-        CAPTURE(size);
-        const bool has_a = size >= 27, has_b = size == whole.size();
-        CHECK((table.has("a") == has_a && table.has("b") == has_b));
-        CHECK(table.n_foreign() == (has_b ? 1 : 0));
+TEST_CASE("A table is a new file, and there only with its first line") {
+    const OwnFile file("new_table.csv");
+    {
+        CsvTable table(file.path(), header);
+        CHECK_FALSE(std::filesystem::exists(file.path()));
+        table.append("a,1");
+        CHECK(text_of(file.path()) == "key,number\na,1\n");
     }
-    for (const std::string text :
-         {"something else", "key,number,origin,more\na,1,here\n", "key,number,origin\na,1\n"}) {
-        std::ofstream(path, std::ios::binary) << text;
-        CHECK_THROWS_AS(CsvTable(path, layout), InputError);
-        CHECK(text_of(path) == text);
-    }
+    CHECK_THROWS_AS(CsvTable(file.path(), header), InputError);
+    CHECK(text_of(file.path()) == "key,number\na,1\n");
+    CHECK_THROWS_AS(CsvTable("nowhere/table.csv", header), InputError);
+    CHECK_THROWS_AS(CsvTable("/dev/null", header), InputError);
+}
+
+TEST_CASE("A table does not write over a file that has come meanwhile") {
+    const OwnFile file("late_table.csv");
+    CsvTable table(file.path(), header);
+    std::ofstream(file.path()) << "another one";
+    CHECK_THROWS_AS(table.append("a,1"), CollectiveError);
+    CHECK(text_of(file.path()) == "another one");
 }

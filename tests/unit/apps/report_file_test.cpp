@@ -48,14 +48,30 @@ TEST_CASE("A report replaces the file that was there and leaves nothing beside i
 
 TEST_CASE("Places that cannot take a report are found out without a trace") {
     const ScratchFolder folder;
-    CHECK(obstacle_to_writing(folder.file("report.json")).empty());
+    CHECK(obstacle_to_writing(folder.file("report.json")).text.empty());
     CHECK(folder.n_files() == 0);
-    CHECK(obstacle_to_writing(folder.file("nowhere/report.json")).find("No such file") !=
+    CHECK(obstacle_to_writing(folder.file("nowhere/report.json")).text.find("No such file") !=
           std::string::npos);
-    CHECK(obstacle_to_writing(folder.file(".")).find("directory") != std::string::npos);
-    CHECK(obstacle_to_writing("/dev/null").find("not a plain file") != std::string::npos);
+    CHECK(obstacle_to_writing(folder.file(".")).text.find("directory") != std::string::npos);
+    CHECK(obstacle_to_writing("/dev/null").text.find("not a plain file") != std::string::npos);
     CHECK(write_whole_file(folder.file("nowhere/report.json"), "x").find("No such file") !=
           std::string::npos);
+}
+
+TEST_CASE("Files and links beside a report are left as they are") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("report.json"), pid = std::to_string(::getpid());
+    const std::string victim = folder.file("victim"), left_over = path + ".partial";
+    CHECK(write_whole_file(victim, "precious\n").empty());
+    CHECK(write_whole_file(left_over, "of another run\n").empty());
+    for (const char* number : {"0", "1"})
+        std::filesystem::create_symlink(victim, path + '.' + pid + '-' + number + ".partial");
+    CHECK(obstacle_to_writing(path).text.empty());
+    CHECK(write_whole_file(path, "numbers\n").empty());
+    CHECK(content(path) == "numbers\n");
+    CHECK(content(victim) == "precious\n");
+    CHECK(content(left_over) == "of another run\n");
+    CHECK(folder.n_files() == 5);
 }
 
 TEST_CASE("A file for data is emptied only when it is opened") {

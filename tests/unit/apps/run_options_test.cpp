@@ -23,14 +23,20 @@ Checked checked(const RunWords& words) {
     return result;
 }
 
-/// The places of the problems that a whole command line has before any input is looked at.
-std::vector<std::string> refused_places(std::vector<std::string> words) {
+Action action_of(std::vector<std::string> words) {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
+    return parse_command_line(static_cast<int>(words.size()), arguments.data());
+}
+
+/// The places of the problems of a command line that is wrong whatever the input is.
+std::vector<std::string> refused_places(const std::vector<std::string>& words) {
+    const Action action = action_of(words);
+    CHECK_FALSE(action.needs_mpi);
     std::vector<std::string> places;
     try {
-        parse_command_line(static_cast<int>(words.size()), arguments.data());
+        action.act(Communicator::world()); // of this process alone
     } catch (const InputError& error) {
         for (const Problem& problem : error.problems()) places.push_back(problem.place);
     }
@@ -100,13 +106,47 @@ TEST_CASE("Zero is a number of steps, and switches rebalancing off or on at ever
 }
 
 TEST_CASE("A command line is refused for words that fit nowhere") {
-    CHECK(refused_places({"carrom", "run", "a.in"}).empty());
-    CHECK(refused_places({"carrom", "run", "-"}).empty());
-    CHECK(refused_places({"carrom", "run", "a.in", "b.in"}) == std::vector<std::string>{"b.in"});
+    using Places = std::vector<std::string>;
+    CHECK(refused_places({"carrom", "run", "a.in", "b.in"}) == Places{"b.in"});
     CHECK(refused_places({"carrom", "run", "--thread", "3", "a.in", "--steps", "-4"}) ==
-          std::vector<std::string>{"--thread", "--steps"});
-    CHECK(refused_places({"carrom"}) == std::vector<std::string>{"command line"});
-    CHECK(refused_places({"carrom", "walk"}) == std::vector<std::string>{"command line"});
+          Places{"--thread", "--steps"});
+    CHECK(refused_places({"carrom", "info", "a.h5", "b.h5"}) == Places{"b.h5"});
+    CHECK(refused_places({"carrom"}) == Places{"command line"});
+    CHECK(refused_places({"carrom", "walk"}) == Places{"command line"});
+    CHECK(refused_places({"carrom", "info"}) == Places{"command line"});
+}
+
+TEST_CASE("Empty words are refused: they come from variables that are not set") {
+    using Places = std::vector<std::string>;
+    for (const char* option : {"--output", "--report", "--restart", "--set", "--threads"})
+        CHECK(refused_places({"carrom", "run", "a.in", option, ""}) == Places{option});
+    CHECK(refused_places({"carrom", "run", "--report", "", "--restart", "", "a.in"}) ==
+          Places{"--restart", "--report"});
+    CHECK(refused_places({"carrom", "run", "a.in", "--output="}) == Places{"--output"});
+    CHECK(refused_places({"carrom", "convert", "a.h5", "--to", "csv", "--output", ""}) ==
+          Places{"--output"});
+    CHECK(refused_places({"carrom", "accuracy", "a.in", "--output", ""}) == Places{"--output"});
+}
+
+TEST_CASE("Only simulations need MPI, and only runs wait for the end of a step to stop") {
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"carrom", "--help"},
+                                               {"carrom", "--version"},
+                                               {"carrom", "run", "--help"},
+                                               {"carrom", "run"},
+                                               {"carrom", "info", "a.h5"},
+                                               {"carrom", "verify", "a.h5"},
+                                               {"carrom", "diff", "a.h5", "b.h5"},
+                                               {"carrom", "convert", "a.h5", "--to", "csv"}}) {
+        const Action action = action_of(words);
+        CHECK_FALSE(action.needs_mpi);
+        CHECK_FALSE(action.stops_on_request);
+    }
+    CHECK(action_of({"carrom", "run", "a.in"}).needs_mpi);
+    CHECK(action_of({"carrom", "run", "a.in"}).stops_on_request);
+    CHECK_FALSE(action_of({"carrom", "run", "-"}).stops_on_request); // may wait for its input
+    CHECK(action_of({"carrom", "run", "--restart", "kept"}).needs_mpi);
+    CHECK(action_of({"carrom", "accuracy", "a.in"}).needs_mpi);
 }
 
 } // namespace carrom

@@ -2,6 +2,7 @@
 #include "catch.hpp"
 #include <nlohmann/json.hpp>
 
+#include "apps/report.hpp"
 #include "apps/summary.hpp"
 
 namespace carrom {

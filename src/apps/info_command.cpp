@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/file_commands.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "apps/restart.hpp"
+#include "apps/words.hpp"
+#include "io/checkpoint.hpp"
+#include "io/frame_file.hpp"
+#include "parallel/agreement.hpp"
+#include "stored_scene/stored_scene.hpp"
+
+namespace carrom {
+
+namespace {
+
+const char* word_of(FileKind kind) {
+    switch (kind) {
+    case FileKind::checkpoint: return "checkpoint";
+    case FileKind::trajectory: return "trajectory";
+    case FileKind::collisions: return "collisions";
+    }
+    return "";
+}
+
+std::string frames_text(const std::vector<std::int64_t>& steps) {
+    if (steps.empty()) return "none";
+    std::string text = fmt::format("{}, of steps {} to {}", steps.size(), steps.front(),
+                                   steps.back());
+    const std::int64_t every = steps.size() > 1 ? steps[1] - steps[0] : 0;
+    for (std::size_t k = 1; k < steps.size(); ++k)
+        if (steps[k] - steps[k - 1] != every) return text + ", at several distances";
+    return steps.size() > 1 ? text + fmt::format(", every {}", every) : text;
+}
+
+/// From when to when a log goes; it is in the order of time.
+std::string span_text(const FrameFile& file) {
+    const std::uint64_t n = file.summary().n_logged;
+    if (n == 0) return labelled_line("steps", "none");
+    std::vector<LoggedCollision> first, last;
+    file.read(0, 1, first);
+    file.read(n - 1, n, last);
+    return labelled_line("steps", fmt::format("{} to {}, times {:.6g} to {:.6g}", first[0].step,
+                                              last[0].step, first[0].time, last[0].time));
+}
+
+/// The fields of a trajectory, a space before each.
+std::string fields_text(const FileSummary& summary) {
+    return fmt::format("{}{}{}{}", summary.has_position ? " position" : "",
+                       summary.has_velocity ? " velocity" : "",
+                       summary.has_collisions ? " collisions" : "",
+                       summary.has_angular_velocity ? " angular_velocity" : "");
+}
+
+std::string trajectory_text(const FileSummary& summary) {
+    const std::string fields = fields_text(summary);
+    std::string text = labelled_line("radius", fmt::format("{:g}", summary.radius));
+    text += labelled_line("fields", fields.substr(std::min<std::size_t>(1, fields.size())));
+    if (summary.has_position || summary.has_velocity || summary.has_angular_velocity)
+        text += labelled_line("numbers", fmt::format("of {} bytes", summary.bytes_per_number));
+    return text + labelled_line("frames", frames_text(summary.steps));
+}
+
+std::string summary_text(const FileSummary& summary) {
+    std::string text = labelled_line("kind", word_of(summary.kind)) +
+                       labelled_line("written by", "carrom " + summary.program_version);
+    if (summary.kind == FileKind::collisions)
+        return text + labelled_line("collisions", fmt::format("{}", summary.n_logged)) +
+               labelled_line("fields", "step time p q impulse");
+    text += labelled_line("discs",
+                          fmt::format("{} in a box of {:g}", summary.n_discs, summary.box_size));
+    return summary.kind == FileKind::trajectory ? text + trajectory_text(summary) : text;
+}
+
+std::string header_text(const CheckpointHeader& header) {
+    std::string text = labelled_line("step", fmt::format("{}", header.step));
+    text += labelled_line("radius", fmt::format("{:g}", header.radius));
+    text += labelled_line("method",
+                          fmt::format("{}, micro_steps = {}, sync_every = {}", header.collisions,
+                                      header.micro_steps, header.sync_every));
+    text += labelled_line(
+        "collisions",
+        fmt::format("{} with walls, {} of pairs", header.wall_collisions, header.pair_collisions));
+    text += labelled_line("state hash", header.state_hash);
+    text += labelled_line("scene", header.scene_name);
+    try {
+        const Effects effects = scene_of(header, {}).effects;
+        if (effects.are_any()) text += labelled_line("effects", description(effects));
+    } catch (const InputError&) { // another version's scene; the rest is good to know all the same
+    }
+    std::string overrides = header.scene_overrides;
+    if (!overrides.empty()) overrides.pop_back(); // each ends its line
+    std::replace(overrides.begin(), overrides.end(), '\n', ' ');
+    return overrides.empty() ? text : text + labelled_line("set", overrides);
+}
+
+/// **Collective.**
+ExitCode info(const std::string& path, const Communicator& ranks) {
+    check_damage(path, ranks);
+    int is_checkpoint = 0;
+    std::string text;
+    let_root(ranks, [&] {
+        const FrameFile file(path);
+        const FileSummary& summary = file.summary();
+        text = summary_text(summary);
+        if (summary.kind == FileKind::collisions) text += span_text(file);
+        is_checkpoint = summary.kind == FileKind::checkpoint ? 1 : 0;
+    });
+    ranks.broadcast(is_checkpoint);
+    if (is_checkpoint == 1) text += header_text(read_checkpoint_header(path, ranks));
+    if (ranks.is_root()) fmt::print("{}", text);
+    return ExitCode::success;
+}
+
+} // namespace
+
+Subcommand info_subcommand() {
+    constexpr const char* examples = R"(Examples:
+  carrom info kept/checkpoint-000000001000.h5
+  carrom info trajectory.h5)";
+    const auto path = std::make_shared<std::string>();
+    const auto action = [path](std::vector<Problem>&) -> Action {
+        return {[path](const Communicator& ranks) { return info(*path, ranks); }};
+    };
+    return {"info",
+            "Say what is in a file",
+            examples,
+            {{"FILE", "", help_of_file, path.get(), true}},
+            action};
+}
+
+} // namespace carrom

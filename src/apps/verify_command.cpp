@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/file_commands.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "apps/restart.hpp"
+#include "io/checkpoint.hpp"
+#include "io/frame_file.hpp"
+#include "parallel/agreement.hpp"
+#include "stored_scene/stored_scene.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// What no state of a run can be; empty if all is well.
+std::string flaw_of(const Disc& disc, double spin, double radius, const CheckpointHeader& header,
+                    const Extent& box) {
+    const double clock = header.clock();
+    if (disc.has_departed())
+        return disc.vx == 0 && disc.vy == 0
+                   ? ""
+                   : fmt::format("disc {} has left the box, yet moves", disc.id);
+    const Disc shown = header.frame.in_box(disc, clock);
+    const double x = shown.x, y = shown.y;
+    // A disc may stand a little beyond its wall for the rest of a micro-step, or by the rounding of
+    // L - r.
+    const double slack = 1e-6 * header.radius + 0x1p-50 * header.box_size;
+    const double margin = radius - slack;
+    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(disc.vx) ||
+        !std::isfinite(disc.vy) || !std::isfinite(spin))
+        return fmt::format("disc {} has a number that is not finite", disc.id);
+    if (x < box.x_low + margin || x > box.x_high - margin || y < box.y_low + margin ||
+        y > box.y_high - margin)
+        return fmt::format("disc {} is outside the box, at ({}, {})", disc.id, x, y);
+    if (!(disc.tau >= 0 && disc.tau <= clock))
+        return fmt::format("disc {} has the time {}, and it is {} now", disc.id, disc.tau, clock);
+    return {};
+}
+
+/// Where a run may show the centre of a disc without a radius. **Not collective.**
+Extent room_of(const CheckpointHeader& header, const Effects& effects) {
+    Extent box = extent_at(effects, header.box_size, static_cast<double>(header.step));
+    const auto make_room = [&](std::size_t side, double& line, double outwards) {
+        if (effects.boundaries[side].kind == BoundaryKind::open)
+            line = outwards * infinity; // discs may be on their way out
+        if (effects.boundaries[side].kind == BoundaryKind::periodic)
+            line += outwards * header.radius; // centres are anywhere in the box
+    };
+    make_room(0, box.x_low, -1);
+    make_room(1, box.x_high, 1);
+    make_room(2, box.y_low, -1);
+    make_room(3, box.y_high, 1);
+    return box;
+}
+
+/// Bytes and hash are checked by reading; then the discs themselves. **Collective.**
+void verify_checkpoint(const std::string& path, const Communicator& ranks) {
+    const Checkpoint checkpoint = read_checkpoint(path, ranks);
+    const CheckpointHeader& header = checkpoint.header;
+    const Effects effects = scene_of(header, {}).effects; // an unreadable scene is no use either
+    const Extent room = room_of(header, effects);
+    const SpeciesTable species(effects.species, header.radius);
+    std::string flaw;
+    std::uint64_t sums[] = {0, 0};
+    for (std::size_t i = 0; i < checkpoint.discs.size(); ++i) {
+        const Disc& disc = checkpoint.discs[i];
+        const double spin = checkpoint.spins.empty() ? 0 : checkpoint.spins[i];
+        if (flaw.empty()) flaw = flaw_of(disc, spin, species.of(disc.id).radius, header, room);
+        sums[0] += disc.wall_collisions;
+        sums[1] += disc.pair_collisions;
+    }
+    ranks.sum(sums);
+    if (flaw.empty() &&
+        (sums[0] != header.wall_collisions || sums[1] != 2 * header.pair_collisions))
+        flaw = "the discs' collisions do not add up";
+    agree(ranks, flaw.empty(), path + ": " + flaw, ExitCode::bad_input);
+}
+
+void refuse(const std::string& path, const std::string& text) {
+    throw InputError({{path, 0, text}});
+}
+
+/// Whether a run could show a disc there. Discs leave an open side as their centre is a radius
+/// beyond it, and lie there at rest; in the time-stepped method a disc that another one has pushed
+/// out may fly to the end of its micro-step before.
+bool is_possible(const FrameRow& row, const FileSummary& summary) {
+    if (!std::isfinite(row.vx) || !std::isfinite(row.vy) || !std::isfinite(row.angular_velocity))
+        return false;
+    if (!summary.has_position) return true;
+    if (!std::isfinite(row.x) || !std::isfinite(row.y)) return false;
+    const double l = summary.box_size, rounding = summary.bytes_per_number == 4 ? 0x1p-22 : 0x1p-50;
+    const double reach = summary.radius + rounding * (l + summary.radius);
+    const std::array<double, 4> beyond = {-row.x, row.x - l, -row.y, row.y - l},
+                                rate = {-row.vx, row.vx, -row.vy, row.vy};
+    const bool is_at_rest = summary.has_velocity && row.vx == 0 && row.vy == 0;
+    bool has_left = false;
+    for (std::size_t side = 0; side < beyond.size(); ++side)
+        has_left |= summary.open_boundaries[side] && is_at_rest && beyond[side] > 0 &&
+                    beyond[side] <= reach; // smaller discs than the largest leave before
+    for (std::size_t side = 0; side < beyond.size(); ++side) {
+        if (beyond[side] <= 0) continue;
+        if (!summary.open_boundaries[side]) return false;
+        // Without velocities nobody knows how far it flies; pushed out over a corner it leaves by
+        // one side and keeps its place along it.
+        const bool is_bounded = summary.has_velocity && !has_left;
+        if (is_bounded && beyond[side] > reach + std::max(0.0, rate[side])) return false;
+    }
+    return true;
+}
+
+void verify_frames(const FrameFile& file, const std::string& path) {
+    const FileSummary& summary = file.summary();
+    std::vector<FrameRow> rows;
+    for (std::size_t frame = 0; frame < summary.steps.size(); ++frame) {
+        if (frame > 0 && summary.steps[frame] <= summary.steps[frame - 1])
+            refuse(path, fmt::format("frame {} goes back in time", frame));
+        for (std::uint64_t begin = 0; begin < summary.n_discs; begin += rows_at_a_time) {
+            file.read(frame, begin, std::min(begin + rows_at_a_time, summary.n_discs), rows);
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+                if (!is_possible(rows[i], summary))
+                    refuse(path, fmt::format("disc {} is outside the box or not finite at step {}",
+                                             begin + i, summary.steps[frame]));
+            }
+        }
+    }
+}
+
+void verify_log(const FrameFile& file, const std::string& path) {
+    std::vector<LoggedCollision> rows;
+    LoggedCollision last;
+    for (std::uint64_t begin = 0; begin < file.summary().n_logged; begin += rows_at_a_time) {
+        file.read(begin, std::min(begin + rows_at_a_time, file.summary().n_logged), rows);
+        for (const LoggedCollision& row : rows) {
+            if (row.step < last.step || row.time < last.time)
+                refuse(path, fmt::format("goes back in time at step {}", row.step));
+            if (row.p < 0 || row.q < -1 || row.p == row.q)
+                refuse(path, fmt::format("has a collision of {} and {}", row.p, row.q));
+            last = row;
+        }
+    }
+}
+
+ExitCode verify(const std::string& path, const Communicator& ranks) {
+    check_damage(path, ranks);
+    int is_checkpoint = 0;
+    let_root(ranks, [&] {
+        const FrameFile file(path);
+        is_checkpoint = file.summary().kind == FileKind::checkpoint ? 1 : 0;
+        if (file.summary().kind == FileKind::trajectory) verify_frames(file, path);
+        if (file.summary().kind == FileKind::collisions) verify_log(file, path);
+    });
+    ranks.broadcast(is_checkpoint);
+    if (is_checkpoint == 1) verify_checkpoint(path, ranks);
+    if (ranks.is_root()) fmt::print("{}: whole\n", path);
+    return ExitCode::success;
+}
+
+} // namespace
+
+Subcommand verify_subcommand() {
+    constexpr const char* examples = R"(Examples:
+  carrom verify kept/checkpoint-000000001000.h5
+  mpirun -np 4 carrom verify LARGE_CHECKPOINT.h5)";
+    const auto path = std::make_shared<std::string>();
+    const auto action = [path](std::vector<Problem>&) -> Action {
+        return {[path](const Communicator& ranks) { return verify(*path, ranks); }};
+    };
+    return {"verify",
+            "Check a file: every byte, the state hash, the discs; exit code 2 if it is damaged",
+            examples,
+            {{"FILE", "", help_of_file, path.get(), true}},
+            action};
+}
+
+} // namespace carrom
