@@ -44,8 +44,8 @@ public:
 
     /// Sets a key, as `--set key=value` of `carrom run` does: `set("time.steps", 100)`. A text may
     /// be a word or any TOML value: `set("discs.streams", "[{region = [0, 0, 1, 1], velocity = [1,
-    /// 0]}]")`. It replaces an older value, and keys that exclude this one. Nothing is checked yet.
-    /// Not collective: every rank sets the same. Returns this scene.
+    /// 0]}]")`. It replaces an older value, and keys of the text that exclude this one. Nothing is
+    /// checked yet. Not collective: every rank sets the same. Returns this scene.
     Scene& set(std::string_view key, std::string_view value);
     Scene& set(std::string_view key, const char* value) {
         return set(key, std::string_view(value));
@@ -73,10 +73,10 @@ public:
 
     struct Source {
         std::string name = "scene.toml";
-        std::string text;
-        std::int64_t lines_before_discs = 0; ///< of legacy text
-        bool discs_follow = false;           ///< legacy text with discs behind its header
-        std::vector<std::string> settings;   ///< "key=value", in the order they were set
+        std::string text = "# made by a program; its settings are all\n"; ///< never empty
+        std::int64_t lines_before_discs = 0;                              ///< of legacy text
+        bool discs_follow = false;         ///< legacy text with discs behind its header
+        std::vector<std::string> settings; ///< "key=value", in the order they were set
     };
     const Source& source() const { return source_; }
 

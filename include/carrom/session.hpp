@@ -19,9 +19,9 @@ public:
     /// ranks. Started here, MPI ends with the session. Throws InputError where MPI has ended, or
     /// was started without MPI_THREAD_FUNNELED. **Collective** over all processes of the program.
     ///
-    /// Where it starts MPI, the session sets what a run of Carrom needs of the process: a rank
-    /// without memory ends all ranks with code 3, SIGXFSZ is ignored, and HDF5 closes no files at
-    /// exit (close your own). Where it takes part, it changes none of these.
+    /// Where it starts MPI, the session changes the process. A rank without memory then ends all
+    /// ranks with code 3. SIGXFSZ is ignored. HDF5 closes no files at exit: close your own. Where
+    /// it takes part, it changes none of these.
     Session();
 
     /// Takes part with the ranks of one communicator, which the program gives as its Fortran

@@ -44,7 +44,7 @@ public:
 
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
-    ~Simulation(); ///< **Collective.**
+    ~Simulation();
 
     const SceneFacts& scene() const; ///< what is simulated; not collective
     std::int64_t step() const;       ///< steps since the scene's start; not collective
@@ -60,7 +60,7 @@ public:
     /// copy and a sort. Not collective.
     std::vector<Disc> discs() const;
 
-    /// All discs, in the order of their ids, on rank 0; nothing on the others. Takes 72 bytes a
+    /// All discs, in the order of their ids, on rank 0; nothing on the others. Takes 64 bytes a
     /// disc there. **Collective.**
     std::vector<Disc> gathered_discs() const;
 
@@ -79,7 +79,7 @@ public:
 
     /// Writes the state as a whole file or not at all. Its folder must exist. Throws
     /// CollectiveError (code 4) where it fails; an older file of that name is then as it was.
-    /// 88 bytes a disc to disk. **Collective.**
+    /// 80 bytes a disc to disk. **Collective.**
     void write_checkpoint(const std::string& path) const;
 
     struct State; ///< the library's own

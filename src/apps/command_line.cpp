@@ -12,7 +12,7 @@
 #include "apps/accuracy_command.hpp"
 #include "apps/file_commands.hpp"
 #include "apps/run_command.hpp"
-#include "machine/machine.hpp"
+#include "apps/version_text.hpp"
 
 namespace carrom {
 
@@ -131,7 +131,7 @@ Action failing(std::vector<Problem> problems) {
 Action parse_command_line(int argc, char** argv) {
     CLI::App app("Carrom: hard discs in a square box, the same bits on every machine shape",
                  "carrom");
-    app.set_version_flag("--version", "carrom " + version());
+    app.set_version_flag("--version", version_text);
     app.set_help_flag(help_words, help_of_help);
     app.footer(examples);
     app.require_subcommand(1);
@@ -144,7 +144,7 @@ Action parse_command_line(int argc, char** argv) {
     } catch (const CLI::CallForHelp&) {
         return printed(app.help());
     } catch (const CLI::CallForVersion&) {
-        return printed("carrom " + version());
+        return printed(version_text());
     } catch (const CLI::ParseError& error) {
         if (argc < 2) return refused("say what to do, as in carrom run SCENE.toml");
         if (app.get_subcommands().empty())

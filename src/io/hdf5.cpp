@@ -20,6 +20,12 @@ void start_io() {
     H5open(); // started before MPI it does not hook into MPI's end either
 }
 
+std::string hdf5_version() {
+    unsigned major = 0, minor = 0, release = 0;
+    H5get_libversion(&major, &minor, &release);
+    return std::to_string(major) + '.' + std::to_string(minor) + '.' + std::to_string(release);
+}
+
 } // namespace carrom
 
 namespace carrom::h5 {

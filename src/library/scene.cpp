@@ -75,7 +75,7 @@ Scene Scene::from_text(std::string_view text, const std::string& name) {
         throw InputError({{name, 0, "the name of a scene's TOML text must end in .toml"}});
     Scene scene;
     scene.source_.name = name;
-    scene.source_.text = text;
+    if (!text.empty()) scene.source_.text = text;
     return scene;
 }
 

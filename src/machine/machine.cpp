@@ -16,6 +16,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <hwy/targets.h>
+
 namespace carrom {
 
 namespace {
@@ -110,7 +112,13 @@ AllowedCores allowed_cores() {
 
 std::string version() { return CARROM_VERSION; }
 
-BuildFacts build_facts() { return {CARROM_COMPILER, CARROM_FLAGS}; }
+BuildFacts build_facts() { return {CARROM_COMPILER, CARROM_FLAGS, CARROM_COMMIT}; }
+
+std::string vector_target() {
+    const auto usable = static_cast<std::uint64_t>(hwy::SupportedTargets() & HWY_TARGETS);
+    const std::uint64_t best = usable & (~usable + 1); // the lowest bit
+    return hwy::TargetName(static_cast<std::int64_t>(best));
+}
 
 std::string processor_name() {
     std::ifstream facts("/proc/cpuinfo");

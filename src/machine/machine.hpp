@@ -16,8 +16,12 @@ namespace carrom {
 struct BuildFacts {
     std::string compiler; ///< "GNU 12.2.0"
     std::string flags;    ///< of optimisation, and what holds for all targets
+    std::string commit;   ///< "0123456789ab", when the build was configured; or "unknown"
 };
 BuildFacts build_facts();
+
+/// The vector instructions that this processor runs, "AVX2": the best that was compiled.
+std::string vector_target();
 
 /// The processor's name; empty where the system does not tell.
 std::string processor_name();

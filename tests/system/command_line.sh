@@ -7,7 +7,11 @@ for ranks in 1 3; do
     run "$ranks" --version
     expect_code 0 '--version'
     grep -qxE 'carrom [0-9]+\.[0-9]+\.[0-9]+' "$test_folder/out" || complain 'no version'
-    [ "$(wc -l <"$test_folder/out")" -eq 1 ] || complain "the version is told more than once on $ranks ranks"
+    for line in 'commit    ([0-9a-f]{12}|unknown)' 'compiler  .*[0-9]' 'MPI       .*[0-9]' \
+        'HDF5      1\.[0-9]+\.[0-9]+' 'vectors   [A-Z0-9_]+'; do
+        grep -qxE "$line" "$test_folder/out" || complain "the version lacks a line like: $line"
+    done
+    [ "$(wc -l <"$test_folder/out")" -eq 6 ] || complain "the version is not told once on $ranks ranks"
     run "$ranks" --help
     expect_code 0 '--help'
     [ "$(grep -c '^Usage:' "$test_folder/out")" -eq 1 ] || complain "the help is not told once on $ranks ranks"

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Checkpoints and trajectories of the library: a run that is taken apart and put together again is
+// the uninterrupted one, and files show the discs that the simulation had.
+#include "catch.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include <mpi.h>
+#include <unistd.h>
+
+#include "library_runs.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+/// A folder of all ranks, removed at the end.
+class Folder {
+public:
+    explicit Folder(const Session& session) : session_(session) {
+        int process = static_cast<int>(::getpid());
+        MPI_Bcast(&process, 1, MPI_INT, 0, MPI_COMM_WORLD);
+        path_ = "/tmp/carrom_library_test_" + std::to_string(process);
+        if (session_.is_root()) std::filesystem::create_directories(path_);
+        MPI_Barrier(MPI_COMM_WORLD);
+    }
+    ~Folder() {
+        MPI_Barrier(MPI_COMM_WORLD);
+        if (session_.is_root()) std::filesystem::remove_all(path_);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+
+    std::string file(const char* name) const { return path_ + "/" + name; }
+
+private:
+    const Session& session_;
+    std::string path_;
+};
+
+} // namespace
+
+TEST_CASE("going on from a checkpoint gives the bits of the uninterrupted run") {
+    const Session session;
+    const Folder folder(session);
+    for (const char* method : {"time-stepped", "event-driven"}) {
+        Scene scene = gas(method, 30);
+        scene.set("time.micro_steps", 2).set("time.sync_every", 6);
+        const std::string path = folder.file("state.h5");
+        {
+            Simulation first(session, scene);
+            first.advance_to_end();
+            first.write_checkpoint(path);
+        }
+        Simulation whole(session, scene.set("time.steps", 70));
+        whole.advance_to_end();
+        Simulation second = Simulation::from_checkpoint(session, path, {"time.steps=70"});
+        CHECK(second.step() == 30);
+        CHECK(second.scene().steps == 70);
+        second.advance_to_end();
+        CHECK(hash_of(second) == hash_of(whole));
+        CHECK(second.gathered_discs() == whole.gathered_discs());
+    }
+}
+
+TEST_CASE("measurements go on from a checkpoint") {
+    const Session session;
+    const Folder folder(session);
+    Scene scene = gas("event-driven", 40);
+    scene.set("output.measurements.folder", folder.file("unused"));
+    scene.set("output.measurements.quantities", "[\"velocities\", \"wall_pressure\"]");
+    scene.set("output.measurements.every_steps", 4);
+    Simulation whole(session, scene);
+    whole.advance_to(18);
+    whole.write_checkpoint(folder.file("state.h5"));
+    Simulation second = Simulation::from_checkpoint(session, folder.file("state.h5"));
+    whole.advance_to_end();
+    second.advance_to_end();
+    const auto a = whole.measurements(), b = second.measurements();
+    REQUIRE(a.size() == b.size());
+    CHECK(a.size() >= 3);
+    for (std::size_t k = 0; k < a.size(); ++k) {
+        CHECK(a[k].name == b[k].name);
+        CHECK(a[k].rows == b[k].rows);
+    }
+}
+
+TEST_CASE("a checkpoint is read as a file of one frame") {
+    const Session session;
+    const Folder folder(session);
+    Simulation simulation(session, gas("event-driven", 25));
+    simulation.advance_to_end();
+    simulation.write_checkpoint(folder.file("state.h5"));
+    const std::vector<Disc> discs = simulation.gathered_discs();
+    const FrameReader file(session, folder.file("state.h5"));
+    CHECK(file.steps() == std::vector<std::int64_t>{25});
+    CHECK(file.n_discs() == 300);
+    CHECK(file.box_size() == 60);
+    CHECK(file.state_hash() == hash_of(simulation));
+    if (!session.is_root()) return;
+    CHECK(file.read(0) == discs);
+    CHECK(file.read(0, 17, 19) == std::vector<Disc>(discs.begin() + 17, discs.begin() + 19));
+    CHECK_FALSE(problems_of([&] { file.read(1); }).empty());
+    CHECK_FALSE(problems_of([&] { file.read(0, 0, 301); }).empty());
+}
+
+TEST_CASE("a trajectory shows the discs of each step that was added") {
+    const Session session;
+    const Folder folder(session);
+    const std::string path = folder.file("frames.h5");
+    const TrajectoryFields fields{.collisions = true, .single_precision = false, .compression = 2};
+    std::vector<std::vector<Disc>> shown;
+    Simulation simulation(session, gas("time-stepped", 30));
+    {
+        TrajectoryWriter writer(simulation, path, fields);
+        writer.append();
+        shown.push_back(simulation.gathered_discs());
+        CHECK_FALSE(problems_of([&] { writer.append(); }).empty());
+        simulation.advance(10);
+        writer.append();
+        shown.push_back(simulation.gathered_discs());
+        writer.describe();
+    }
+    simulation.advance(10);
+    TrajectoryWriter writer = TrajectoryWriter::going_on(simulation, path, fields);
+    writer.append();
+    shown.push_back(simulation.gathered_discs());
+    const FrameReader file(session, path);
+    CHECK(file.steps() == std::vector<std::int64_t>{0, 10, 20});
+    CHECK(file.state_hash().empty());
+    for (std::size_t frame = 0; session.is_root() && frame < shown.size(); ++frame)
+        CHECK(file.read(frame) == shown[frame]);
+
+    Simulation other(session, gas("event-driven", 30));
+    other.advance(25);
+    CHECK(code_of([&] { TrajectoryWriter::going_on(other, path, fields); }) == ExitCode::bad_input);
+    CHECK_FALSE(problems_of([&] { TrajectoryWriter(other, path, {.spins = true}); }).empty());
+}
+
+TEST_CASE("files that are wrong, and places that cannot be written to, have their codes") {
+    const Session session;
+    const Folder folder(session);
+    const std::string path = folder.file("state.h5");
+    Simulation simulation(session, gas("time-stepped", 3));
+    simulation.advance_to_end();
+    CHECK(code_of([&] { simulation.write_checkpoint(folder.file("none/state.h5")); }) ==
+          ExitCode::output_failure);
+    CHECK(code_of([&] { TrajectoryWriter(simulation, folder.file("none/frames.h5")); }) ==
+          ExitCode::output_failure);
+    simulation.write_checkpoint(path);
+    CHECK(problems_of([&] {
+              Simulation::from_checkpoint(session, path, {"box.size=61"});
+          }).find("box.size") != std::string::npos);
+    CHECK_FALSE(
+        problems_of([&] { Simulation::from_checkpoint(session, path, {"time.steps=2"}); }).empty());
+    if (session.is_root()) {
+        std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+        file.seekp(-200, std::ios::end);
+        file.put('\x5a').put('\x5a');
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    CHECK(code_of([&] { Simulation::from_checkpoint(session, path); }) == ExitCode::bad_input);
+    CHECK(code_of([&] { FrameReader(session, path); }) == ExitCode::bad_input);
+    CHECK(code_of([&] { FrameReader(session, folder.file("nothing.h5")); }) == ExitCode::bad_input);
+}

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# An installation that is moved to another place: its program runs, its headers compile alone and
+# are the public ones, its manual has every option, and the example builds against it and comes to
+# the program's state hashes.
+#
+# usage: install.sh CMAKE BUILD_FOLDER CXX
+. "$CARROM_SOURCE_DIR/tests/system/common.sh"
+cmake=$1 build=$2 compiler=$3
+
+rm -rf "$test_folder/first" "$test_folder/prefix" "$test_folder/embed" "$test_folder/logs"
+mkdir "$test_folder/logs"
+# step NAME COMMAND...: shows what the command printed if it fails.
+step() {
+    local name=$1
+    shift
+    timeout 500 "$@" >"$test_folder/logs/$name" 2>&1 && return
+    complain "$name: $*"
+    sed 's/^/    /' "$test_folder/logs/$name"
+    finish
+}
+step install "$cmake" --install "$build" --prefix "$test_folder/first"
+mv "$test_folder/first" "$test_folder/prefix"
+prefix=$test_folder/prefix
+export CARROM_PROGRAM=$prefix/bin/carrom
+
+# The public headers, all of them and no others.
+(cd "$CARROM_SOURCE_DIR/include" && find . -type f | sort) >"$test_folder/wanted"
+(cd "$prefix/include" && find . -type f | sort) >"$test_folder/found"
+expect_same "$test_folder/wanted" "$test_folder/found" 'other headers are installed than there are'
+for header in "$prefix"/include/carrom/*.hpp; do
+    name=${header##*/}
+    printf '#include <carrom/%s>\n' "$name" >"$test_folder/logs/alone.cpp"
+    step "header_$name" "$compiler" -std=c++20 -Wall -Wextra -Wpedantic -Werror -fsyntax-only \
+        -I "$prefix/include" "$test_folder/logs/alone.cpp"
+done
+for file in share/carrom/inputs/gas.toml share/doc/carrom/LICENSE share/doc/carrom/docs/user.md; do
+    [ -s "$prefix/$file" ] || complain "not installed: $file"
+done
+
+# The manual: no warning, and every option of every command.
+page=$prefix/share/man/man1/carrom.1
+plain=$test_folder/page
+sed 's/\\-/-/g' "$page" >"$plain"
+for command in '' run accuracy info verify convert diff; do
+    run 1 $command --help
+    for option in $(grep -oE '^ +(-h,)?--[a-z-]+' "$test_folder/out" | grep -oE -- '--[a-z-]+'); do
+        grep -qwF -- "$option" "$plain" || complain "the manual lacks $option of carrom $command"
+    done
+    [ -z "$command" ] || grep -qx ".B $command" "$plain" || complain "the manual lacks $command"
+done
+if command -v man >"$test_folder/out"; then
+    MANWIDTH=80 MANROFFSEQ='' man --warnings -l "$page" >"$test_folder/out" 2>"$test_folder/err"
+    [ ! -s "$test_folder/err" ] || { complain 'the manual has warnings'; show; }
+    grep -q 'EXIT STATUS' "$test_folder/out" || complain 'the manual is not shown'
+else
+    printf 'the manual is not shown: there is no program man\n'
+fi
+
+# The example, as it is installed, against the installed package alone.
+step configure "$cmake" -S "$prefix/share/doc/carrom/docs/examples/embed" -B "$test_folder/embed" \
+    -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler"
+grep -q "^Carrom_DIR:PATH=$prefix/" "$test_folder/embed/CMakeCache.txt" ||
+    complain 'the package was found elsewhere'
+step build "$cmake" --build "$test_folder/embed"
+
+# expect_hash RANKS HASH SCENE...: the example's last line.
+expect_hash() {
+    local ranks=$1 hash=$2 launch=()
+    shift 2
+    [ "$ranks" -eq 1 ] || launch=("$CARROM_MPIEXEC" -n "$ranks")
+    timeout 120 "${launch[@]}" "$test_folder/embed/embed" "$@" >"$test_folder/out" \
+        2>"$test_folder/err" || { complain "the example fails on $ranks ranks: $*"; show; }
+    [ "$(tail -n 1 "$test_folder/out")" = "state hash $hash" ] ||
+        complain "the example has another hash than the program on $ranks ranks: $*"
+}
+program_hash() {
+    run 1 run "$@" --report report.json
+    expect_code 0 "the program on $*"
+    json_value report.json state_hash
+}
+
+cat >gas.toml <<'SCENE'
+[box]
+size = 100
+[discs]
+count = 500
+radius = 1.0
+speed = 0.5
+[time]
+method = "event-driven"
+steps = 200
+SCENE
+sed 's/event-driven/time-stepped/' gas.toml >stepped.toml
+sed 's/size = 100/&\nleft.kind = "periodic"\nright.kind = "periodic"/' gas.toml >periodic.toml
+printf '0 20 50 1 0 5\n1 80 50 -1 0 2\n' >discs.txt
+cat >file.toml <<'SCENE'
+[box]
+size = 100
+[discs]
+count = 2
+file = "discs.txt"
+columns = ["radius"]
+[time]
+method = "event-driven"
+steps = 90
+SCENE
+
+hash=$(program_hash gas.toml)
+expect_hash 1 "$hash"           # the scene that the example makes itself
+expect_hash 2 "$hash" gas.toml
+for scene in stepped.toml periodic.toml file.toml "$prefix/share/carrom/inputs/tiny.in"; do
+    hash=$(program_hash "$scene")
+    [ ${#hash} -eq 32 ] || complain "no state hash of $scene"
+    for ranks in 1 2; do expect_hash "$ranks" "$hash" "$scene"; done
+done
+
+# A wrong scene is the same error as of the program, with the same code.
+printf '[box]\nsize = -1\n' >wrong.toml
+run 1 run wrong.toml
+expect_code 2 'the program on a wrong scene'
+cp "$test_folder/err" "$test_folder/of_program"
+timeout 60 "$test_folder/embed/embed" wrong.toml >"$test_folder/out" 2>"$test_folder/err"
+code=$?
+expect_code 2 'the example on a wrong scene'
+expect_silence 'a wrong scene'
+expect_same "$test_folder/of_program" "$test_folder/err" 'a wrong scene has other problems'
+finish
