@@ -56,8 +56,8 @@ public:
     void advance_to_end() { advance_to(scene().steps); }                 ///< **Collective.**
 
     /// This rank's discs at the present step, in the order of their ids. All ranks together have
-    /// each disc once, those that have left the box included (at rest where they left it). Costs a
-    /// copy and a sort. Not collective.
+    /// each disc once. Those that have left through an open side are among them: at rest, one
+    /// radius outside. Costs a copy and a sort. Not collective.
     std::vector<Disc> discs() const;
 
     /// All discs, in the order of their ids, on rank 0; nothing on the others. Takes 64 bytes a
