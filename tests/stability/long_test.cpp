@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/state_hash.hpp"
 #include "hold.hpp"
 #include "runs.hpp"
 #include "scene_tools.hpp"
@@ -40,6 +41,8 @@ TestScene some_gas() {
     return scene;
 }
 
+constexpr std::uint64_t all_bits_of_counters = (std::uint64_t{1} << 47) - 1;
+
 /// Like some_gas, from `micro_steps` on, the counters `counted` ahead; what comes of it in 20
 /// steps.
 Outcome later(Method method, std::int64_t micro_steps, std::uint64_t counted) {
@@ -47,16 +50,16 @@ Outcome later(Method method, std::int64_t micro_steps, std::uint64_t counted) {
     StoredState state = stored(start(scene, method));
     state.micro_steps_done = micro_steps;
     for (Disc& disc : state.discs) {
-        disc.wall_collisions += counted;
-        disc.pair_collisions += counted;
+        disc.wall_collisions = (disc.wall_collisions + counted) & all_bits_of_counters;
+        disc.pair_collisions = (disc.pair_collisions + counted) & all_bits_of_counters;
     }
     Simulation simulation = resume(scene, method, state);
     CHECK(simulation.step() == micro_steps / 2);
     run_to(simulation, micro_steps / 2 + 20);
     Outcome outcome = outcome_of(simulation);
     for (Disc& disc : outcome.discs) {
-        disc.wall_collisions -= counted;
-        disc.pair_collisions -= counted;
+        disc.wall_collisions = (disc.wall_collisions - counted) & all_bits_of_counters;
+        disc.pair_collisions = (disc.pair_collisions - counted) & all_bits_of_counters;
     }
     return outcome;
 }

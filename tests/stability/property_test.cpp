@@ -22,6 +22,7 @@
 #include <stdexcept>
 
 #include "core/errors.hpp"
+#include "core/state_hash.hpp"
 #include "event_driven.hpp"
 #include "hold.hpp"
 #include "regressions.hpp"

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/state_hash.hpp"
 #include "event_driven.hpp"
 #include "hold.hpp"
 #include "runs.hpp"

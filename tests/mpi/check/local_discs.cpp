@@ -18,7 +18,7 @@ LocalDiscs copy_of(const LocalView& local_view) {
             *local_view.grid,
             *local_view.strips,
             local_view.time,
-            local_view.geometry};
+            local_view.frame};
 }
 
 LocalDiscs view_by_hand(const std::vector<Disc>& discs, double time, double box_size, double radius,

@@ -12,6 +12,7 @@
 
 #include "catch.hpp"
 
+#include "core/state_hash.hpp"
 #include "dynamics/falling_contact.hpp"
 #include "effect_runs.hpp"
 #include "event_driven.hpp"

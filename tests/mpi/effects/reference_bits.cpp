@@ -5,6 +5,7 @@
 
 #include "catch.hpp"
 
+#include "core/state_hash.hpp"
 #include "event_driven.hpp"
 #include "time_stepped.hpp"
 

@@ -8,6 +8,7 @@
 
 #include "catch.hpp"
 
+#include "core/state_hash.hpp"
 #include "reference_bits.hpp"
 
 using namespace carrom;

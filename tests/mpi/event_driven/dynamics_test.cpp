@@ -11,6 +11,7 @@
 #include <omp.h>
 
 #include "core/errors.hpp"
+#include "core/state_hash.hpp"
 #include "event_driven.hpp"
 #include "event_driven_runs.hpp"
 #include "parallel/exchange.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "event_driven_runs.hpp"
+#include "core/state_hash.hpp"
 
 #include <algorithm>
 #include <cmath>

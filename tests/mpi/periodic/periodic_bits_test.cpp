@@ -11,6 +11,7 @@
 #include "catch.hpp"
 #include <omp.h>
 
+#include "core/state_hash.hpp"
 #include "effect_runs.hpp"
 #include "event_driven.hpp"
 #include "scene_tools.hpp"

@@ -2,6 +2,7 @@
 // The engine against the brute-force reference, bit for bit, on every scene the tests have, for
 // windows, cells, strips and storage orders of all kinds. ctest runs this for many numbers of ranks
 // and threads.
+#include "core/state_hash.hpp"
 #include "simulation/simulation.hpp"
 
 #include <algorithm>
