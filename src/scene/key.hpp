@@ -54,10 +54,10 @@ struct Field {
     std::optional<double> fallback = {};
 };
 
+/// Made by `key` (key_members.hpp); the functions that return `Key&&` add to a declaration.
 struct Key {
     std::string name;
-    std::string_view unit = "";
-    std::string_view help = "";
+    std::string_view unit, help;
     std::string_view fallback = ""; ///< the default, where words say it better than the value
     Range range = {};
     std::optional<Need> need = {};
@@ -75,6 +75,20 @@ struct Key {
     std::function<Value(const Scene&)> get = {}; ///< nothing where it is not to be written
     std::function<void(Scene&, const Value&)> set = {};
     std::function<bool(const Scene&, const Scene&)> is_same = {};
+
+    using Names = std::vector<std::string_view>;
+    Key&& by_default(std::string_view text) && { return fallback = text, std::move(*this); }
+    Key&& within(const Range& numbers) && { return range = numbers, std::move(*this); }
+    Key&& needs(const Need& other) && { return need = other, std::move(*this); }
+    Key&& required() && { return is_required = true, std::move(*this); }
+    Key&& not_physical() && { return is_physical = false, std::move(*this); }
+    Key&& excludes(const Names& names) && { return instead_of = names, std::move(*this); }
+    Key&& unless(const Names& names) && { return or_from = names, std::move(*this); }
+    Key&& formerly(std::string_view old) && { return old_name = old, std::move(*this); }
+    Key&& with_rows(const std::vector<Field>& of) && {
+        kind = of.size() > 1 ? Kind::tables : Kind::rows;
+        return fields = of, std::move(*this);
+    }
 
     std::string_view table() const { return std::string_view(name).substr(0, name.rfind('.')); }
     bool has_rows() const { return kind == Kind::rows || kind == Kind::tables; }

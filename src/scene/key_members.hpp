@@ -139,24 +139,38 @@ template <class Enum> void add_words(Key& key) {
     }
 }
 
+/// A key without a member yet.
+inline Key named_key(std::string name, std::string_view unit, std::string_view help) {
+    Key named;
+    named.name = std::move(name);
+    named.unit = unit;
+    named.help = help;
+    return named;
+}
+
 /// The whole key: `member` takes a scene, const or not, and gives a reference to the member.
-template <class Get> Key key(Key declared, const Get& member) {
+template <class Get>
+Key key(std::string name, std::string_view unit, std::string_view help, const Get& member) {
+    Key declared = named_key(std::move(name), unit, help);
     using Member = std::remove_cvref_t<decltype(member(std::declval<Scene&>()))>;
-    declared.kind = declared.fields.size() > 1 ? Kind::tables : kind_of<Member>();
+    declared.kind = kind_of<Member>();
     if constexpr (std::is_enum_v<Member>) add_words<Member>(declared);
     if constexpr (is_list<Member>)
         if constexpr (std::is_enum_v<typename Member::value_type>)
             add_words<typename Member::value_type>(declared);
     declared.get = [member](const Scene& scene) { return value_of(member(scene)); };
     declared.set = [member](Scene& scene, const Value& value) { assign(member(scene), value); };
-    declared.is_same = [member](const Scene& a, const Scene& b) { return member(a) == member(b); };
+    declared.is_same = [member](const Scene& a, const Scene& b) {
+        return value_of(member(a)) == value_of(member(b));
+    };
     return declared;
 }
 
 /// A key of a list of words, each of which is a flag of the object that `member` gives.
 template <class Get, class Object>
-Key flags_key(Key declared, const Get& member,
+Key flags_key(std::string name, std::string_view unit, std::string_view help, const Get& member,
               const std::vector<std::pair<std::string_view, bool Object::*>>& flags) {
+    Key declared = named_key(std::move(name), unit, help);
     declared.kind = Kind::words;
     for (const auto& [word, flag] : flags) declared.words.push_back(word);
     declared.get = [member, flags](const Scene& scene) {

@@ -92,14 +92,12 @@ Value get_species(const Scene& scene) {
 }
 
 Key list_key() {
-    Key key{
-        .name = "discs.list",
-        .unit = "length, length/step",
-        .help = "The discs themselves; ids count from 0. Radius and mass, then spin, may follow.",
-        .fallback = "none",
-        .need = listed,
-        .fields = {{"", "[x, y, vx, vy] or [x, y, vx, vy, radius, mass]", 4, 7}}};
-    key.kind = Kind::rows;
+    Key key = named_key(
+                  "discs.list", "length, length/step",
+                  "The discs themselves; ids count from 0. Radius and mass, then spin, may follow.")
+                  .by_default("none")
+                  .needs(listed)
+                  .with_rows({{"", "[x, y, vx, vy] or [x, y, vx, vy, radius, mass]", 4, 7}});
     key.get = get_list;
     key.set = set_list;
     key.is_same = [](const Scene& a, const Scene& b) { return a.listed_discs == b.listed_discs; };
@@ -107,15 +105,15 @@ Key list_key() {
 }
 
 Key species_key() {
-    Key key{.name = "discs.species",
-            .unit = "discs, length, mass, 1/step",
-            .help = "Species of discs in the order of ids, in place of one radius.",
-            .fallback = "none",
-            .need = not_legacy,
-            .old_name = "discs.classes",
-            .fields = {
-                {"count", ""}, {"radius", ""}, {"mass", "", 1, 1, 1.0}, {"spin", "", 1, 1, 0.0}}};
-    key.kind = Kind::tables;
+    Key key = named_key("discs.species", "discs, length, mass, 1/step",
+                        "Species of discs in the order of ids, in place of one radius.")
+                  .by_default("none")
+                  .needs(not_legacy)
+                  .formerly("discs.classes")
+                  .with_rows({{"count", ""},
+                              {"radius", ""},
+                              {"mass", "", 1, 1, 1.0},
+                              {"spin", "", 1, 1, 0.0}});
     key.get = get_species;
     key.set = set_species;
     key.is_same = [](const Scene& a, const Scene& b) {
@@ -126,13 +124,12 @@ Key species_key() {
 
 /// A wish for a radius, which the reader works out: nothing stays of it in the scene.
 Key packing_key() {
-    Key key{.name = "discs.packing",
-            .unit = "1",
-            .help = "Packing fraction N pi r^2 / L^2; sets the radius.",
-            .fallback = "none",
-            .range = {0, largest_packing, true, false, "equal discs cover no more of the plane"},
-            .need = equal_discs,
-            .instead_of = {"discs.radius"}};
+    Key key = named_key("discs.packing", "1", "Packing fraction N pi r^2 / L^2; sets the radius.")
+                  .by_default("none")
+                  .within(
+                      {0, largest_packing, true, false, "equal discs cover no more of the plane"})
+                  .needs(equal_discs)
+                  .excludes({"discs.radius"});
     key.get = [](const Scene&) { return Value{}; };
     key.set = [](Scene&, const Value&) {};
     key.is_same = [](const Scene&, const Scene&) { return true; };
@@ -141,46 +138,40 @@ Key packing_key() {
 
 std::vector<Key> keys_of_time() {
     return {
-        key({.name = "time.steps",
-             .unit = "steps",
-             .help = "S, how many steps to run; 0 shows the start.",
-             .range = {0, largest_steps},
-             .is_required = true,
-             .is_physical = false},
-            [](auto& s) -> auto& { return s.steps; }),
-        key({.name = "time.method",
-             .help = "Time-stepped: at most one collision per disc and micro-step. Event-driven: "
-                     "every collision at its time.",
-             .old_name = "time.collisions"},
-            [](auto& s) -> auto& { return s.method; }),
-        key({.name = "time.micro_steps",
-             .unit = "micro-steps/step",
-             .help = "K, the micro-steps of a step. A power of two scales velocities exactly.",
-             .range = {1, largest_steps}},
-            [](auto& s) -> auto& { return s.micro_steps; }),
-        key({.name = "time.sync_every",
-             .unit = "micro-steps",
-             .help = "Time between common rewrites of all positions. Another value rounds "
-                     "differently.",
-             .range = {1, 0x1p30}},
-            [](auto& s) -> auto& { return s.sync_every; }),
-        key({.name = "time.accuracy",
-             .unit = "1",
-             .help = "A pilot chooses the fastest method with at most this relative error.",
-             .fallback = "none",
-             .range = {.low = 0, .excludes_low = true},
-             .instead_of = {"time.method", "time.micro_steps", "time.precision", "time.arithmetic",
-                            "time.contraction"}},
-            [](auto& s) -> auto& { return s.accuracy; }),
-        key({.name = "time.precision", .help = "What states are rounded to and computed in."},
+        key("time.steps", "steps", "S, how many steps to run; 0 shows the start.",
+            [](auto& s) -> auto& { return s.steps; })
+            .within({0, largest_steps})
+            .required()
+            .not_physical(),
+        key("time.method", "",
+            "Time-stepped: at most one collision per disc and micro-step. Event-driven: "
+            "every collision at its time.",
+            [](auto& s) -> auto& { return s.method; })
+            .formerly("time.collisions"),
+        key("time.micro_steps", "micro-steps/step",
+            "K, the micro-steps of a step. A power of two scales velocities exactly.",
+            [](auto& s) -> auto& { return s.micro_steps; })
+            .within({1, largest_steps}),
+        key("time.sync_every", "micro-steps",
+            "Time between common rewrites of all positions. Another value rounds "
+            "differently.",
+            [](auto& s) -> auto& { return s.sync_every; })
+            .within({1, 0x1p30}),
+        key("time.accuracy", "1",
+            "A pilot chooses the fastest method with at most this relative error.",
+            [](auto& s) -> auto& { return s.accuracy; })
+            .by_default("none")
+            .within({.low = 0, .excludes_low = true})
+            .excludes({"time.method", "time.micro_steps", "time.precision", "time.arithmetic",
+                       "time.contraction"}),
+        key("time.precision", "", "What states are rounded to and computed in.",
             [](auto& s) -> auto& { return s.precision; }),
-        key({.name = "time.arithmetic",
-             .help = "Naive: contacts by the course program's formula, which loses digits."},
+        key("time.arithmetic", "",
+            "Naive: contacts by the course program's formula, which loses digits.",
             [](auto& s) -> auto& { return s.arithmetic; }),
-        key({.name = "time.contraction",
-             .help = "Fuse the naive formula's products with their sums.",
-             .need = naive},
-            [](auto& s) -> auto& { return s.contraction; }),
+        key("time.contraction", "", "Fuse the naive formula's products with their sums.",
+            [](auto& s) -> auto& { return s.contraction; })
+            .needs(naive),
     };
 }
 
@@ -188,69 +179,58 @@ std::vector<Key> keys_of_time() {
 
 std::vector<Key> keys_of_discs() {
     std::vector<Key> all = {
-        key({.name = "box.size",
-             .unit = "length",
-             .help = "L, the side of the square box; the walls are at 0 and L.",
-             .range = lengths,
-             .is_required = true},
-            [](auto& s) -> auto& { return s.box_size; }),
-        key({.name = "discs.count",
-             .unit = "discs",
-             .help = "N, the number of discs; a list or species give it too.",
-             .range = {1, static_cast<double>(largest_count)},
-             .is_required = true,
-             .or_from = {"discs.list", "discs.species"}},
-            [](auto& s) -> auto& { return s.n_discs; }),
-        key({.name = "discs.radius",
-             .unit = "length",
-             .help = "r, the radius of a disc; or give 'discs.packing'.",
-             .range = lengths,
-             .need = equal_discs,
-             .is_required = true,
-             .or_from = {"discs.packing", "discs.species"}},
-            [](auto& s) -> auto& { return s.radius; }),
+        key("box.size", "length", "L, the side of the square box; the walls are at 0 and L.",
+            [](auto& s) -> auto& { return s.box_size; })
+            .within(lengths)
+            .required(),
+        key("discs.count", "discs", "N, the number of discs; a list or species give it too.",
+            [](auto& s) -> auto& { return s.n_discs; })
+            .within({1, static_cast<double>(largest_count)})
+            .required()
+            .unless({"discs.list", "discs.species"}),
+        key("discs.radius", "length", "r, the radius of a disc; or give 'discs.packing'.",
+            [](auto& s) -> auto& { return s.radius; })
+            .within(lengths)
+            .needs(equal_discs)
+            .required()
+            .unless({"discs.packing", "discs.species"}),
         packing_key(),
         species_key(),
-        key({.name = "discs.generator",
-             .help = "Random: uniform without overlaps. Lattice: shaken. Legacy: C `rand`. File: "
-                     "discs are listed.",
-             .fallback = "\"random\"; \"file\" with a list or file"},
-            [](auto& s) -> auto& { return s.generator; }),
+        key("discs.generator", "",
+            "Random: uniform without overlaps. Lattice: shaken. Legacy: C `rand`. File: "
+            "discs are listed.",
+            [](auto& s) -> auto& { return s.generator; })
+            .by_default("\"random\"; \"file\" with a list or file"),
         list_key(),
-        key({.name = "discs.file",
-             .help = "File of lines `id x y vx vy`, from the scene's folder. Ids are 0 to N-1.",
-             .fallback = "none",
-             .need = listed,
-             .instead_of = {"discs.list"}},
-            [](auto& s) -> auto& { return s.discs_file; }),
-        key({.name = "discs.columns",
-             .help = "What lines of the file have besides, in that order. Mass needs radius.",
-             .need = listed,
-             .instead_of = {"discs.list"}},
-            [](auto& s) -> auto& { return s.disc_columns; }),
-        key({.name = "discs.speed",
-             .unit = "length/step",
-             .help = "Root mean square of the generated speeds.",
-             .range = {smallest_size, 0x1p-8 * largest_size, false, true},
-             .need = random_speeds},
-            [](auto& s) -> auto& { return s.speed; }),
-        key({.name = "discs.velocities",
-             .help = "Maxwell distribution, or isotropic with speeds uniform up to sqrt(3) times "
-                     "the mean square root.",
-             .need = random_speeds},
-            [](auto& s) -> auto& { return s.velocities; }),
-        key({.name = "discs.seed",
-             .unit = "1",
-             .help = "The same seed gives the same discs on any number of ranks.",
-             .range = {.low = 0},
-             .need = generated},
-            [](auto& s) -> auto& { return s.seed; }),
-        key({.name = "discs.streams",
-             .unit = "length, length/step",
-             .help = "Adds a velocity to generated discs inside a region.",
-             .need = generated,
-             .fields = {{"region", "[x0, y0, x1, y1]", 4, 4}, {"velocity", "[vx, vy]", 2, 2}}},
-            [](auto& s) -> auto& { return s.streams; }),
+        key("discs.file", "",
+            "File of lines `id x y vx vy`, from the scene's folder. Ids are 0 to N-1.",
+            [](auto& s) -> auto& { return s.discs_file; })
+            .by_default("none")
+            .needs(listed)
+            .excludes({"discs.list"}),
+        key("discs.columns", "",
+            "What lines of the file have besides, in that order. Mass needs radius.",
+            [](auto& s) -> auto& { return s.disc_columns; })
+            .needs(listed)
+            .excludes({"discs.list"}),
+        key("discs.speed", "length/step", "Root mean square of the generated speeds.",
+            [](auto& s) -> auto& { return s.speed; })
+            .within({smallest_size, 0x1p-8 * largest_size, false, true})
+            .needs(random_speeds),
+        key("discs.velocities", "",
+            "Maxwell distribution, or isotropic with speeds uniform up to sqrt(3) times "
+            "discs.speed.",
+            [](auto& s) -> auto& { return s.velocities; })
+            .needs(random_speeds),
+        key("discs.seed", "1", "The same seed gives the same discs on any number of ranks.",
+            [](auto& s) -> auto& { return s.seed; })
+            .within({.low = 0})
+            .needs(generated),
+        key("discs.streams", "length, length/step",
+            "Adds a velocity to generated discs inside a region.",
+            [](auto& s) -> auto& { return s.streams; })
+            .needs(generated)
+            .with_rows({{"region", "[x0, y0, x1, y1]", 4, 4}, {"velocity", "[vx, vy]", 2, 2}}),
     };
     for (Key& one : keys_of_time()) all.push_back(std::move(one));
     return all;

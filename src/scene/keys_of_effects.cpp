@@ -41,73 +41,62 @@ Range wall_speeds(std::size_t side) {
 
 void add_side(std::vector<Key>& all, std::size_t side) {
     const std::string table = std::string("box.") + boundary_names[side];
-    all.push_back(key(
-        {.name = table + ".kind",
-         .help = "Wall; thermal: discs leave as if from a gas; moving: a piston; open: discs leave "
-                 "the box; periodic, in pairs."},
-        [side](auto& s) -> auto& { return s.effects.boundaries[side].kind; }));
-    all.push_back(key({.name = table + ".restitution",
-                       .unit = "1",
-                       .help = "Share of the normal velocity that is left after a collision.",
-                       .range = shares,
-                       .need = reflecting(side)},
-                      [side](auto& s) -> auto& { return s.effects.boundaries[side].restitution; }));
-    all.push_back(key({.name = table + ".temperature",
-                       .unit = "length^2/step^2",
-                       .help = "kT of a thermal wall, for discs of mass 1.",
-                       .range = {1e-60, 1e60},
-                       .need = side_needs(side, BoundaryKind::thermal, "thermal"),
-                       .is_required = true},
-                      [side](auto& s) -> auto& { return s.effects.boundaries[side].temperature; }));
-    all.push_back(key({.name = table + ".speed",
-                       .unit = "length/step",
-                       .help = "Speed of a moving wall along +x or +y.",
-                       .range = wall_speeds(side),
-                       .need = side_needs(side, BoundaryKind::moving, "moving"),
-                       .is_required = true},
-                      [side](auto& s) -> auto& { return s.effects.boundaries[side].speed; }));
+    all.push_back(
+        key(table + ".kind", "",
+            "Wall; thermal: discs leave as if from a gas; moving: a piston; open: discs leave "
+            "the box; periodic, in pairs.",
+            [side](auto& s) -> auto& { return s.effects.boundaries[side].kind; }));
+    all.push_back(key(table + ".restitution", "1",
+                      "Share of the normal velocity that is left after a collision.",
+                      [side](auto& s) -> auto& { return s.effects.boundaries[side].restitution; })
+                      .within(shares)
+                      .needs(reflecting(side)));
+    all.push_back(key(table + ".temperature", "length^2/step^2",
+                      "kT of a thermal wall, for discs of mass 1.",
+                      [side](auto& s) -> auto& { return s.effects.boundaries[side].temperature; })
+                      .within({1e-60, 1e60})
+                      .needs(side_needs(side, BoundaryKind::thermal, "thermal"))
+                      .required());
+    all.push_back(key(table + ".speed", "length/step", "Speed of a moving wall along +x or +y.",
+                      [side](auto& s) -> auto& { return s.effects.boundaries[side].speed; })
+                      .within(wall_speeds(side))
+                      .needs(side_needs(side, BoundaryKind::moving, "moving"))
+                      .required());
 }
 
 std::vector<Key> keys_of_contact() {
     return {
-        key({.name = "effects.contact.kind",
-             .help = "None: discs pass through each other. Restitution: they lose energy. Rough: "
-                     "they turn and rub, too."},
+        key("effects.contact.kind", "",
+            "None: discs pass through each other. Restitution: they lose energy. Rough: "
+            "they turn and rub, too.",
             [](auto& s) -> auto& { return s.effects.contact.kind; }),
-        key({.name = "effects.contact.restitution",
-             .unit = "1",
-             .help = "e, the share of the normal relative velocity that is left.",
-             .range = shares,
-             .need = lossy_pairs,
-             .is_required = true},
-            [](auto& s) -> auto& { return s.effects.contact.restitution; }),
-        key({.name = "effects.contact.tangential_restitution",
-             .unit = "1",
-             .help = "Of surfaces that stick, from -1 (smooth) to 1 (perfectly rough).",
-             .range = {-1, 1},
-             .need = rough,
-             .is_required = true},
-            [](auto& s) -> auto& { return s.effects.contact.tangential_restitution; }),
-        key({.name = "effects.contact.friction",
-             .unit = "1",
-             .help = "Coulomb's coefficient; surfaces slide beyond it.",
-             .fallback = "no limit",
-             .range = {0, 1e6},
-             .need = rough},
-            [](auto& s) -> auto& { return s.effects.contact.friction; }),
-        key({.name = "effects.contact.moment_of_inertia",
-             .unit = "m r^2",
-             .help = "Of a disc; 0.5 is a uniform one's.",
-             .range = {1e-6, 1},
-             .need = rough},
-            [](auto& s) -> auto& { return s.effects.contact.inertia; }),
-        key({.name = "effects.contact.contact_time",
-             .unit = "steps",
-             .help = "A disc that has collided this recently collides elastically. At most a "
-                     "quarter of the time between syncs.",
-             .range = {.low = 0, .excludes_low = true},
-             .need = loss_or_gravity},
-            [](auto& s) -> auto& { return s.effects.contact.contact_time; }),
+        key("effects.contact.restitution", "1",
+            "e, the share of the normal relative velocity that is left.",
+            [](auto& s) -> auto& { return s.effects.contact.restitution; })
+            .within(shares)
+            .needs(lossy_pairs)
+            .required(),
+        key("effects.contact.tangential_restitution", "1",
+            "Of surfaces that stick, from -1 (smooth) to 1 (perfectly rough).",
+            [](auto& s) -> auto& { return s.effects.contact.tangential_restitution; })
+            .within({-1, 1})
+            .needs(rough)
+            .required(),
+        key("effects.contact.friction", "1", "Coulomb's coefficient; surfaces slide beyond it.",
+            [](auto& s) -> auto& { return s.effects.contact.friction; })
+            .by_default("no limit")
+            .within({0, 1e6})
+            .needs(rough),
+        key("effects.contact.moment_of_inertia", "m r^2", "Of a disc; 0.5 is a uniform one's.",
+            [](auto& s) -> auto& { return s.effects.contact.inertia; })
+            .within({1e-6, 1})
+            .needs(rough),
+        key("effects.contact.contact_time", "steps",
+            "A disc that has collided this recently collides elastically. At most a "
+            "quarter of the time between syncs.",
+            [](auto& s) -> auto& { return s.effects.contact.contact_time; })
+            .within({.low = 0, .excludes_low = true})
+            .needs(loss_or_gravity),
     };
 }
 
@@ -118,37 +107,30 @@ std::vector<Key> keys_of_effects() {
     for (std::size_t side = 0; side < boundary_names.size(); ++side) add_side(all, side);
     for (Key& one : keys_of_contact()) all.push_back(std::move(one));
     std::vector<Key> others = {
-        key({.name = "effects.gravity.x", .unit = "length/step^2", .help = "Acceleration along x."},
+        key("effects.gravity.x", "length/step^2", "Acceleration along x.",
             [](auto& s) -> auto& { return s.effects.gravity.x; }),
-        key({.name = "effects.gravity.y", .unit = "length/step^2", .help = "Acceleration along y."},
+        key("effects.gravity.y", "length/step^2", "Acceleration along y.",
             [](auto& s) -> auto& { return s.effects.gravity.y; }),
-        key({.name = "effects.drag.rate",
-             .unit = "1/step",
-             .help = "c of dv/dt = -c v, for all discs alike. At most 4 per time between syncs.",
-             .range = {.low = 0}},
-            [](auto& s) -> auto& { return s.effects.drag; }),
-        key({.name = "effects.thermal.seed",
-             .unit = "1",
-             .help = "Seed of the random numbers of thermal walls.",
-             .range = {.low = 0},
-             .need = thermal},
-            [](auto& s) -> auto& { return s.effects.thermal_seed; }),
-        key({.name = "effects.obstacles.discs",
-             .unit = "length",
-             .help = "Fixed discs; a radius of 0 is a point.",
-             .fields = {{"", "[x, y, radius]", 3, 3}}},
-            [](auto& s) -> auto& { return s.effects.obstacles.discs; }),
-        key({.name = "effects.obstacles.segments",
-             .unit = "length",
-             .help = "Straight walls without thickness; discs meet both faces and both ends.",
-             .fields = {{"", "[x0, y0, x1, y1]", 4, 4}}},
-            [](auto& s) -> auto& { return s.effects.obstacles.segments; }),
-        key({.name = "effects.obstacles.restitution",
-             .unit = "1",
-             .help = "Share of the normal velocity that is left, of all obstacles.",
-             .range = shares,
-             .need = obstacles},
-            [](auto& s) -> auto& { return s.effects.obstacles.restitution; }),
+        key("effects.drag.rate", "1/step",
+            "c of dv/dt = -c v, for all discs alike. At most 4 per time between syncs.",
+            [](auto& s) -> auto& { return s.effects.drag; })
+            .within({.low = 0}),
+        key("effects.thermal.seed", "1", "Seed of the random numbers of thermal walls.",
+            [](auto& s) -> auto& { return s.effects.thermal_seed; })
+            .within({.low = 0})
+            .needs(thermal),
+        key("effects.obstacles.discs", "length", "Fixed discs; a radius of 0 is a point.",
+            [](auto& s) -> auto& { return s.effects.obstacles.discs; })
+            .with_rows({{"", "[x, y, radius]", 3, 3}}),
+        key("effects.obstacles.segments", "length",
+            "Straight walls without thickness; discs meet both faces and both ends.",
+            [](auto& s) -> auto& { return s.effects.obstacles.segments; })
+            .with_rows({{"", "[x0, y0, x1, y1]", 4, 4}}),
+        key("effects.obstacles.restitution", "1",
+            "Share of the normal velocity that is left, of all obstacles.",
+            [](auto& s) -> auto& { return s.effects.obstacles.restitution; })
+            .within(shares)
+            .needs(obstacles),
     };
     for (Key& one : others) all.push_back(std::move(one));
     return all;

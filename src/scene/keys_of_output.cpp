@@ -16,7 +16,7 @@ Need quantity(std::string text, bool (*holds)(const MeasurementOutput&)) {
 }
 
 Key trajectory_precision() {
-    Key key{.name = "output.trajectory.precision", .help = "Of the numbers in the file."};
+    Key key = named_key("output.trajectory.precision", "", "Of the numbers in the file.");
     key.kind = Kind::choice;
     key.words = {"single", "double"};
     key.get = [](const Scene& s) {
@@ -33,32 +33,27 @@ Key trajectory_precision() {
 
 std::vector<Key> keys_of_checkpoints() {
     return {
-        key({.name = "output.text",
-             .help = "Lines of discs on standard output: none, those of steps 0 and S, or all."},
+        key("output.text", "",
+            "Lines of discs on standard output: none, those of steps 0 and S, or all.",
             [](auto& s) -> auto& { return s.text_output; }),
-        key({.name = "output.checkpoint.folder",
-             .help = "The folder for checkpoints; made where there is none.",
-             .is_required = true},
-            [](auto& s) -> auto& { return s.checkpoint->folder; }),
-        key({.name = "output.checkpoint.every_steps",
-             .unit = "steps",
-             .help = "Time from checkpoint to checkpoint.",
-             .fallback = "none",
-             .range = every},
-            [](auto& s) -> auto& { return s.checkpoint->every_steps; }),
-        key({.name = "output.checkpoint.every_minutes",
-             .unit = "minutes",
-             .help = "And after this much wall time without one.",
-             .fallback = "none",
-             .range = {.low = 0, .excludes_low = true}},
-            [](auto& s) -> auto& { return s.checkpoint->every_minutes; }),
-        key({.name = "output.checkpoint.at_end", .help = "And at the last step."},
+        key("output.checkpoint.folder", "", "The folder for checkpoints; made where there is none.",
+            [](auto& s) -> auto& { return s.checkpoint->folder; })
+            .required(),
+        key("output.checkpoint.every_steps", "steps", "Time from checkpoint to checkpoint.",
+            [](auto& s) -> auto& { return s.checkpoint->every_steps; })
+            .by_default("none")
+            .within(every),
+        key("output.checkpoint.every_minutes", "minutes",
+            "And after this much wall time without one.",
+            [](auto& s) -> auto& { return s.checkpoint->every_minutes; })
+            .by_default("none")
+            .within({.low = 0, .excludes_low = true}),
+        key("output.checkpoint.at_end", "", "And at the last step.",
             [](auto& s) -> auto& { return s.checkpoint->at_end; }),
-        key({.name = "output.checkpoint.keep",
-             .unit = "files",
-             .help = "How many to keep; older ones are removed once a newer one is on disk.",
-             .range = {1, 1e6}},
-            [](auto& s) -> auto& { return s.checkpoint->keep; }),
+        key("output.checkpoint.keep", "files",
+            "How many to keep; older ones are removed once a newer one is on disk.",
+            [](auto& s) -> auto& { return s.checkpoint->keep; })
+            .within({1, 1e6}),
     };
 }
 
@@ -70,45 +65,37 @@ std::vector<Key> keys_of_recordings() {
         {"collisions", &Output::has_collisions},
         {"angular_velocity", &Output::has_angular_velocity}};
     return {
-        key({.name = "output.trajectory.file",
-             .help = "One H5MD file of frames.",
-             .is_required = true},
-            [](auto& s) -> auto& { return s.trajectory->file; }),
-        key({.name = "output.trajectory.every_steps",
-             .unit = "steps",
-             .help = "Time from frame to frame.",
-             .range = every},
-            [](auto& s) -> auto& { return s.trajectory->every_steps; }),
+        key("output.trajectory.file", "", "One H5MD file of frames.",
+            [](auto& s) -> auto& { return s.trajectory->file; })
+            .required(),
+        key("output.trajectory.every_steps", "steps", "Time from frame to frame.",
+            [](auto& s) -> auto& { return s.trajectory->every_steps; })
+            .within(every),
         flags_key(
-            {.name = "output.trajectory.fields",
-             .help = "What a frame has of each disc; collisions are its two counters.",
-             .fallback = "position, velocity; angular_velocity of rough discs",
-             .range = at_least_one},
-            [](auto& s) -> auto& { return *s.trajectory; }, fields),
+            "output.trajectory.fields", "",
+            "What a frame has of each disc; collisions are its two counters.",
+            [](auto& s) -> auto& { return *s.trajectory; }, fields)
+            .by_default("position, velocity; angular_velocity of rough discs")
+            .within(at_least_one),
         trajectory_precision(),
-        key({.name = "output.trajectory.compression",
-             .unit = "1",
-             .help = "From 0, none, to 9, smallest.",
-             .range = {0, 9}},
-            [](auto& s) -> auto& { return s.trajectory->compression; }),
-        key({.name = "output.collisions.file",
-             .help = "One HDF5 file of every collision.",
-             .is_required = true},
-            [](auto& s) -> auto& { return s.collisions->file; }),
+        key("output.trajectory.compression", "1", "From 0, none, to 9, smallest.",
+            [](auto& s) -> auto& { return s.trajectory->compression; })
+            .within({0, 9}),
+        key("output.collisions.file", "", "One HDF5 file of every collision.",
+            [](auto& s) -> auto& { return s.collisions->file; })
+            .required(),
     };
 }
 
 /// The distance is worked out where it is not named.
 Key largest_distance() {
-    Key distance = key(
-        {.name = "output.measurements.largest_distance",
-         .unit = "length",
-         .help = "Reach of the radial distribution; at most half the box of centres.",
-         .fallback = "5 diameters",
-         .range = {.low = 0, .excludes_low = true},
-         .need = quantity("\"radial_distribution\"",
-                          [](const auto& m) { return m.radial_distribution; })},
-        [](auto& s) -> auto& { return s.measurements->largest_distance; });
+    Key distance = key("output.measurements.largest_distance", "length",
+                       "Reach of the radial distribution; at most half the box of centres.",
+                       [](auto& s) -> auto& { return s.measurements->largest_distance; })
+                       .by_default("5 diameters")
+                       .within({.low = 0, .excludes_low = true})
+                       .needs(quantity("\"radial_distribution\"",
+                                       [](const auto& m) { return m.radial_distribution; }));
     distance.get = [](const Scene& s) {
         const MeasurementOutput& output = *s.measurements;
         return output.is_distance_default ? Value{} : value_of(output.largest_distance);
@@ -125,43 +112,36 @@ std::vector<Key> keys_of_measurements() {
         {"density", &Output::density},
         {"displacement", &Output::displacement}};
     return {
-        key({.name = "output.measurements.folder",
-             .help = "The folder for the tables.",
-             .is_required = true},
-            [](auto& s) -> auto& { return s.measurements->folder; }),
+        key("output.measurements.folder", "", "The folder for the tables.",
+            [](auto& s) -> auto& { return s.measurements->folder; })
+            .required(),
         flags_key(
-            {.name = "output.measurements.quantities",
-             .help = "What is measured.",
-             .range = at_least_one,
-             .is_required = true},
-            [](auto& s) -> auto& { return *s.measurements; }, quantities),
-        key({.name = "output.measurements.every_steps",
-             .unit = "steps",
-             .help = "Time from sample to sample.",
-             .range = every},
-            [](auto& s) -> auto& { return s.measurements->every_steps; }),
-        key({.name = "output.measurements.from_step",
-             .unit = "steps",
-             .help = "Step of the first sample: leave out the time of equilibration.",
-             .range = {0, largest_steps}},
-            [](auto& s) -> auto& { return s.measurements->from_step; }),
-        key({.name = "output.measurements.bins",
-             .unit = "1",
-             .help = "Bins of each table of distances, velocities or places.",
-             .range = {1, 10000},
-             .need = quantity("\"radial_distribution\", \"velocities\" or \"density\"",
-                              [](const Output& m) {
-                                  return m.radial_distribution || m.velocities || m.density;
-                              })},
-            [](auto& s) -> auto& { return s.measurements->bins; }),
+            "output.measurements.quantities", "", "What is measured.",
+            [](auto& s) -> auto& { return *s.measurements; }, quantities)
+            .within(at_least_one)
+            .required(),
+        key("output.measurements.every_steps", "steps", "Time from sample to sample.",
+            [](auto& s) -> auto& { return s.measurements->every_steps; })
+            .within(every),
+        key("output.measurements.from_step", "steps",
+            "Step of the first sample: leave out the time of equilibration.",
+            [](auto& s) -> auto& { return s.measurements->from_step; })
+            .within({0, largest_steps}),
+        key("output.measurements.bins", "1",
+            "Bins of each table of distances, velocities or places.",
+            [](auto& s) -> auto& { return s.measurements->bins; })
+            .within({1, 10000})
+            .needs(quantity("\"radial_distribution\", \"velocities\" or \"density\"",
+                            [](const Output& m) {
+                                return m.radial_distribution || m.velocities || m.density;
+                            })),
         largest_distance(),
-        key({.name = "output.measurements.largest_velocity",
-             .unit = "length/step",
-             .help = "Largest component in the table of velocities.",
-             .fallback = "5 standard deviations",
-             .range = {.low = 0, .excludes_low = true},
-             .need = quantity("\"velocities\"", [](const auto& m) { return m.velocities; })},
-            [](auto& s) -> auto& { return s.measurements->largest_velocity; }),
+        key("output.measurements.largest_velocity", "length/step",
+            "Largest component in the table of velocities.",
+            [](auto& s) -> auto& { return s.measurements->largest_velocity; })
+            .by_default("5 standard deviations")
+            .within({.low = 0, .excludes_low = true})
+            .needs(quantity("\"velocities\"", [](const auto& m) { return m.velocities; })),
     };
 }
 

@@ -53,8 +53,6 @@ enum class DiscColumn { radius, mass, spin };
 struct Stream {
     double x_low = 0, y_low = 0, x_high = 0, y_high = 0;
     double vx = 0, vy = 0;
-
-    friend bool operator==(const Stream&, const Stream&) = default;
 };
 
 /// `[output.checkpoint]`: when the state is stored, and where. At the end and on a signal as well.
