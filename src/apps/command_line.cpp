@@ -11,6 +11,7 @@
 
 #include "apps/accuracy_command.hpp"
 #include "apps/file_commands.hpp"
+#include "apps/keys_command.hpp"
 #include "apps/run_command.hpp"
 #include "apps/version_text.hpp"
 
@@ -26,6 +27,7 @@ constexpr const char* examples = R"(Examples:
   carrom info FILE.h5
   carrom diff A.h5 B.h5
   carrom convert FILE.h5 --to xyz > discs.xyz
+  carrom keys
   carrom run --help
 
 Discs move freely and collide with each other and with the walls of a square box.
@@ -137,7 +139,8 @@ Action parse_command_line(int argc, char** argv) {
     app.require_subcommand(1);
     const std::vector<Subcommand> subcommands = {run_subcommand(),  accuracy_subcommand(),
                                                  info_subcommand(), verify_subcommand(),
-                                                 diff_subcommand(), convert_subcommand()};
+                                                 diff_subcommand(), convert_subcommand(),
+                                                 keys_subcommand()};
     for (const Subcommand& subcommand : subcommands) declare(app, subcommand);
     try {
         app.parse(argc, argv);

@@ -11,7 +11,6 @@ namespace carrom {
 /// Fills in all but the name and the text. Without a right `discs.count` the number of discs is 0;
 /// where box and radius are not right together both are 0. `columns`: those of `discs.columns`,
 /// where they have been read.
-void fill_scene(Scene& scene, const Settings& settings, Problems& problems,
-                const DiscColumns* columns);
+void fill_scene(Scene& scene, Settings& settings, Problems& problems, const DiscColumns* columns);
 
 } // namespace carrom

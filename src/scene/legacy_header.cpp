@@ -2,6 +2,7 @@
 #include "scene/legacy_header.hpp"
 
 #include <array>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -24,32 +25,36 @@ constexpr std::array<Entry, legacy_header_lines> entries = {
      {"time.steps", "S, the number of steps", true},
      {"output.text", "'print' or 'perf'", false}}};
 
+/// The word as the entry's value, or nothing where it is none.
+std::optional<Value> value_of(const Entry& entry, std::string_view word) {
+    if (entry.key == "output.text") {
+        if (word == "print") return Value{std::string("every_step")};
+        if (word == "perf") return Value{std::string("ends")};
+        return std::nullopt;
+    }
+    const auto integer = parse_integer(word);
+    if (entry.is_integer && integer) return Value{*integer};
+    const auto number = parse_double(word);
+    return number ? std::optional(Value{*number}) : std::nullopt;
+}
+
 void add_entry(Settings& settings, Problems& problems, const Entry& entry, std::string_view word,
                const Place& place) {
-    Setting setting{std::string(entry.key), place, {}};
-    if (entry.key == "output.text") {
-        if (word == "print" || word == "perf")
-            setting.value = std::string(word == "print" ? "every_step" : "ends");
-        else
-            return add_problem(problems, place,
-                               fmt::format("expected {}, not {}", entry.meaning, quoted(word)));
-    } else if (const auto integer = parse_integer(word); entry.is_integer && integer) {
-        setting.value = *integer;
-    } else if (const auto number = parse_double(word)) {
-        setting.value = *number;
-    } else {
+    auto value = value_of(entry, word);
+    if (!value)
         return add_problem(problems, place,
                            fmt::format("expected {}, not {}", entry.meaning, quoted(word)));
-    }
-    settings.set(std::move(setting));
+    value->line = place.line;
+    settings.set({std::string(entry.key), place, std::move(*value)});
 }
 
 } // namespace
 
 void add_legacy_header(Settings& settings, Problems& problems, std::string_view text,
                        const std::string& name, bool discs_follow) {
-    for (const Entry& entry : entries) settings.mention(entry.key);
     Place place{name, 0};
+    for (const Entry& entry : entries) // one that does not come is reported here
+        settings.set({std::string(entry.key), place, {}, true});
     std::size_t found = 0;
     while (!text.empty() && found < entries.size()) {
         const std::size_t end = text.find('\n');
@@ -71,7 +76,7 @@ void add_legacy_header(Settings& settings, Problems& problems, std::string_view 
     else if (found < entries.size())
         add_problem(problems, place,
                     fmt::format("the input ends before {}", entries[found].meaning));
-    settings.set({"discs.generator", place, std::string(discs_follow ? "file" : "legacy")});
+    settings.set({"discs.generator", place, {std::string(discs_follow ? "file" : "legacy")}});
 }
 
 } // namespace carrom

@@ -1,12 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/limits.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
 namespace carrom {
+
+bool has_boundary(const Effects& effects, BoundaryKind kind) {
+    return std::any_of(effects.boundaries.begin(), effects.boundaries.end(),
+                       [kind](const Boundary& side) { return side.kind == kind; });
+}
+
+bool are_pairs_lossy(const Effects& effects) {
+    return effects.contact.kind == ContactKind::restitution ||
+           effects.contact.kind == ContactKind::rough;
+}
+
+bool lose_energy_or_fall(const Effects& effects) {
+    const auto is_lossy = [&effects](const Boundary& side) {
+        return side.restitution < 1 ||
+               (effects.drag > 0 && side.speed != 0); // drag presses discs against such a wall
+    };
+    return std::any_of(effects.boundaries.begin(), effects.boundaries.end(), is_lossy) ||
+           are_pairs_lossy(effects) || effects.gravity.is_any() ||
+           effects.obstacles.restitution < 1;
+}
 
 std::string velocity_problem(double component) {
     const double size = std::fabs(component);
@@ -17,6 +38,14 @@ std::string velocity_problem(double component) {
     if (size != 0 && size < smallest_size)
         return fmt::format("the velocity {} is too small (0, or at least 2^-250)", component);
     return {};
+}
+
+std::string speed_problem(double speed, const Scene& scene) {
+    const double most = most_crossings * scene.box_size * static_cast<double>(scene.micro_steps);
+    if (scene.method != Method::event_driven || !(std::fabs(speed) > most) || most == 0) return {};
+    return fmt::format("the speed {} crosses the box more than 2^40 times in a micro-step; take "
+                       "more time.micro_steps, or at most {:g}",
+                       speed, most);
 }
 
 std::string column_problem(DiscColumn column, double number) {
@@ -66,7 +95,10 @@ std::string disc_problem(const InputDisc& disc, const Scene& scene, double radiu
                         scene.effects.are_periodic()
                             ? fmt::format(", between periodic sides 0 and L = {}", scene.box_size)
                             : ""));
-    for (const double component : {disc.vx, disc.vy}) add(velocity_problem(component));
+    for (const double component : {disc.vx, disc.vy}) {
+        add(velocity_problem(component));
+        add(speed_problem(component, scene));
+    }
     return all;
 }
 

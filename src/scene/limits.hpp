@@ -27,9 +27,19 @@ inline constexpr double smallest_single_size = 0x1p-40,
                         largest_single_size = 0x1p+40; ///< their fourth powers are floats
 inline constexpr double largest_box_in_radii =
     1e6; ///< beyond, the wall band 1e-8 r drowns in the rounding of L
+inline constexpr double most_crossings =
+    0x1p40; ///< of the box in a micro-step; beyond, times of collisions are all the same number
+
+bool has_boundary(const Effects& effects, BoundaryKind kind);
+bool are_pairs_lossy(const Effects& effects);
+/// Whether discs may come to rest on each other, or on a wall, so that a contact time is needed.
+bool lose_energy_or_fall(const Effects& effects);
 
 /// What is wrong with a velocity component, or empty.
 std::string velocity_problem(double component);
+
+/// The same for a speed in this scene, which knows the box and the method; the box may be 0.
+std::string speed_problem(double speed, const Scene& scene);
 
 /// What is wrong with a disc's radius, mass or spin, or empty.
 std::string column_problem(DiscColumn column, double number);

@@ -1,52 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/overrides.hpp"
 
-#include <array>
-#include <utility>
-
 #include <fmt/format.h>
 
-#include "scene/keys.hpp"
+#include "scene/checked_value.hpp"
 #include "scene/number.hpp"
-#include "scene/toml_settings.hpp"
+#include "scene/toml_text.hpp"
+#include "scene/unknown_key.hpp"
 
 namespace carrom {
 
 namespace {
 
-/// Pairs that say the same thing in two ways; the one from the command line wins.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 3> rivals = {
-    {{"discs.radius", "discs.packing"},
-     {"discs.file", "discs.list"},
-     {"discs.columns", "discs.list"}}};
-
-/// An accuracy asks for these to be chosen.
-constexpr std::array<std::string_view, 5> chosen_by_accuracy = {
-    "time.method", "time.micro_steps", "time.precision", "time.arithmetic", "time.contraction"};
-
-void remove_rivals_of_accuracy(Settings& settings, const Settings& given) {
-    for (const std::string_view key : chosen_by_accuracy) {
-        if (given.has("time.accuracy"))
-            settings.remove(key);
-        else if (given.has(key))
-            settings.remove("time.accuracy");
-    }
-}
-
-void remove_rivals(Settings& settings, const Settings& given) {
-    remove_rivals_of_accuracy(settings, given);
-    for (const auto& [a, b] : rivals) {
-        if (given.has(a) && !given.has(b)) settings.remove(b);
-        if (given.has(b) && !given.has(a)) settings.remove(a);
-    }
+/// Keys of the input that have no meaning for the generator which the command line chooses.
+void remove_keys_of_other_generators(Settings& settings, const Settings& given) {
     const bool lists_discs = given.has("discs.file") || given.has("discs.list");
     if (lists_discs) settings.remove("discs.generator");
-    const Setting* setting = given.find("discs.generator");
-    if (!lists_discs && !setting) return;
-    const std::string generator = setting ? std::get<std::string>(setting->value) : "file";
-    const std::vector<Setting> present = settings.all();
-    for (const Setting& other : present)
-        if (!has_meaning_for(generator, other.key)) settings.remove(other.key);
+    Scene chosen;
+    if (given.is_right("discs.generator"))
+        find_key("discs.generator")->set(chosen, given.find("discs.generator")->value);
+    else if (lists_discs)
+        chosen.generator = Generator::file;
+    else
+        return;
+    std::erase_if(settings.all(), [&chosen](const Setting& one) {
+        const Key* other = find_key(one.key);
+        return other && other->need && other->need->is_of_generator && !other->has_meaning(chosen);
+    });
+}
+
+/// What the command line says replaces what excludes it in the input.
+void remove_rivals(Settings& settings, const Settings& given) {
+    for (const Key& key : keys()) {
+        for (const std::string_view other : key.instead_of) {
+            if (given.has(key.name)) settings.remove(other);
+            if (given.has(other)) settings.remove(key.name);
+        }
+    }
+    remove_keys_of_other_generators(settings, given);
 }
 
 } // namespace
@@ -56,19 +47,29 @@ void add_overrides(Settings& settings, Problems& problems,
     Settings given;
     for (const std::string& text : overrides) {
         const std::size_t equals = text.find('=');
-        const std::string key{trimmed(std::string_view(text).substr(0, equals))};
-        const Place place{"--set " + (key.empty() ? text : key), 0};
-        if (equals == std::string::npos || key.empty())
+        const std::string name{trimmed(std::string_view(text).substr(0, equals))};
+        const Place place{"--set " + (name.empty() ? text : name), 0};
+        const std::string word = equals == std::string::npos
+                                     ? ""
+                                     : std::string(
+                                           trimmed(std::string_view(text).substr(equals + 1)));
+        const Key* key = find_key(name);
+        if (equals == std::string::npos || name.empty()) {
             add_problem(problems, place,
                         fmt::format("{} is not of the form key=value", quoted(text)));
-        else if (!kind_of_key(key))
-            add_problem(problems, place, unknown_key_text(key));
-        else
-            add_toml_value(given, problems, key,
-                           std::string(trimmed(std::string_view(text).substr(equals + 1))), place);
+        } else if (!key) {
+            add_problem(problems, place, unknown_key_text(name, Value{word}));
+        } else {
+            const auto value = parse_value(*key, word);
+            if (!value)
+                add_problem(problems, place,
+                            fmt::format("must be {}, not {}", kind_text(*key), quoted(word)));
+            given.set({name, place, value.value_or(Value{}), !value});
+        }
     }
     remove_rivals(settings, given);
-    for (const Setting& setting : given.all()) settings.set(setting);
+    for (const Setting& setting : given.all())
+        if (!setting.is_wrong || !settings.has(setting.key)) settings.set(setting);
 }
 
 } // namespace carrom

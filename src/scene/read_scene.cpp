@@ -16,7 +16,7 @@
 #include "scene/number.hpp"
 #include "scene/overrides.hpp"
 #include "scene/settings.hpp"
-#include "scene/toml_settings.hpp"
+#include "scene/toml_text.hpp"
 
 namespace carrom {
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What an input asks for, key by key, before anything is checked: the common form of TOML scenes,
-// legacy text and
-// `--set key=value`. Each setting remembers where it stands, so that every problem can name its
-// line.
+// legacy text and `--set key=value`. Each setting remembers where it stands, so that every problem
+// can name its line.
 #pragma once
 
-#include <cstddef>
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -21,56 +20,59 @@ using Problems = std::vector<Problem>;
 
 struct Place {
     std::string name;
+    std::int64_t line = 0; ///< 0 where there are no lines, as for `--set`
+};
+
+struct Value;
+using Numbers = std::vector<double>;
+using Values = std::vector<Value>;
+using NamedValues = std::vector<std::pair<std::string, Value>>;
+
+/// A value of TOML. Rows of numbers become Numbers once they are checked; a wrong row becomes
+/// nothing (monostate), so that the rows behind it keep their places.
+struct Value {
+    std::variant<std::monostate, bool, std::int64_t, double, std::string, Numbers, Values,
+                 NamedValues>
+        data{};
     std::int64_t line = 0;
-};
 
-/// One row of numbers of `discs.list`, four to seven, or of the obstacles' lists; empty where
-/// something else was written, a problem by then.
-struct Row {
-    Place place;
-    std::vector<double> numbers;
-};
-
-/// `discs.streams`: region and velocity as written.
-struct StreamRows {
-    Place place;
-    std::size_t number = 0; ///< among the streams, from 1
-    std::vector<double> region, velocity;
-};
-
-/// One of `discs.species` as written.
-struct SpeciesRow {
-    Place place;
-    std::size_t number = 0; ///< among the classes, from 1
-    double count = 0, radius = 0, mass = 1, spin = 0;
+    bool is_nothing() const { return data.index() == 0; }
+    friend bool operator==(const Value& a, const Value& b) { return a.data == b.data; }
 };
 
 struct Setting {
     std::string key;
     Place place;
-    std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>,
-                 std::vector<Row>, std::vector<StreamRows>, std::vector<SpeciesRow>>
-        value;
+    Value value;
+    bool is_wrong = false; ///< reported already; the value is worth nothing
 };
 
+/// Settings in the order of the input. A table that is there has a setting of its name, too.
 class Settings {
 public:
-    const Setting* find(std::string_view key) const;
-    const std::vector<Setting>& all() const { return settings_; }
+    const Setting* find(std::string_view key) const {
+        const auto found = std::find_if(all_.begin(), all_.end(),
+                                        [key](const Setting& one) { return one.key == key; });
+        return found == all_.end() ? nullptr : &*found;
+    }
     bool has(std::string_view key) const { return find(key) != nullptr; }
+    /// Whether the key is there with a value that can be used.
+    bool is_right(std::string_view key) const { return has(key) && !find(key)->is_wrong; }
+
+    std::vector<Setting>& all() { return all_; }
+    const std::vector<Setting>& all() const { return all_; }
 
     /// Adds the setting; one of the same key is replaced.
-    void set(Setting setting);
-    void remove(std::string_view key);
-
-    /// Notes that the input tried to set `key`, so that a wrong value is not reported as a missing
-    /// one too.
-    void mention(std::string_view key) { mentioned_.emplace_back(key); }
-    bool is_mentioned(std::string_view key) const;
+    void set(Setting setting) {
+        remove(setting.key);
+        all_.push_back(std::move(setting));
+    }
+    void remove(std::string_view key) {
+        std::erase_if(all_, [key](const Setting& one) { return one.key == key; });
+    }
 
 private:
-    std::vector<Setting> settings_;
-    std::vector<std::string> mentioned_;
+    std::vector<Setting> all_;
 };
 
 inline void add_problem(Problems& problems, const Place& place, std::string text) {

@@ -101,6 +101,7 @@ refuse_text 'a line too many' "${header}0 3 3 1 0\n1 7 7 0 0\n2 5 5 0 0\n" 'bad.
 refuse_text 'problems on several lines' "${header}0 3 3 1\n1 99 7 0 0\n" $'bad.in:6: \nbad.in:7: '
 
 # TOML.
+printf '%s\n' "$good" >good.toml
 refuse_toml 'no TOML' '[ = 3' 'bad.toml:1: not valid TOML'
 refuse_toml 'an empty scene' '' $'\'box.size\' is missing\n\'discs.count\' is missing\n\'time.steps\' is missing'
 refuse_toml 'an unknown key' "$good"$'\nstep = 3' $'bad.toml:8: \ndid you mean \'time.steps\'?'
@@ -110,10 +111,17 @@ refuse_toml 'infinity' "${good/radius = 1/radius = inf}" 'bad.toml:5: '
 refuse_toml 'no discs at all' "${good/count = 2/count = 0}" 'bad.toml:4: '
 refuse_toml 'more discs than fit' "${good/count = 2/count = 200}" 'cannot fit into a box of side 10'
 refuse_toml 'an effect of a later version' "$good"$'\n[effects.charge]\ne = 1' 'bad.toml:8: '
+refuse_toml 'an older name of a key' "$good"$'\ncollisions = "one"' 'write time.method = "time-stepped" for "one"'
+refuse_toml 'an older word' "${good/radius = 1/radius = 1$'\n'generator = \"ancestor\"}" '"ancestor" is now "legacy"'
+refuse_toml 'an older name of a table' "$good"$'\n[[discs.classes]]\ncount = 2\nradius = 1' "'discs.classes' is now 'discs.species'"
+refuse_toml 'a misspelt effect' "$good"$'\n[effects.gravty]\ny = 1' "did you mean 'effects.gravity'?"
+refuse_toml 'a name with a NUL' "$good"$'\n[output.checkpoint]\nfolder = "a\\u0000b"' 'has a NUL character'
+refuse_toml 'a key of 40,000 parts' "$good"$'\n'"$(printf 'a.%.0s' $(seq 40000))a = 1" 'bad.toml:8: a key of more than 32 parts'
+refuse_toml 'a flood of unknown keys' "$(seq -f 'k%.0f = 1' 100000)"$'\n'"$good" 'and 99980 more unknown keys'
+refuse 'discs too fast to follow' 'crosses the box more than 2^40 times' run good.toml --set discs.speed=1e60 --set time.method=event-driven
 refuse_toml 'discs from no file' "${good/radius = 1/radius = 1$'\n'generator = \"file\"}" 'bad.toml:6: '
 refuse_toml 'discs from a file that is not there' \
     "${good/radius = 1/radius = 1$'\n'generator = \"file\"$'\n'file = \"nowhere.txt\"}" 'nowhere.txt: cannot be opened'
-printf '%s\n' "$good" >good.toml
 for device in /dev/zero /dev/full; do
     refuse "discs from $device" "$device: is not a plain file" run good.toml --set discs.file="$device"
 done

@@ -18,6 +18,9 @@ for rule in one all; do
     expect_code 0 "the neighbourhood again under $rule"
     [ "$(json_value report.json pair_collisions)" = 1 ] || complain "the contact is missed again under $rule"
     [ $rule = one ] || grep -qx '4 31 15 4 0 1 2.5 0.625' check_step_2_disc_5.discs || complain 'no radius, mass and spin of disc 5'
+    for line in 'seed = 77' 'contact_time = 0.002' 'friction = 0.25'; do
+        [ $rule = one ] || grep -qx "$line" check_step_2_disc_5.toml || complain "no '$line' in the scene of the neighbourhood"
+    done
     [ "$(json_value report.json rule)" = $rule ] || complain "the neighbourhood is run by another rule than $rule"
 done
 finish

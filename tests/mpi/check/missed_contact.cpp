@@ -48,7 +48,9 @@ int main(int argc, char** argv) {
                                                                  : Method::time_stepped;
         if (scene.method == Method::event_driven) {
             scene.effects.species = {{9, 1, 2.5}, {21, 1, 0.5}};
-            scene.effects.contact = {ContactKind::rough, 0.9, 0.001, 0.5, 0.25, 0.5};
+            scene.effects.contact = {ContactKind::rough, 0.9, 0.002, 0.5, 0.25, 0.5};
+            scene.effects.boundaries[3] = {BoundaryKind::thermal, 1, 2, 0};
+            scene.effects.thermal_seed = 77;
         }
         const std::vector<Disc> discs = thirty_discs();
         const auto at = [&](double time) {

@@ -72,8 +72,7 @@ TEST_CASE(
     CHECK(other.effects.species == std::vector<Species>{{2, 5, 2}, {1, 7, 3}, {1, 1, 1}});
     const Scene light = scene_with(from_file("[\"radius\"]", 2), "1 20 20 0 0 2\n0 10 10 1 0 4\n");
     CHECK(light.effects.species == std::vector<Species>{{1, 4, 1}, {1, 2, 1}});
-    CHECK(physical_differences(scene, other).size() ==
-          3); // radius of the largest, classes, columns
+    CHECK(physical_differences(scene, other).size() == 2); // species, columns
 }
 
 TEST_CASE("Spins at the start come from a file, a list or classes") {
@@ -121,17 +120,19 @@ TEST_CASE("Wrong columns are refused where they are named") {
     REQUIRE(whole.is_whole);
     CHECK(mentions(problems_in(from_file("[\"radius\", \"colour\"]"), whole),
                    "\"radius\", \"mass\" or \"spin\", not 'colour'"));
-    CHECK(mentions(problems_in(from_file("[\"radius\", \"radius\"]"), whole), "\"radius\" twice"));
-    CHECK(mentions(problems_in(from_file("[\"mass\"]") + "radius = 1\n"), "needs \"radius\", too"));
+    CHECK(mentions(problems_in(from_file("[\"radius\", \"radius\"]"), whole),
+                   "'discs.columns' has 'radius' twice"));
+    CHECK(mentions(problems_in(from_file("[\"mass\"]") + "radius = 1\n"),
+                   "cannot have masses in discs.columns together with columns without radii"));
     CHECK(mentions(problems_in(from_file("[\"radius\"]") + "radius = 1\n", whole),
-                   "'discs.radius' has no meaning where 'discs.columns' name radii"));
+                   "or 'discs.columns' name radii"));
     CHECK(mentions(
         problems_in(box + "[discs]\ncount = 4\nradius = 1\ncolumns = [\"spin\"]\n" + rough),
-        "has no meaning where discs.generator is \"random\""));
+        "has no meaning without discs.generator = \"file\""));
     CHECK(mentions(
         problems_in(box + "[discs]\nlist = [[10, 10, 1, 0]]\nradius = 1\ncolumns = [\"spin\"]\n" +
                     rough),
-        "no meaning without 'discs.file'"));
+        "'discs.list' and 'discs.columns' exclude each other"));
     CHECK(mentions(
         problems_in(from_file("[\"radius\"]") + "[[discs.species]]\ncount = 4\nradius = 1\n",
                     whole),

@@ -7,9 +7,9 @@
 #include <random>
 #include <string>
 
-#include "scene/keys.hpp"
 #include "scene/number.hpp"
 #include "scene/read_scene.hpp"
+#include "scene/unknown_key.hpp"
 
 using namespace carrom;
 

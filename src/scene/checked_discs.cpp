@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The checks of [discs] that look at more than one key.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "scene/check.hpp"
+#include "scene/lattice.hpp"
+#include "scene/limits.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// What may have given the radii.
+constexpr std::array<std::string_view, 5> size_keys = {
+    "discs.radius", "discs.packing", "discs.species", "discs.list", "discs.columns"};
+
+std::string body_problem(double radius, double mass) {
+    const std::string text = column_problem(DiscColumn::radius, radius);
+    return text.empty() ? column_problem(DiscColumn::mass, mass) : text;
+}
+
+std::string spin_problem(const Scene& scene, double spin) {
+    const std::string text = column_problem(DiscColumn::spin, spin);
+    if (!text.empty() || scene.effects.contact.kind == ContactKind::rough) return text;
+    return "a spin has no meaning without effects.contact.kind = \"rough\"";
+}
+
+void check_species(const Check& check) {
+    check.refuse_rows("discs.species", [&](const Numbers& n, std::size_t) -> std::string {
+        if (!(n[0] >= 1 && n[0] <= static_cast<double>(largest_count)) || n[0] != std::floor(n[0]))
+            return fmt::format("its count must be a whole number from 1 to {}, not {}",
+                               largest_count, n[0]);
+        return body_problem(n[1], n[2]);
+    });
+    bool lists_bodies = false;
+    check.for_each_row("discs.list", [&](const Numbers& n, std::size_t, const Place&) {
+        lists_bodies = lists_bodies || n.size() >= 6;
+    });
+    check.refuse_rows("discs.list", [&](const Numbers& n, std::size_t) -> std::string {
+        if (!lists_bodies) return {};
+        if (n.size() < 6) return "other rows have six numbers, [x, y, vx, vy, radius, mass]";
+        return body_problem(n[4], n[5]);
+    });
+    const bool has_column_of_radii = has_column(check.scene, DiscColumn::radius);
+    if (check.settings.has("discs.species") && (lists_bodies || has_column_of_radii))
+        check.refuse({"discs.species"}, fmt::format("'discs.species' has no meaning where '{}' "
+                                                    "name radii",
+                                                    lists_bodies ? "discs.list" : "discs.columns"));
+}
+
+void check_spins(const Check& check) {
+    bool are_given = has_column(check.scene, DiscColumn::spin);
+    check.refuse_rows("discs.list", [&](const Numbers& n, std::size_t) -> std::string {
+        if (n.size() % 2 == 0) return {};
+        are_given = true;
+        return spin_problem(check.scene, n.back());
+    });
+    check.refuse_rows("discs.species", [&](const Numbers& n, std::size_t) -> std::string {
+        if (n[3] == 0) return {};
+        return are_given ? "its spin is given by 'discs.list' or 'discs.columns' already"
+                         : spin_problem(check.scene, n[3]);
+    });
+}
+
+/// The count may be given, or follow from a list or from species; all that there are must agree.
+void fill_count(const Check& check) {
+    Scene& scene = check.scene;
+    std::uint64_t n_in_species = 0;
+    for (const Species& one : scene.effects.species) n_in_species += one.count;
+    const std::pair<std::string_view, std::uint64_t> sources[] = {
+        {"discs.list", scene.listed_discs.size()}, {"discs.species", n_in_species}};
+    std::string known_from = "discs.count";
+    for (const auto& [key, n] : sources) {
+        if (!check.settings.has(key)) continue;
+        if (n == 0 && check.settings.is_right(key))
+            check.refuse({key}, fmt::format("'{}' is empty", key));
+        else if (n > largest_count)
+            check.refuse({key}, fmt::format("'{}' has {} discs; at most {} are possible", key, n,
+                                            largest_count));
+        else if (n > 0 && scene.n_discs > 0 && n != scene.n_discs)
+            check.refuse({key}, fmt::format("'{}' has {} discs, but '{}' has {}", key, n,
+                                            known_from, scene.n_discs));
+        if (check.settings.has("discs.count") || scene.n_discs > 0) continue;
+        scene.n_discs = n;
+        known_from = key;
+    }
+}
+
+/// The widths that positions and numbers of a precision allow.
+void check_width(const Check& check, double smallest_radius) {
+    Scene& scene = check.scene;
+    const double l = scene.box_size, r = smallest_radius;
+    if (l / r > largest_box_in_radii) {
+        const std::string text = fmt::format("discs of radius {} in a box of side {}: it is {:.4g} "
+                                             "radii wide, and above {:.0e} positions "
+                                             "are too coarse for contacts with walls",
+                                             r, l, l / r, largest_box_in_radii);
+        if (scene.method == Method::event_driven)
+            scene.warnings.push_back(text);
+        else
+            check.refuse_first(size_keys, text + "; take larger discs or a smaller box (method = "
+                                                 "\"event-driven\" only warns)");
+    }
+    if (scene.precision == Precision::single &&
+        (r < smallest_single_size || l > largest_single_size))
+        check.refuse_first(size_keys,
+                           "precision = \"single\" takes lengths from 2^-40 to 2^40 only");
+}
+
+/// Whether the discs can fit at all.
+void check_sizes(const Check& check) {
+    Scene& scene = check.scene;
+    const auto& species = scene.effects.species;
+    double smallest = scene.radius;
+    for (const Species& one : species) smallest = std::min(smallest, one.radius);
+    const double l = scene.box_size, r = scene.radius;
+    const double densest = species.empty() ? largest_packing : 1;
+    if (l < 2 * r)
+        check.refuse_first(size_keys,
+                           fmt::format("a disc of radius {} does not fit into a box of side "
+                                       "{}: L < 2 r",
+                                       r, l));
+    else if (scene.packing() > densest)
+        check.refuse_first(size_keys,
+                           fmt::format("{} discs of radius {} cannot fit into a box of side "
+                                       "{}: they would cover {:.4g} of it, and no packing "
+                                       "covers more than {}",
+                                       scene.n_discs, r, l, scene.packing(), densest));
+    check_width(check, smallest);
+}
+
+/// Box and radius; true if they are known and the discs may fit.
+bool fill_sizes(const Check& check) {
+    Scene& scene = check.scene;
+    const Settings& settings = check.settings;
+    const std::size_t n_problems = check.problems.size();
+    const bool has_radius = settings.has("discs.radius");
+    if (scene.box_size == 0 || scene.n_discs == 0) return false;
+    for (const std::string_view key : size_keys) {
+        const bool may_have_wrong_rows = key == "discs.list" && scene.effects.species.empty();
+        if (settings.has(key) && !settings.is_right(key) && !may_have_wrong_rows) return false;
+    }
+    if (settings.has("discs.packing") && has_radius) return false;
+    if (settings.has("discs.packing"))
+        scene.radius = scene.box_size *
+                       std::sqrt(std::get<double>(settings.find("discs.packing")->value.data) /
+                                 (static_cast<double>(scene.n_discs) * std::numbers::pi));
+    for (const Species& one : scene.effects.species)
+        scene.radius = std::max(scene.radius, one.radius);
+    if (scene.radius == 0) return false;
+    check_sizes(check);
+    return check.problems.size() == n_problems;
+}
+
+/// Random insertion stalls at a packing fraction of about 0.54: denser gases start from a lattice.
+void check_generator(const Check& check) {
+    Scene& scene = check.scene;
+    if (scene.generator == Generator::random &&
+        scene.packing() > largest_random_packing * (1 + 1e-12)) {
+        scene.generator = Generator::lattice;
+        scene.warnings.push_back(
+            fmt::format("random insertion stalls above a packing fraction of {}; the {} discs "
+                        "(packing fraction {:.4g}) start from a shaken lattice",
+                        largest_random_packing, scene.n_discs, scene.packing()));
+    }
+    if (scene.generator == Generator::lattice &&
+        !widest_lattice(scene.n_discs, scene.box_size, scene.radius))
+        check.refuse_first(
+            size_keys,
+            fmt::format("no lattice of {} discs of radius {} fits into a box of side {}{}",
+                        scene.n_discs, scene.radius, scene.box_size,
+                        scene.effects.species.empty()
+                            ? ""
+                            : " (a lattice has room for the largest disc everywhere); list them"));
+}
+
+void check_velocities(const Check& check) {
+    const Scene& scene = check.scene;
+    if (scene.generator == Generator::legacy && scene.seed > 0xFFFFFFFFu)
+        check.refuse({"discs.seed"}, fmt::format("'discs.seed' must be from 0 to 4294967295 with "
+                                                 "discs.generator = \"legacy\", not {}",
+                                                 scene.seed));
+    if (const std::string text = speed_problem(scene.speed, scene);
+        !text.empty() && scene.generator != Generator::file)
+        check.refuse({"discs.speed"}, "'discs.speed': " + text);
+    check.refuse_rows("discs.streams", [&scene](const Numbers& n, std::size_t) {
+        std::string text;
+        const bool is_finite = std::all_of(n.begin(), n.begin() + 4,
+                                           [](double x) { return std::isfinite(x); });
+        if (!is_finite || !(n[0] < n[2] && n[1] < n[3]))
+            text = "its region must be finite, with x0 < x1 and y0 < y1";
+        for (const double v : {n[4], n[5]})
+            for (const std::string& fault : {velocity_problem(v), speed_problem(v, scene)})
+                if (!fault.empty()) text += (text.empty() ? "" : "; ") + fault;
+        return text;
+    });
+}
+
+/// Whether radii are in a file that has not been read, or has wrong lines.
+bool are_radii_unknown(const Check& check) {
+    return has_column(check.scene, DiscColumn::radius) &&
+           (!check.columns || !check.columns->is_whole);
+}
+
+} // namespace
+
+bool check_discs(const Check& check) {
+    Scene& scene = check.scene;
+    const bool is_legacy_text = scene.lines_before_discs > 0;
+    if (scene.generator == Generator::file && !is_legacy_text &&
+        !check.settings.has("discs.file") && !check.settings.has("discs.list"))
+        check.refuse(
+            {"discs.generator"},
+            "discs.generator is \"file\", but there is no 'discs.file' and no 'discs.list'");
+    const std::size_t n_problems = check.problems.size();
+    check_species(check);
+    const bool are_species_right = check.problems.size() == n_problems;
+    fill_count(check);
+    const bool is_right = fill_sizes(check) && are_species_right;
+    check_spins(check);
+    check_velocities(check);
+    if (!is_right) {
+        scene.radius = 0;
+        if (!are_radii_unknown(check)) scene.box_size = 0;
+        return false;
+    }
+    const SpeciesTable species(scene.effects.species, scene.radius);
+    check.refuse_rows("discs.list", [&](const Numbers&, std::size_t id) {
+        return disc_problem(scene.listed_discs[id], scene, species.of(id).radius);
+    });
+    check_generator(check);
+    return true;
+}
+
+} // namespace carrom

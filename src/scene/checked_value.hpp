@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Values of settings held to their keys: kind, range, words, shape of rows.
+#pragma once
+
+#include <string>
+
+#include "scene/key.hpp"
+
+namespace carrom {
+
+/// Brings the value into the form that the key's `set` takes, or adds problems and marks it wrong.
+/// A wrong row of many becomes nothing.
+void check_value(const Key& key, Setting& setting, Problems& problems);
+
+/// "a number", "an array of [x, y, radius]".
+std::string kind_text(const Key& key);
+/// "from 0 to 1", "greater than 0"; empty where every number will do.
+std::string range_text(const Range& range);
+/// For people: large powers of two as such.
+std::string number_text(double number);
+/// The shortest decimal that reads back as the same bits.
+std::string decimal_text(double number);
+/// "\"a\", \"b\" or \"c\"".
+std::string words_text(const std::vector<std::string_view>& words);
+
+} // namespace carrom

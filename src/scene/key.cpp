@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/key.hpp"
+
+namespace carrom {
+
+namespace {
+
+template <class T> const T* find(const std::vector<T>& all, std::string_view name) {
+    for (const T& one : all)
+        if (one.name == name) return &one;
+    return nullptr;
+}
+
+} // namespace
+
+const std::vector<Key>& keys() {
+    static const std::vector<Key> all = [] {
+        std::vector<Key> list = keys_of_discs();
+        for (const auto& part : {keys_of_effects(), keys_of_output()})
+            list.insert(list.end(), part.begin(), part.end());
+        return list;
+    }();
+    return all;
+}
+
+const std::vector<Table>& tables() {
+    static const std::vector<Table> all = {
+        {"box", "The box that discs move in."},
+        {"discs", "How many discs there are, and how they begin."},
+        {"time", "How long, and by which method."},
+        {"box.left", "One side of the box; likewise `[box.right]`, `[box.bottom]`, `[box.top]`."},
+        {.name = "box.right", .is_like_another = true},
+        {.name = "box.bottom", .is_like_another = true},
+        {.name = "box.top", .is_like_another = true},
+        {"effects", ""},
+        {"effects.contact", "What two discs do that touch."},
+        {"effects.gravity", "Uniform gravity."},
+        {"effects.drag", "Air at rest that slows discs down."},
+        {"effects.thermal", "Thermal walls."},
+        {"effects.obstacles", "Bodies that stand fixed in the box."},
+        {"output", "What a run writes; no key of output changes a bit of the result."},
+        {"output.checkpoint", "When and where the state is stored.",
+         [](const Scene& s) { return s.checkpoint.has_value(); },
+         [](Scene& s) { s.checkpoint.emplace(); }},
+        {"output.trajectory", "Frames in one file.",
+         [](const Scene& s) { return s.trajectory.has_value(); },
+         [](Scene& s) { s.trajectory.emplace(); }},
+        {"output.collisions", "Every collision in one file.",
+         [](const Scene& s) { return s.collisions.has_value(); },
+         [](Scene& s) { s.collisions.emplace(); }},
+        {"output.measurements", "What is sampled as the run goes on.",
+         [](const Scene& s) { return s.measurements.has_value(); },
+         [](Scene& s) { s.measurements.emplace().is_distance_default = true; }},
+    };
+    return all;
+}
+
+const Key* find_key(std::string_view name) { return find(keys(), name); }
+
+const Table* find_table(std::string_view name) { return find(tables(), name); }
+
+} // namespace carrom

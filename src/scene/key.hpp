@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one declaration of each scene key. The reader of scenes and its checks, `--set`, the
+// comparison at a restart, the writer of scenes and the reference page all work from this table.
+//
+// To add a key: add a member to Scene, and declare the key in one of the keys_of_*.cpp.
+// To say that two features do not go together: add a row to rules.cpp.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "scene/settings.hpp"
+
+namespace carrom {
+
+enum class Kind {
+    number,
+    integer,
+    flag,
+    text,
+    choice, ///< one of the key's words
+    words,  ///< an array of them
+    rows,   ///< an array of arrays of numbers
+    tables  ///< an array of tables of numbers
+};
+
+/// What a number may be, ends included.
+struct Range {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+    bool excludes_low = false;
+    bool allows_zero = false; ///< besides
+    std::string_view why = "";
+};
+
+/// What a key has no meaning without.
+struct Need {
+    std::string text; ///< goes on after "has no meaning"
+    std::function<bool(const Scene&)> holds;
+    bool is_of_generator = false; ///< depends on discs.generator alone
+};
+
+/// The numbers of a row: one nameless field for Kind::rows, those of the table for Kind::tables.
+struct Field {
+    std::string_view name;
+    std::string_view form; ///< "[x, y, radius]"
+    std::size_t least = 1, most = 1;
+    std::optional<double> fallback = {};
+};
+
+/// Made by `key` (key_members.hpp); the functions that return `Key&&` add to a declaration.
+struct Key {
+    std::string name;
+    std::string_view unit, help;
+    std::string_view fallback = ""; ///< the default, where words say it better than the value
+    Range range = {};
+    std::optional<Need> need = {};
+    bool is_required = false;                      ///< wherever the need holds
+    bool is_physical = true;                       ///< a restart cannot change it
+    std::vector<std::string_view> instead_of = {}; ///< keys that it excludes
+    std::vector<std::string_view> or_from = {};    ///< keys that save a required one
+    std::string_view old_name = "";
+    std::vector<Field> fields = {};
+
+    // Filled in from the member:
+    Kind kind = Kind::number;
+    std::vector<std::string_view> words = {};
+    std::vector<std::pair<std::string_view, std::string_view>> old_words = {}; ///< and new ones
+    std::function<Value(const Scene&)> get = {}; ///< nothing where it is not to be written
+    std::function<void(Scene&, const Value&)> set = {};
+    std::function<bool(const Scene&, const Scene&)> is_same = {};
+
+    using Names = std::vector<std::string_view>;
+    Key&& by_default(std::string_view text) && { return fallback = text, std::move(*this); }
+    Key&& within(const Range& numbers) && { return range = numbers, std::move(*this); }
+    Key&& needs(const Need& other) && { return need = other, std::move(*this); }
+    Key&& required() && { return is_required = true, std::move(*this); }
+    Key&& not_physical() && { return is_physical = false, std::move(*this); }
+    Key&& excludes(const Names& names) && { return instead_of = names, std::move(*this); }
+    Key&& unless(const Names& names) && { return or_from = names, std::move(*this); }
+    Key&& formerly(std::string_view old) && { return old_name = old, std::move(*this); }
+    Key&& with_rows(const std::vector<Field>& of) && {
+        kind = of.size() > 1 ? Kind::tables : Kind::rows;
+        return fields = of, std::move(*this);
+    }
+
+    std::string_view table() const { return std::string_view(name).substr(0, name.rfind('.')); }
+    bool has_rows() const { return kind == Kind::rows || kind == Kind::tables; }
+    bool has_meaning(const Scene& scene) const { return !need || need->holds(scene); }
+};
+
+/// A table that keys stand in.
+struct Table {
+    std::string name;
+    std::string_view help = "";
+    bool (*is_in)(const Scene&) = [](const Scene&) { return true; };
+    void (*create)(Scene&) = [](Scene&) {};
+    bool is_like_another = false; ///< the reference shows the other one
+};
+
+/// Two features that do not go together.
+struct Rule {
+    std::string_view one, other, why;
+    std::vector<std::string_view> keys;        ///< the first of them that is there has the problem
+    std::optional<BoundaryKind> boundary = {}; ///< or the first side of this kind
+    bool (*is_broken)(const Scene&);
+};
+
+/// All of them, in the order of the reference.
+const std::vector<Key>& keys();
+const std::vector<Table>& tables();
+const std::vector<Rule>& rules();
+
+const Key* find_key(std::string_view name);
+const Table* find_table(std::string_view name);
+
+std::vector<Key> keys_of_discs();
+std::vector<Key> keys_of_effects();
+std::vector<Key> keys_of_output();
+
+} // namespace carrom

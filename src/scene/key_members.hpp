@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a member of Scene to the rest of its key: kind, words, and how values come and go.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <concepts>
+#include <type_traits>
+
+#include "scene/key.hpp"
+
+namespace carrom {
+
+template <class Enum> struct Word {
+    std::string_view name;
+    Enum value;
+    std::string_view old_name = "";
+};
+
+/// The words that scenes have for an enumeration.
+template <class Enum> inline constexpr std::array<Word<Enum>, 0> words_of{};
+template <>
+inline constexpr std::array words_of<Method>{
+    Word<Method>{"time-stepped", Method::time_stepped, "one"},
+    Word<Method>{"event-driven", Method::event_driven, "all"}};
+template <>
+inline constexpr std::array words_of<Precision>{Word{"double", Precision::double_},
+                                                Word{"single", Precision::single}};
+template <>
+inline constexpr std::array words_of<Arithmetic>{Word{"stable", Arithmetic::stable},
+                                                 Word{"naive", Arithmetic::naive}};
+template <>
+inline constexpr std::array words_of<Generator>{
+    Word<Generator>{"random", Generator::random}, Word<Generator>{"lattice", Generator::lattice},
+    Word<Generator>{"legacy", Generator::legacy, "ancestor"},
+    Word<Generator>{"file", Generator::file}};
+template <>
+inline constexpr std::array words_of<VelocityKind>{Word{"maxwell", VelocityKind::maxwell},
+                                                   Word{"uniform", VelocityKind::uniform}};
+template <>
+inline constexpr std::array words_of<DiscColumn>{Word{"radius", DiscColumn::radius},
+                                                 Word{"mass", DiscColumn::mass},
+                                                 Word{"spin", DiscColumn::spin}};
+template <>
+inline constexpr std::array words_of<ContactKind>{
+    Word{"elastic", ContactKind::elastic}, Word{"none", ContactKind::none},
+    Word{"restitution", ContactKind::restitution}, Word{"rough", ContactKind::rough}};
+template <>
+inline constexpr std::array words_of<BoundaryKind>{
+    Word{"wall", BoundaryKind::fixed}, Word{"thermal", BoundaryKind::thermal},
+    Word{"moving", BoundaryKind::moving}, Word{"open", BoundaryKind::open},
+    Word{"periodic", BoundaryKind::periodic}};
+template <>
+inline constexpr std::array words_of<TextOutput>{Word{"none", TextOutput::none},
+                                                 Word{"ends", TextOutput::first_and_last},
+                                                 Word{"every_step", TextOutput::every_step}};
+
+template <class T> inline constexpr bool is_list = false;
+template <class T> inline constexpr bool is_list<std::vector<T>> = true;
+template <class T> inline constexpr bool is_optional = false;
+template <class T> inline constexpr bool is_optional<std::optional<T>> = true;
+
+/// Kinds of rows are structs of nothing but doubles, in the order of a row.
+template <class Row> using RowNumbers = std::array<double, sizeof(Row) / sizeof(double)>;
+
+template <class Member> constexpr Kind kind_of() {
+    if constexpr (std::same_as<Member, bool>)
+        return Kind::flag;
+    else if constexpr (std::is_enum_v<Member>)
+        return Kind::choice;
+    else if constexpr (std::integral<Member>)
+        return Kind::integer;
+    else if constexpr (std::floating_point<Member>)
+        return Kind::number;
+    else if constexpr (std::same_as<Member, std::string>)
+        return Kind::text;
+    else if constexpr (is_optional<Member>)
+        return kind_of<typename Member::value_type>();
+    else if constexpr (std::is_enum_v<typename Member::value_type>)
+        return Kind::words;
+    else
+        return Kind::rows;
+}
+
+template <class Member> void assign(Member& member, const Value& value) {
+    if constexpr (std::is_enum_v<Member>) {
+        for (const auto& word : words_of<Member>)
+            if (word.name == std::get<std::string>(value.data)) member = word.value;
+    } else if constexpr (is_optional<Member>) {
+        assign(member.emplace(), value);
+    } else if constexpr (is_list<Member>) {
+        member.clear();
+        for (const Value& one : std::get<Values>(value.data)) {
+            if (one.is_nothing()) continue; // a wrong row, reported already
+            if constexpr (std::is_enum_v<typename Member::value_type>) {
+                assign(member.emplace_back(), one);
+            } else {
+                RowNumbers<typename Member::value_type> row{};
+                std::copy_n(std::get<Numbers>(one.data).begin(), row.size(), row.begin());
+                member.push_back(std::bit_cast<typename Member::value_type>(row));
+            }
+        }
+    } else if constexpr (std::integral<Member> && !std::same_as<Member, bool>) {
+        member = static_cast<Member>(std::get<std::int64_t>(value.data));
+    } else {
+        member = std::get<Member>(value.data);
+    }
+}
+
+template <class Member> Value value_of(const Member& member) {
+    if constexpr (std::is_enum_v<Member>) {
+        for (const auto& word : words_of<Member>)
+            if (word.value == member) return {std::string(word.name)};
+        return {};
+    } else if constexpr (is_optional<Member>) {
+        return member ? value_of(*member) : Value{};
+    } else if constexpr (is_list<Member>) {
+        Values values;
+        for (const auto& one : member) {
+            if constexpr (std::is_enum_v<typename Member::value_type>) {
+                values.push_back(value_of(one));
+            } else {
+                const auto row = std::bit_cast<RowNumbers<typename Member::value_type>>(one);
+                values.push_back({Numbers(row.begin(), row.end())});
+            }
+        }
+        return {std::move(values)};
+    } else if constexpr (std::integral<Member> && !std::same_as<Member, bool>) {
+        return {static_cast<std::int64_t>(member)};
+    } else {
+        return {member};
+    }
+}
+
+template <class Enum> void add_words(Key& key) {
+    for (const auto& word : words_of<Enum>) {
+        key.words.push_back(word.name);
+        if (!word.old_name.empty()) key.old_words.emplace_back(word.old_name, word.name);
+    }
+}
+
+/// A key without a member yet.
+inline Key named_key(std::string name, std::string_view unit, std::string_view help) {
+    Key named;
+    named.name = std::move(name);
+    named.unit = unit;
+    named.help = help;
+    return named;
+}
+
+/// The whole key: `member` takes a scene, const or not, and gives a reference to the member.
+template <class Get>
+Key key(std::string name, std::string_view unit, std::string_view help, const Get& member) {
+    Key declared = named_key(std::move(name), unit, help);
+    using Member = std::remove_cvref_t<decltype(member(std::declval<Scene&>()))>;
+    declared.kind = kind_of<Member>();
+    if constexpr (std::is_enum_v<Member>) add_words<Member>(declared);
+    if constexpr (is_list<Member>)
+        if constexpr (std::is_enum_v<typename Member::value_type>)
+            add_words<typename Member::value_type>(declared);
+    declared.get = [member](const Scene& scene) { return value_of(member(scene)); };
+    declared.set = [member](Scene& scene, const Value& value) { assign(member(scene), value); };
+    declared.is_same = [member](const Scene& a, const Scene& b) {
+        return value_of(member(a)) == value_of(member(b));
+    };
+    return declared;
+}
+
+/// A key of a list of words, each of which is a flag of the object that `member` gives.
+template <class Get, class Object>
+Key flags_key(std::string name, std::string_view unit, std::string_view help, const Get& member,
+              const std::vector<std::pair<std::string_view, bool Object::*>>& flags) {
+    Key declared = named_key(std::move(name), unit, help);
+    declared.kind = Kind::words;
+    for (const auto& [word, flag] : flags) declared.words.push_back(word);
+    declared.get = [member, flags](const Scene& scene) {
+        Values words;
+        for (const auto& [word, flag] : flags)
+            if (member(scene).*flag) words.push_back({std::string(word)});
+        return Value{std::move(words)};
+    };
+    declared.set = [member, flags](Scene& scene, const Value& value) {
+        const Values& words = std::get<Values>(value.data);
+        for (const auto& [word, flag] : flags)
+            member(scene).*
+                flag = std::any_of(words.begin(), words.end(), [name = word](const Value& one) {
+                return std::get<std::string>(one.data) == name;
+            });
+    };
+    declared.is_same = [member, flags](const Scene& a, const Scene& b) {
+        return std::all_of(flags.begin(), flags.end(), [&](const auto& flag) {
+            return member(a).*flag.second == member(b).*flag.second;
+        });
+    };
+    return declared;
+}
+
+} // namespace carrom

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/key_page.hpp"
+
+#include <fmt/format.h>
+
+#include "scene/checked_value.hpp"
+#include "scene/toml_text.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr std::string_view opening = R"(# Keys of a scene
+
+`carrom keys` writes this page from the declarations that the program reads scenes with.
+
+A scene is a TOML file. An unknown key is an error, and so is a key that has no meaning in the scene.
+`--set key=value` sets any key on the command line and replaces what excludes it in the file.
+Lengths are in any unit, times in steps, masses in units of the disc's mass. A unit of 1 is a pure
+number.
+)";
+
+std::string code(std::string_view text) { return fmt::format("`{}`", text); }
+
+std::string joined(const std::vector<std::string_view>& names, std::string_view before) {
+    std::string list;
+    for (const std::string_view name : names) list += (list.empty() ? "" : ", ") + code(name);
+    return list.empty() ? "" : fmt::format(" {} {}.", before, list);
+}
+
+std::string type_text(const Key& key) {
+    switch (key.kind) {
+    case Kind::text: return "text, not empty";
+    case Kind::choice: return words_text(key.words);
+    case Kind::words: return "list of " + words_text(key.words);
+    case Kind::tables: {
+        std::string list;
+        for (const Field& field : key.fields) {
+            list += list.empty() ? "" : ", ";
+            list += fmt::format("{} = {}", field.name, field.form.empty() ? "..." : field.form);
+            if (field.fallback) list += fmt::format(" ({} unless given)", *field.fallback);
+        }
+        return "tables of " + list;
+    }
+    case Kind::rows: return "rows " + std::string(key.fields[0].form);
+    default: {
+        const std::string range = range_text(key.range);
+        return kind_text(key) + (range.empty() ? "" : ' ' + range);
+    }
+    }
+}
+
+std::string default_text(const Key& key, const Scene& plain) {
+    if (!key.fallback.empty()) return std::string(key.fallback);
+    if (key.is_required) return "required";
+    return code(toml_text(key, key.get(plain)));
+}
+
+std::string row_of(const Key& key, const Scene& plain) {
+    std::string meaning{key.help};
+    if (key.need) meaning += fmt::format(" No meaning {}.", key.need->text);
+    meaning += joined(key.or_from, "Not required with") + joined(key.instead_of, "Not with");
+    return fmt::format("| {} | {} | {} | {} | {} |\n", code(key.name), type_text(key),
+                       key.unit.empty() ? "-" : key.unit, default_text(key, plain), meaning);
+}
+
+} // namespace
+
+std::string rules_table() {
+    std::string text = "| | not together with | because |\n|---|---|---|\n";
+    for (const Rule& rule : rules())
+        text += fmt::format("| {} | {} | {} |\n", rule.one, rule.other, rule.why);
+    return text;
+}
+
+std::string key_page() {
+    Scene plain;
+    for (const Table& table : tables()) table.create(plain);
+    std::string text{opening};
+    for (const Table& table : tables()) {
+        std::string rows;
+        for (const Key& key : keys())
+            if (key.table() == table.name) rows += row_of(key, plain);
+        if (rows.empty() || table.is_like_another) continue;
+        text += fmt::format("\n## [{}]\n\n{}\n\n| key | type and range | unit | default | meaning "
+                            "|\n|---|---|---|---|---|\n{}",
+                            table.name, table.help, rows);
+    }
+    return text +
+           "\n## What does not go together\n\nEach of these is an error that names the "
+           "key.\n\n" +
+           rules_table();
+}
+
+} // namespace carrom

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The keys of [box] without its sides, [discs] and [time].
+#include "scene/disc_columns.hpp"
+#include "scene/key_members.hpp"
+#include "scene/limits.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr Range lengths{smallest_length, largest_size};
+
+const Need equal_discs{
+    "where 'discs.species', 'discs.list' or 'discs.columns' name radii",
+    [](const Scene& s) { return s.effects.species.empty() && !has_column(s, DiscColumn::radius); }};
+const Need listed{"without discs.generator = \"file\"",
+                  [](const Scene& s) { return s.generator == Generator::file; }, true};
+const Need random_speeds{"without discs.generator = \"random\" or \"lattice\"",
+                         [](const Scene& s) {
+                             return s.generator == Generator::random ||
+                                    s.generator == Generator::lattice;
+                         },
+                         true};
+const Need generated{"where discs are listed",
+                     [](const Scene& s) { return s.generator != Generator::file; }, true};
+const Need not_legacy{"with discs.generator = \"legacy\"",
+                      [](const Scene& s) { return s.generator != Generator::legacy; }, true};
+const Need naive{"without time.arithmetic = \"naive\"",
+                 [](const Scene& s) { return s.arithmetic == Arithmetic::naive; }};
+
+/// Rows [x, y, vx, vy], then radius and mass, or the spin, or all three. Ids are their order.
+void set_list(Scene& scene, const Value& value) {
+    bool have_spins = false;
+    std::vector<SpinRun> spins;
+    for (const Value& row : std::get<Values>(value.data)) {
+        const Numbers n = row.is_nothing() ? Numbers(4) : std::get<Numbers>(row.data);
+        scene.listed_discs.push_back({scene.listed_discs.size(), n[0], n[1], n[2], n[3]});
+        if (n.size() >= 6) add_species(scene.effects.species, {1, n[4], n[5]});
+        have_spins = have_spins || n.size() % 2 == 1;
+        add_spins(spins, 1, n.size() % 2 == 1 ? n.back() : 0);
+    }
+    if (have_spins) scene.spins = spins;
+}
+
+Value get_list(const Scene& scene) {
+    if (scene.listed_discs.empty()) return {};
+    const SpeciesTable species(scene.effects.species, scene.radius);
+    Values rows;
+    for (const InputDisc& disc : scene.listed_discs) {
+        Numbers row{disc.x, disc.y, disc.vx, disc.vy};
+        const Body& body = species.of(disc.id);
+        if (!scene.effects.species.empty()) row.insert(row.end(), {body.radius, body.mass});
+        if (!scene.spins.empty()) row.push_back(first_spin(scene, disc.id));
+        rows.push_back({std::move(row)});
+    }
+    return {std::move(rows)};
+}
+
+/// Rows count, radius, mass, spin.
+void set_species(Scene& scene, const Value& value) {
+    bool have_spins = false;
+    std::vector<SpinRun> spins;
+    for (const Value& row : std::get<Values>(value.data)) {
+        if (row.is_nothing()) continue;
+        const Numbers& n = std::get<Numbers>(row.data);
+        if (!(n[0] >= 1 && n[0] <= static_cast<double>(largest_count))) continue;
+        add_species(scene.effects.species, {static_cast<std::uint64_t>(n[0]), n[1], n[2]});
+        add_spins(spins, static_cast<std::uint64_t>(n[0]), n[3]);
+        have_spins = have_spins || n[3] != 0;
+    }
+    if (have_spins) scene.spins = spins;
+}
+
+Value get_species(const Scene& scene) {
+    const auto& species = scene.effects.species;
+    if (species.empty() || !scene.listed_discs.empty() || has_column(scene, DiscColumn::radius))
+        return {};
+    const bool have_spins = !scene.spins.empty() && !has_column(scene, DiscColumn::spin);
+    Values rows;
+    DiscId first = 0;
+    auto run = scene.spins.begin();
+    for (const Species& one : species) {
+        for (const DiscId last = first + one.count; first < last;) {
+            while (have_spins && run->end <= first) ++run;
+            const DiscId end = have_spins ? std::min(last, run->end) : last;
+            rows.push_back({Numbers{static_cast<double>(end - first), one.radius, one.mass,
+                                    have_spins ? run->spin : 0}});
+            first = end;
+        }
+    }
+    return {std::move(rows)};
+}
+
+Key list_key() {
+    Key key = named_key(
+                  "discs.list", "length, length/step",
+                  "The discs themselves; ids count from 0. Radius and mass, then spin, may follow.")
+                  .by_default("none")
+                  .needs(listed)
+                  .with_rows({{"", "[x, y, vx, vy] or [x, y, vx, vy, radius, mass]", 4, 7}});
+    key.get = get_list;
+    key.set = set_list;
+    key.is_same = [](const Scene& a, const Scene& b) { return a.listed_discs == b.listed_discs; };
+    return key;
+}
+
+Key species_key() {
+    Key key = named_key("discs.species", "discs, length, mass, 1/step",
+                        "Species of discs in the order of ids, in place of one radius.")
+                  .by_default("none")
+                  .needs(not_legacy)
+                  .formerly("discs.classes")
+                  .with_rows({{"count", ""},
+                              {"radius", ""},
+                              {"mass", "", 1, 1, 1.0},
+                              {"spin", "", 1, 1, 0.0}});
+    key.get = get_species;
+    key.set = set_species;
+    key.is_same = [](const Scene& a, const Scene& b) {
+        return a.effects.species == b.effects.species;
+    };
+    return key;
+}
+
+/// A wish for a radius, which the reader works out: nothing stays of it in the scene.
+Key packing_key() {
+    Key key = named_key("discs.packing", "1", "Packing fraction N pi r^2 / L^2; sets the radius.")
+                  .by_default("none")
+                  .within(
+                      {0, largest_packing, true, false, "equal discs cover no more of the plane"})
+                  .needs(equal_discs)
+                  .excludes({"discs.radius"});
+    key.get = [](const Scene&) { return Value{}; };
+    key.set = [](Scene&, const Value&) {};
+    key.is_same = [](const Scene&, const Scene&) { return true; };
+    return key;
+}
+
+std::vector<Key> keys_of_time() {
+    return {
+        key("time.steps", "steps", "S, how many steps to run; 0 shows the start.",
+            [](auto& s) -> auto& { return s.steps; })
+            .within({0, largest_steps})
+            .required()
+            .not_physical(),
+        key("time.method", "",
+            "Time-stepped: at most one collision per disc and micro-step. Event-driven: "
+            "every collision at its time.",
+            [](auto& s) -> auto& { return s.method; })
+            .formerly("time.collisions"),
+        key("time.micro_steps", "micro-steps/step",
+            "K, the micro-steps of a step. A power of two scales velocities exactly.",
+            [](auto& s) -> auto& { return s.micro_steps; })
+            .within({1, largest_steps}),
+        key("time.sync_every", "micro-steps",
+            "Time between common rewrites of all positions. Another value rounds "
+            "differently.",
+            [](auto& s) -> auto& { return s.sync_every; })
+            .within({1, 0x1p30}),
+        key("time.accuracy", "1",
+            "A pilot chooses the fastest method with at most this relative error.",
+            [](auto& s) -> auto& { return s.accuracy; })
+            .by_default("none")
+            .within({.low = 0, .excludes_low = true})
+            .excludes({"time.method", "time.micro_steps", "time.precision", "time.arithmetic",
+                       "time.contraction"}),
+        key("time.precision", "", "What states are rounded to and computed in.",
+            [](auto& s) -> auto& { return s.precision; }),
+        key("time.arithmetic", "",
+            "Naive: contacts by the course program's formula, which loses digits.",
+            [](auto& s) -> auto& { return s.arithmetic; }),
+        key("time.contraction", "", "Fuse the naive formula's products with their sums.",
+            [](auto& s) -> auto& { return s.contraction; })
+            .needs(naive),
+    };
+}
+
+} // namespace
+
+std::vector<Key> keys_of_discs() {
+    std::vector<Key> all = {
+        key("box.size", "length", "L, the side of the square box; the walls are at 0 and L.",
+            [](auto& s) -> auto& { return s.box_size; })
+            .within(lengths)
+            .required(),
+        key("discs.count", "discs", "N, the number of discs; a list or species give it too.",
+            [](auto& s) -> auto& { return s.n_discs; })
+            .within({1, static_cast<double>(largest_count)})
+            .required()
+            .unless({"discs.list", "discs.species"}),
+        key("discs.radius", "length", "r, the radius of a disc; or give 'discs.packing'.",
+            [](auto& s) -> auto& { return s.radius; })
+            .within(lengths)
+            .needs(equal_discs)
+            .required()
+            .unless({"discs.packing", "discs.species"}),
+        packing_key(),
+        species_key(),
+        key("discs.generator", "",
+            "Random: uniform without overlaps. Lattice: shaken. Legacy: C `rand`. File: "
+            "discs are listed.",
+            [](auto& s) -> auto& { return s.generator; })
+            .by_default("\"random\"; \"file\" with a list or file"),
+        list_key(),
+        key("discs.file", "",
+            "File of lines `id x y vx vy`, from the scene's folder. Ids are 0 to N-1.",
+            [](auto& s) -> auto& { return s.discs_file; })
+            .by_default("none")
+            .needs(listed)
+            .excludes({"discs.list"}),
+        key("discs.columns", "",
+            "What lines of the file have besides, in that order. Mass needs radius.",
+            [](auto& s) -> auto& { return s.disc_columns; })
+            .needs(listed)
+            .excludes({"discs.list"}),
+        key("discs.speed", "length/step", "Root mean square of the generated speeds.",
+            [](auto& s) -> auto& { return s.speed; })
+            .within({smallest_size, 0x1p-8 * largest_size, false, true})
+            .needs(random_speeds),
+        key("discs.velocities", "",
+            "Maxwell distribution, or isotropic with speeds uniform up to sqrt(3) times "
+            "discs.speed.",
+            [](auto& s) -> auto& { return s.velocities; })
+            .needs(random_speeds),
+        key("discs.seed", "1", "The same seed gives the same discs on any number of ranks.",
+            [](auto& s) -> auto& { return s.seed; })
+            .within({.low = 0})
+            .needs(generated),
+        key("discs.streams", "length, length/step",
+            "Adds a velocity to generated discs inside a region.",
+            [](auto& s) -> auto& { return s.streams; })
+            .needs(generated)
+            .with_rows({{"region", "[x0, y0, x1, y1]", 4, 4}, {"velocity", "[vx, vy]", 2, 2}}),
+    };
+    for (Key& one : keys_of_time()) all.push_back(std::move(one));
+    return all;
+}
+
+} // namespace carrom

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The keys of [output]. None of them changes a bit of the result.
+#include "scene/key_members.hpp"
+#include "scene/limits.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr Range every{1, largest_steps};
+constexpr Range at_least_one{.low = 1}; ///< word
+
+Need quantity(std::string text, bool (*holds)(const MeasurementOutput&)) {
+    return {"without " + std::move(text) + " among 'output.measurements.quantities'",
+            [holds](const Scene& s) { return s.measurements && holds(*s.measurements); }};
+}
+
+Key trajectory_precision() {
+    Key key = named_key("output.trajectory.precision", "", "Of the numbers in the file.");
+    key.kind = Kind::choice;
+    key.words = {"single", "double"};
+    key.get = [](const Scene& s) {
+        return Value{std::string(s.trajectory->is_single ? "single" : "double")};
+    };
+    key.set = [](Scene& s, const Value& value) {
+        s.trajectory->is_single = std::get<std::string>(value.data) == "single";
+    };
+    key.is_same = [](const Scene& a, const Scene& b) {
+        return a.trajectory->is_single == b.trajectory->is_single;
+    };
+    return key;
+}
+
+std::vector<Key> keys_of_checkpoints() {
+    return {
+        key("output.text", "",
+            "Lines of discs on standard output: none, those of steps 0 and S, or all.",
+            [](auto& s) -> auto& { return s.text_output; }),
+        key("output.checkpoint.folder", "", "The folder for checkpoints; made where there is none.",
+            [](auto& s) -> auto& { return s.checkpoint->folder; })
+            .required(),
+        key("output.checkpoint.every_steps", "steps", "Time from checkpoint to checkpoint.",
+            [](auto& s) -> auto& { return s.checkpoint->every_steps; })
+            .by_default("none")
+            .within(every),
+        key("output.checkpoint.every_minutes", "minutes",
+            "And after this much wall time without one.",
+            [](auto& s) -> auto& { return s.checkpoint->every_minutes; })
+            .by_default("none")
+            .within({.low = 0, .excludes_low = true}),
+        key("output.checkpoint.at_end", "", "And at the last step.",
+            [](auto& s) -> auto& { return s.checkpoint->at_end; }),
+        key("output.checkpoint.keep", "files",
+            "How many to keep; older ones are removed once a newer one is on disk.",
+            [](auto& s) -> auto& { return s.checkpoint->keep; })
+            .within({1, 1e6}),
+    };
+}
+
+std::vector<Key> keys_of_recordings() {
+    using Output = TrajectoryOutput;
+    const std::vector<std::pair<std::string_view, bool Output::*>> fields = {
+        {"position", &Output::has_position},
+        {"velocity", &Output::has_velocity},
+        {"collisions", &Output::has_collisions},
+        {"angular_velocity", &Output::has_angular_velocity}};
+    return {
+        key("output.trajectory.file", "", "One H5MD file of frames.",
+            [](auto& s) -> auto& { return s.trajectory->file; })
+            .required(),
+        key("output.trajectory.every_steps", "steps", "Time from frame to frame.",
+            [](auto& s) -> auto& { return s.trajectory->every_steps; })
+            .within(every),
+        flags_key(
+            "output.trajectory.fields", "",
+            "What a frame has of each disc; collisions are its two counters.",
+            [](auto& s) -> auto& { return *s.trajectory; }, fields)
+            .by_default("position, velocity; angular_velocity of rough discs")
+            .within(at_least_one),
+        trajectory_precision(),
+        key("output.trajectory.compression", "1", "From 0, none, to 9, smallest.",
+            [](auto& s) -> auto& { return s.trajectory->compression; })
+            .within({0, 9}),
+        key("output.collisions.file", "", "One HDF5 file of every collision.",
+            [](auto& s) -> auto& { return s.collisions->file; })
+            .required(),
+    };
+}
+
+/// The distance is worked out where it is not named.
+Key largest_distance() {
+    Key distance = key("output.measurements.largest_distance", "length",
+                       "Reach of the radial distribution; at most half the box of centres.",
+                       [](auto& s) -> auto& { return s.measurements->largest_distance; })
+                       .by_default("5 diameters")
+                       .within({.low = 0, .excludes_low = true})
+                       .needs(quantity("\"radial_distribution\"",
+                                       [](const auto& m) { return m.radial_distribution; }));
+    distance.get = [](const Scene& s) {
+        const MeasurementOutput& output = *s.measurements;
+        return output.is_distance_default ? Value{} : value_of(output.largest_distance);
+    };
+    return distance;
+}
+
+std::vector<Key> keys_of_measurements() {
+    using Output = MeasurementOutput;
+    const std::vector<std::pair<std::string_view, bool Output::*>> quantities = {
+        {"wall_pressure", &Output::wall_pressure},
+        {"radial_distribution", &Output::radial_distribution},
+        {"velocities", &Output::velocities},
+        {"density", &Output::density},
+        {"displacement", &Output::displacement}};
+    return {
+        key("output.measurements.folder", "", "The folder for the tables.",
+            [](auto& s) -> auto& { return s.measurements->folder; })
+            .required(),
+        flags_key(
+            "output.measurements.quantities", "", "What is measured.",
+            [](auto& s) -> auto& { return *s.measurements; }, quantities)
+            .within(at_least_one)
+            .required(),
+        key("output.measurements.every_steps", "steps", "Time from sample to sample.",
+            [](auto& s) -> auto& { return s.measurements->every_steps; })
+            .within(every),
+        key("output.measurements.from_step", "steps",
+            "Step of the first sample: leave out the time of equilibration.",
+            [](auto& s) -> auto& { return s.measurements->from_step; })
+            .within({0, largest_steps}),
+        key("output.measurements.bins", "1",
+            "Bins of each table of distances, velocities or places.",
+            [](auto& s) -> auto& { return s.measurements->bins; })
+            .within({1, 10000})
+            .needs(quantity("\"radial_distribution\", \"velocities\" or \"density\"",
+                            [](const Output& m) {
+                                return m.radial_distribution || m.velocities || m.density;
+                            })),
+        largest_distance(),
+        key("output.measurements.largest_velocity", "length/step",
+            "Largest component in the table of velocities.",
+            [](auto& s) -> auto& { return s.measurements->largest_velocity; })
+            .by_default("5 standard deviations")
+            .within({.low = 0, .excludes_low = true})
+            .needs(quantity("\"velocities\"", [](const auto& m) { return m.velocities; })),
+    };
+}
+
+} // namespace
+
+std::vector<Key> keys_of_output() {
+    std::vector<Key> all;
+    for (const auto& part : {keys_of_checkpoints(), keys_of_recordings(), keys_of_measurements()})
+        all.insert(all.end(), part.begin(), part.end());
+    for (Key& one : all) one.is_physical = false;
+    return all;
+}
+
+} // namespace carrom

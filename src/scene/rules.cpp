@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which features do not go together. The check and the reference's table both come from here.
+#include "scene/disc_columns.hpp"
+#include "scene/key.hpp"
+#include "scene/limits.hpp"
+
+namespace carrom {
+
+namespace {
+
+bool is_time_stepped(const Scene& s) { return s.method == Method::time_stepped; }
+bool is_rough(const Scene& s) { return s.effects.contact.kind == ContactKind::rough; }
+bool has_species(const Scene& s) { return !s.effects.species.empty(); }
+bool has_open(const Scene& s) { return s.effects.have_open_boundaries(); }
+bool has_moving(const Scene& s) { return has_boundary(s.effects, BoundaryKind::moving); }
+bool has_obstacles(const Scene& s) { return s.effects.obstacles.are_any(); }
+bool is_periodic_all_round(const Scene& s) {
+    return s.effects.is_periodic_x() && s.effects.is_periodic_y();
+}
+MeasurementOutput measured(const Scene& s) { return s.measurements.value_or(MeasurementOutput{}); }
+
+using Keys = std::vector<std::string_view>;
+using Predicate = bool (*)(const Scene&);
+
+Rule rule(std::string_view one, std::string_view other, std::string_view why, const Keys& keys,
+          Predicate is_broken) {
+    return {one, other, why, keys, {}, is_broken};
+}
+Rule rule(std::string_view one, std::string_view other, std::string_view why, BoundaryKind side,
+          Predicate is_broken) {
+    return {one, other, why, {}, side, is_broken};
+}
+
+constexpr std::string_view quantities = "output.measurements.quantities";
+
+std::vector<Rule> rules_of_methods() {
+    return {
+        rule("a moving wall", "time.method = \"time-stepped\"",
+             "walls are at rest there; take time.method = \"event-driven\"", BoundaryKind::moving,
+             [](const Scene& s) { return has_moving(s) && is_time_stepped(s); }),
+        rule("gravity", "time.method = \"time-stepped\"",
+             "discs fly straight there; take time.method = \"event-driven\"",
+             {"effects.gravity.y", "effects.gravity.x"},
+             [](const Scene& s) { return s.effects.gravity.is_any() && is_time_stepped(s); }),
+        rule("drag", "time.method = \"time-stepped\"",
+             "discs keep their speed there; take time.method = \"event-driven\"",
+             {"effects.drag.rate"},
+             [](const Scene& s) { return s.effects.drag != 0 && is_time_stepped(s); }),
+        rule(
+            "time.precision = \"single\"", "effects", "it is there for the accuracy study alone",
+            {"time.precision"},
+            [](const Scene& s) { return s.effects.are_any() && s.precision == Precision::single; }),
+        rule("time.arithmetic = \"naive\"", "effects", "it is there for the accuracy study alone",
+             {"time.arithmetic"},
+             [](const Scene& s) {
+                 return s.effects.are_any() && s.arithmetic == Arithmetic::naive;
+             }),
+        rule("time.accuracy", "effects", "the pilot knows plain gases only", {"time.accuracy"},
+             [](const Scene& s) { return s.effects.are_any() && s.accuracy.has_value(); }),
+    };
+}
+
+std::vector<Rule> rules_of_effects() {
+    return {
+        rule("drag", "rough discs", "spins would need a drag of their own", {"effects.drag.rate"},
+             [](const Scene& s) { return s.effects.drag != 0 && is_rough(s); }),
+        rule("obstacles", "drag and gravity at once",
+             "contacts with bodies are found on straight lines and parabolas",
+             {"effects.drag.rate"},
+             [](const Scene& s) {
+                 return has_obstacles(s) && s.effects.drag > 0 && s.effects.gravity.is_any();
+             }),
+        rule("a moving wall", "obstacles", "this version does not have both", BoundaryKind::moving,
+             [](const Scene& s) { return has_moving(s) && has_obstacles(s); }),
+        rule("an open side", "a moving wall", "this version does not have both", BoundaryKind::open,
+             [](const Scene& s) { return has_moving(s) && has_open(s); }),
+        rule("a periodic side", "an open side", "this version does not have both",
+             BoundaryKind::periodic,
+             [](const Scene& s) { return s.effects.are_periodic() && has_open(s); }),
+        rule("a periodic side", "walls or an open side opposite (left, right)",
+             "box.left.kind and box.right.kind must both be \"periodic\", or neither",
+             {"box.left.kind", "box.right.kind"},
+             [](const Scene& s) {
+                 const auto& sides = s.effects.boundaries;
+                 return (sides[0].kind == BoundaryKind::periodic) !=
+                        (sides[1].kind == BoundaryKind::periodic);
+             }),
+        rule("a periodic side", "walls or an open side opposite (bottom, top)",
+             "box.bottom.kind and box.top.kind must both be \"periodic\", or neither",
+             {"box.bottom.kind", "box.top.kind"},
+             [](const Scene& s) {
+                 const auto& sides = s.effects.boundaries;
+                 return (sides[2].kind == BoundaryKind::periodic) !=
+                        (sides[3].kind == BoundaryKind::periodic);
+             }),
+        rule("gravity along x", "periodic sides left and right",
+             "discs would fall for ever, faster and faster", {"effects.gravity.x"},
+             [](const Scene& s) { return s.effects.gravity.x != 0 && s.effects.is_periodic_x(); }),
+        rule("gravity along y", "periodic sides bottom and top",
+             "discs would fall for ever, faster and faster", {"effects.gravity.y"},
+             [](const Scene& s) { return s.effects.gravity.y != 0 && s.effects.is_periodic_y(); }),
+        rule("several species", "effects.contact.kind = \"none\"",
+             "this version does not have both", {"effects.contact.kind"},
+             [](const Scene& s) {
+                 return has_species(s) && s.effects.contact.kind == ContactKind::none;
+             }),
+        rule("obstacles", "discs.generator = \"lattice\" or \"legacy\"",
+             "these generators know nothing of obstacles; insert discs at random (at a packing "
+             "fraction that allows it), or list them",
+             {"discs.generator", "discs.packing", "discs.radius", "discs.species"},
+             [](const Scene& s) {
+                 return has_obstacles(s) &&
+                        (s.generator == Generator::lattice || s.generator == Generator::legacy);
+             }),
+    };
+}
+
+std::vector<Rule> rules_of_outputs() {
+    return {
+        rule("\"wall_pressure\"", "a box that is periodic all round", "it has no walls",
+             {quantities},
+             [](const Scene& s) { return measured(s).wall_pressure && is_periodic_all_round(s); }),
+        rule("\"wall_pressure\", \"radial_distribution\" and \"displacement\"", "an open side",
+             "with open sides velocities and densities alone are measured", {quantities},
+             [](const Scene& s) {
+                 const MeasurementOutput output = measured(s);
+                 return has_open(s) &&
+                        (output.wall_pressure || output.radial_distribution || output.displacement);
+             }),
+        rule("\"radial_distribution\" of several species", "a wall",
+             "centres of large discs have less room between walls; it needs a box that is periodic "
+             "all round",
+             {quantities},
+             [](const Scene& s) {
+                 return measured(s).radial_distribution && has_species(s) &&
+                        !is_periodic_all_round(s);
+             }),
+        rule("\"angular_velocity\"", "discs that are not rough",
+             "it needs discs that turn, effects.contact.kind = \"rough\"",
+             {"output.trajectory.fields"},
+             [](const Scene& s) {
+                 return s.trajectory && s.trajectory->has_angular_velocity && !is_rough(s);
+             }),
+        rule("spins in discs.columns", "discs that are not rough",
+             "spins have no meaning without effects.contact.kind = \"rough\"", {"discs.columns"},
+             [](const Scene& s) { return has_column(s, DiscColumn::spin) && !is_rough(s); }),
+        rule("masses in discs.columns", "columns without radii", "a species has both",
+             {"discs.columns"},
+             [](const Scene& s) {
+                 return has_column(s, DiscColumn::mass) && !has_column(s, DiscColumn::radius);
+             }),
+        rule("output.collisions.file", "the same output.trajectory.file", "each needs its own file",
+             {"output.collisions.file"},
+             [](const Scene& s) {
+                 return s.collisions && s.trajectory && !s.collisions->file.empty() &&
+                        s.collisions->file == s.trajectory->file;
+             }),
+    };
+}
+
+} // namespace
+
+const std::vector<Rule>& rules() {
+    static const std::vector<Rule> all = [] {
+        std::vector<Rule> list = rules_of_methods();
+        for (const auto& part : {rules_of_effects(), rules_of_outputs()})
+            list.insert(list.end(), part.begin(), part.end());
+        return list;
+    }();
+    return all;
+}
+
+} // namespace carrom

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/scene_text.hpp"
+
+#include <fmt/format.h>
+
+#include "scene/toml_text.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// What the keys of the scene's tables are without being named.
+Scene with_defaults(const Scene& scene) {
+    Scene plain;
+    for (const Table& table : tables())
+        if (table.is_in(scene)) table.create(plain);
+    return plain;
+}
+
+} // namespace
+
+std::string scene_text(const Scene& scene) {
+    const Scene plain = with_defaults(scene);
+    std::string text;
+    for (const Table& table : tables()) {
+        if (!table.is_in(scene)) continue;
+        std::string lines;
+        for (const Key& key : keys()) {
+            if (key.table() != table.name) continue;
+            if (!key.is_required && key.is_same(scene, plain)) continue;
+            const Value value = key.has_meaning(scene) ? key.get(scene) : Value{};
+            if (!value.is_nothing())
+                lines += fmt::format("{} = {}\n", key.name.substr(table.name.size() + 1),
+                                     toml_text(key, value));
+        }
+        if (!lines.empty()) text += fmt::format("[{}]\n{}", table.name, lines);
+    }
+    return text;
+}
+
+} // namespace carrom
