@@ -49,15 +49,7 @@ std::vector<InputDisc> load_discs(const Scene& scene, std::istream* following,
     if (!scene.reads_disc_lines() || scene.discs_file.empty())
         return initial_state(scene, scene.reads_disc_lines() ? following : nullptr, ranks);
     std::ifstream file;
-    std::vector<Problem> problems;
-    if (ranks.is_root()) {
-        try {
-            file = open_input(discs_path(scene));
-        } catch (const InputError& error) {
-            problems = error.problems();
-        }
-    }
-    agree_on_problems(ranks, problems);
+    let_root(ranks, [&] { file = open_input(discs_path(scene)); });
     return initial_state(scene, &file, ranks);
 }
 

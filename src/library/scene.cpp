@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -26,30 +27,17 @@ carrom::Scene read(const SceneText& text, const Scene& scene) {
     return with_named_keys([&] { return read_scene(text, scene.source().settings); });
 }
 
-/// What rank 0 alone finds wrong while it reads, on every rank. **Collective.**
-template <class Read> void read_on_root(const Communicator& ranks, const Read& read) {
-    std::vector<Problem> problems;
-    if (ranks.is_root()) {
-        try {
-            problems = read();
-        } catch (const InputError& error) {
-            problems = error.problems();
-        }
-    }
-    agree_on_problems(ranks, problems);
-}
-
 /// The scene with the radii, masses and spins of its file of discs. **Collective.**
 carrom::Scene read_with_columns(SceneText text, const Scene& scene, const carrom::Scene& without,
                                 const Communicator& ranks) {
     text.columns = load_columns(without, ranks);
     if (!text.columns->is_whole)
-        read_on_root(ranks, [&] {
+        let_root(ranks, [&] {
             std::ifstream file = open_input(discs_path(without));
             std::vector<Problem> problems = disc_line_problems(file, without);
             if (problems.empty())
                 problems.push_back({discs_path(without), 0, "changes while it is being read"});
-            return problems;
+            throw InputError(std::move(problems));
         });
     return read(text, scene);
 }
@@ -59,10 +47,9 @@ carrom::Scene read_with_columns(SceneText text, const Scene& scene, const carrom
 Scene Scene::from_file(const Session& session, const std::string& path) {
     const Communicator& ranks = ranks_of(session);
     SceneText text;
-    read_on_root(ranks, [&] {
+    let_root(ranks, [&] {
         std::ifstream file = open_input(path);
         text = read_scene_text(file, path);
-        return std::vector<Problem>{};
     });
     broadcast(text, ranks);
     Scene scene;
@@ -143,12 +130,11 @@ FirstState first_state(const Scene& scene, const Communicator& ranks) {
                            "the library does not choose a method; set time.method and "
                            "time.micro_steps (carrom accuracy measures what they cost)"}});
     std::ifstream lines;
-    read_on_root(ranks, [&] {
+    let_root(ranks, [&] {
         if (text.discs_follow) {
             lines = open_input(text.name);
             read_scene_text(lines, text.name); // up to the first disc
         }
-        return std::vector<Problem>{};
     });
     first.discs = load_discs(first.scene, &lines, ranks);
     return first;
