@@ -121,7 +121,7 @@ for ranks in 1 2; do
     expect_code 2 'a wrong scene whose name has control characters'
     grep -q "$esc" "$test_folder/err" && complain 'control characters in a message'
 done
-rm -r "$name" kept t.h5
+rm -r "$name" kept t.h5 t.xdmf
 
 # A place without rights, or on a disk that cannot be written to, is an output that failed: code 4.
 mkdir locked
