@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/accuracy_command.hpp"
 
-#include <charconv>
 #include <memory>
 #include <string>
+#include <type_traits>
 
 #include <fmt/format.h>
 
 #include "apps/accuracy_study.hpp"
 #include "apps/load.hpp"
+#include "apps/number_words.hpp"
 
 namespace carrom {
 
@@ -55,21 +56,6 @@ struct AccuracyWords {
     bool of_distances = false;
 };
 
-/// A number of at least `least` where the word is given.
-template <class Number>
-void take(Number& number, const char* option, const std::string& word, Number least,
-          std::vector<Problem>& problems, Number most = 1000000) {
-    if (word.empty()) return;
-    Number value{};
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error == std::errc{} && end == word.data() + word.size() && value >= least && value <= most)
-        number = value;
-    else
-        problems.push_back(
-            {option, 0,
-             fmt::format("must be a number from {} to {}, not \"{}\"", least, most, word)});
-}
-
 AccuracyOptions checked(const AccuracyWords& words, std::vector<Problem>& problems) {
     AccuracyOptions options;
     options.run = checked_run_options(words.run, problems);
@@ -77,12 +63,18 @@ AccuracyOptions checked(const AccuracyWords& words, std::vector<Problem>& proble
     StudyOptions& study = options.study;
     study.quiet = options.run.quiet;
     if (!words.table.empty()) study.table = words.table;
-    take(study.n_starts, "--starts", words.starts, 1, problems);
-    take(study.n_repetitions, "--repetitions", words.repetitions, 1, problems);
-    take(study.collisions, "--collisions", words.collisions, 1e-3, problems);
-    take(study.approach, "--approach", words.approach, 1e-3, problems);
-    take(study.most_micro_steps, "--micro-steps", words.micro_steps, std::int64_t{1}, problems);
-    take(study.threads, "--threads", words.threads, 1, problems, 1024);
+    constexpr int most = 1000000;
+    const auto take = [&problems](auto& number, const char* option, const std::string& word,
+                                  auto least, auto largest) {
+        using Number = std::remove_reference_t<decltype(number)>;
+        number = number_of<Number>(option, word, least, largest, problems).value_or(number);
+    };
+    take(study.n_starts, "--starts", words.starts, 1, most);
+    take(study.n_repetitions, "--repetitions", words.repetitions, 1, most);
+    take(study.collisions, "--collisions", words.collisions, 1e-3, most);
+    take(study.approach, "--approach", words.approach, 1e-3, most);
+    take(study.most_micro_steps, "--micro-steps", words.micro_steps, 1, most);
+    take(study.threads, "--threads", words.threads, 1, 1024);
     if (words.arithmetic == "default")
         study.formulas = Formulas::usual;
     else if (words.arithmetic == "stable")
@@ -92,8 +84,8 @@ AccuracyOptions checked(const AccuracyWords& words, std::vector<Problem>& proble
             {"--arithmetic", 0,
              fmt::format("must be all, stable or default, not \"{}\"", words.arithmetic)});
     if (const std::size_t slash = words.share.find('/'); slash != std::string::npos) {
-        take(study.share, "--share", words.share.substr(0, slash), 1, problems);
-        take(study.n_shares, "--share", words.share.substr(slash + 1), 1, problems);
+        take(study.share, "--share", words.share.substr(0, slash), 1, most);
+        take(study.n_shares, "--share", words.share.substr(slash + 1), 1, most);
     }
     if (!words.share.empty() &&
         (words.share.find('/') == std::string::npos || study.share > study.n_shares))

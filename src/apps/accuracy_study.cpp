@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "apps/accuracy_table.hpp"
+#include "apps/csv_table.hpp"
 #include "apps/progress.hpp"
 #include "core/errors.hpp"
 #include "initial_state/initial_state.hpp"
@@ -139,20 +140,17 @@ std::vector<std::vector<InputDisc>> trace(const Study& study, const RunSetting& 
     return looks;
 }
 
-/// A trial, or why it could not be run to its end.
-struct TrialOrFailure {
-    Trial trial;
-    std::string failure;
-};
-
-TrialOrFailure attempt(const Study& study, const RunSetting& setting, const TrialStart& start,
-                       const TrialLength& length) {
+/// `exact` are the discs of the exact run at the early step.
+TrialOutcome attempt(const Study& study, const RunSetting& setting, const TrialStart& start,
+                     const TrialLength& length, const std::vector<InputDisc>& exact) {
     try {
-        return {run_trial(study.scene, setting, start, length, study.ranks, study.tuning), ""};
+        Trial trial = run_trial(study.scene, setting, start, length, study.ranks, study.tuning);
+        const Distance distance = distance_between(trial.early, exact, 2 * study.scene.radius);
+        return {std::move(trial), distance, ""};
     } catch (const InputError& error) {
-        return {{}, error.problems().front().text};
+        return {{}, {}, error.problems().front().text};
     } catch (const CollectiveError& error) { // a collision cascade without end
-        return {{}, error.what()};
+        return {{}, {}, error.what()};
     }
 }
 
@@ -163,7 +161,7 @@ std::int64_t at_least_one(double number) { return std::max<std::int64_t>(1, std:
 void study_costs(const Scene& scene, const std::vector<InputDisc>& discs,
                  const StudyOptions& options, const Communicator& ranks) {
     const Study study(scene, discs, options, ranks);
-    AccuracyTable table(options.table);
+    CsvTable table(options.table, costs_header());
     const std::vector<RunSetting> settings = settings_of(options, 2);
     TrialLength length;
     std::vector<InputDisc> exact; // at the early step
@@ -175,12 +173,9 @@ void study_costs(const Scene& scene, const std::vector<InputDisc>& discs,
     };
     const auto run = [&](const Item& item, const TrialStart& start) {
         const TrialKey key{item.start, item.setting, length, item.repetition};
-        const auto [trial, failure] = attempt(study, item.setting, start, length);
-        if (failure.empty())
-            table.add(scene, start, key, trial,
-                      distance_between(trial.early, exact, 2 * scene.radius), options.threads);
-        else
-            table.add_failure(scene, start, key, failure, options.threads);
+        table.append(costs_line(scene, start, key,
+                                attempt(study, item.setting, start, length, exact),
+                                options.threads));
     };
     run_all(study, items_of(options, settings, options.n_repetitions), begin, run);
 }
@@ -188,7 +183,7 @@ void study_costs(const Scene& scene, const std::vector<InputDisc>& discs,
 void study_distances(const Scene& scene, const std::vector<InputDisc>& discs,
                      const StudyOptions& options, const Communicator& ranks) {
     const Study study(scene, discs, options, ranks);
-    DistanceTable table(options.table);
+    CsvTable table(options.table, distances_header());
     const std::vector<RunSetting> settings = settings_of(options, 16);
     std::vector<Item> items = items_of(options, settings, 1);
     std::erase_if(items, [&](const Item& item) {
@@ -207,8 +202,9 @@ void study_distances(const Scene& scene, const std::vector<InputDisc>& discs,
         const auto looks = trace(study, item.setting, start, every, last);
         for (std::size_t k = 0; k < looks.size(); ++k) {
             const auto step = static_cast<std::int64_t>(k + 1) * every;
-            table.add(scene, start, key, step, start.frequency * static_cast<double>(step),
-                      distance_between(looks[k], exact[k], 2 * scene.radius));
+            const double collisions = start.frequency * static_cast<double>(step);
+            table.append(distances_line(scene, start, key, step, collisions,
+                                        distance_between(looks[k], exact[k], 2 * scene.radius)));
         }
     };
     run_all(study, items, begin, run);

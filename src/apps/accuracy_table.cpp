@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/accuracy_table.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <string_view>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "apps/csv_table.hpp"
 #include "apps/words.hpp"
 #include "machine/machine.hpp"
 
@@ -19,16 +20,9 @@ constexpr std::string_view setting_columns = "scene,box_size,radius,n_discs,pack
                                              "arithmetic,contraction";
 constexpr std::string_view number_columns =
     "pair_collisions,wall_collisions,collision_frequency,collision_frequency_error,wall_pressure,"
-    "wall_pressure_error,"
-    "virial_pressure,virial_pressure_error,kinetic_energy,rejected_candidates,overlapping_pairs_"
-    "per_disc,deepest_overlap,"
-    "distance_rms,distance_median,core_seconds";
-constexpr std::size_t n_numbers = 15;
+    "wall_pressure_error,virial_pressure,virial_pressure_error,kinetic_energy,rejected_candidates,"
+    "overlapping_pairs_per_disc,deepest_overlap,distance_rms,distance_median,core_seconds";
 constexpr std::string_view build_columns = "version,compiler,flags,machine";
-
-std::string trial_columns() {
-    return fmt::format("{},steps,early_step,repetition", setting_columns);
-}
 
 std::string setting_fields(const Scene& scene, const TrialStart& start, const TrialKey& key) {
     const RunSetting& s = key.setting;
@@ -41,59 +35,51 @@ std::string setting_fields(const Scene& scene, const TrialStart& start, const Tr
                        s.contraction ? "on" : "off");
 }
 
-std::string trial_fields(const Scene& scene, const TrialStart& start, const TrialKey& key) {
-    return fmt::format("{},{},{},{}", setting_fields(scene, start, key), key.length.steps,
-                       key.length.early_step, key.repetition);
-}
-
 std::string build_fields() {
     const BuildFacts build = build_facts();
     return fmt::format("{},{},{},{}", version(), plain_field(build.compiler),
                        plain_field(build.flags), plain_field(processor_name()));
 }
 
+std::string number_fields(const TrialOutcome& outcome) {
+    const Trial& trial = outcome.trial;
+    const Averages& a = trial.averages;
+    return fmt::format(
+        "{},{},{:.10g},{:.10g},{:.10g},{:.10g},{:.10g},{:.10g},{:.10g},{},{:.10g},"
+        "{:.10g},{:.10g},{:.10g},{:.10g}",
+        trial.totals.pair_collisions, trial.totals.wall_collisions, a.collision_frequency.value,
+        a.collision_frequency.error, a.wall_pressure.value, a.wall_pressure.error,
+        a.virial_pressure.value, a.virial_pressure.error, trial.totals.kinetic_energy,
+        trial.totals.rejected_candidates, trial.overlapping_pairs_per_disc, trial.deepest_overlap,
+        outcome.distance.root_mean_square, outcome.distance.median, trial.core_seconds);
+}
+
 } // namespace
 
-AccuracyTable::AccuracyTable(const std::string& path)
-    : table_(path, fmt::format("{},{},threads,failure,{}", trial_columns(), number_columns,
-                               build_columns)) {}
-
-void AccuracyTable::add(const Scene& scene, const TrialStart& start, const TrialKey& key,
-                        const Trial& trial, const Distance& distance, int threads) {
-    const Averages& a = trial.averages;
-    const auto text = [](double number) { return fmt::format("{:.10g}", number); };
-    append(trial_fields(scene, start, key),
-           {fmt::format("{}", trial.totals.pair_collisions),
-            fmt::format("{}", trial.totals.wall_collisions), text(a.collision_frequency.value),
-            text(a.collision_frequency.error), text(a.wall_pressure.value),
-            text(a.wall_pressure.error), text(a.virial_pressure.value),
-            text(a.virial_pressure.error), text(trial.totals.kinetic_energy),
-            fmt::format("{}", trial.totals.rejected_candidates),
-            text(trial.overlapping_pairs_per_disc), text(trial.deepest_overlap),
-            text(distance.root_mean_square), text(distance.median), text(trial.core_seconds)},
-           "", threads);
+std::string costs_header() {
+    return fmt::format("{},steps,early_step,repetition,{},threads,failure,{}", setting_columns,
+                       number_columns, build_columns);
 }
 
-void AccuracyTable::add_failure(const Scene& scene, const TrialStart& start, const TrialKey& key,
-                                const std::string& reason, int threads) {
-    append(trial_fields(scene, start, key), std::vector<std::string>(n_numbers), reason, threads);
+std::string costs_line(const Scene& scene, const TrialStart& start, const TrialKey& key,
+                       const TrialOutcome& outcome, int threads) {
+    const std::string without_numbers(
+        static_cast<std::size_t>(std::ranges::count(number_columns, ',')), ',');
+    return fmt::format("{},{},{},{},{},{},{},{}", setting_fields(scene, start, key),
+                       key.length.steps, key.length.early_step, key.repetition,
+                       outcome.failure.empty() ? number_fields(outcome) : without_numbers, threads,
+                       plain_field(outcome.failure), build_fields());
 }
 
-void AccuracyTable::append(const std::string& key, const std::vector<std::string>& fields,
-                           const std::string& failure, int threads) {
-    table_.append(fmt::format("{},{},{},{},{}", key, fmt::join(fields, ","), threads,
-                              plain_field(failure), build_fields()));
+std::string distances_header() {
+    return fmt::format("{},step,collisions_per_disc,distance_rms,distance_median,{}",
+                       setting_columns, build_columns);
 }
 
-DistanceTable::DistanceTable(const std::string& path)
-    : table_(path, fmt::format("{},step,collisions_per_disc,distance_rms,distance_median,{}",
-                               setting_columns, build_columns)) {}
-
-void DistanceTable::add(const Scene& scene, const TrialStart& start, const TrialKey& key,
-                        std::int64_t step, double collisions, const Distance& distance) {
-    table_.append(fmt::format("{},{},{:.6g},{:.6g},{:.6g},{}", setting_fields(scene, start, key),
-                              step, collisions, distance.root_mean_square, distance.median,
-                              build_fields()));
+std::string distances_line(const Scene& scene, const TrialStart& start, const TrialKey& key,
+                           std::int64_t step, double collisions, const Distance& distance) {
+    return fmt::format("{},{},{:.6g},{:.6g},{:.6g},{}", setting_fields(scene, start, key), step,
+                       collisions, distance.root_mean_square, distance.median, build_fields());
 }
 
 } // namespace carrom

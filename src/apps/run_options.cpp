@@ -1,70 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/run_options.hpp"
 
-#include <charconv>
-#include <cmath>
 #include <limits>
-#include <string_view>
 
 #include <fmt/format.h>
 
+#include "apps/number_words.hpp"
+
 namespace carrom {
-
-namespace {
-
-template <class Number> std::optional<Number> number(std::string_view word) {
-    Number value{};
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
-    return value;
-}
-
-/// Reads options from words; a missing word leaves the default.
-class Checker {
-public:
-    explicit Checker(std::vector<Problem>& problems) : problems_(problems) {}
-
-    template <class Integer>
-    std::optional<Integer> integer(const char* option, const std::string& word, Integer least,
-                                   Integer most) {
-        if (word.empty()) return std::nullopt;
-        const auto value = number<Integer>(word);
-        if (value && *value >= least && *value <= most) return value;
-        const std::string range = most == std::numeric_limits<Integer>::max()
-                                      ? fmt::format("at least {}", least)
-                                      : fmt::format("from {} to {}", least, most);
-        complain(option, word, "a whole number " + range);
-        return std::nullopt;
-    }
-
-    /// A finite number from `least` on.
-    std::optional<double> real_from(const char* option, const std::string& word, double least,
-                                    const char* why) {
-        const auto value = word.empty() ? std::nullopt : number<double>(word);
-        if (word.empty() || (value && std::isfinite(*value) && *value >= least)) return value;
-        complain(option, word, fmt::format("a number from {:g} on ({})", least, why));
-        return std::nullopt;
-    }
-
-    /// A finite number >= 0, or > 0 if `zero_is_wrong`.
-    std::optional<double> real(const char* option, const std::string& word, bool zero_is_wrong) {
-        if (word.empty()) return std::nullopt;
-        const auto value = number<double>(word);
-        if (value && std::isfinite(*value) && (zero_is_wrong ? *value > 0 : *value >= 0))
-            return value;
-        complain(option, word, zero_is_wrong ? "a number above 0" : "a number, 0 or above");
-        return std::nullopt;
-    }
-
-private:
-    void complain(const char* option, const std::string& word, const std::string& wanted) {
-        problems_.push_back({option, 0, fmt::format("must be {}, not \"{}\"", wanted, word)});
-    }
-
-    std::vector<Problem>& problems_;
-};
-
-} // namespace
 
 std::vector<Option> run_options(RunWords& words) {
     constexpr const char* costs = "Cost only, never bits";
@@ -113,8 +56,12 @@ std::vector<Option> run_options(RunWords& words) {
 }
 
 RunOptions checked_run_options(const RunWords& words, std::vector<Problem>& problems) {
-    Checker checker(problems);
+    constexpr double largest = std::numeric_limits<double>::max();
     constexpr auto unbounded = std::numeric_limits<std::int64_t>::max();
+    const auto number = [&problems](const char* option, const std::string& word, auto least,
+                                    auto most, const char* why = "") {
+        return number_of(option, word, least, most, problems, why);
+    };
     RunOptions options;
     options.input = words.input;
     options.restart = words.restart;
@@ -123,23 +70,21 @@ RunOptions checked_run_options(const RunWords& words, std::vector<Problem>& prob
     options.report = words.report;
     options.quiet = words.quiet;
     options.check = words.check;
-    options.threads = checker.integer<int>("--threads", words.threads, 1, 1024);
-    options.digits = checker
-                         .integer<int>("--digits", words.digits, 1, RunOptions::round_trip_digits)
-                         .value_or(options.digits);
-    if (const auto accuracy = checker.real("--accuracy", words.accuracy, true))
+    options.threads = number("--threads", words.threads, 1, 1024);
+    options.digits =
+        number("--digits", words.digits, 1, RunOptions::round_trip_digits).value_or(options.digits);
+    if (const auto accuracy = number("--accuracy", words.accuracy, least_above_0, largest))
         options.overrides.push_back(fmt::format("time.accuracy={}", *accuracy));
-    if (const auto steps = checker.integer<std::int64_t>("--steps", words.steps, 0, unbounded))
+    if (const auto steps = number("--steps", words.steps, std::int64_t{0}, unbounded))
         options.overrides.push_back(fmt::format("time.steps={}", *steps));
     Tuning& tuning = options.tuning;
-    tuning.window = checker.real_from("--window", words.window, 1e-5,
-                                      "a hundred thousand windows to a micro-step");
-    tuning.cell_width = checker.real("--cell-width", words.cell_width, true);
-    tuning.rebalance_every = checker
-                                 .integer<std::int64_t>("--rebalance-every", words.rebalance_every,
-                                                        0, unbounded)
+    tuning.window = number("--window", words.window, 1e-5, largest,
+                           " (a hundred thousand windows to a micro-step)");
+    tuning.cell_width = number("--cell-width", words.cell_width, least_above_0, largest);
+    tuning.rebalance_every = number("--rebalance-every", words.rebalance_every, std::int64_t{0},
+                                    unbounded)
                                  .value_or(tuning.rebalance_every);
-    tuning.rebalance_above = checker.real("--rebalance-above", words.rebalance_above, false)
+    tuning.rebalance_above = number("--rebalance-above", words.rebalance_above, 0.0, largest)
                                  .value_or(tuning.rebalance_above);
     return options;
 }

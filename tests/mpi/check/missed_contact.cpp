@@ -44,8 +44,8 @@ int main(int argc, char** argv) {
         scene.box_size = 60;
         scene.radius = 1;
         scene.n_discs = 30;
-        scene.method = argc > 1 && std::string(argv[1]) == "all" ? Method::event_driven
-                                                                 : Method::time_stepped;
+        scene.method = argc > 1 && std::string(argv[1]) == "event-driven" ? Method::event_driven
+                                                                          : Method::time_stepped;
         if (scene.method == Method::event_driven) {
             scene.effects.species = {{9, 1, 2.5}, {21, 1, 0.5}};
             scene.effects.contact = {ContactKind::rough, 0.9, 0.002, 0.5, 0.25, 0.5};

@@ -122,7 +122,7 @@ TEST_CASE("Empty words are refused: they come from variables that are not set") 
         CHECK(refused_places({"carrom", "run", "a.in", option, ""}) == Places{option});
     CHECK(refused_places({"carrom", "run", "--report", "", "--restart", "", "a.in"}) ==
           Places{"--restart", "--report"});
-    CHECK(refused_places({"carrom", "run", "a.in", "--output="}) == Places{"--output"});
+    CHECK(refused_places({"carrom", "run", "a.in", "--output="}) == Places{"command line"});
     CHECK(refused_places({"carrom", "convert", "a.h5", "--to", "csv", "--output", ""}) ==
           Places{"--output"});
     CHECK(refused_places({"carrom", "accuracy", "a.in", "--output", ""}) == Places{"--output"});
