@@ -110,6 +110,10 @@ herr_t set_size(H5FD_t* file, hid_t, hbool_t) {
 
 H5FD_class_t driver_class() {
     H5FD_class_t driver{};
+#ifdef H5FD_CLASS_VERSION // since HDF5 1.14
+    driver.version = H5FD_CLASS_VERSION;
+    driver.value = 511; // the last of those that are nobody's
+#endif
     driver.name = "carrom_journal";
     driver.maxaddr = static_cast<haddr_t>(std::numeric_limits<off_t>::max());
     driver.fc_degree = H5F_CLOSE_WEAK;

@@ -17,8 +17,9 @@ import subprocess
 import sys
 import tempfile
 
-MPI_SETTINGS = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none"}
+SETTINGS_FILE = os.path.join(os.path.dirname(__file__), "..", "..", "job_scripts", "mpi_settings.txt")
+with open(SETTINGS_FILE, encoding="utf-8") as settings:
+    MPI_SETTINGS = dict(line.split()[1].split("=") for line in settings if line.startswith("always "))
 
 
 def gas(n_discs, steps, packing=0.2, largest_speed=0.5, method="time-stepped"):

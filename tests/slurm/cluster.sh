@@ -95,6 +95,13 @@ END
     done
 }
 
+# Slurm is not to use cgroups, which a container may lack. Slurm 22 looks for them nevertheless.
+write_cgroup_conf() {
+    local version
+    version=$(slurmd -V) version=${version#* }
+    if [ "${version%%.*}" -gt 22 ]; then echo 'CgroupPlugin=disabled'; else echo 'CgroupAutomount=no'; fi
+}
+
 start_node() { slurmd -N "$1" -f "$SLURM_CONF"; }
 
 # Waits until a command succeeds: wait_until SECONDS WORD...
@@ -127,7 +134,7 @@ start_cluster() {
     (umask 077 && head -c 128 /dev/urandom >"$cluster/munge.key")
     problem=$(munged --key-file="$cluster/munge.key" --socket="$cluster/run/munge.socket" --pid-file="$cluster/run/munge.pid" \
         --log-file="$cluster/run/munge.log" --seed-file="$cluster/munge.seed" --num-threads=2 2>&1) || skip_test "munged does not start: $problem"
-    echo 'CgroupAutomount=no' >"$cluster/cgroup.conf"
+    write_cgroup_conf >"$cluster/cgroup.conf"
     for try in 1 2 3; do # somebody else may take our ports
         write_slurm_conf >"$SLURM_CONF"
         start_daemons && return
