@@ -51,7 +51,7 @@ void fill_times(RunResult& result, const PhaseSeconds& mine, const Communicator&
 double ratio(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
 bool is_own_work(std::string_view phase) {
-    static constexpr std::array others = {"wait", "exchange", "contested", "set-up", "output"};
+    static constexpr std::array others = {"wait", "exchange", "conflicts", "set-up", "output"};
     return std::find(others.begin(), others.end(), phase) == others.end();
 }
 
