@@ -133,7 +133,7 @@ same_as shorter 26
 
 run 1 run leak.toml --set output.measurements.folder=measured --set 'output.measurements.quantities=["displacement"]'
 expect_code 2 'measurements in an open box'
-expect_told 'in boxes with open sides' 'measurements in an open box'
+expect_told 'with open sides velocities and densities alone are measured' 'measurements in an open box'
 
 run 1 run fall.toml --restart kept --set effects.gravity.y=-0.01
 expect_code 2 'another gravity'
