@@ -23,7 +23,7 @@ std::vector<Disc> some_discs() {
         discs[i].y = 5;
         discs[i].vx = 0.125;
         discs[i].tau = static_cast<double>(i % 6);
-        discs[i].pair_collisions += i / 2;
+        discs[i].pair_collisions = (i / 2) & 0xff;
     }
     return discs;
 }

@@ -50,8 +50,8 @@ Disc disc_at(DiscId id, std::int64_t step) {
     disc.vy = -0.125 * static_cast<double>(step);
     disc.x = static_cast<double>(id) + 0.5;
     disc.y = static_cast<double>(step);
-    disc.wall_collisions += id + static_cast<std::uint64_t>(step);
-    disc.pair_collisions += 2 * id;
+    disc.wall_collisions = (id + static_cast<std::uint64_t>(step)) & 0xffffffff;
+    disc.pair_collisions = (2 * id) & 0xffffffff;
     return disc;
 }
 
