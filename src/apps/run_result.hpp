@@ -41,7 +41,7 @@ double ratio(double part, double whole);
 double ns_per_disc_step(const RunResult& result);
 
 /// Whether a phase is a rank's own work: not one in which it may wait for other ranks (wait,
-/// exchange, contested) or is not stepping (set-up, output).
+/// exchange, conflicts) or is not stepping (set-up, output).
 bool is_own_work(std::string_view phase);
 /// What a rank has spent on its own work.
 double busy_seconds(const PhaseSeconds& phases);
