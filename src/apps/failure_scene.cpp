@@ -47,7 +47,7 @@ std::string disc_lines(const Scene& scene, const CheckFailure& failure) {
     std::string text;
     for (std::size_t i = 0; i < discs.size(); ++i) {
         text += fmt::format("{} {} {} {} {}", i, discs[i].x, discs[i].y, discs[i].vx, discs[i].vy);
-        if (const Body& body = species_table.of(discs[i].id); !scene.effects.species.empty())
+        if (const SizeAndMass& body = species_table.of(discs[i].id); !scene.effects.species.empty())
             text += fmt::format(" {} {}", body.radius, body.mass);
         text += failure.spins.empty() ? "\n" : fmt::format(" {}\n", failure.spins[i]);
     }

@@ -155,7 +155,7 @@ void StateCheck::note_speeds() {
 /// small against it.
 double StateCheck::twice_energy(const Known& known) const {
     const Disc& seen = known.disc;
-    const Body& body = species_.of(seen.id);
+    const SizeAndMass& body = species_.of(seen.id);
     const double turning = body.radius * known.spin,
                  square = squared_speed(seen) + effects_.contact.inertia * turning * turning;
     if (!effects_.gravity.is_any()) return body.mass * square;

@@ -1,18 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every law that kernels and engines are compiled for. simulation/law_of_scene.hpp chooses among
-// them.
+// Every dynamics that kernels and engines are compiled for. engine/dynamics_of_scene.hpp chooses
+// among them. Each costs some seconds of compile time: questions that are not asked for each pair
+// are answered when the program runs.
 #pragma once
 
+#include "dynamics/dynamics.hpp"
 #include "dynamics/effect_dynamics.hpp"
 #include "dynamics/periodic_dynamics.hpp"
 #include "dynamics/plain_dynamics.hpp"
+#include "dynamics/study_dynamics.hpp"
 
-// make(law) for each.
+// make(dynamics) for each.
 #define CARROM_FOR_EACH_PERIODIC_DYNAMICS(make)                                                    \
-    make(PeriodicElasticDynamics) make(PeriodicIdealGasDynamics) make(PeriodicInelasticDynamics)   \
-        make(PeriodicMixedDynamics) make(PeriodicRoughDynamics)
+    make(PeriodicElasticDynamics) make(PeriodicInelasticDynamics) make(PeriodicMixedDynamics)      \
+        make(PeriodicRoughDynamics)
 #define CARROM_FOR_EACH_DYNAMICS(make)                                                             \
-    make(PlainDynamics) make(NaiveDynamics) make(ContractedDynamics) make(SingleDynamics)          \
-        make(SingleNaiveDynamics) make(SingleContractedDynamics) make(ElasticDynamics)             \
-            make(IdealGasDynamics) make(InelasticDynamics) make(MixedDynamics) make(RoughDynamics) \
-                CARROM_FOR_EACH_PERIODIC_DYNAMICS(make)
+    make(PlainDynamics) make(StudyDynamics<double>) make(StudyDynamics<float>)                     \
+        make(InelasticDynamics) make(MixedDynamics) make(RoughDynamics)                            \
+            CARROM_FOR_EACH_PERIODIC_DYNAMICS(make)
+
+namespace carrom {
+
+#define CARROM_CHECK(name) static_assert(Dynamics<name>);
+CARROM_FOR_EACH_DYNAMICS(CARROM_CHECK)
+#undef CARROM_CHECK
+
+} // namespace carrom

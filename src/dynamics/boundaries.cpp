@@ -4,15 +4,14 @@
 #include <algorithm>
 
 #include "core/random_numbers.hpp"
-#include "dynamics/drag.hpp"
 
 namespace carrom {
 
 Boundaries::Boundaries(double box_size, double radius, const Effects& effects,
                        const SpeciesTable& species_table)
     : effects_(effects), box_size_(box_size), radius_(radius), species_(species_table),
-      gravity_{effects.gravity.x, effects.gravity.y} {
-    effects_.obstacles = {}; // laws are copied for each thread
+      gravity_{effects.gravity.x, effects.gravity.y}, fall_(effects.gravity, effects.drag) {
+    effects_.obstacles = {}; // each thread has a copy
     effects_.species = {};
     for (std::size_t side = 0; side < 4; ++side) {
         speeds_[side] = effects.boundaries[side].speed;
@@ -27,28 +26,6 @@ void Boundaries::begin_interval(std::int64_t n) {
         moved_[side] = away_[side] + speeds_[side] * static_cast<double>(n);
 }
 
-Frame Boundaries::frame_at(double time) const {
-    return {gravity_[0] != 0 || gravity_[1] != 0 || effects_.drag != 0,
-            fallen(gravity_[0], time),
-            fallen(gravity_[1], time),
-            gravity_[0] * time,
-            gravity_[1] * time,
-            slowing_at(time),
-            time};
-}
-
-double Boundaries::clock_at(double micro_steps) const {
-    return effects_.drag == 0 ? micro_steps : drag_clock(effects_.drag, micro_steps);
-}
-
-double Boundaries::micro_steps_at(double clock) const {
-    return time_of_drag_clock(effects_.drag, clock);
-}
-
-void Boundaries::restart_frame(Disc& disc, double time) const {
-    disc = frame_at(time).in_box(disc, time);
-}
-
 Extent Boundaries::extent_at(double time) const {
     return {wall_at(0, time, radius_) - radius_, wall_at(1, time, radius_) + radius_,
             wall_at(2, time, radius_) - radius_, wall_at(3, time, radius_) + radius_};
@@ -58,7 +35,7 @@ Extent Boundaries::walls_between(double begin, double end) const {
     const Extent first = extent_at(begin), last = extent_at(end);
     // A chord is no further from its curve than that times the largest acceleration in between, the
     // last.
-    const double eighth = std::pow((end - begin) / slowing_at(end), 2) / 8;
+    const double eighth = std::pow((end - begin) / fall_.slowing_at(end), 2) / 8;
     // And a small disc departs before a large one does.
     const auto bend = [&](std::size_t side) {
         return std::fabs(pull_at(side)) * eighth + (is_open(side) ? radius_ : 0);
@@ -78,7 +55,7 @@ Extent Boundaries::walls_between(double begin, double end) const {
 double Boundaries::delay_of(const Approach& approach, double time) const {
     const auto& [distance, rate, pull] = approach;
     if (effects_.drag == 0 || pull == 0) return fall_delay(distance, rate, pull);
-    const double slowing = slowing_at(time);
+    const double slowing = fall_.slowing_at(time);
     return slowing * dragged_fall_delay(distance, slowing * rate, pull, effects_.drag);
 }
 
@@ -95,11 +72,11 @@ Boundaries::Meeting Boundaries::meeting(const Disc& disc, Axis axis) const {
 /// the safe side.
 bool Boundaries::may_meet(const Disc& disc, double time, double margin) const {
     if (disc.has_departed()) return false;
-    const double rest = time - disc.tau, fallen_for = rest / slowing_at(disc.tau);
+    const double rest = time - disc.tau, fallen_for = rest / fall_.slowing_at(disc.tau);
     for (std::size_t side = 0; side < 4; ++side) {
         const auto [distance, rate, pull] = approach(disc, side);
         const double towards = std::min(pull, 0.0);
-        if (!(distance + (rate * rest + fallen(towards, fallen_for)) > margin) &&
+        if (!(distance + (rate * rest + fall_.fallen(towards, fallen_for)) > margin) &&
             (rate < 0 || towards < 0))
             return true;
     }
@@ -120,7 +97,7 @@ void Boundaries::bounce_at(Disc& disc, Axis axis, double time) const {
 }
 
 void Boundaries::depart(Disc& disc, std::size_t side, double time) const {
-    disc = frame_at(time).in_box(disc, time);
+    fall_.restart(disc, time);
     (side / 2 == 0 ? disc.x : disc.y) = departure(disc, side);
     disc.depart();
     disc.wall_collisions += 1;
@@ -145,16 +122,16 @@ void Boundaries::rebound(Disc& disc, std::size_t side, double restitution, doubl
                           4 * n_before + side);
         const double temperature = effects_.boundaries[side].temperature /
                                    species_.of(disc.id).mass;
-        away = std::sqrt(2 * temperature * random_exponential(random)) / slowing_at(time);
+        away = std::sqrt(2 * temperature * random_exponential(random)) / fall_.slowing_at(time);
         const double speed = std::sqrt(2 * temperature * random_exponential(random));
-        along = (speed * random_direction(random).x) / slowing_at(time) -
-                gravity_[1 - side / 2] * falling_time(time);
+        along = (speed * random_direction(random).x) / fall_.slowing_at(time) -
+                gravity_[1 - side / 2] * fall_.falling_time(time);
     }
     // A disc that is pulled back stays away for the contact time at least: else one at rest would
     // bounce without end.
     const double pull = -sign * pull_at(side);
     if (pull > 0)
-        away = std::max(away, 0.5 * pull * effects_.contact.contact_time / slowing_at(time));
+        away = std::max(away, 0.5 * pull * effects_.contact.contact_time / fall_.slowing_at(time));
     normal = wall + sign * away;
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The four sides of a box where a scene asks for more than elastic walls at rest, or for gravity.
+// The four sides of a box with effects: walls that lose energy, heat or move, and open sides.
+// Periodic sides are walls infinitely far away.
 //
-// Times count from the last sync, at which the falling frame (frame.hpp) is at rest in the box. In
-// it discs fly straight and a wall at w0 that moves with u is at w(t) = (w0 + u t) - (g/2 t) t with
-// the velocity u - g t: its distance to a disc is a quadratic, solved without subtracting like
-// numbers. For g = 0 and u = 0 the plain law's formulas are left, bit for bit. With drag times are
-// those of its clock s, t = s + c F(s) (fall.hpp): the wall is at (w0 + u s) - (g - c u) F(s).
-// Periodic sides are walls infinitely far.
+// Times and places are those of the falling frame (gravity.hpp). In it a wall at w0 that moves with
+// u is at w(t) = (w0 + u t) - (g/2 t) t, with the velocity u - g t. Its distance to a disc is a
+// quadratic, solved without subtracting like numbers. For g = 0 and u = 0 the plain dynamics'
+// formulas are left, bit for bit. With drag in the clock s, t = s + c F(s), the wall is at
+// (w0 + u s) - (g - c u) F(s).
 #pragma once
 
 #include <array>
@@ -16,9 +16,8 @@
 #include <limits>
 
 #include "core/disc.hpp"
-#include "core/frame.hpp"
 #include "dynamics/effects.hpp"
-#include "dynamics/fall.hpp"
+#include "dynamics/gravity.hpp"
 
 namespace carrom {
 
@@ -28,34 +27,17 @@ class Boundaries {
 public:
     static constexpr double never = std::numeric_limits<double>::infinity();
 
-    /// `effects` per micro-step; `radius` is the largest one; `bodies` are those of the effects'
-    /// classes.
+    /// `effects` per micro-step; `radius` is the largest one.
     Boundaries(double box_size, double radius, const Effects& effects,
                const SpeciesTable& species_table);
 
     /// From now on times count from micro-step `n` of the scene.
     void begin_interval(std::int64_t n);
-    /// What the clock shows `micro_steps` after a sync, and the other way round.
-    double clock_at(double micro_steps) const;
-    double micro_steps_at(double clock) const;
-    /// Of a state advanced to `time`: what it is in a frame that starts there, at rest in the box.
-    void restart_frame(Disc& disc, double time) const;
-    /// `time` is that of the clock, as everywhere.
-    Frame frame_at(double time) const;
     /// The walls themselves in the frame's coordinates.
     Extent extent_at(double time) const;
     /// See PlainDynamics: at both ends inside, and by as much as the walls' paths are bent in
     /// between.
     Extent walls_between(double begin, double end) const;
-    /// By how much the frame jumps at a sync at `time`, in x.
-    double jump_at(double time) const { return std::fabs(fallen(gravity_[0], time)); }
-    /// The frame's speed at most, in its own clock.
-    double speed_gained_at(double time) const {
-        return (std::fabs(gravity_[0]) + std::fabs(gravity_[1])) * falling_time(time);
-    }
-    /// exp(-c t) = 1 - c s: turns velocities in the clock into those in the box.
-    double slowing_at(double time) const { return 1 - effects_.drag * time; }
-
     /// When the disc meets a side of this axis, or `never`.
     double wall_time(const Disc& disc, Axis axis) const { return meeting(disc, axis).time; }
     /// Carries out the collision of `time` = wall_time(disc, axis), the event-driven method.
@@ -108,22 +90,15 @@ private:
     /// For the centre of a disc of that radius that touches, or has just left an open side.
     double wall_at(std::size_t side, double time, double radius) const {
         const double place = departure_or_touch(side, radius) + moved_[side];
-        return (place + speeds_[side] * time) - fallen(pull_at(side), time);
+        return (place + speeds_[side] * time) - fall_.fallen(pull_at(side), time);
     }
     /// What discs near the wall are accelerated with against it: drag brakes those that a moving
     /// wall pushes.
     double pull_at(std::size_t side) const {
         return gravity_[side / 2] - effects_.drag * speeds_[side];
     }
-    double fallen(double g, double time) const {
-        if (effects_.drag == 0 || g == 0) return (0.5 * g * time) * time;
-        return g * dragged_fall(effects_.drag, time);
-    }
-    double falling_time(double time) const {
-        return effects_.drag == 0 ? time : dragged_fall_speed(effects_.drag, time);
-    }
     double wall_velocity(std::size_t side, double time) const {
-        return speeds_[side] - pull_at(side) * falling_time(time);
+        return speeds_[side] - pull_at(side) * fall_.falling_time(time);
     }
     Approach approach(const Disc& disc, std::size_t side) const {
         const double sign = sign_of(side);
@@ -142,6 +117,7 @@ private:
     std::array<double, 4> away_{};             ///< infinite for periodic sides
     std::array<double, 4> moved_{}, speeds_{}; ///< moved: from the scene's start to the last sync
     std::array<double, 2> gravity_;
+    FallingFrame fall_;
 };
 
 } // namespace carrom

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What two discs that touch do to each other: the policies that a law is put together from. A
-// contact says how long the impulse is, along the line of centres, in units of that of an elastic
-// contact.
+// The impulse between two discs that touch, one class for each kind of contact. It is along the
+// line of centres, in units of that of an elastic contact.
 #pragma once
 
 #include <cmath>
@@ -12,27 +11,17 @@
 
 namespace carrom {
 
-/// Discs pass through each other: an ideal gas.
-class NoContact {
-public:
-    static constexpr bool has_pairs = false;
-
-    explicit NoContact(const ContactEffect&) {}
-    double impulse() const { return 0; }
-    double impulse_at(const Disc&, const Disc&, double) const { return 0; }
-};
-
-/// As in a plain scene, beside other effects.
+/// As in a plain scene, beside other effects. The guard of InelasticContact is left out: it is
+/// fast.
 class ElasticContact {
 public:
-    static constexpr bool has_pairs = true;
-
     explicit ElasticContact(const ContactEffect&) {}
     double impulse() const { return 1; }
     double impulse_at(const Disc&, const Disc&, double) const { return 1; }
 };
 
-/// The share `restitution` of the normal relative velocity is left.
+/// The share `restitution` of the normal relative velocity is left: 1 gives the elastic contact's
+/// bits.
 ///
 /// In the event-driven method a heap of such discs would come to infinitely many collisions in a
 /// finite time (inelastic collapse: McNamara and Young 1992). So dissipation takes time, as in the
@@ -41,8 +30,6 @@ public:
 /// last collision or sync: the sync counts as a touch, so the guard holds across it.
 class InelasticContact {
 public:
-    static constexpr bool has_pairs = true;
-
     explicit InelasticContact(const ContactEffect& effect)
         : impulse_((1 + effect.restitution) / 2), contact_time_(effect.contact_time) {}
 
@@ -63,8 +50,6 @@ private:
 /// more than `friction` times the normal impulse, they slide.
 class RoughContact {
 public:
-    static constexpr bool has_pairs = true;
-
     explicit RoughContact(const ContactEffect& effect)
         : normal_((1 + effect.restitution) / 2),
           tangential_((1 + effect.tangential_restitution) / 2 *

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The laws of scenes that name effects, put together from policies (docs/architecture.md, "How a
-// law is put together").
+// The dynamics of scenes that name effects, put together from a contact (contacts.hpp), the sides
+// of the box (boundaries.hpp), the falling frame (gravity.hpp) and obstacles (obstacles.hpp).
 //
-// A law is the plain one with some of its answers replaced; what an effect does not touch is the
-// plain law's own code, so that an effect whose parameters make it none gives the plain law's bits.
+// It is the plain dynamics with some answers replaced. The plain dynamics' own code computes
+// everything that an effect leaves alone. So an effect whose parameters make it none gives the
+// plain bits.
 #pragma once
 
 #include <memory>
@@ -11,16 +12,16 @@
 #include "dynamics/boundaries.hpp"
 #include "dynamics/contacts.hpp"
 #include "dynamics/effects.hpp"
+#include "dynamics/gravity.hpp"
 #include "dynamics/obstacles.hpp"
 #include "dynamics/plain_dynamics.hpp"
 
 namespace carrom {
 
-/// `is_mixed`: discs are of several radii and masses. Then the plain law's radius is the largest,
-/// and so are its bands and tolerances.
+/// `is_mixed`: discs are of several radii and masses. Then the radius is the largest one, and band
+/// and tolerance are those of that.
 template <class Contact, bool is_mixed = false> class EffectDynamics : public PlainDynamics {
 public:
-    static constexpr bool has_pairs = Contact::has_pairs;
     static constexpr bool has_species = is_mixed;
     static constexpr bool has_spin = std::is_same_v<Contact, RoughContact>;
     static constexpr bool has_mirror_walls = false;
@@ -30,30 +31,35 @@ public:
     /// `effects` per micro-step.
     EffectDynamics(double box_size, double radius, const Effects& effects)
         : PlainDynamics(box_size, radius), contact_(effects.contact),
+          has_pairs_(effects.contact.kind != ContactKind::none),
           contact_time_(effects.contact.contact_time), species_(effects.species, radius),
-          boundaries_(box_size, radius, effects, species_) {
+          fall_(effects.gravity, effects.drag), boundaries_(box_size, radius, effects, species_) {
         if (effects.obstacles.are_any())
             obstacles_ = std::make_shared<const Obstacles>(box_size, radius, effects);
     }
 
-    const Boundaries& boundaries() const { return boundaries_; }
+    /// False in an ideal gas: discs pass through each other.
+    bool has_pairs() const { return has_pairs_; }
     bool has_obstacles() const { return obstacles_ != nullptr; }
-    void begin_interval(std::int64_t n) { boundaries_.begin_interval(n); }
-
+    bool has_open_sides() const { return boundaries_.are_any_open(); }
     const SpeciesTable& species_table() const { return species_; }
 
+    void begin_interval(std::int64_t n) { boundaries_.begin_interval(n); }
+    double clock_at(double micro_steps) const { return fall_.clock_at(micro_steps); }
+    double micro_steps_at(double clock) const { return fall_.micro_steps_at(clock); }
+    Frame frame_at(double time) const { return fall_.at(time); }
+    void restart_frame(Disc& disc, double time) const { fall_.restart(disc, time); }
+    double jump_at(double time) const { return fall_.jump_at(time); }
+    double speed_gained_at(double time) const { return fall_.speed_gained_at(time); }
+    Extent extent_at(double time) const { return boundaries_.extent_at(time); }
+
     PairContact<double> contact(const Disc& p, const Disc& q) const {
-        if constexpr (has_pairs) {
-            if (!p.has_departed() && !q.has_departed()) return pair_dynamics(p, q).contact(p, q);
-        }
-        return {};
+        if (p.has_departed() || q.has_departed()) return {};
+        return pair_dynamics(p, q).contact(p, q);
     }
     PairContact<double> event_contact(const Disc& p, const Disc& q) const {
-        if constexpr (has_pairs) {
-            if (!p.has_departed() && !q.has_departed())
-                return pair_dynamics(p, q).event_contact(p, q);
-        }
-        return {};
+        if (p.has_departed() || q.has_departed()) return {};
+        return pair_dynamics(p, q).event_contact(p, q);
     }
 
     void collide(Disc& p, Disc& q, double m, double t) const {
@@ -65,7 +71,7 @@ public:
         exchange_momentum(p, q, time, contact_.impulse_at(p, q, time));
     }
 
-    /// As of plain discs, but for obstacles.
+    /// As in the plain dynamics, but for obstacles.
     MetWalls met_walls(const Disc& disc, double m, double t) const {
         if (has_obstacles() && t != side_time(disc, m)) return {};
         return wall_dynamics(disc).met_walls(disc, m, t);
@@ -87,8 +93,8 @@ public:
         return has_obstacles() ? std::min(at_wall, obstacle_contact(disc, m).time - m) : at_wall;
     }
 
-    /// The plain law's times; what happens at them is the sides' business. Walls are at rest in the
-    /// time-stepped method.
+    /// The plain dynamics' times; the sides decide what happens at them. In the time-stepped method
+    /// walls are at rest.
     void bounce(Disc& disc, double m, double t) const {
         if (has_obstacles() && t != side_time(disc, m)) return bounce_off(disc, m, t);
         const PlainDynamics walls = wall_dynamics(disc);
@@ -115,7 +121,7 @@ public:
     double y_wall_time(const Disc& disc) const { return boundaries_.wall_time(disc, Axis::y); }
     bool may_meet_wall(const Disc& disc, double time) const {
         const double fastest = std::max(std::fabs(disc.vx), std::fabs(disc.vy)) +
-                               boundaries_.speed_gained_at(time);
+                               speed_gained_at(time);
         return boundaries_.may_meet(disc, time, tolerance() + time_rounding * time * fastest);
     }
     Extent walls_between(double begin, double end) const {
@@ -136,6 +142,8 @@ public:
     }
 
 protected:
+    void reverse(Disc& disc, Axis axis) const { boundaries_.reverse(disc, axis); }
+
     ObstacleContact obstacle_contact(const Disc& disc, double m) const {
         return first_obstacle(disc, {m, m + 1});
     }
@@ -176,7 +184,7 @@ private:
         return boundaries_.is_open(Boundaries::side_ahead(disc, axis));
     }
 
-    /// As the plain law's, but that through an open side a disc leaves when its centre is a radius
+    /// As in the plain dynamics. Through an open side a disc leaves when its centre is a radius
     /// beyond it.
     double side_time(const Disc& disc, Axis axis, double m) const {
         const double x = axis == Axis::x ? disc.x : disc.y, v = axis == Axis::x ? disc.vx : disc.vy;
@@ -222,15 +230,15 @@ private:
     }
 
 protected:
-    // What pairs and walls are told of sizes and masses, for laws of images too. Discs are advanced
-    // to where they touch, at the separation (ex, ey).
+    // Sizes and masses of pairs and at walls, for images too. Discs are advanced to where they
+    // touch, q at the separation (ex, ey) from p.
 
     /// Sums of two numbers are the same in any order.
     [[gnu::always_inline]] double pair_diameter(const Disc& p, const Disc& q) const {
         if constexpr (is_mixed) return species_.of(p.id).radius + species_.of(q.id).radius;
         return diameter_;
     }
-    /// The plain law as a disc at walls needs it.
+    /// The plain dynamics of this disc at walls.
     [[gnu::always_inline]] PlainDynamics wall_dynamics(const Disc& disc) const {
         if constexpr (is_mixed) return with_sizes(species_.of(disc.id).radius, diameter_);
         return *this;
@@ -254,22 +262,22 @@ protected:
     [[gnu::always_inline]] void exchange_spin_at(Disc& p, Disc& q, double ex, double ey,
                                                  bool is_guarded, double& p_spin,
                                                  double& q_spin) const {
-        const Body &p_body = species_.of(p.id), &q_body = species_.of(q.id);
+        const SizeAndMass &p_has = species_.of(p.id), &q_has = species_.of(q.id);
         const double wx = q.vx - p.vx, wy = q.vy - p.vy;
         const double square = ex * ex + ey * ey, distance = std::sqrt(square);
         const double k = (is_guarded ? 1 : contact_.normal()) * ((wx * ex + wy * ey) / square);
         const double slip = (wy * ex - wx * ey) / square -
-                            (p_spin * p_body.radius + q_spin * q_body.radius) / distance;
+                            (p_spin * p_has.radius + q_spin * q_has.radius) / distance;
         const double s = is_guarded ? 0 : contact_.tangential(slip, k);
-        const double half = (p_body.mass + q_body.mass) / 2, p_share = q_body.mass / half,
-                     q_share = p_body.mass / half;
+        const double half = (p_has.mass + q_has.mass) / 2, p_share = q_has.mass / half,
+                     q_share = p_has.mass / half;
         p.vx = p.vx + (k * p_share * ex - s * p_share * ey);
         p.vy = p.vy + (k * p_share * ey + s * p_share * ex);
         q.vx = q.vx - (k * q_share * ex - s * q_share * ey);
         q.vy = q.vy - (k * q_share * ey + s * q_share * ex);
         const double turn = s * distance / contact_.inertia();
-        p_spin = p_spin + turn * p_share / p_body.radius;
-        q_spin = q_spin + turn * q_share / q_body.radius;
+        p_spin = p_spin + turn * p_share / p_has.radius;
+        q_spin = q_spin + turn * q_share / q_has.radius;
         p.pair_collisions += 1;
         q.pair_collisions += 1;
     }
@@ -277,18 +285,17 @@ protected:
     Contact contact_;
 
 private:
+    bool has_pairs_;
     double contact_time_; ///< for obstacles in the event-driven method
     SpeciesTable species_;
+    FallingFrame fall_;
     Boundaries boundaries_;
     std::shared_ptr<const Obstacles>
         obstacles_; ///< the same for all copies; null where there are none
 };
 
-using IdealGasDynamics = EffectDynamics<NoContact>;
-using ElasticDynamics =
-    EffectDynamics<ElasticContact>; ///< with sides or gravity that are not plain
-using InelasticDynamics = EffectDynamics<InelasticContact>;
-using MixedDynamics = EffectDynamics<InelasticContact, true>; ///< of any restitution, 1 included
-using RoughDynamics = EffectDynamics<RoughContact, true>;     ///< of one class or several
+using InelasticDynamics = EffectDynamics<InelasticContact>; ///< of any restitution, 1 included
+using MixedDynamics = EffectDynamics<InelasticContact, true>;
+using RoughDynamics = EffectDynamics<RoughContact, true>; ///< of one species or several
 
 } // namespace carrom

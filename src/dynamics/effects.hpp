@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene asks for beyond free flight, elastic pairs and four elastic walls. Plain numbers:
-// what they do is said where it is done (effect_law.hpp and its policies).
+// The effects of a scene beyond free flight, elastic pairs and four elastic walls. Plain numbers:
+// contacts.hpp, boundaries.hpp, gravity.hpp, drag.hpp and obstacles.hpp say what they do.
 #pragma once
 
 #include <array>
@@ -47,7 +47,7 @@ struct Boundary {
     friend bool operator==(const Boundary&, const Boundary&) = default;
 };
 
-/// The order of Effects::sides: the low and the high side of x, then of y.
+/// The order of Effects::boundaries: the low and the high side of x, then of y.
 inline constexpr std::array<const char*, 4> boundary_names = {"left", "right", "bottom", "top"};
 
 /// Uniform gravity: an acceleration.
@@ -80,7 +80,7 @@ struct ObstacleList {
     friend bool operator==(const ObstacleList&, const ObstacleList&) = default;
 };
 
-/// Times in steps in a scene, in micro-steps in a law.
+/// Times in steps in a scene, in micro-steps in a dynamics.
 struct Effects {
     ContactEffect contact;
     std::array<Boundary, 4> boundaries;

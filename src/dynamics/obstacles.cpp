@@ -41,15 +41,15 @@ Obstacles::Obstacles(double box_size, double largest_radius, const Effects& effe
       n_fixed_discs_(effects.obstacles.discs.size()), periods_(effects.periods(box_size)),
       largest_radius_(largest_radius) {
     for (const FixedDisc& disc : effects.obstacles.discs)
-        species_.push_back({disc.x, disc.y, disc.radius});
+        bodies_.push_back({disc.x, disc.y, disc.radius});
     for (const Segment& segment : effects.obstacles.segments) {
         const double dx = segment.x1 - segment.x0, dy = segment.y1 - segment.y0,
                      length = std::sqrt(dx * dx + dy * dy);
-        species_.push_back({segment.x0, segment.y0, 0, dx / length, dy / length, length});
-        species_.push_back({segment.x0, segment.y0, 0});
-        species_.push_back({segment.x1, segment.y1, 0});
+        bodies_.push_back({segment.x0, segment.y0, 0, dx / length, dy / length, length});
+        bodies_.push_back({segment.x0, segment.y0, 0});
+        bodies_.push_back({segment.x1, segment.y1, 0});
     }
-    const auto n = static_cast<double>(species_.size());
+    const auto n = static_cast<double>(bodies_.size());
     n_rows_ = static_cast<std::int64_t>(std::clamp(std::sqrt(2 * n), 4.0, 4096.0));
     cell_width_ = box_size / static_cast<double>(n_rows_);
     margin_ = 1e-6 * cell_width_ + 1e-9 * box_size; // far above the rounding of places and times
@@ -94,11 +94,11 @@ bool Obstacles::may_hold(const Body& body, std::int64_t column, std::int64_t row
 void Obstacles::sort_into_cells() {
     cell_starts_.assign(static_cast<std::size_t>(n_rows_ * n_rows_ + 1), 0);
     const auto visit = [this](const auto& what) {
-        for (std::size_t k = 0; k < species_.size(); ++k) {
-            const Cells cells = cells_of(extent_of(species_[k], largest_radius_, {0, 0}));
+        for (std::size_t k = 0; k < bodies_.size(); ++k) {
+            const Cells cells = cells_of(extent_of(bodies_[k], largest_radius_, {0, 0}));
             for (std::int64_t column = cells.first_column; column <= cells.last_column; ++column)
                 for (std::int64_t row = cells.first_row; row <= cells.last_row; ++row) {
-                    if (!may_hold(species_[k], column, row)) continue;
+                    if (!may_hold(bodies_[k], column, row)) continue;
                     const std::int64_t x = box_of(column, periods_.x), y = box_of(row, periods_.y);
                     const auto cell = static_cast<std::size_t>((column - x * n_rows_) * n_rows_ +
                                                                (row - y * n_rows_));
@@ -219,7 +219,7 @@ ObstacleContact Obstacles::first_contact(const Disc& disc, double radius,
         const double to = k == n_slices ? times.to : begin + (times.to - begin) * (k / n_slices);
         const Box path = path_of(disc, from, to);
         visit_cells(cells_of(path), [&](const Entry& image) {
-            const Body& body = species_[image.body];
+            const Body& body = bodies_[image.body];
             const Shift shift = shift_of(image);
             const Box extent = extent_of(body, radius, shift);
             if (extent.x_low > path.x_high + margin_ || extent.x_high < path.x_low - margin_ ||
@@ -241,7 +241,7 @@ ObstacleContact Obstacles::first_contact(const Disc& disc, double radius,
 
 void Obstacles::rebound(Disc& disc, std::uint32_t code, double time, bool is_touched) const {
     const Entry image = image_of(code, disc);
-    const Body& at = species_[image.body];
+    const Body& at = bodies_[image.body];
     const Shift shift = shift_of(image);
     const double dx = ((disc.x + fallen(0, time)) - at.x) - shift.x,
                  dy = ((disc.y + fallen(1, time)) - at.y) - shift.y;
@@ -269,7 +269,7 @@ Obstacles::Overlap Obstacles::deepest_overlap(double x, double y, double radius,
     Overlap deepest;
     double most = least;
     visit_cells(cells_of({x, x, y, y}), [&](const Entry& image) {
-        const Body& body = species_[image.body];
+        const Body& body = bodies_[image.body];
         const Shift shift = shift_of(image);
         const double from_x = x - shift.x, from_y = y - shift.y;
         const double along = std::clamp(body.ux * (from_x - body.x) + body.uy * (from_y - body.y),

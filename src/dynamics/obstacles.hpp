@@ -46,7 +46,7 @@ public:
     /// For discs of radius `largest_radius` at most; `effects` per micro-step.
     Obstacles(double box_size, double largest_radius, const Effects& effects);
 
-    bool are_none() const { return species_.empty(); }
+    bool are_none() const { return bodies_.empty(); }
 
     /// The first body that the disc of that radius comes to at such a time; the one of the lower
     /// number where two are met at once.
@@ -116,8 +116,8 @@ private:
     std::array<double, 2> gravity_;
     std::size_t n_fixed_discs_;
     Periods periods_;
-    double largest_radius_;     ///< of discs
-    std::vector<Body> species_; ///< fixed discs, then a line and its two ends for each segment
+    double largest_radius_;    ///< of discs
+    std::vector<Body> bodies_; ///< fixed discs, then a line and its two ends for each segment
     double cell_width_ = 1, margin_ = 0;
     std::int64_t n_rows_ = 1; ///< and columns
     std::vector<std::uint32_t> cell_starts_;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The laws of boxes with periodic sides: another law, for images of discs (core/image.hpp).
+// The dynamics of boxes with periodic sides: another dynamics, for images of discs
+// (core/image.hpp).
 //
 // The separation of two discs is that of their stored places and a whole number of box lengths,
-// added in one fixed association; all else is the other law's. An axis has walls or is periodic; a
-// walled one is as in the other law.
+// added in one fixed association. An axis has walls or is periodic. Everything else is as in the
+// other dynamics.
 #pragma once
 
 #include "core/image.hpp"
@@ -57,7 +58,7 @@ public:
         return this->has_obstacles() ? std::min(at_wall, this->obstacle_contact(disc, m).time - m)
                                      : at_wall;
     }
-    PlainDynamics::MetWalls met_walls(const Disc& disc, double m, double t) const {
+    MetWalls met_walls(const Disc& disc, double m, double t) const {
         if (this->has_obstacles() && t != side_time(disc, m)) return {};
         return {periods_.x == 0, periods_.y == 0};
     }
@@ -66,7 +67,7 @@ public:
         if (this->has_obstacles() && t != side_time(disc, m))
             return stop(disc, m, t, this->rebound_in(disc, m));
         this->advance(disc, m + t);
-        this->boundaries().reverse(disc, periods_.x == 0 ? Axis::x : Axis::y);
+        this->reverse(disc, periods_.x == 0 ? Axis::x : Axis::y);
         disc.wall_collisions += 1;
         stop(disc, m, t);
     }
@@ -80,14 +81,11 @@ public:
 private:
     [[gnu::flatten]] PairContact<double> contact(const Disc& p, const Disc& q,
                                                  double deepest_overlap) const {
-        if constexpr (Walled::has_pairs) {
-            const double base = std::max(p.tau, q.tau);
-            const double dx = (q.x_at(base) - p.x_at(base)) + periods_.x_between(p, q);
-            const double dy = (q.y_at(base) - p.y_at(base)) + periods_.y_between(p, q);
-            return {base, contact_delay(dx, dy, q.vx - p.vx, q.vy - p.vy, this->pair_diameter(p, q),
-                                        deepest_overlap)};
-        }
-        return {};
+        const double base = std::max(p.tau, q.tau);
+        const double dx = (q.x_at(base) - p.x_at(base)) + periods_.x_between(p, q);
+        const double dy = (q.y_at(base) - p.y_at(base)) + periods_.y_between(p, q);
+        return {base, contact_delay(dx, dy, q.vx - p.vx, q.vy - p.vy, this->pair_diameter(p, q),
+                                    deepest_overlap)};
     }
 
     void exchange_momentum(Disc& p, Disc& q, double time, double impulse) const {
@@ -125,8 +123,8 @@ private:
     Periods periods_;
 };
 
-using PeriodicElasticDynamics = PeriodicDynamics<ElasticDynamics>;
-using PeriodicIdealGasDynamics = PeriodicDynamics<IdealGasDynamics>;
+/// The usual gas in a periodic box.
+using PeriodicElasticDynamics = PeriodicDynamics<EffectDynamics<ElasticContact>>;
 using PeriodicInelasticDynamics = PeriodicDynamics<InelasticDynamics>;
 using PeriodicMixedDynamics = PeriodicDynamics<MixedDynamics>;
 using PeriodicRoughDynamics = PeriodicDynamics<RoughDynamics>;

@@ -5,7 +5,7 @@ namespace carrom {
 
 namespace {
 
-/// More classes than this are not searched one by one.
+/// More species than this are not searched one by one.
 constexpr std::size_t few_species = 8;
 
 } // namespace
@@ -17,11 +17,12 @@ SpeciesTable::SpeciesTable(std::span<const Species> species, double radius) {
         end += one.count;
         table->ranges.push_back({end, {one.radius, one.mass}});
         if (species.size() > few_species)
-            table->by_id.insert(table->by_id.end(), one.count, Body{one.radius, one.mass});
+            table->by_id.insert(table->by_id.end(), one.count, SizeAndMass{one.radius, one.mass});
     }
-    table->ranges.push_back({std::numeric_limits<DiscId>::max(),
-                             species.empty() ? Body{radius, 1} : table->ranges.back().body});
-    if (!species.empty()) table->ranges.erase(table->ranges.end() - 2); // the last class has no end
+    table->ranges.push_back(
+        {std::numeric_limits<DiscId>::max(),
+         species.empty() ? SizeAndMass{radius, 1} : table->ranges.back().values});
+    if (!species.empty()) table->ranges.erase(table->ranges.end() - 2); // the last one has no end
     ranges_ = table->ranges.data();
     by_id_ = table->by_id.empty() ? nullptr : table->by_id.data();
     table_ = std::move(table);

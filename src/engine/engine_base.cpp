@@ -39,8 +39,8 @@ EngineBase<Dynamics>::EngineBase(const Scene& scene, StoredState state,
              scene.effects.periods(scene.box_size), stored_columns<Dynamics>(state)),
       n_micro_done_(state.micro_steps_done), last_micro_step_(scene.steps * scene.micro_steps) {
     dynamics_.begin_interval(last_sync());
-    time_ = dynamics_.boundaries().clock_at(static_cast<double>(n_micro_done_ % sync_every_));
-    if constexpr (!Dynamics::is_double) {
+    time_ = dynamics_.clock_at(static_cast<double>(n_micro_done_ % sync_every_));
+    if constexpr (Dynamics::is_for_study) {
         for (Disc& disc : discs_.all()) Dynamics::round(disc);
     }
     for (const Disc& disc : own())
@@ -54,7 +54,7 @@ template <class Dynamics> void EngineBase<Dynamics>::distribute() {
 }
 
 template <class Dynamics> void EngineBase<Dynamics>::set_departed_aside() {
-    if (dynamics_.boundaries().are_any_open()) discs_.set_departed_aside();
+    if (dynamics_.has_open_sides()) discs_.set_departed_aside();
 }
 
 template <class Dynamics> void EngineBase<Dynamics>::redistribute_now(double least_reach) {
@@ -104,14 +104,14 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
     discs_.forget_halo();
     std::vector<Disc>& discs = discs_.all();
     const auto n = static_cast<std::int64_t>(discs.size());
-    const bool frame_moves = dynamics_.boundaries().frame_at(time_).is_moving;
+    const bool frame_moves = dynamics_.frame_at(time_).is_moving;
     double fastest = 0;
 #pragma omp parallel for num_threads(tuning_.threads) schedule(static) reduction(max : fastest)
     for (std::int64_t i = 0; i < n; ++i) {
         Disc& disc = discs[static_cast<std::size_t>(i)];
         if (Dynamics::may_lose_discs && disc.has_departed()) continue;
         Dynamics::advance(disc, time_);
-        if (frame_moves) dynamics_.boundaries().restart_frame(disc, time_);
+        if (frame_moves) dynamics_.restart_frame(disc, time_);
         if constexpr (Dynamics::is_periodic) this->wrap(disc);
         disc.tau = 0;
         fastest = std::max(fastest, squared_speed_of(disc));
@@ -132,7 +132,7 @@ template <class Dynamics> void EngineBase<Dynamics>::wrap(Disc& disc) {
 
 template <class Dynamics> void EngineBase<Dynamics>::add_to(Totals& totals) {
     redistribute_now();
-    if constexpr (Dynamics::has_pairs)
+    if (dynamics_.has_pairs())
         measure_overlaps(population(), discs_.grid(), time_,
                          touching_of(dynamics_, discs_.periods()), communicator_, tuning_.threads,
                          totals);
@@ -145,7 +145,7 @@ template <class Dynamics> LocalView EngineBase<Dynamics>::local_view(double reac
 }
 
 template <class Dynamics> Extent EngineBase<Dynamics>::extent() const {
-    Extent box = dynamics_.boundaries().extent_at(time_);
+    Extent box = dynamics_.extent_at(time_);
     const Periods& periods = discs_.periods();
     if (periods.x != 0) box.x_low = 0, box.x_high = periods.x;
     if (periods.y != 0) box.y_low = 0, box.y_high = periods.y;
@@ -154,7 +154,7 @@ template <class Dynamics> Extent EngineBase<Dynamics>::extent() const {
 
 /// In a periodic box the frame moves in that places are to be brought into the box.
 template <class Dynamics> Frame EngineBase<Dynamics>::frame() const {
-    Frame frame = dynamics_.boundaries().frame_at(time_);
+    Frame frame = dynamics_.frame_at(time_);
     if (!discs_.periods().are_any()) return frame;
     frame.period_x = discs_.periods().x;
     frame.period_y = discs_.periods().y;

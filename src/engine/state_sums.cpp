@@ -96,7 +96,7 @@ void measure_rotation(std::span<const Disc> own, std::span<const double> spins,
                       const SpeciesTable& species_table, double inertia, double velocity_unit,
                       const Communicator& communicator, Totals& totals) {
     const auto energy_of = [&](std::size_t i) {
-        const Body& body = species_table.of(own[i].id);
+        const SizeAndMass& body = species_table.of(own[i].id);
         const double speed = spins[i] * velocity_unit * body.radius;
         return 0.5 * inertia * body.mass * speed * speed;
     };

@@ -115,7 +115,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_all() {
     queue.restart(ground.window.begin, ground.window.end, discs.size() / 2);
     if (dynamics.has_walls())
         for (std::uint32_t slot = 0; slot < discs.size(); ++slot) predict_walls(slot);
-    if constexpr (!Dynamics::has_pairs) return;
+    if (!dynamics.has_pairs()) return;
     const CellTable table{cell_starts.data(), cell_rows, cells.end_column - cells.first_column,
                           cells.end_row - cells.first_row};
     std::uint32_t slot = 0;
@@ -132,7 +132,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_all() {
 }
 
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_pairs(std::uint32_t slot) {
-    if constexpr (!Dynamics::has_pairs) return;
+    if (!dynamics.has_pairs()) return;
     const Flight flight = flight_of(slot);
     look_around(box_of(flight));
     const std::size_t n_partners = filter_flights(lanes, std::span(runs).first(n_runs), flight,
@@ -145,7 +145,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_pairs(std::u
 /// the box that holds both of theirs.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::predict_pairs_of(std::uint32_t p, std::uint32_t q) {
-    if constexpr (!Dynamics::has_pairs) return;
+    if (!dynamics.has_pairs()) return;
     const Flight p_flight = flight_of(p), q_flight = flight_of(q);
     const FlightBox a = box_of(p_flight), b = box_of(q_flight);
     const auto least = [](float u, float v) { return u < v ? u : v; };

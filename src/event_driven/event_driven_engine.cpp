@@ -46,7 +46,7 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const Scene& scene, StoredState s
     travel_speed_ = communicator_.max(largest_speed_);
     this->distribute();
     // Later on the run itself may have come to overlaps.
-    if (Dynamics::has_pairs && (Dynamics::parts_overlaps || n_micro_done_ == 0))
+    if (dynamics_.has_pairs() && (dynamics_.parts_overlaps() || n_micro_done_ == 0))
         refuse_overlaps(population(), discs_.grid(), time_,
                         touching_of(dynamics_, discs_.periods()), communicator_, scene.name);
     discs_.forget_images();
@@ -55,7 +55,7 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const Scene& scene, StoredState s
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::advance_to(std::int64_t target) {
     const auto micro_steps = static_cast<double>(target - this->last_sync());
-    const double target_time = dynamics_.boundaries().clock_at(micro_steps);
+    const double target_time = dynamics_.clock_at(micro_steps);
     while (time_ < target_time) run_window(target_time);
     n_micro_done_ = target;
 }
@@ -121,8 +121,8 @@ template <class Dynamics>
 double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
     const double now = communicator_.max(largest_speed_) * block_tuning_.speed_allowance;
     const double soon = std::min(time_ + 2 * last_duration_, target);
-    return std::max(now, 0.99 * travel_speed_) + (dynamics_.boundaries().speed_gained_at(soon) -
-                                                  dynamics_.boundaries().speed_gained_at(time_));
+    return std::max(now, 0.99 * travel_speed_) +
+           (dynamics_.speed_gained_at(soon) - dynamics_.speed_gained_at(time_));
 }
 
 /// Takes what the last window teaches into account.
@@ -318,21 +318,20 @@ void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome& outcome) {
     for (const LoggedEvent& event : outcome.log) {
         double mass = 1;
         if constexpr (Dynamics::has_species) mass = dynamics_.species_table().of(event.p).mass;
-        const double unit = mass * (dynamics_.boundaries().frame_at(event.time).slowing *
+        const double unit = mass * (dynamics_.frame_at(event.time).slowing *
                                     static_cast<double>(this->micro_steps_));
         if (this->impulses_ && event.is_wall && event.q <= 1)
             this->impulses_->add(event.q, event.normal_impulse * unit);
         if (this->log_)
             this->log_->push_back(
-                {this->last_sync(), dynamics_.boundaries().micro_steps_at(event.time),
-                 event.generation, event.p, event.is_wall ? Collision::wall : event.q,
-                 event.impulse * unit});
+                {this->last_sync(), dynamics_.micro_steps_at(event.time), event.generation, event.p,
+                 event.is_wall ? Collision::wall : event.q, event.impulse * unit});
     }
 }
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::finish_sync(double largest_speed) {
     largest_speed_ = largest_speed;
-    jumped_ += dynamics_.boundaries().jump_at(time_);
+    jumped_ += dynamics_.jump_at(time_);
     for (BlockRun<Dynamics>& block_run : block_runs_) block_run.change_dynamics(dynamics_);
 }
 

@@ -188,7 +188,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::fail_on_cascade() co
             (static_cast<double>(this->last_sync()) + outcome.cascade_time) /
                 static_cast<double>(this->micro_steps_),
             partner,
-            Dynamics::is_loose
+            Dynamics::is_for_study
                 ? "it has no room to move, or the scene's precision and arithmetic do not tell "
                   "when it moves"
                 : "it has no room to move, or is so fast that steps should be shorter");

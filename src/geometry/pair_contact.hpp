@@ -33,8 +33,8 @@ template <class Real> Real cross(Real ax, Real ay, Real bx, Real by) {
 
 /// Time until points at separation (dx, dy) with relative velocity (wx, wy) come within `sigma`;
 /// negative for never. Pairs that overlap by more than `deepest_overlap` never do (infinity: they
-/// collide at once if they approach). Inlined wherever it is called: other laws that are compiled
-/// beside the plain one shall not change its code.
+/// collide at once if they approach). Inlined wherever it is called, so that the code of one
+/// dynamics does not depend on which others are compiled beside it.
 template <class Real>
 [[gnu::always_inline]] inline Real contact_delay(Real dx, Real dy, Real wx, Real wy, Real sigma,
                                                  Real deepest_overlap) {
@@ -54,30 +54,15 @@ template <class Real>
     return c / (-b + std::sqrt(disc));
 }
 
-/// The formula above as a choice that a law makes (another one: naive_contact.hpp).
-struct StableContact {
-    static constexpr bool keeps_digits =
-        true; ///< contacts are found where discs touch, to some roundings
-    static constexpr bool parts_overlaps =
-        true; ///< discs that overlap and approach collide at once
-
-    template <class Real>
-    [[gnu::always_inline]] static Real delay(Real dx, Real dy, Real wx, Real wy, Real sigma,
-                                             Real deepest_overlap) {
-        return contact_delay(dx, dy, wx, wy, sigma, deepest_overlap);
-    }
-};
-
 /// The contact of discs `p` and `q` (any order) from their stored states alone: the same bits
 /// whoever asks, and when. Inlined as above.
-template <class Real, class AnyDisc, class Formula = StableContact>
+template <class Real, class AnyDisc>
 [[gnu::always_inline]] inline PairContact<Real> pair_contact(const AnyDisc& p, const AnyDisc& q,
-                                                             Real sigma, Real deepest_overlap,
-                                                             Formula = {}) {
+                                                             Real sigma, Real deepest_overlap) {
     const Real base = std::max(p.tau, q.tau);
     const Real dx = q.x_at(base) - p.x_at(base);
     const Real dy = q.y_at(base) - p.y_at(base);
-    return {base, Formula::delay(dx, dy, q.vx - p.vx, q.vy - p.vy, sigma, deepest_overlap)};
+    return {base, contact_delay(dx, dy, q.vx - p.vx, q.vy - p.vy, sigma, deepest_overlap)};
 }
 
 } // namespace carrom

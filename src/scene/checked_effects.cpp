@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "dynamics/drag.hpp"
-#include "dynamics/fall.hpp"
+#include "dynamics/gravity.hpp"
 #include "scene/check.hpp"
 #include "scene/limits.hpp"
 

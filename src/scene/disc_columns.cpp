@@ -14,7 +14,7 @@ namespace {
 
 struct Row {
     DiscId id = 0;
-    Body body;
+    SizeAndMass body;
     double spin = 0;
 };
 
@@ -57,7 +57,7 @@ bool has_column(const Scene& scene, DiscColumn column) {
            scene.disc_columns.end();
 }
 
-double& number_of(DiscColumn column, Body& body, double& spin) {
+double& number_of(DiscColumn column, SizeAndMass& body, double& spin) {
     return column == DiscColumn::radius ? body.radius
            : column == DiscColumn::mass ? body.mass
                                         : spin;

@@ -28,7 +28,7 @@ DiscColumns read_disc_columns(std::istream& stream, const Scene& scene);
 
 bool has_column(const Scene& scene, DiscColumn column);
 /// Where the column's number of a disc belongs.
-double& number_of(DiscColumn column, Body& body, double& spin);
+double& number_of(DiscColumn column, SizeAndMass& body, double& spin);
 /// Append discs, as a class or a run of their own only if they differ from those before.
 void add_species(std::vector<Species>& species, const Species& next);
 void add_spins(std::vector<SpinRun>& spins, std::uint64_t count, double spin);

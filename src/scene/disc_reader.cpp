@@ -88,7 +88,7 @@ bool DiscReader::parse(std::string_view line, InputDisc& disc) {
     const auto add = [&text](const std::string& fault) {
         text += (text.empty() ? "" : "; ") + fault;
     };
-    Body body = species_.of(disc.id);
+    SizeAndMass body = species_.of(disc.id);
     double spin = 0;
     std::array<double*, 7> numbers = {&disc.x, &disc.y, &disc.vx, &disc.vy};
     for (std::size_t k = 0; k < columns.size(); ++k)

@@ -48,7 +48,7 @@ Value get_list(const Scene& scene) {
     Values rows;
     for (const InputDisc& disc : scene.listed_discs) {
         Numbers row{disc.x, disc.y, disc.vx, disc.vy};
-        const Body& body = species.of(disc.id);
+        const SizeAndMass& body = species.of(disc.id);
         if (!scene.effects.species.empty()) row.insert(row.end(), {body.radius, body.mass});
         if (!scene.spins.empty()) row.push_back(first_spin(scene, disc.id));
         rows.push_back({std::move(row)});

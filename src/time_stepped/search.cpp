@@ -99,7 +99,7 @@ void Search<Dynamics>::predict_all(const Population& population, const CellGrid&
     const Bounds bounds(dynamics_, grid);
     const int n_columns = grid.geometry().n_columns;
     SharedWork columns(grid.column_shares(n_threads_), std::max(1, n_columns / (16 * n_threads_)));
-    const auto n_apart = Dynamics::has_pairs ? static_cast<std::int64_t>(grid.apart().size()) : 0;
+    const auto n_apart = dynamics_.has_pairs() ? static_cast<std::int64_t>(grid.apart().size()) : 0;
 #pragma omp parallel num_threads(n_threads_)
     {
         SearchLists& lists = lists_[static_cast<std::size_t>(omp_get_thread_num())];
@@ -120,7 +120,7 @@ template <class Dynamics>
 void Search<Dynamics>::predict_column(const Population& population, const CellGrid& grid,
                                       const Window& window, const Bounds& bounds, int column,
                                       SearchLists& lists) const {
-    lists.n_pairs = Dynamics::has_pairs
+    lists.n_pairs = dynamics_.has_pairs()
                         ? filter_column(grid, column, bounds.touching_squared, lists.pairs)
                         : 0;
     for_each_ahead(
@@ -204,7 +204,7 @@ void Search<Dynamics>::look_around(const CellGrid& grid, const Bounds& bounds, f
                                    float half_reach, std::span<const LocalIndex> hit,
                                    SearchLists& lists) const {
     lists.n_pairs = 0;
-    for (std::size_t k = 0; k < hit.size() && Dynamics::has_pairs; ++k) {
+    for (std::size_t k = 0; k < hit.size() && dynamics_.has_pairs(); ++k) {
         // What a disc needs is spread over a dozen cache lines: ask for the cells first, then for
         // the flights in them.
         if (k + 2 * around_ahead < hit.size()) grid.prefetch_cells(hit[k + 2 * around_ahead]);

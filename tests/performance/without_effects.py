@@ -4,8 +4,8 @@
 
   tests/performance/without_effects.py STEP_SCENE SOURCE CMAKE [ARGUMENT ...]
 
-Copies the source tree, takes out all laws but the plain ones (from the list of those that are compiled, and the choice between them), compiles
-step_scene from that and runs fixed plain scenes with both programs. State hashes must be equal, and instructions of
+Copies the source tree, takes out all dynamics but the plain ones (from the list of those that are compiled, and the
+choice between them), compiles step_scene from that and runs fixed plain scenes with both programs. State hashes must be equal, and instructions of
 stepping (callgrind, as in instructions.py) within 0.1 %. Bytes of a disc are the size of its state, the same line of code in both. Takes some minutes: CMAKE builds with two
 processes. ARGUMENTs go to its configuration. Code 1 if anything differs, 77 where there is no valgrind.
 """
@@ -19,34 +19,34 @@ import tempfile
 from instructions import SCENES, SETTINGS, counted
 
 TOLERANCE = 0.001
-PLAIN_LAWS = {"PlainDynamics", "NaiveLaw", "ContractedLaw", "SingleLaw", "SingleNaiveLaw", "SingleContractedLaw"}
-LISTED = re.compile(r" ?make\((\w+)\)")
-CHOICE = re.compile(r"^    if \(scene\.effects\..*?(?=^    const auto with )", re.MULTILINE | re.DOTALL)
+PLAIN = {"PlainDynamics", "StudyDynamics<double>", "StudyDynamics<float>"}
+LISTED = re.compile(r" ?make\((\w+(?:<\w+>)?)\)")
+CHOICE = re.compile(r"^    const Effects& effects = .*?(?=^    if \(scene\.precision == )", re.MULTILINE | re.DOTALL)
 
 
 def take_out_effects(source):
-    """Returns how many laws were taken out of the list that kernels and engines are compiled for."""
-    path = os.path.join(source, "include/carrom/effects/laws.hpp")
+    """Returns how many dynamics were taken out of the list that kernels and engines are compiled for."""
+    path = os.path.join(source, "src/dynamics/all_dynamics.hpp")
     with open(path, encoding="utf-8") as file:
         text = file.read()
-    taken = [law for law in LISTED.findall(text) if law.endswith("Law") and law not in PLAIN_LAWS]
+    taken = [name for name in LISTED.findall(text) if "Dynamics" in name and name not in PLAIN]
     with open(path, "w", encoding="utf-8") as file:
         file.write(LISTED.sub(lambda m: "" if m.group(1) in taken else m.group(0), text))
-    path = os.path.join(source, "src/simulation/law_of_scene.hpp")
+    path = os.path.join(source, "src/engine/dynamics_of_scene.hpp")
     with open(path, encoding="utf-8") as file:
         text = file.read()
     text, n_choices = CHOICE.subn("", text)
     with open(path, "w", encoding="utf-8") as file:
         file.write(text)
     if n_choices != 1 or not taken:
-        sys.exit(f"did not find what to take out: {n_choices} choices, {len(taken)} laws")
+        sys.exit(f"did not find what to take out: {n_choices} choices, {len(taken)} dynamics")
     return len(taken)
 
 
 def build_without(source, cmake, arguments, folder):
     copy, build = os.path.join(folder, "source"), os.path.join(folder, "build")
     shutil.copytree(source, copy, ignore=shutil.ignore_patterns("build*", ".git", "docs"))
-    print(f"taken out: {take_out_effects(copy)} laws")
+    print(f"taken out: {take_out_effects(copy)} dynamics")
     for command in ([cmake, "-S", copy, "-B", build, *arguments], [cmake, "--build", build, "-j", "2", "--target", "step_scene"]):
         run = subprocess.run(command, capture_output=True, text=True, check=False)
         if run.returncode != 0:

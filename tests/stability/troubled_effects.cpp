@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "dynamics/drag.hpp"
-#include "dynamics/fall.hpp"
 #include "dynamics/falling_contact.hpp"
+#include "dynamics/gravity.hpp"
 #include "scene_tools.hpp"
 
 namespace carrom::test {

@@ -8,7 +8,7 @@
 #include <omp.h>
 
 #include "dynamics/drag.hpp"
-#include "dynamics/fall.hpp"
+#include "dynamics/gravity.hpp"
 #include "dynamics/obstacles.hpp"
 
 namespace carrom::test {

@@ -44,13 +44,12 @@ template <class Real> Shares missed(double distance, double eps) {
         if (!(EventContact(dx, dy, wx, wy, 1).delay >= 0)) continue;
         const Real sigma = 1, deepest = static_cast<Real>(1e-6);
         shares.hits += 1.0 / n_pairs;
-        const bool is_missed = NaiveContact<false>::delay(dx, dy, wx, wy, sigma, deepest) < 0;
+        const bool is_missed = naive_contact_delay(dx, dy, wx, wy, sigma, false) < 0;
         shares.naive += is_missed / double{n_pairs};
         shares.strict += (is_missed || has_no_discriminant(dx, dy, wx, wy)) / double{n_pairs};
-        shares.contracted += (NaiveContact<true>::delay(dx, dy, wx, wy, sigma, deepest) < 0) /
+        shares.contracted += (naive_contact_delay(dx, dy, wx, wy, sigma, true) < 0) /
                              double{n_pairs};
-        shares.stable += (StableContact::delay(dx, dy, wx, wy, sigma, deepest) < 0) /
-                         double{n_pairs};
+        shares.stable += (contact_delay(dx, dy, wx, wy, sigma, deepest) < 0) / double{n_pairs};
     }
     return shares;
 }
@@ -97,11 +96,11 @@ TEST_CASE("The naive formula agrees with the stable one where neither loses digi
     for (int i = 0; i < 1000; ++i) {
         const Approach c = approaches.make(approaches.uniform(1.5, 4), approaches.uniform(0.1, 1),
                                            1, 1);
-        const double stable = StableContact::delay(c.dx, c.dy, c.wx, c.wy, 1.0, 1e-12);
-        CHECK(NaiveContact<false>::delay(c.dx, c.dy, c.wx, c.wy, 1.0, 1e-12) ==
+        const double stable = contact_delay(c.dx, c.dy, c.wx, c.wy, 1.0, 1e-12);
+        CHECK(naive_contact_delay(c.dx, c.dy, c.wx, c.wy, 1.0, false) ==
               Approx(stable).epsilon(1e-13));
-        CHECK(NaiveContact<true>::delay(c.dx, c.dy, c.wx, c.wy, 1.0, 1e-12) ==
+        CHECK(naive_contact_delay(c.dx, c.dy, c.wx, c.wy, 1.0, true) ==
               Approx(stable).epsilon(1e-13));
-        CHECK(NaiveContact<false>::delay(-c.dx, -c.dy, c.wx, c.wy, 1.0, 1e-12) < 0);
+        CHECK(naive_contact_delay(-c.dx, -c.dy, c.wx, c.wy, 1.0, false) < 0);
     }
 }

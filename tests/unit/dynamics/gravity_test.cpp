@@ -8,7 +8,7 @@
 #include "catch.hpp"
 
 #include "dynamics/drag.hpp"
-#include "dynamics/fall.hpp"
+#include "dynamics/gravity.hpp"
 
 using namespace carrom;
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dynamics/fall.hpp"
+#include "dynamics/gravity.hpp"
+
+#include "dynamics/drag.hpp"
 
 namespace carrom {
 
@@ -59,6 +61,22 @@ double dragged_fall_delay(double distance, double velocity, double pull, double 
         s = next;
     }
     return s;
+}
+
+double FallingFrame::clock_at(double micro_steps) const {
+    return drag_ == 0 ? micro_steps : drag_clock(drag_, micro_steps);
+}
+
+double FallingFrame::micro_steps_at(double clock) const { return time_of_drag_clock(drag_, clock); }
+
+Frame FallingFrame::at(double time) const {
+    return {gravity_.is_any() || drag_ != 0,
+            fallen(gravity_.x, time),
+            fallen(gravity_.y, time),
+            gravity_.x * time,
+            gravity_.y * time,
+            slowing_at(time),
+            time};
 }
 
 } // namespace carrom

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Uniform gravity, alone or with linear drag (drag.hpp).
+//
+// All discs fall alike. So states are stored in a frame that falls with them: at each sync it is at
+// rest in the box. In it discs fly straight, and pairs need not know of gravity. A wall rises in
+// it: a disc meets a wall where a quadratic is 0.
+//
+// With drag of the rate c the frame has a clock s of its own. A disc under the acceleration g is at
+// x + v s + g F(s), F = (-log(1 - c s) - c s) / c^2, which is s^2 / 2 and more. So all discs share
+// the fall. The time of the parabola bounds a contact from one side: Newton's rule comes to it from
+// there step by step, and never goes beyond. That takes no bracket and a handful of steps.
+// Everything is + - * / and sqrt in a fixed order: the same bits on every machine.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/disc.hpp"
+#include "core/frame.hpp"
+#include "dynamics/effects.hpp"
+
+namespace carrom {
+
+/// The first time at which distance + velocity t + pull t^2 / 2 is not positive and falls; infinite
+/// if there is none. Touching counts while it falls, not while it grows. No like numbers are
+/// subtracted.
+inline double fall_delay(double distance, double velocity, double pull) {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    if (velocity < 0) {
+        if (!(distance > 0)) return 0;
+        if (pull == 0) return distance / -velocity;
+        const double square = velocity * velocity - 2 * pull * distance;
+        return square > 0 ? 2 * distance / (-velocity + std::sqrt(square))
+                          : never; // pulled away before it gets there
+    }
+    if (!(pull < 0)) return never;
+    // It comes back. A disc that rounding has left beyond the wall comes up to it first, or else
+    // turns round where it is.
+    return (velocity + std::sqrt(std::max(velocity * velocity - 2 * pull * distance, 0.0))) / -pull;
+}
+
+/// F(s) of the drag `rate` c, to some ulp; 0 <= c s < 1.
+double dragged_fall(double rate, double clock);
+/// Its derivative, s / (1 - c s).
+inline double dragged_fall_speed(double rate, double clock) { return clock / (1 - rate * clock); }
+
+/// As fall_delay, of distance + velocity s + pull F(s): what drag's clock shows then, set to 0 now.
+/// Contacts at which less than a hundredth of a velocity is left are none: a sync comes before.
+double dragged_fall_delay(double distance, double velocity, double pull, double rate);
+
+/// The frame that falls with the discs, and its clock. Times are the clock's, since the last sync.
+class FallingFrame {
+public:
+    /// Per micro-step.
+    FallingFrame(const Gravity& gravity, double drag) : gravity_(gravity), drag_(drag) {}
+
+    double clock_at(double micro_steps) const;
+    double micro_steps_at(double clock) const;
+
+    /// How far what is pulled with `g` has fallen, and how fast it falls then per g.
+    double fallen(double g, double time) const {
+        if (drag_ == 0 || g == 0) return (0.5 * g * time) * time;
+        return g * dragged_fall(drag_, time);
+    }
+    double falling_time(double time) const {
+        return drag_ == 0 ? time : dragged_fall_speed(drag_, time);
+    }
+    /// exp(-c t) = 1 - c s: turns velocities in the clock into those in the box.
+    double slowing_at(double time) const { return 1 - drag_ * time; }
+
+    /// The frame's origin and velocity in the box.
+    Frame at(double time) const;
+    /// Turns a state advanced to `time` into one in a frame that starts there at rest in the box.
+    void restart(Disc& disc, double time) const { disc = at(time).in_box(disc, time); }
+    /// How far the frame jumps in x at a sync at `time`.
+    double jump_at(double time) const { return std::fabs(fallen(gravity_.x, time)); }
+    /// The frame's speed at most, in its own clock.
+    double speed_gained_at(double time) const {
+        return (std::fabs(gravity_.x) + std::fabs(gravity_.y)) * falling_time(time);
+    }
+
+private:
+    Gravity gravity_;
+    double drag_;
+};
+
+} // namespace carrom

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Elastic walls at rest, as one coordinate of a disc's centre meets them. `Real` is double, or the
+// float of the accuracy study.
+//
+// The time-stepped method decides a micro-step m by where the disc would be at its end. Only the
+// wall ahead counts. A slow disc that ends within the band bounces at t = 1 without touching: so
+// rounding cannot keep it at a wall for ever.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+namespace carrom {
+
+template <class Real> class RestingWalls {
+public:
+    static constexpr Real never = std::numeric_limits<Real>::infinity();
+
+    /// For the centres of discs of that radius.
+    RestingWalls(Real box_size, Real radius, Real band)
+        : low_(radius), high_(box_size - radius), band_(band) {}
+
+    Real low() const { return low_; }
+    Real high() const { return high_; }
+
+    /// Time-stepped method: the in-step time of the bounce in micro-step m, 0 to 1, or `never`. The
+    /// disc was at x at its own time tau.
+    [[gnu::always_inline]] Real time(Real x, Real v, Real tau, Real m) const {
+        const Real at_end = x + v * ((m + 1) - tau);
+        if (v < 0 && at_end < low_ + band_)
+            return std::clamp((tau - m) + (low_ - x) / v, Real{0}, Real{1});
+        if (v > 0 && at_end > high_ - band_)
+            return std::clamp((tau - m) + (high_ - x) / v, Real{0}, Real{1});
+        return never;
+    }
+
+    /// Whether the disc is at the wall that it flies towards.
+    bool touches(Real x, Real v) const {
+        return (v < 0 && x <= low_ + band_) || (v > 0 && x >= high_ - band_);
+    }
+
+    /// How far into the `rest` of a micro-step the disc would leave the box, or `never`.
+    [[gnu::always_inline]] Real stop(Real x, Real v, Real rest) const {
+        const Real at_end = x + v * rest;
+        if (v < 0 && at_end < low_) return std::max((low_ - x) / v, Real{0});
+        if (v > 0 && at_end > high_) return std::max((high_ - x) / v, Real{0});
+        return never;
+    }
+
+    /// Event-driven method: how long the disc takes to the wall ahead, or `never`.
+    Real delay(Real x, Real v) const {
+        if (v == 0) return never;
+        const Real delay = ((v < 0 ? low_ : high_) - x) / v;
+        return delay > 0 ? delay : 0;
+    }
+
+private:
+    Real low_, high_, band_;
+};
+
+} // namespace carrom

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Dynamics against each other, bit for bit, on random discs near contact and near walls: an effect
+// whose parameters make it none gives the plain bits, and so do the study's settings that runs use.
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "catch.hpp"
+
+#include "dynamics/all_dynamics.hpp"
+
+using namespace carrom;
+
+namespace {
+
+constexpr double box_size = 64, radius = 0.5;
+
+/// Answers nothing but its size.
+struct Silent {
+    double box_size() const { return 1; }
+};
+static_assert(!Dynamics<Silent> && !Dynamics<double>);
+
+class Discs {
+public:
+    /// A disc anywhere in the box, one of four at a wall.
+    Disc anywhere() {
+        Disc disc;
+        disc.x = place();
+        disc.y = place();
+        disc.vx = velocity();
+        disc.vy = velocity();
+        disc.tau = uniform(0, 1);
+        disc.id = next_id_++;
+        return disc;
+    }
+    /// Some diameters from `p`.
+    Disc near(const Disc& p) {
+        Disc disc = anywhere();
+        const double angle = uniform(0, 6.28), distance = uniform(0.9, 3) * 2 * radius;
+        disc.x = p.x + distance * std::cos(angle);
+        disc.y = p.y + distance * std::sin(angle);
+        return disc;
+    }
+
+private:
+    double uniform(double low, double high) {
+        return std::uniform_real_distribution(low, high)(random_);
+    }
+    double velocity() { return uniform(-1, 1); }
+    double place() {
+        const double anywhere = uniform(radius, box_size - radius);
+        return uniform(0, 1) < 0.25 ? uniform(0.5, 1) * 2 * radius : anywhere;
+    }
+
+    std::mt19937_64 random_{3210};
+    DiscId next_id_ = 0;
+};
+
+bool are_same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool are_same(const Disc& a, const Disc& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool are_same(const auto& a, const auto& b)
+    requires requires { a.delay; }
+{
+    return a.exists() == b.exists() &&
+           (!a.exists() || (are_same(a.base, b.base) && are_same(a.delay, b.delay)));
+}
+
+struct Counts {
+    int contacts = 0, bounces = 0, differences = 0;
+};
+
+/// Asks both dynamics the same of many discs, and carries out what the first one finds.
+template <class A, class B> Counts compare(const A& a, const B& b, bool with_contact_times = true) {
+    Discs discs;
+    Counts counts;
+    for (int k = 0; k < 20000; ++k) {
+        const Disc p = discs.anywhere(), q = discs.near(p);
+        const auto found = a.contact(p, q), event = a.event_contact(p, q);
+        bool same = true;
+        if (with_contact_times)
+            same = are_same(found, b.contact(p, q)) && are_same(event, b.event_contact(p, q));
+        if (event.exists()) {
+            Disc p1 = p, q1 = q, p2 = p, q2 = q;
+            a.collide_at(p1, q1, event.base + event.delay);
+            b.collide_at(p2, q2, event.base + event.delay);
+            same = same && are_same(p1, p2) && are_same(q1, q2);
+            ++counts.contacts;
+        }
+        const double t = a.wall_time(p, 0);
+        same = same && are_same(t, b.wall_time(p, 0)) &&
+               are_same(a.x_wall_time(p), b.x_wall_time(p)) &&
+               are_same(a.y_wall_time(p), b.y_wall_time(p));
+        if (t <= 1) {
+            Disc p1 = p, p2 = p;
+            a.bounce(p1, 0, t);
+            b.bounce(p2, 0, t);
+            same = same && are_same(p1, p2);
+            ++counts.bounces;
+        }
+        counts.differences += !same;
+    }
+    return counts;
+}
+
+void check_alike(const Counts& counts) {
+    CHECK(counts.contacts > 1000);
+    CHECK(counts.bounces > 1000);
+    CHECK(counts.differences == 0);
+}
+
+} // namespace
+
+TEST_CASE("Effects that change nothing give the plain bits") {
+    const PlainDynamics plain(box_size, radius);
+    Effects effects;
+    check_alike(compare(plain, InelasticDynamics(box_size, radius, effects)));
+    effects.contact = {ContactKind::restitution, 1};
+    check_alike(compare(plain, InelasticDynamics(box_size, radius, effects)));
+    effects.species = {{1000, radius, 3}, {1000, radius, 3}};
+    check_alike(compare(plain, MixedDynamics(box_size, radius, effects)));
+}
+
+TEST_CASE("An effect that loses energy does not give the plain bits") {
+    Effects effects;
+    effects.contact = {ContactKind::restitution, 0.9};
+    const Counts counts = compare(PlainDynamics(box_size, radius),
+                                  InelasticDynamics(box_size, radius, effects));
+    CHECK(counts.differences > 1000);
+}
+
+TEST_CASE("In double precision the study's walls and collisions have the plain bits") {
+    // A contact that rounding puts beyond touching does not count in the study.
+    const bool with_contact_times = false;
+    for (const ContactFormula formula :
+         {ContactFormula::stable, ContactFormula::naive, ContactFormula::naive_contracted})
+        check_alike(compare(PlainDynamics(box_size, radius),
+                            StudyDynamics<double>(box_size, radius, formula), with_contact_times));
+}
+
+TEST_CASE("The study's states in single precision are floats near the plain ones") {
+    const PlainDynamics plain(box_size, radius);
+    const StudyDynamics<float> single(box_size, radius, ContactFormula::stable);
+    Discs discs;
+    int n_contacts = 0;
+    for (int k = 0; k < 20000; ++k) {
+        Disc p = discs.anywhere(), q = discs.near(p);
+        StudyDynamics<float>::round(p);
+        StudyDynamics<float>::round(q);
+        const auto found = single.event_contact(p, q);
+        const auto expected = plain.event_contact(p, q);
+        if (!found.exists() || !expected.exists() || expected.delay > 1) continue;
+        Disc p1 = p, q1 = q;
+        single.collide_at(p1, q1, static_cast<double>(found.base + found.delay));
+        PlainDynamics::collide_at(p, q, expected.base + expected.delay);
+        for (const double number : {p1.x, p1.y, p1.vx, p1.vy, p1.tau, q1.x, q1.vx})
+            REQUIRE(static_cast<double>(static_cast<float>(number)) == number);
+        // A graze amplifies the rounding of places, 2^-18, by up to its inverse root.
+        CHECK(std::fabs(p1.x - p.x) < 0.02);
+        CHECK(std::fabs(q1.vy - q.vy) < 0.05);
+        ++n_contacts;
+    }
+    CHECK(n_contacts > 1000);
+}
