@@ -70,7 +70,7 @@ double positive(const Check& check, const char* key, double number) {
 void fill_measurements(const Check& check) {
     if (!has_table(check, "output.measurements")) return;
     MeasurementOutput& output = check.scene.measurements.emplace();
-    output.folder = destination(check, "output.measurements.folder", "the folder for the tables");
+    output.folder = check.scene.folder + "/measurements";
     fill_quantities(check, output);
     if (const auto every = whole_number(check, "output.measurements.every_steps", 1, largest_steps))
         output.every_steps = *every;

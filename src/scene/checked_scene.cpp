@@ -334,13 +334,11 @@ void fill_trajectory(const Check& check) {
     static constexpr Choices<bool, 2> precisions = {{{"single", true}, {"double", false}}};
     if (!has_table(check, "output.trajectory")) return;
     TrajectoryOutput& output = check.scene.trajectory.emplace();
-    output.file = destination(check, "output.trajectory.file", "the file for the trajectory");
+    output.file = check.scene.folder + "/trajectory.h5";
     if (const auto every = whole_number(check, "output.trajectory.every_steps", 1, largest_steps))
         output.every_steps = *every;
     if (const auto is_single = choice(check, "output.trajectory.precision", precisions))
         output.is_single = *is_single;
-    if (const auto level = whole_number(check, "output.trajectory.compression", 0, 9))
-        output.compression = static_cast<int>(*level);
     const bool are_rough = check.scene.effects.contact.kind == ContactKind::rough;
     output.has_angular_velocity = are_rough;
     const Setting* fields = check.settings.find("output.trajectory.fields");
@@ -371,9 +369,8 @@ void fill_trajectory(const Check& check) {
 }
 
 void fill_checkpoint(const Check& check) {
-    if (!has_table(check, "output.checkpoint")) return;
     CheckpointOutput& output = check.scene.checkpoint.emplace();
-    output.folder = destination(check, "output.checkpoint.folder", "the folder for checkpoints");
+    output.folder = check.scene.folder + "/checkpoints";
     output.every_steps = whole_number(check, "output.checkpoint.every_steps", 1, largest_steps);
     output.every_minutes = finite_number(check, "output.checkpoint.every_minutes");
     if (output.every_minutes && !(*output.every_minutes > 0))
@@ -392,16 +389,17 @@ void fill_output(const Check& check) {
                                                         {"every_step", TextOutput::every_step}}};
     if (const auto output = choice(check, "output.text", outputs))
         check.scene.text_output = *output;
+    const Setting* collisions = check.settings.find("output.collisions");
+    const bool has_log = collisions && std::get<bool>(collisions->value);
+    bool needs_folder = has_log || check.settings.is_mentioned("output.folder");
+    for (const char* table : {"output.checkpoint", "output.trajectory", "output.measurements"})
+        needs_folder |= has_table(check, table);
+    if (!needs_folder) return;
+    check.scene.folder = destination(check, "output.folder",
+                                     "the folder for what the run writes; -o FOLDER sets it too");
     fill_checkpoint(check);
     fill_trajectory(check);
-    if (has_table(check, "output.collisions"))
-        check.scene.collisions = CollisionOutput{
-            destination(check, "output.collisions.file", "the file for the collisions")};
-    const Setting* log = check.settings.find("output.collisions.file");
-    if (log && check.scene.trajectory && check.scene.collisions &&
-        check.scene.trajectory->file == check.scene.collisions->file)
-        check.refuse(*log, "'output.collisions.file' and 'output.trajectory.file' are the same "
-                           "file; each needs its own");
+    if (has_log) check.scene.collisions = CollisionOutput{check.scene.folder + "/collisions.h5"};
     fill_measurements(check);
 }
 

@@ -69,18 +69,15 @@ constexpr std::array keys = {
     Key{"effects.obstacles.segments", ValueKind::segments},
     Key{"effects.obstacles.restitution", ValueKind::number},
     Key{"output.text", ValueKind::text},
-    Key{"output.checkpoint.folder", ValueKind::text},
+    Key{"output.folder", ValueKind::text},
     Key{"output.checkpoint.every_steps", ValueKind::integer},
     Key{"output.checkpoint.every_minutes", ValueKind::number},
     Key{"output.checkpoint.keep", ValueKind::integer},
     Key{"output.checkpoint.at_end", ValueKind::flag},
-    Key{"output.trajectory.file", ValueKind::text},
     Key{"output.trajectory.every_steps", ValueKind::integer},
     Key{"output.trajectory.fields", ValueKind::words},
     Key{"output.trajectory.precision", ValueKind::text},
-    Key{"output.trajectory.compression", ValueKind::integer},
-    Key{"output.collisions.file", ValueKind::text},
-    Key{"output.measurements.folder", ValueKind::text},
+    Key{"output.collisions", ValueKind::flag},
     Key{"output.measurements.quantities", ValueKind::words},
     Key{"output.measurements.every_steps", ValueKind::integer},
     Key{"output.measurements.from_step", ValueKind::integer},
@@ -89,13 +86,12 @@ constexpr std::array keys = {
     Key{"output.measurements.largest_velocity", ValueKind::number},
 };
 
-constexpr std::array<std::string_view, 18> tables = {"box",
+constexpr std::array<std::string_view, 17> tables = {"box",
                                                      "discs",
                                                      "time",
                                                      "output",
                                                      "output.checkpoint",
                                                      "output.trajectory",
-                                                     "output.collisions",
                                                      "output.measurements",
                                                      "effects",
                                                      "effects.contact",
@@ -185,6 +181,13 @@ bool has_meaning_for(std::string_view generator, std::string_view key) {
 }
 
 std::string unknown_key_text(std::string_view key) {
+    for (const std::string_view old : {"output.checkpoint.folder", "output.trajectory.file",
+                                       "output.collisions.file", "output.measurements.folder"})
+        if (key == old)
+            return quoted(key) +
+                   " is no more: name 'output.folder', where all that a run writes "
+                   "has its place" +
+                   (old == "output.collisions.file" ? ", and set 'output.collisions' = true" : "");
     const std::size_t dot = key.find('.');
     const std::string_view table = key.substr(0, dot);
     if (table == "effects" || table == "output") {
