@@ -21,7 +21,6 @@ struct TrajectoryFields {
     bool spins = false;           ///< of rough discs only
     bool collisions = false;      ///< both counters
     bool single_precision = true; ///< 4 bytes a number, else 8
-    int compression = 0;          ///< 0, none, to 9, smallest
 };
 
 /// Writes one H5MD file, which can be read while it grows. Frames pass through rank 0.

@@ -137,10 +137,9 @@ Action parse_command_line(int argc, char** argv) {
     app.set_help_flag(help_words, help_of_help);
     app.footer(examples);
     app.require_subcommand(1);
-    const std::vector<Subcommand> subcommands = {run_subcommand(),  accuracy_subcommand(),
-                                                 info_subcommand(), verify_subcommand(),
-                                                 diff_subcommand(), convert_subcommand(),
-                                                 keys_subcommand()};
+    const std::vector<Subcommand> subcommands = {
+        run_subcommand(),  accuracy_subcommand(), info_subcommand(), verify_subcommand(),
+        diff_subcommand(), convert_subcommand(),  keys_subcommand()};
     for (const Subcommand& subcommand : subcommands) declare(app, subcommand);
     try {
         app.parse(argc, argv);

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,8 +14,10 @@
 #include "apps/outputs.hpp"
 #include "apps/report_file.hpp"
 #include "apps/restart.hpp"
+#include "apps/run_folder.hpp"
 #include "apps/standard_streams.hpp"
 #include "initial_state/scene_input.hpp"
+#include "io/checkpoint_folder.hpp"
 #include "machine/machine.hpp"
 #include "parallel/agreement.hpp"
 #include "scene/disc_reader.hpp"
@@ -138,11 +142,11 @@ Scene load_scene(const RunOptions& options, const Problems& problems_so_far,
         const bool are_lines_wrong = text.columns && !text.columns->is_whole;
         if (ranks.is_root()) append(problems, same_everywhere);
         if (ranks.is_root() && (!problems.empty() || are_lines_wrong)) {
-            if (options.restart.empty() || are_lines_wrong)
+            if (!goes_on(options) || are_lines_wrong)
                 append(problems, problems_of_disc_lines(scene, *stream));
             if (problems.empty())
                 problems.push_back({discs_path(scene), 0, "changes while it is being read"});
-            append(problems, problems_of_outputs(scene, read_for(options, scene)));
+            append(problems, problems_of_outputs(options, scene, read_for(options, scene)));
         }
     }
     agree_on_both(ranks, std::move(problems), failures);
@@ -177,33 +181,57 @@ void check_memory(const Scene& scene, const Communicator& ranks) {
                                    scene.n_discs, needed / 1e9, ranks.size(), available / 1e9)}});
 }
 
+/// A run that was killed before its first checkpoint goes on with the copy of its scene.
+/// **Collective.**
+RunOptions with_input_of_folder(RunOptions options, const Communicator& ranks) {
+    if (!options.resume || !options.input.empty() || options.folder.empty()) return options;
+    std::string copy, overrides;
+    if (ranks.is_root()) {
+        bool has_checkpoint = false;
+        for (const FoundFile& file : find_checkpoints(checkpoints_of_run(options.folder)))
+            has_checkpoint |= file.is_finished;
+        if (!has_checkpoint) copy = scene_copy_of(options.folder);
+        if (!copy.ends_with(".toml")) copy.clear(); // the lines of discs are not in it
+        for (const std::string& override : overrides_of_copy(copy)) overrides += override + '\n';
+    }
+    ranks.broadcast(copy);
+    ranks.broadcast(overrides);
+    options.input = copy;
+    std::vector<std::string> all;
+    std::istringstream lines(overrides);
+    for (std::string line; std::getline(lines, line);) all.push_back(line);
+    all.insert(all.end(), options.overrides.begin(), options.overrides.end());
+    options.overrides = std::move(all);
+    return options;
+}
+
 } // namespace
 
-Loaded load(const RunOptions& options, const Problems& problems, const Communicator& ranks) {
+Loaded load(const RunOptions& given, const Problems& problems, const Communicator& ranks) {
+    const RunOptions options = with_input_of_folder(given, ranks);
     std::unique_ptr<std::istream> stream;
     Loaded loaded;
-    if (options.restart.empty() || !options.input.empty())
+    if (!goes_on(options) || !options.input.empty())
         loaded.scene = load_scene(options, problems, ranks, stream);
     else
         check_without_scene(options, problems, ranks);
     std::vector<std::string> found;
-    if (!options.restart.empty()) {
+    if (goes_on(options)) {
         found = restart_candidates(options, loaded.scene, ranks);
         load_restart(options, loaded, ranks);
     }
     const Scene& scene = loaded.scene;
     try {
         if (!loaded.stored) check_memory(scene, ranks);
-        loaded.locks = claim_outputs(scene, read_for(options, scene), named_by(options), ranks);
+        loaded.locks = claim_outputs(options, scene, read_for(options, scene), named_by(options),
+                                     ranks);
         // The last ranks of a run that was killed may have stored more before they ended.
-        if (!options.restart.empty() && restart_candidates(options, scene, ranks) != found) {
+        if (goes_on(options) && restart_candidates(options, scene, ranks) != found) {
             if (ranks.is_root() && !options.quiet)
                 print_message("another checkpoint has come meanwhile\n");
             loaded.stored.reset(); // its memory is needed
             load_restart(options, loaded, ranks);
         }
-        check_older_checkpoints(
-            scene, loaded.stored ? loaded.stored->micro_steps_done / scene.micro_steps : -1, ranks);
     } catch (const InputError& error) { // on every rank
         Problems all;
         if (ranks.is_root()) all = error.problems();
@@ -211,6 +239,7 @@ Loaded load(const RunOptions& options, const Problems& problems, const Communica
         agree_on_problems(ranks, all);
     }
     if (!loaded.stored) loaded.discs = load_discs(scene, stream.get(), ranks);
+    prepare_outputs(scene, !loaded.stored, ranks);
     if (ranks.is_root())
         for (const std::string& warning : scene.warnings)
             print_message("{}: warning: {}\n", scene.name, warning);

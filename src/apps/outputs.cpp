@@ -8,15 +8,18 @@
 
 #include <fmt/format.h>
 
-#include "apps/data_output.hpp"
 #include "apps/restart.hpp"
-#include "apps/standard_streams.hpp"
+#include "apps/run_folder.hpp"
+#include "core/write_problem.hpp"
 #include "io/checkpoint_folder.hpp"
+#include "io/files.hpp"
 #include "parallel/agreement.hpp"
 
 namespace carrom {
 
 namespace {
+
+constexpr const char* folder_key = "output.folder";
 
 /// What rank 0 finds, and the locks it takes on the way.
 class Claims {
@@ -27,15 +30,14 @@ public:
             .push_back({fmt::format("{} {}", key, path), 0, found.text});
     }
 
-    /// `path` is locked by `lock_path`.
-    void lock(const char* key, const std::string& path, const std::string& lock_path) {
-        const std::string& holder = locks_.emplace_back(lock_path).holder();
-        if (!holder.empty())
-            problems_.push_back(
-                {fmt::format("{} {}", key, path), 0,
-                 fmt::format(
-                     "another run is writing there ({}); wait for its end, or name another place",
-                     holder)});
+    void lock(const std::string& folder) {
+        const WriteLock& lock = locks_.emplace_back(folder + "/.carrom.lock");
+        if (!lock.obstacle().empty()) check(folder_key, folder, {lock.obstacle()});
+        if (!lock.holder().empty())
+            check(folder_key, folder,
+                  {fmt::format("another run is writing there ({}); wait for its end, or name "
+                               "another folder",
+                               lock.holder())});
     }
 
     void add(const std::vector<Problem>& problems) {
@@ -64,27 +66,6 @@ private:
     std::vector<WriteLock> locks_;
 };
 
-std::vector<NamedFile> recordings_of(const Scene& scene) {
-    std::vector<NamedFile> files;
-    if (scene.trajectory) {
-        const std::string& file = scene.trajectory->file;
-        files.push_back({"output.trajectory.file", file});
-        files.push_back({"the sidecar of output.trajectory.file",
-                         std::filesystem::path(file).replace_extension(".xdmf").string()});
-    }
-    if (scene.collisions) files.push_back({"output.collisions.file", scene.collisions->file});
-    return files;
-}
-
-/// An empty path is missing from the scene, which is told elsewhere.
-void check_recording(Claims& claims, const char* key, const std::string& path) {
-    if (path.empty()) return;
-    if (std::filesystem::is_directory(path))
-        claims.check(key, path, {"is a directory; name a file"});
-    else
-        claims.check(key, path, obstacle_to_opening(path));
-}
-
 /// What would keep a folder from being made, without making it.
 Obstacle obstacle_to_making(const std::string& folder) {
     std::error_code ignored;
@@ -97,90 +78,75 @@ Obstacle obstacle_to_making(const std::string& folder) {
     return obstacle("cannot be made in " + place.string(), errno);
 }
 
-bool same_place(const std::string& a, const std::string& b) {
+/// What in the folder keeps the run from writing there.
+std::string obstacle_in_folder(const RunOptions& options, const Scene& scene) {
+    const std::string& folder = scene.folder;
     std::error_code ignored;
-    return std::filesystem::equivalent(a, b, ignored);
+    for (const std::string& path : files_of_run(folder)) {
+        const auto status = std::filesystem::symlink_status(path, ignored);
+        if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+            return path + " is not a plain file";
+    }
+    const std::string trace = trace_of_run(folder);
+    if (trace.empty() || options.overwrite) {
+        if (options.resume && trace.empty())
+            return "no run has begun there; leave --resume out to begin one";
+        return {};
+    }
+    if (!goes_on(options))
+        return fmt::format("has {} of a run: go on with it by --resume, begin anew by --overwrite, "
+                           "or name another folder",
+                           trace);
+    const std::string difference = difference_from_run(folder, scene);
+    if (difference.empty()) return {};
+    return fmt::format("has {} of another run ({}); name another folder", trace, difference);
 }
 
 /// Makes nothing and locks nothing unless `may_begin`, and then only if all is right.
-void check_places(Claims& claims, const Scene& scene, const std::vector<NamedFile>& sources,
-                  std::vector<NamedFile> destinations, bool may_begin) {
-    for (const NamedFile& file : recordings_of(scene)) destinations.push_back(file);
+void check_places(Claims& claims, const RunOptions& options, const Scene& scene,
+                  const std::vector<NamedFile>& sources, std::vector<NamedFile> destinations,
+                  bool may_begin) {
+    const std::string& folder = scene.folder;
+    if (!folder.empty())
+        for (const std::string& path : files_of_run(folder))
+            if (!goes_on(options) || path != scene_copy_of(folder))
+                destinations.push_back({"a file of output.folder,", path});
     claims.add(problems_with(destinations, sources));
-    constexpr const char *folder_key = "output.checkpoint.folder",
-                         *tables_key = "output.measurements.folder",
-                         *trajectory_key = "output.trajectory.file",
-                         *log_key = "output.collisions.file";
-    if (scene.trajectory) check_recording(claims, trajectory_key, scene.trajectory->file);
-    if (scene.collisions) check_recording(claims, log_key, scene.collisions->file);
-    const auto check_folder = [&](const char* key, const std::string& folder) {
-        // A folder is made only for a run that nothing else keeps from running.
-        std::error_code ignored;
-        const bool may_try = (may_begin && claims.is_clear()) ||
-                             std::filesystem::exists(folder, ignored);
-        if (!folder.empty())
-            claims.check(key, folder,
-                         may_try ? obstacle_to_folder(folder) : obstacle_to_making(folder));
-    };
-    if (scene.checkpoint) check_folder(folder_key, scene.checkpoint->folder);
-    if (scene.measurements && !scene.measurements->folder.empty())
-        check_folder(tables_key, scene.measurements->folder);
-    if (!may_begin || !claims.is_clear()) return;
-    const bool is_shared = scene.checkpoint && scene.measurements &&
-                           same_place(scene.checkpoint->folder, scene.measurements->folder);
-    if (scene.measurements && !is_shared)
-        claims.lock(tables_key, scene.measurements->folder,
-                    (std::filesystem::path(scene.measurements->folder) / ".carrom.lock").string());
-    if (scene.checkpoint)
-        claims.lock(folder_key, scene.checkpoint->folder,
-                    (std::filesystem::path(scene.checkpoint->folder) / ".carrom.lock").string());
-    if (scene.trajectory)
-        claims.lock(trajectory_key, scene.trajectory->file, scene.trajectory->file + ".lock");
-    if (scene.collisions)
-        claims.lock(log_key, scene.collisions->file, scene.collisions->file + ".lock");
+    if (folder.empty()) return;
+    std::error_code ignored;
+    const bool may_try = (may_begin && claims.is_clear()) ||
+                         std::filesystem::exists(folder, ignored);
+    claims.check(folder_key, folder,
+                 may_try ? obstacle_to_folder(folder) : obstacle_to_making(folder));
+    if (!claims.is_clear()) return;
+    if (may_begin) claims.lock(folder);
+    if (claims.is_clear()) claims.check(folder_key, folder, {obstacle_in_folder(options, scene)});
 }
 
 } // namespace
 
-std::vector<WriteLock> claim_outputs(const Scene& scene, const std::vector<NamedFile>& sources,
+std::vector<WriteLock> claim_outputs(const RunOptions& options, const Scene& scene,
+                                     const std::vector<NamedFile>& sources,
                                      const std::vector<NamedFile>& others,
                                      const Communicator& ranks) {
     Claims claims;
-    if (ranks.is_root()) check_places(claims, scene, sources, others, true);
+    if (ranks.is_root()) check_places(claims, options, scene, sources, others, true);
     return claims.agreed(ranks);
 }
 
-std::vector<Problem> problems_of_outputs(const Scene& scene,
+std::vector<Problem> problems_of_outputs(const RunOptions& options, const Scene& scene,
                                          const std::vector<NamedFile>& sources) {
     Claims claims;
-    check_places(claims, scene, sources, {}, false);
+    check_places(claims, options, scene, sources, {}, false);
     return claims.all();
 }
 
-void check_older_checkpoints(const Scene& scene, std::int64_t first_step,
-                             const Communicator& ranks) {
-    if (!scene.checkpoint) return;
-    const OlderCheckpoints older = older_checkpoints(scene, first_step + 1, scene.steps, ranks);
-    std::vector<Problem> problems;
-    const std::string place = "output.checkpoint.folder " + scene.checkpoint->folder;
-    if (ranks.is_root()) {
-        for (const auto& [path, difference] : older.of_others)
-            problems.push_back({place, 0,
-                                fmt::format("{} is another run's ({}) and would be written over; "
-                                            "name another folder, or move it away",
-                                            path, difference)});
-        if (!older.later_others.empty()) {
-            const auto& [path, difference] = older.later_others.front();
-            print_message("warning: {}: {} is another run's ({}), and --restart with this folder "
-                          "and no scene would take it\n",
-                          place, path, difference);
-        }
-        if (older.last_own >= 0 && first_step < 0)
-            print_message("{} has checkpoints of this very run up to step {}; they are written "
-                          "anew (--restart latest goes on from there)\n",
-                          place, older.last_own);
-    }
-    agree_on_problems(ranks, problems);
+void prepare_outputs(const Scene& scene, bool begins_anew, const Communicator& ranks) {
+    if (scene.folder.empty()) return;
+    on_root(ranks, scene.folder, ExitCode::output_failure, [&] {
+        if (begins_anew) remove_run(scene.folder);
+        prepare_folder(scene);
+    });
 }
 
 } // namespace carrom

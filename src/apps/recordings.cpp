@@ -17,7 +17,8 @@ namespace carrom {
 
 namespace {
 
-constexpr double seconds_between_commits = 5;
+constexpr double seconds_between_commits = 5; ///< so that readers see a run that goes on
+constexpr double largest_share = 0.02;        ///< of the time, for commits
 
 /// The total order; q + 1 puts the wall, the largest number there is, before every disc.
 bool comes_before(const Collision& a, const Collision& b) {
@@ -47,21 +48,18 @@ Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_resta
                        StoredSamples samples, const Communicator& ranks)
     : scene_(scene), ranks_(ranks) {
     const std::int64_t step = simulation.step();
-    const auto difference_from = [this](const CheckpointHeader& there) {
-        return first_difference(there, scene_);
-    };
     if (scene_.trajectory) {
         trajectory_.emplace(scene_.trajectory->file, layout_of(scene_, *scene_.trajectory), ranks_);
         if (is_restart)
-            report_missing_frames(trajectory_->go_on(step, difference_from), step);
+            report_missing_frames(trajectory_->go_on(step), step);
         else
             trajectory_->begin();
     }
     if (scene_.collisions) {
-        log_.emplace(scene_.collisions->file, version(), ranks_, run_of(scene_));
+        log_.emplace(scene_.collisions->file, system_of(scene_), ranks_);
         if (!is_restart)
             log_->begin();
-        else if (!log_->go_on(step, difference_from) && ranks_.is_root() && step > 0)
+        else if (!log_->go_on(step) && ranks_.is_root() && step > 0)
             print_message("{}: begins with step {}; of the steps before there is no log\n",
                           scene_.collisions->file, step + 1);
         simulation.log_to(&collisions_);
@@ -98,15 +96,17 @@ void Recordings::record(const Simulation& simulation) {
     if (sampler_) sampler_->look();
     if (trajectory_ && step % scene_.trajectory->every_steps == 0)
         trajectory_->append(step, simulation.shown(), simulation.clock(), simulation.spins());
-    if (!scene_.checkpoint) commit_now_and_then();
+    commit_now_and_then();
 }
 
 void Recordings::commit_now_and_then() {
-    if (!trajectory_ && !log_) return;
+    if (!trajectory_ && !log_ && !sampler_) return;
     seconds_uncommitted_ += since_look_.lap();
-    if (!ranks_.any(ranks_.is_root() && seconds_uncommitted_ > seconds_between_commits)) return;
+    const double wait = std::max(seconds_between_commits, commit_seconds_ / largest_share);
+    if (!ranks_.any(ranks_.is_root() && seconds_uncommitted_ > wait)) return;
     seconds_uncommitted_ = 0;
     commit();
+    commit_seconds_ = since_look_.lap();
 }
 
 void Recordings::record_collisions() {

@@ -2,8 +2,8 @@
 // What a run records as it goes on, if its scene asks for it: a trajectory, the collisions in their
 // total order, and measurements, whose tables are written with each checkpoint and at the end.
 //
-// Where checkpoints are stored, recordings are committed before each; without checkpoints, after
-// each addition.
+// Recordings are committed before each checkpoint, and every few seconds, so that readers see a run
+// that goes on.
 #pragma once
 
 #include <cstdint>
@@ -62,7 +62,7 @@ private:
     std::optional<CollisionLog> log_;
     std::optional<Sampler> sampler_;
     Stopwatch since_look_;
-    double seconds_uncommitted_ = 0;    ///< on rank 0's clock
+    double seconds_uncommitted_ = 0, commit_seconds_ = 0; ///< on rank 0's clock
     std::vector<Collision> collisions_; ///< of this rank since they were last recorded
 };
 

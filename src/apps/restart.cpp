@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/run_folder.hpp"
 #include "apps/setting_choice.hpp"
 #include "apps/standard_streams.hpp"
 #include "io/checkpoint_folder.hpp"
@@ -17,26 +18,35 @@ namespace carrom {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& path, const std::string& text) {
-    throw InputError({{"--restart " + path, 0, text}});
+std::string place_of(const RunOptions& options) {
+    return options.resume ? "--resume" : "--restart " + options.restart;
 }
+
+[[noreturn]] void refuse(const RunOptions& options, const std::string& text) {
+    throw InputError({{place_of(options), 0, text}});
+}
+
+/// Whether the newest checkpoint of the run's own folder is wanted.
+bool is_own(const RunOptions& options) { return options.resume || options.restart == "latest"; }
 
 /// The folder to look in; empty where a file was named. **Collective.**
 std::string folder_to_search(const RunOptions& options, const Scene& scene,
                              const Communicator& ranks) {
-    if (options.restart == "latest") {
-        if (options.input.empty())
-            refuse("latest", "name the scene too, or the folder instead of `latest`");
-        if (!scene.checkpoint)
-            refuse("latest", "the scene has no output.checkpoint.folder to look in");
-        return scene.checkpoint->folder;
+    if (is_own(options)) {
+        if (scene.checkpoint) return scene.checkpoint->folder;
+        if (!options.folder.empty()) return checkpoints_of_run(options.folder);
+        refuse(options, options.input.empty()
+                            ? "name the folder of the run with -o, or the scene"
+                            : "the run has no folder to look in: name output.folder or -o");
     }
-    std::uint64_t is_folder = 0;
+    std::string folder;
     std::error_code ignored;
-    if (ranks.is_root())
-        is_folder = std::filesystem::is_directory(options.restart, ignored) ? 1 : 0;
-    ranks.broadcast(is_folder);
-    return is_folder == 1 ? options.restart : "";
+    if (ranks.is_root() && std::filesystem::is_directory(options.restart, ignored)) {
+        const std::string inner = checkpoints_of_run(options.restart);
+        folder = std::filesystem::is_directory(inner, ignored) ? inner : options.restart;
+    }
+    ranks.broadcast(folder);
+    return folder;
 }
 
 /// Finished checkpoints of a folder, newest first, the same on every rank. **Collective.**
@@ -77,7 +87,7 @@ Checkpoint read_matching(const std::string& path, const RunOptions& options, Sce
             print_message(
                 "time.accuracy chooses at a run's start: going on with the checkpoint's setting\n");
     }
-    refuse_other_run(checkpoint.header, here, "--restart " + path);
+    refuse_other_run(checkpoint.header, here, path);
     scene = here;
     return checkpoint;
 }
@@ -129,31 +139,6 @@ std::vector<std::string> earlier_checkpoints(const Scene& scene, std::int64_t st
     return paths;
 }
 
-OlderCheckpoints older_checkpoints(const Scene& scene, std::int64_t first, std::int64_t last,
-                                   const Communicator& ranks) {
-    OlderCheckpoints older;
-    for (const std::string& path : candidates_in(scene.checkpoint->folder, ranks)) {
-        try {
-            const CheckpointHeader header = read_checkpoint_header(path, ranks);
-            if (header.step < first) continue;
-            const bool is_later = header.step > last;
-            const Scene there = scene_of(header, {});
-            Scene here = scene;
-            if (here.accuracy) decide_on(here, {there.method, there.micro_steps});
-            const std::vector<std::string> differences = physical_differences(there, here);
-            if (!differences.empty())
-                (is_later ? older.later_others : older.of_others)
-                    .emplace_back(path, differences.front());
-            else if (!is_later)
-                older.last_own = std::max(older.last_own, header.step);
-        } catch (const CollectiveError&) { // damaged: nobody's loss
-        } catch (const InputError&) {
-            older.of_others.emplace_back(path, "its scene cannot be read here");
-        }
-    }
-    return older;
-}
-
 std::vector<std::string> restart_candidates(const RunOptions& options, const Scene& scene,
                                             const Communicator& ranks) {
     const std::string folder = folder_to_search(options, scene, ranks);
@@ -170,16 +155,18 @@ void load_restart(const RunOptions& options, Loaded& loaded, const Communicator&
         const std::vector<std::string> paths = restart_candidates(options, loaded.scene, ranks);
         checkpoint = read_newest(paths, options, loaded.scene, ranks);
         if (!checkpoint && !paths.empty())
-            refuse(folder, "no checkpoint there can be gone on from");
+            refuse(options, folder + ": no checkpoint there can be gone on from");
+        if (!checkpoint && !is_own(options))
+            refuse(options, "there is no checkpoint; only `latest` and --resume may begin anew");
         if (!checkpoint && options.input.empty())
-            refuse(folder, "there is no checkpoint, and no scene to begin with");
+            refuse(options, folder + ": there is no checkpoint, and no scene to begin with");
         if (!checkpoint && ranks.is_root())
             print_message("no checkpoint in {}: beginning at step 0\n", folder);
     }
     if (!checkpoint) return;
     const CheckpointHeader& header = checkpoint->header;
     if (loaded.scene.steps < header.step)
-        refuse(options.restart,
+        refuse(options,
                fmt::format("the checkpoint is of step {}, and the run is to end at step {}",
                            header.step, loaded.scene.steps));
     if (ranks.is_root() && !options.quiet) print_message("going on from step {}\n", header.step);

@@ -17,6 +17,7 @@
 #include "apps/recordings.hpp"
 #include "apps/report.hpp"
 #include "apps/report_file.hpp"
+#include "apps/run_folder.hpp"
 #include "apps/run_options.hpp"
 #include "apps/setting_choice.hpp"
 #include "apps/standard_streams.hpp"
@@ -45,8 +46,8 @@ Examples:
   carrom run inputs/gas.toml --threads 2
   mpirun -np 4 carrom run inputs/gas.toml --threads 2 --report report.json
   carrom run inputs/gas.toml --steps 100 --set output.text=every_step > gas.txt
-  carrom run inputs/gas.toml --set output.checkpoint.folder=kept
-  carrom run inputs/gas.toml --set output.checkpoint.folder=kept --restart latest
+  carrom run inputs/gas.toml -o FOLDER
+  carrom run inputs/gas.toml -o FOLDER --resume
   carrom run --digits 8 - < input.in > output.txt
 
 Exit codes: 0 done; 2 wrong input, nothing was done; 3 a rank failed; 4 output
@@ -59,8 +60,11 @@ void print_result(const RunOptions& options, const Scene& scene, const RunResult
     std::string failure;
     if (ranks.is_root()) {
         if (!options.quiet) print_text(summary_text(scene, result));
-        if (!options.report.empty())
-            failure = write_whole_file(options.report, report_text(scene, result));
+        std::vector<std::string> reports;
+        if (!options.report.empty()) reports.push_back(options.report);
+        if (!scene.folder.empty()) reports.push_back(report_of_run(scene.folder));
+        for (const std::string& path : reports)
+            if (failure.empty()) failure = write_whole_file(path, report_text(scene, result));
     }
     agree(ranks, failure.empty(), failure, ExitCode::output_failure);
 }
@@ -161,11 +165,10 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems,
     fill_times(result, phases, ranks);
     print_result(options, scene, result, ranks);
     if (!is_done && ranks.is_root())
-        print_message(
-            "stopped on request at step {} of {}; {}\n", result.last_step, scene.steps,
-            scene.checkpoint
-                ? fmt::format("run again with --restart {} to go on", scene.checkpoint->folder)
-                : "nothing is kept to go on from: the scene has no output.checkpoint.folder");
+        print_message("stopped on request at step {} of {}; {}\n", result.last_step, scene.steps,
+                      scene.folder.empty()
+                          ? "nothing is kept to go on from: the run has no output.folder"
+                          : fmt::format("carrom run -o {} --resume goes on", scene.folder));
     return is_done ? ExitCode::success : ExitCode::stopped;
 }
 

@@ -16,6 +16,14 @@ std::vector<Option> run_options(RunWords& words) {
         {"--threads", "T",
          "Threads per rank; default OMP_NUM_THREADS if set, else this rank's share of the cores",
          &words.threads},
+        {"-o,--folder", "FOLDER",
+         "The folder for all that the run writes, instead of output.folder", &words.folder},
+        {"--resume", "",
+         "Go on with the run of that folder, from its newest whole checkpoint; INPUT may be left "
+         "out",
+         &words.resume},
+        {"--overwrite", "", "Begin anew in a folder that has a run: remove what it has written",
+         &words.overwrite},
         {"--restart", "FILE|FOLDER|latest",
          "Go on from a checkpoint: a FILE, a FOLDER (its newest whole one), or `latest` in the "
          "scene's folder; INPUT may be left out with FILE and FOLDER",
@@ -70,6 +78,14 @@ RunOptions checked_run_options(const RunWords& words, std::vector<Problem>& prob
     options.report = words.report;
     options.quiet = words.quiet;
     options.check = words.check;
+    options.folder = words.folder;
+    options.resume = words.resume;
+    options.overwrite = words.overwrite;
+    if (!words.folder.empty()) options.overrides.push_back("output.folder=" + words.folder);
+    if (words.resume && !words.restart.empty())
+        problems.push_back({"--resume", 0, "takes the newest checkpoint; leave --restart out"});
+    if (words.overwrite && (words.resume || !words.restart.empty()))
+        problems.push_back({"--overwrite", 0, "begins anew; leave --resume and --restart out"});
     options.threads = number("--threads", words.threads, 1, 1024);
     options.digits =
         number("--digits", words.digits, 1, RunOptions::round_trip_digits).value_or(options.digits);

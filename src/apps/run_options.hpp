@@ -15,12 +15,15 @@ namespace carrom {
 struct RunOptions {
     static constexpr int round_trip_digits = 17;
 
-    std::string input;   ///< a file's name, or "-" for standard input
-    std::string restart; ///< a checkpoint, a folder of them, or "latest"; empty for a fresh run
+    std::string input;      ///< a file's name, or "-" for standard input
+    std::string restart;    ///< a checkpoint, a folder of them, or "latest"; empty for a fresh run
+    bool resume = false;    ///< go on in the folder of `output.folder`
+    bool overwrite = false; ///< begin anew in a folder that has a run
     std::vector<std::string> overrides; ///< key=value, over what the input says
     int digits = round_trip_digits;
     std::string output; ///< a file for the lines of text; empty for standard output
     std::string report; ///< empty for none
+    std::string folder; ///< that the command line names; it is among the overrides too
     bool quiet = false;
     bool check = false; ///< hold every step to its invariants
     std::optional<int> threads;
@@ -29,10 +32,10 @@ struct RunOptions {
 
 /// The words of the command line as they stand.
 struct RunWords {
-    std::string input, restart, threads, steps, accuracy, digits, output, report;
+    std::string input, restart, folder, threads, steps, accuracy, digits, output, report;
     std::string window, cell_width, rebalance_every, rebalance_above;
     std::vector<std::string> overrides;
-    bool quiet = false, check = false;
+    bool quiet = false, check = false, resume = false, overwrite = false;
 };
 
 /// The options of `carrom run`, which set `words`.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <initializer_list>
 
 #include "io/files.hpp"
@@ -69,6 +70,30 @@ std::uint64_t count(const std::vector<hsize_t>& sizes) {
     return product;
 }
 
+/// A recording's numbers stand in segments beside it, each as large as they need.
+void check_virtual(const Dataset& dataset, hid_t creation, const std::string& name,
+                   std::uint64_t n_numbers, std::size_t bytes_per_number) {
+    std::size_t n_parts = 0;
+    checked(H5Pget_virtual_count(creation, &n_parts), name.c_str());
+    std::string own(4096, '\0');
+    checked(H5Fget_name(dataset.id(), own.data(), own.size()), name.c_str());
+    const std::filesystem::path folder = std::filesystem::path(own.c_str()).parent_path();
+    std::uint64_t n_found = 0;
+    for (std::size_t k = 0; k < n_parts; ++k) {
+        std::string file(4096, '\0');
+        checked(H5Pget_virtual_filename(creation, k, file.data(), file.size()), name.c_str());
+        const std::filesystem::path part = file.c_str();
+        const Space space(checked(H5Pget_virtual_srcspace(creation, k), name.c_str()));
+        const auto n = static_cast<std::uint64_t>(H5Sget_select_npoints(space.id()));
+        std::error_code error;
+        const std::uintmax_t size = std::filesystem::file_size(folder / part, error);
+        if (part.is_absolute() || *part.begin() == ".." || error || n > size / bytes_per_number)
+            throw FileError(name + " has a part that is not there: " + part.string());
+        n_found += n;
+    }
+    if (n_found != n_numbers) throw FileError(name + " has other parts than this program writes");
+}
+
 } // namespace
 
 Dataset open_checked(hid_t parent, const std::string& name) {
@@ -78,6 +103,10 @@ Dataset open_checked(hid_t parent, const std::string& name) {
     const std::vector<hsize_t> sizes = dimensions_of(dataset.id());
     if (sizes.size() > most_axes) throw FileError(name + " has more axes than this program writes");
     const Properties creation(checked(H5Dget_create_plist(dataset.id()), name.c_str()));
+    if (H5Pget_layout(creation.id()) == H5D_VIRTUAL) {
+        check_virtual(dataset, creation.id(), name, count(sizes), H5Tget_size(type.id()));
+        return dataset;
+    }
     bool deflates = false;
     if (check_layout(creation.id(), sizes.size(), name, deflates) > largest_chunk)
         throw FileError(name + " has larger chunks than this program writes");

@@ -2,8 +2,8 @@
 // Every collision of a run in one HDF5 file, in the total order over all ranks.
 //
 // Columns of /carrom/collisions: step (the one it happens in, from 1), time (in steps, from the
-// start), p, q (-1: a wall), impulse. Rank 0 writes what the ranks send in their order; see
-// Trajectory for why, and for errors.
+// start), p, q (-1: a wall), impulse. Box, radii and masses stand in /particles/discs. Rank 0
+// writes what the ranks send in their order; see Trajectory for why, and for errors.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include <span>
 #include <string>
 
-#include "io/checkpoint.hpp"
+#include "io/recorded_system.hpp"
 #include "parallel/communicator.hpp"
 
 namespace carrom {
@@ -25,15 +25,14 @@ struct LoggedCollision {
 
 class CollisionLog {
 public:
-    /// `communicator` must outlive this. `run`: of which run it is, scene and classes. No text: the
-    /// file will not say.
-    CollisionLog(const std::string& path, const std::string& program_version,
-                 const Communicator& communicator, CheckpointHeader run = {});
+    /// `communicator` must outlive this.
+    CollisionLog(const std::string& path, const RecordedSystem& system,
+                 const Communicator& communicator);
     ~CollisionLog();
 
     /// As for Trajectory. `go_on` returns, on every rank, whether there was a file. **Collective.**
     void begin();
-    bool go_on(std::int64_t step, const DifferenceFrom& difference_from = {});
+    bool go_on(std::int64_t step);
     void commit();
 
     /// Adds the collisions of all ranks, those of rank 0 first. Later than all before.
@@ -43,8 +42,8 @@ public:
 private:
     struct State;
     std::unique_ptr<State> state_; ///< rank 0's
-    std::string path_, program_version_;
-    CheckpointHeader run_;
+    std::string path_;
+    RecordedSystem system_;
     const Communicator& communicator_;
 };
 

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <random>
+#include <string_view>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -14,6 +16,12 @@
 #include <fmt/format.h>
 
 namespace carrom {
+
+namespace {
+
+constexpr std::string_view partial_prefix = ".carrom-", partial_suffix = ".partial";
+
+} // namespace
 
 void fail_with_errno(const std::string& what) {
     throw FileError(what + ": " + std::strerror(errno));
@@ -91,6 +99,40 @@ void reserve(const std::string& path) {
 void rename_durably(const std::string& from, const std::string& to) {
     if (std::rename(from.c_str(), to.c_str()) != 0) fail_with_errno("cannot be renamed");
     Descriptor(folder_of(to), O_RDONLY | O_DIRECTORY).sync();
+}
+
+void replace_file(const std::string& path,
+                  const std::function<void(const std::string& beside)>& write) {
+    std::random_device random;
+    const std::string beside = (std::filesystem::path(folder_of(path)) /
+                                fmt::format("{}{:08x}{:08x}{}", partial_prefix, random(), random(),
+                                            partial_suffix))
+                                   .string();
+    try {
+        write(beside);
+        rename_durably(beside, path);
+    } catch (const FileError&) {
+        ::unlink(beside.c_str());
+        throw;
+    }
+}
+
+void replace_file(const std::string& path, const std::string& text) {
+    replace_file(path, [&text](const std::string& beside) {
+        const Descriptor file(beside, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
+        file.write(std::as_bytes(std::span(text)), 0);
+        file.sync();
+    });
+}
+
+void remove_unfinished(const std::string& folder) {
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        if (name.starts_with(partial_prefix) && name.ends_with(partial_suffix))
+            ::unlink(entry->path().c_str());
+    }
 }
 
 std::string folder_of(const std::string& path) {

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -57,6 +58,13 @@ void check_room(const std::string& folder, std::uint64_t bytes);
 void reserve(const std::string& path);
 /// Renames and makes it last: the folder is synced too.
 void rename_durably(const std::string& from, const std::string& to);
+/// Puts a file in the place of any other, whole or not at all. `write` makes it anew under a name
+/// that nobody can guess and brings it to disk.
+void replace_file(const std::string& path,
+                  const std::function<void(const std::string& beside)>& write);
+void replace_file(const std::string& path, const std::string& text);
+/// Removes what killed calls of `replace_file` have left in a folder. No other may be under way.
+void remove_unfinished(const std::string& folder);
 std::string folder_of(const std::string& path);
 
 /// Runs `act` on every rank. If it throws FileError on any, every rank throws CollectiveError with

@@ -5,11 +5,12 @@
 #include <array>
 #include <bit>
 
-#include "io/appended_file.hpp"
 #include "io/checked_dataset.hpp"
 #include "io/checkpoint_fields.hpp"
 #include "io/crash_guard.hpp"
 #include "io/files.hpp"
+#include "io/read_columns.hpp"
+#include "io/segments.hpp"
 
 namespace carrom {
 
@@ -85,10 +86,14 @@ struct FrameFile::State {
 
 FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_unique<State>()) {
     guarded(path_, [&] {
-        static_cast<void>(Descriptor(path_, 0)); // for the system's words
+        const bool has_segments = joins_segments(path_);
+        if (has_segments) check_segments(path_, false);
         h5::File opened = h5::open_file(
             path_, h5::Access::read); // closed in here if anything is thrown: closing may crash too
         const hid_t file = opened.id();
+        if (!has_segments && h5::has(file, "/carrom/recording"))
+            throw FileError(
+                "is damaged: it does not end with a checksum, as this program writes it");
         const std::string discs = discs_path;
         if (h5::has(file, "/carrom/run")) {
             const h5::Group run(

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/h5md.hpp"
 
+#include <algorithm>
 #include <array>
+#include <vector>
 
 namespace carrom::h5md {
 
@@ -24,6 +26,60 @@ h5::Group create_box(hid_t parent, bool is_periodic_x, bool is_periodic_y) {
         box.id(), "boundary",
         std::vector<std::string>{boundary(is_periodic_x), boundary(is_periodic_y), "none"});
     return box;
+}
+
+namespace {
+
+/// By disc, without step and time (H5MD 1.1, "time-independent data"). Values of one species stand
+/// side by side, so that they are small when deflated.
+template <class Number>
+void write_fixed(hid_t discs, const char* name, hid_t type, std::uint64_t n, Number common,
+                 const std::vector<Number>& values) {
+    const h5::Properties creation = h5::dataset_creation();
+    h5::checked(H5Pset_fill_value(creation.id(), type, &common), name);
+    const hsize_t size = n, chunk = std::min<std::uint64_t>(n, 1 << 16);
+    if (!values.empty()) {
+        h5::checked(H5Pset_chunk(creation.id(), 1, &chunk), name);
+        h5::checked(H5Pset_deflate(creation.id(), 1), name);
+    }
+    h5::Dataset dataset(h5::checked(H5Dcreate2(discs, name, type, h5::space({&size, 1}).id(),
+                                               H5P_DEFAULT, creation.id(), H5P_DEFAULT),
+                                    name));
+    if (!values.empty())
+        h5::checked(H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+                    name);
+    dataset.close(name);
+}
+
+} // namespace
+
+void write_system(hid_t file, const RecordedSystem& system) {
+    write_metadata(file, system.program_version);
+    const h5::Group parameters = h5::create_group(file, "parameters");
+    h5::write_scalar(parameters.id(), "radius", system.radius);
+    if (system.open_boundaries != std::array<bool, 4>{}) {
+        const auto& sides = system.open_boundaries;
+        const std::array<std::int32_t, 4> flags = {sides[0], sides[1], sides[2], sides[3]};
+        h5::write_whole(parameters.id(), "open_sides", std::array<hsize_t, 1>{4}, H5T_NATIVE_INT32,
+                        flags.data());
+    }
+    const h5::Group particles = h5::create_group(file, "particles"),
+                    discs = h5::create_group(particles.id(), "discs");
+    static_cast<void>(create_box(discs.id(), system.is_periodic_x, system.is_periodic_y));
+    std::vector<double> radii, masses;
+    std::vector<std::int64_t> numbers;
+    for (const Species& one : system.species) {
+        numbers.insert(numbers.end(), one.count, &one - system.species.data());
+        radii.insert(radii.end(), one.count, one.radius);
+        masses.insert(masses.end(), one.count, one.mass);
+    }
+    write_fixed(discs.id(), "radius", H5T_NATIVE_DOUBLE, system.n_discs, system.radius, radii);
+    write_fixed(discs.id(), "mass", H5T_NATIVE_DOUBLE, system.n_discs, 1.0, masses);
+    write_fixed(discs.id(), "species", H5T_NATIVE_INT64, system.n_discs, std::int64_t{0}, numbers);
+}
+
+std::array<double, 3> edges_of(const RecordedSystem& system) {
+    return {system.box_size, system.box_size, 1};
 }
 
 } // namespace carrom::h5md

@@ -15,7 +15,8 @@ namespace carrom {
 
 void start_io() {
     std::signal(SIGXFSZ, SIG_IGN);
-    setenv("HDF5_USE_FILE_LOCKING", "BEST_EFFORT", 0);
+    // Readers look at recordings that grow, and runs have a lock of their own.
+    setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
     H5dont_atexit();
     H5open(); // started before MPI it does not hook into MPI's end either
 }
@@ -118,6 +119,12 @@ File create_file(const std::string& path, std::uint64_t user_block) {
                         "cannot be created"));
 }
 
+File create_new_file(const std::string& path) {
+    be_quiet();
+    return File(checked(H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT),
+                        "cannot be created"));
+}
+
 File open_file(const std::string& path, Access access) {
     be_quiet();
     if (H5Fis_hdf5(path.c_str()) == 0)
@@ -129,14 +136,8 @@ File open_file(const std::string& path, Access access) {
                     "cannot be opened"));
     } catch (const FileError& error) {
         if (std::string_view(error.what()).find("truncated file") == std::string_view::npos) throw;
-        throw FileError("is cut short: it was not copied whole, or a run was killed while it "
-                        "wrote, which a restart mends");
+        throw FileError("is cut short: it was not copied whole");
     }
-}
-
-File open_file(const std::string& path, const Properties& access) {
-    be_quiet();
-    return File(checked(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), "cannot be opened"));
 }
 
 File open_file(const std::string& path, Access access, const Communicator& communicator) {
@@ -159,7 +160,9 @@ bool has(hid_t file, const std::string& path) {
 }
 
 Group create_group(hid_t parent, const char* name) {
-    return Group(checked(H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), name));
+    const Properties links = properties(H5P_LINK_CREATE);
+    checked(H5Pset_create_intermediate_group(links.id(), 1), name);
+    return Group(checked(H5Gcreate2(parent, name, links.id(), H5P_DEFAULT, H5P_DEFAULT), name));
 }
 
 Dataset open_dataset(hid_t parent, const char* name) {

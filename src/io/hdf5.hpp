@@ -70,16 +70,17 @@ Space scalar_space();
 /// A new file of this process alone, in place of any other; `user_block` bytes at its front are
 /// left to the caller: none, or a power of 2 from 4096.
 File create_file(const std::string& path, std::uint64_t user_block);
+/// The same where no file, nor a symbolic link, may be of that name.
+File create_new_file(const std::string& path);
 enum class Access { read, write };
 File open_file(const std::string& path, Access access);
-/// An existing file to write to, by the driver that `access` names.
-File open_file(const std::string& path, const Properties& access);
 /// The same for all ranks together. **Collective.**
 File open_file(const std::string& path, Access access, const Communicator& communicator);
 
 /// Whether there is something at an absolute path. HDF5 wants every group on the way to be asked
 /// for.
 bool has(hid_t file, const std::string& path);
+/// Makes the groups on the way too.
 Group create_group(hid_t parent, const char* name);
 /// To be written to; what is to be read may be damaged: see checked_dataset.hpp.
 Dataset open_dataset(hid_t parent, const char* name);

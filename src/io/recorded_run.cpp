@@ -22,15 +22,12 @@ bool is_recorded(const HeaderField& entry) {
 
 void write_recorded_run(hid_t file, const CheckpointHeader& run) {
     if (run.scene_text.empty()) return;
-    const h5::Group carrom = h5::has(file, carrom_path)
-                                 ? h5::Group(h5::checked(H5Gopen2(file, carrom_path, H5P_DEFAULT),
-                                                         carrom_path))
-                                 : h5::create_group(file, carrom_path);
     const h5::Group scene = h5::create_group(file, scene_path);
     for (const HeaderField& entry : checkpoint_header)
         if (is_recorded(entry))
             std::visit([&](auto field) { h5::write_scalar(scene.id(), entry.name, run.*field); },
                        entry.field);
+    const h5::Group carrom(h5::checked(H5Gopen2(file, carrom_path, H5P_DEFAULT), carrom_path));
     write_species(carrom.id(), run.species);
 }
 

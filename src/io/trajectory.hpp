@@ -1,37 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every so-many-th step of a run in one H5MD file, discs in the order of their ids.
+// Every so-many-th step of a run as H5MD, discs in the order of their ids.
 //
-// Frames stream through rank 0 in slabs of ids, which is what makes them safe from kills and
-// readable while the run goes on (see AppendedFile); its price is one rank's speed to the disk, so
-// frames are for looking at, checkpoints for going on. Beside the file lies an XDMF description, by
-// which ParaView and VisIt open it.
+// Frames stream through rank 0 in slabs of ids. This makes them safe from kills and readable while
+// the run goes on (see SegmentedFile). Its price is one rank's speed to the disk, so frames are for
+// looking at, checkpoints for going on. Beside the file lies an XDMF description for ParaView and
+// VisIt.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "core/disc.hpp"
 #include "io/checkpoint.hpp"
+#include "io/recorded_system.hpp"
 #include "parallel/communicator.hpp"
 
 namespace carrom {
 
 struct TrajectoryLayout {
-    std::string program_version;
-    std::uint64_t n_discs = 0;
-    double box_size = 0, radius = 0;
-    std::vector<double> radii, masses; ///< by id; empty where all are of one radius and mass 1
-    bool is_periodic_x = false, is_periodic_y = false;
-    std::array<bool, 4> open_boundaries{}; ///< left, right, bottom, top: discs may lie beyond these
+    RecordedSystem system;
     double velocity_unit = 1; ///< what stored velocities are multiplied by to be per step
     bool has_position = true, has_velocity = true, has_collisions = false;
     bool has_angular_velocity = false; ///< of discs that turn, per step, counterclockwise
     bool is_single = true;             ///< float32, else float64
-    int compression = 0;               ///< deflate level; 0 for none
     CheckpointHeader run; ///< of which run it is: scene and classes. No text: the file will not say
 };
 
@@ -47,8 +40,9 @@ public:
     void begin();
 
     /// Goes on with the file, cut back to frames up to `step`, which get this layout's box. Begins
-    /// a new one where there is none. Throws code 2 where the file has another layout or is another
-    /// run's. Returns, on rank 0, the step of the last frame that is left, or -1. **Collective.**
+    /// a new one where there is none. Throws code 2 where the file has another layout or is
+    /// damaged. Returns, on rank 0, the step of the last frame that is left, or -1.
+    /// **Collective.**
     std::int64_t go_on(std::int64_t step, const DifferenceFrom& difference_from = {});
 
     /// Adds a frame: the discs, spread over the ranks in any way, at `clock`; their spins along
@@ -56,9 +50,8 @@ public:
     void append(std::int64_t step, std::span<const Disc> discs, double clock,
                 std::span<const double> spins = {});
 
-    /// What has been added so far is to stay: brings it to disk. Renews the description when it has
-    /// grown old.
-    /// **Collective.**
+    /// What has been added so far is to stay, and readers see it. Renews the description when it
+    /// has grown old. **Collective.**
     void commit();
 
     /// Describes all frames there are, in XDMF, for tools on VTK. **Collective.**

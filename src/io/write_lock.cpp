@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <thread>
 #include <utility>
 
@@ -57,13 +58,16 @@ WriteLock::~WriteLock() {
 
 WriteLock::WriteLock(WriteLock&& other) noexcept
     : path_(std::move(other.path_)), holder_(std::move(other.holder_)),
-      file_(std::exchange(other.file_, -1)) {}
+      obstacle_(std::move(other.obstacle_)), file_(std::exchange(other.file_, -1)) {}
 
 /// True where there is nothing to wait for.
 bool WriteLock::try_once() {
     holder_.clear();
     const int file = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (file < 0) return true; // whatever is wrong there, writing will tell
+    if (file < 0) {
+        obstacle_ = fmt::format("{} cannot be opened: {}", path_, std::strerror(errno));
+        return true;
+    }
     if (::flock(file, LOCK_EX | LOCK_NB) != 0) {
         if (errno == EWOULDBLOCK) holder_ = first_bytes(file);
         ::close(file);

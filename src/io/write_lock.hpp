@@ -23,11 +23,13 @@ public:
     WriteLock& operator=(WriteLock&&) = delete;
 
     const std::string& holder() const { return holder_; }
+    /// Why there can be no lock, as where the name is a symbolic link; empty else.
+    const std::string& obstacle() const { return obstacle_; }
 
 private:
     bool try_once();
 
-    std::string path_, holder_;
+    std::string path_, holder_, obstacle_;
     int file_ = -1; ///< open where the lock is held
 };
 

@@ -4,8 +4,6 @@
 #include <filesystem>
 #include <iterator>
 
-#include <fcntl.h>
-
 #include <fmt/format.h>
 
 #include "io/files.hpp"
@@ -14,62 +12,75 @@ namespace carrom {
 
 namespace {
 
-/// Rows of frame `frame` of a dataset with three numbers a disc.
-std::string rows_of_frame(const std::string& file, const TrajectoryLayout& layout,
-                          const char* element, std::size_t frame, std::size_t n_frames) {
-    const std::uint64_t n = layout.n_discs;
+/// One frame: a row of a segment.
+struct Row {
+    const Segment& segment;
+    std::uint64_t number;
+};
+
+/// Three numbers of each disc, or one.
+std::string vectors(const Row& row, const TrajectoryLayout& layout, const char* element) {
     return fmt::format("<DataItem ItemType=\"HyperSlab\" Dimensions=\"{0} 3\"><DataItem "
                        "Dimensions=\"3 3\" Format=\"XML\">{1} 0 0 1 1 1 "
                        "1 {0} 3</DataItem><DataItem NumberType=\"Float\" Precision=\"{2}\" "
                        "Dimensions=\"{3} {0} 3\" Format=\"HDF\">"
                        "{4}:/particles/discs/{5}/value</DataItem></DataItem>",
-                       n, frame, layout.is_single ? 4 : 8, n_frames, file, element);
+                       layout.system.n_discs, row.number, layout.is_single ? 4 : 8,
+                       row.segment.room, row.segment.name, element);
 }
 
-/// The same of one with one number a disc.
-std::string numbers_of_frame(const std::string& file, const TrajectoryLayout& layout,
-                             const char* element, std::size_t frame, std::size_t n_frames) {
+std::string numbers(const Row& row, const TrajectoryLayout& layout, const char* element) {
     return fmt::format("<DataItem ItemType=\"HyperSlab\" Dimensions=\"{0}\"><DataItem "
                        "Dimensions=\"3 2\" Format=\"XML\">{1} 0 1 1 "
                        "1 {0}</DataItem><DataItem NumberType=\"Float\" Precision=\"{2}\" "
                        "Dimensions=\"{3} {0}\" Format=\"HDF\">"
                        "{4}:/particles/discs/{5}/value</DataItem></DataItem>",
-                       layout.n_discs, frame, layout.is_single ? 4 : 8, n_frames, file, element);
+                       layout.system.n_discs, row.number, layout.is_single ? 4 : 8,
+                       row.segment.room, row.segment.name, element);
+}
+
+std::string attribute(const char* name, const char* kind, const std::string& item) {
+    return fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">{}</Attribute>",
+                       name, kind, item);
+}
+
+/// The same for all frames: radius or species.
+std::string fixed(const std::string& file, const TrajectoryLayout& layout, const char* name,
+                  const char* type) {
+    return attribute(name, "Scalar",
+                     fmt::format("<DataItem NumberType=\"{}\" Precision=\"8\" Dimensions=\"{}\" "
+                                 "Format=\"HDF\">{}:/particles/discs/{}</DataItem>",
+                                 type, layout.system.n_discs, file, name));
 }
 
 } // namespace
 
 void write_xdmf(const std::string& path, const TrajectoryLayout& layout,
-                std::span<const std::int64_t> steps) {
+                std::span<const Segment> segments, std::span<const std::int64_t> steps) {
     if (!layout.has_position) return; // nothing to be seen
     const std::string file = std::filesystem::path(path).filename().string();
     std::string text = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\"><Domain><Grid "
                        "Name=\"discs\" GridType=\"Collection\" "
                        "CollectionType=\"Temporal\">\n";
-    for (std::size_t frame = 0; frame < steps.size(); ++frame) {
-        fmt::format_to(std::back_inserter(text),
-                       "<Grid Name=\"step {0}\"><Time Value=\"{0}\"/><Topology "
-                       "TopologyType=\"Polyvertex\" NumberOfElements=\"{1}\"/>"
-                       "<Geometry GeometryType=\"XYZ\">{2}</Geometry>",
-                       steps[frame], layout.n_discs,
-                       rows_of_frame(file, layout, "position", frame, steps.size()));
-        if (layout.has_velocity)
+    std::size_t frame = 0;
+    for (const Segment& segment : segments)
+        for (std::uint64_t k = 0; k < segment.rows; ++k, ++frame) {
+            const Row row{segment, k};
             fmt::format_to(std::back_inserter(text),
-                           "<Attribute Name=\"velocity\" AttributeType=\"Vector\" "
-                           "Center=\"Node\">{}</Attribute>",
-                           rows_of_frame(file, layout, "velocity", frame, steps.size()));
-        if (layout.has_angular_velocity)
-            fmt::format_to(std::back_inserter(text),
-                           "<Attribute Name=\"angular_velocity\" AttributeType=\"Scalar\" "
-                           "Center=\"Node\">{}</Attribute>",
-                           numbers_of_frame(file, layout, "angular_velocity", frame, steps.size()));
-        text += "</Grid>\n";
-    }
+                           "<Grid Name=\"step {0}\"><Time Value=\"{0}\"/><Topology "
+                           "TopologyType=\"Polyvertex\" NumberOfElements=\"{1}\"/>"
+                           "<Geometry GeometryType=\"XYZ\">{2}</Geometry>",
+                           steps[frame], layout.system.n_discs, vectors(row, layout, "position"));
+            text += fixed(file, layout, "radius", "Float") + fixed(file, layout, "species", "Int");
+            if (layout.has_velocity)
+                text += attribute("velocity", "Vector", vectors(row, layout, "velocity"));
+            if (layout.has_angular_velocity)
+                text += attribute("angular_velocity", "Scalar",
+                                  numbers(row, layout, "angular_velocity"));
+            text += "</Grid>\n";
+        }
     text += "</Grid></Domain></Xdmf>\n";
-    const std::string target = std::filesystem::path(path).replace_extension(".xdmf").string(),
-                      partial = target + ".partial";
-    Descriptor(partial, O_WRONLY | O_CREAT | O_TRUNC).write(std::as_bytes(std::span(text)), 0);
-    rename_durably(partial, target);
+    replace_file(std::filesystem::path(path).replace_extension(".xdmf").string(), text);
 }
 
 } // namespace carrom

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A description of a trajectory in XDMF 2, by which VTK (ParaView, VisIt) opens the HDF5 file
-// without a copy.
+// A description of a trajectory in XDMF 2, by which VTK (ParaView, VisIt) opens its segments
+// without a copy. It names segments, so that a VTK with an HDF5 without virtual datasets will do.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <string>
 
+#include "io/segments.hpp"
 #include "io/trajectory.hpp"
 
 namespace carrom {
@@ -14,6 +15,6 @@ namespace carrom {
 /// Writes trajectory.xdmf beside trajectory.h5, whole or not at all. Some 1 KB a frame. Throws
 /// FileError.
 void write_xdmf(const std::string& path, const TrajectoryLayout& layout,
-                std::span<const std::int64_t> steps);
+                std::span<const Segment> segments, std::span<const std::int64_t> steps);
 
 } // namespace carrom

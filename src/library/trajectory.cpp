@@ -20,9 +20,6 @@ TrajectoryOutput wanted_of(const TrajectoryFields& fields, const carrom::Scene& 
     std::vector<Problem> problems;
     if (fields.spins && scene.effects.contact.kind != ContactKind::rough)
         problems.push_back({path, 0, "only rough discs have spins (effects.contact.kind)"});
-    if (fields.compression < 0 || fields.compression > 9)
-        problems.push_back(
-            {path, 0, fmt::format("compression is 0 to 9, not {}", fields.compression)});
     if (!problems.empty()) throw InputError(std::move(problems));
     TrajectoryOutput wanted;
     wanted.file = path;
@@ -30,7 +27,6 @@ TrajectoryOutput wanted_of(const TrajectoryFields& fields, const carrom::Scene& 
     wanted.has_collisions = fields.collisions;
     wanted.has_angular_velocity = fields.spins;
     wanted.is_single = fields.single_precision;
-    wanted.compression = fields.compression;
     return wanted;
 }
 

@@ -45,6 +45,24 @@ void derive_defaults(const Check& check) {
             "output.measurements.largest_distance");
 }
 
+/// All that a run writes has its place in one folder; a run that has one stores checkpoints.
+void place_outputs(const Check& check) {
+    Scene& scene = check.scene;
+    const bool needs_folder = scene.checkpoint || scene.trajectory || scene.collisions ||
+                              scene.measurements;
+    if (scene.folder.empty()) {
+        if (needs_folder && !check.settings.has("output.folder"))
+            check.refuse({}, "'output.folder' is missing: the folder for what the run writes; "
+                             "-o FOLDER sets it too");
+        return;
+    }
+    if (!scene.checkpoint) scene.checkpoint.emplace();
+    scene.checkpoint->folder = scene.folder + "/checkpoints";
+    if (scene.trajectory) scene.trajectory->file = scene.folder + "/trajectory.h5";
+    if (scene.collisions) scene.collisions->file = scene.folder + "/collisions.h5";
+    if (scene.measurements) scene.measurements->folder = scene.folder + "/measurements";
+}
+
 /// True where the text names a key whose value is wrong, so that nothing follows from it.
 bool depends_on_wrong_value(const Check& check, std::string_view text) {
     const auto& all = check.settings.all();
@@ -94,6 +112,7 @@ void fill_scene(Scene& scene, Settings& settings, Problems& problems, const Disc
     const Check check{scene, settings, problems, columns};
     take_values(check);
     derive_defaults(check);
+    place_outputs(check);
     for (const Key& key : keys()) check_needs(check, key);
     check_times(check);
     if (check_discs(check)) check_room(check);

@@ -102,6 +102,9 @@ struct Table {
     bool (*is_in)(const Scene&) = [](const Scene&) { return true; };
     void (*create)(Scene&) = [](Scene&) {};
     bool is_like_another = false; ///< the reference shows the other one
+
+    /// A scene without the table lacks what it is about.
+    bool is_optional() const { return !is_in(Scene{}); }
 };
 
 /// Two features that do not go together.

@@ -31,14 +31,28 @@ Key trajectory_precision() {
     return key;
 }
 
+Key collision_log() {
+    Key key = named_key("output.collisions", "", "Whether every collision is recorded.");
+    key.kind = Kind::flag;
+    key.fallback = "false";
+    key.get = [](const Scene& s) { return Value{s.collisions.has_value()}; };
+    key.set = [](Scene& s, const Value& value) {
+        if (std::get<bool>(value.data)) s.collisions.emplace();
+    };
+    key.is_same = [](const Scene& a, const Scene& b) {
+        return a.collisions.has_value() == b.collisions.has_value();
+    };
+    return key;
+}
+
 std::vector<Key> keys_of_checkpoints() {
     return {
         key("output.text", "",
             "Lines of discs on standard output: none, those of steps 0 and S, or all.",
             [](auto& s) -> auto& { return s.text_output; }),
-        key("output.checkpoint.folder", "", "The folder for checkpoints; made where there is none.",
-            [](auto& s) -> auto& { return s.checkpoint->folder; })
-            .required(),
+        key("output.folder", "", "Where all that the run writes has its place; -o sets it too.",
+            [](auto& s) -> auto& { return s.folder; })
+            .by_default("none"),
         key("output.checkpoint.every_steps", "steps", "Time from checkpoint to checkpoint.",
             [](auto& s) -> auto& { return s.checkpoint->every_steps; })
             .by_default("none")
@@ -65,9 +79,6 @@ std::vector<Key> keys_of_recordings() {
         {"collisions", &Output::has_collisions},
         {"angular_velocity", &Output::has_angular_velocity}};
     return {
-        key("output.trajectory.file", "", "One H5MD file of frames.",
-            [](auto& s) -> auto& { return s.trajectory->file; })
-            .required(),
         key("output.trajectory.every_steps", "steps", "Time from frame to frame.",
             [](auto& s) -> auto& { return s.trajectory->every_steps; })
             .within(every),
@@ -78,12 +89,7 @@ std::vector<Key> keys_of_recordings() {
             .by_default("position, velocity; angular_velocity of rough discs")
             .within(at_least_one),
         trajectory_precision(),
-        key("output.trajectory.compression", "1", "From 0, none, to 9, smallest.",
-            [](auto& s) -> auto& { return s.trajectory->compression; })
-            .within({0, 9}),
-        key("output.collisions.file", "", "One HDF5 file of every collision.",
-            [](auto& s) -> auto& { return s.collisions->file; })
-            .required(),
+        collision_log(),
     };
 }
 
@@ -112,9 +118,6 @@ std::vector<Key> keys_of_measurements() {
         {"density", &Output::density},
         {"displacement", &Output::displacement}};
     return {
-        key("output.measurements.folder", "", "The folder for the tables.",
-            [](auto& s) -> auto& { return s.measurements->folder; })
-            .required(),
         flags_key(
             "output.measurements.quantities", "", "What is measured.",
             [](auto& s) -> auto& { return *s.measurements; }, quantities)

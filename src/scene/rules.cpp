@@ -149,12 +149,6 @@ std::vector<Rule> rules_of_outputs() {
              [](const Scene& s) {
                  return has_column(s, DiscColumn::mass) && !has_column(s, DiscColumn::radius);
              }),
-        rule("output.collisions.file", "the same output.trajectory.file", "each needs its own file",
-             {"output.collisions.file"},
-             [](const Scene& s) {
-                 return s.collisions && s.trajectory && !s.collisions->file.empty() &&
-                        s.collisions->file == s.trajectory->file;
-             }),
     };
 }
 

@@ -57,7 +57,7 @@ struct Stream {
 
 /// `[output.checkpoint]`: when the state is stored, and where. At the end and on a signal as well.
 struct CheckpointOutput {
-    std::string folder; ///< as seen from where the program runs
+    std::string folder; ///< in the run's folder
     std::optional<std::int64_t> every_steps;
     std::optional<double> every_minutes; ///< of wall time
     std::int64_t keep = 2;               ///< older ones are removed
@@ -66,12 +66,11 @@ struct CheckpointOutput {
 
 /// `[output.trajectory]`: every so-many-th step in one file.
 struct TrajectoryOutput {
-    std::string file; ///< as seen from where the program runs
+    std::string file; ///< in the run's folder
     std::int64_t every_steps = 1;
     bool has_position = true, has_velocity = true, has_collisions = false;
     bool has_angular_velocity = false; ///< of rough discs, where fields are not named
     bool is_single = true;             ///< numbers of 4 bytes, else of 8
-    int compression = 0;               ///< 0 to 9
 };
 
 /// `[output.collisions]`: every collision in one file.
@@ -81,7 +80,7 @@ struct CollisionOutput {
 
 /// `[output.measurements]`: what is sampled as the run goes on, and where the tables go.
 struct MeasurementOutput {
-    std::string folder; ///< as seen from where the program runs
+    std::string folder; ///< in the run's folder
     std::int64_t every_steps = 10, from_step = 0;
     bool wall_pressure = false, radial_distribution = false, velocities = false, density = false,
          displacement = false;
@@ -129,7 +128,8 @@ struct Scene {
     Effects effects; ///< times in steps
 
     TextOutput text_output = TextOutput::none;
-    std::optional<CheckpointOutput> checkpoint;
+    std::string folder; ///< for all that is written, from where the program runs; empty: none
+    std::optional<CheckpointOutput> checkpoint; ///< of each run with a folder
     std::optional<TrajectoryOutput> trajectory;
     std::optional<CollisionOutput> collisions;
     std::optional<MeasurementOutput> measurements;

@@ -14,6 +14,8 @@ Scene with_defaults(const Scene& scene) {
     Scene plain;
     for (const Table& table : tables())
         if (table.is_in(scene)) table.create(plain);
+    if (plain.trajectory)
+        plain.trajectory->has_angular_velocity = scene.effects.contact.kind == ContactKind::rough;
     return plain;
 }
 
@@ -33,7 +35,9 @@ std::string scene_text(const Scene& scene) {
                 lines += fmt::format("{} = {}\n", key.name.substr(table.name.size() + 1),
                                      toml_text(key, value));
         }
-        if (!lines.empty()) text += fmt::format("[{}]\n{}", table.name, lines);
+        // The bare name of a table says that the run has what it is about.
+        if (!lines.empty() || table.is_optional())
+            text += fmt::format("[{}]\n{}", table.name, lines);
     }
     return text;
 }

@@ -73,6 +73,11 @@ std::string unknown_key_text(std::string_view key, const Value& value) {
     for (const Key& known : keys())
         if (!known.old_name.empty() && known.old_name == key)
             return renamed_text(known, key, value);
+    for (const std::string_view old : {"output.checkpoint.folder", "output.trajectory.file",
+                                       "output.collisions.file", "output.measurements.folder"})
+        if (key == old)
+            return quoted(key) + " is no more: name 'output.folder', where all that a run writes "
+                                 "has its place";
     if (find_table(key)) return quoted(key) + " is a table, not a value";
     const std::string_view table = table_of(key);
     const bool is_known = !table.empty() && find_table(table);

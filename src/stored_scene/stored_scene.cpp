@@ -84,29 +84,31 @@ std::string first_difference(const CheckpointHeader& there, const Scene& scene) 
     }
 }
 
+RecordedSystem system_of(const Scene& scene) {
+    RecordedSystem system;
+    system.program_version = version();
+    system.n_discs = scene.n_discs;
+    const Extent end = extent_at(scene.effects, scene.box_size, static_cast<double>(scene.steps));
+    system.box_size = std::max({scene.box_size, end.x_high, end.y_high}); // walls may move
+    system.radius = scene.radius;
+    system.species = scene.effects.species;
+    system.is_periodic_x = scene.effects.is_periodic_x();
+    system.is_periodic_y = scene.effects.is_periodic_y();
+    for (std::size_t side = 0; side < system.open_boundaries.size(); ++side)
+        system.open_boundaries[side] = scene.effects.boundaries[side].kind == BoundaryKind::open;
+    return system;
+}
+
 TrajectoryLayout layout_of(const Scene& scene, const TrajectoryOutput& wanted) {
     TrajectoryLayout layout;
-    layout.program_version = version();
+    layout.system = system_of(scene);
     layout.run = run_of(scene);
-    layout.n_discs = scene.n_discs;
-    const Extent end = extent_at(scene.effects, scene.box_size, static_cast<double>(scene.steps));
-    layout.box_size = std::max({scene.box_size, end.x_high, end.y_high}); // walls may move
-    layout.radius = scene.radius;
-    for (const Species& one : scene.effects.species) {
-        layout.radii.insert(layout.radii.end(), one.count, one.radius);
-        layout.masses.insert(layout.masses.end(), one.count, one.mass);
-    }
-    layout.is_periodic_x = scene.effects.is_periodic_x();
-    layout.is_periodic_y = scene.effects.is_periodic_y();
-    for (std::size_t side = 0; side < layout.open_boundaries.size(); ++side)
-        layout.open_boundaries[side] = scene.effects.boundaries[side].kind == BoundaryKind::open;
     layout.velocity_unit = static_cast<double>(scene.micro_steps);
     layout.has_position = wanted.has_position;
     layout.has_velocity = wanted.has_velocity;
     layout.has_collisions = wanted.has_collisions;
     layout.has_angular_velocity = wanted.has_angular_velocity;
     layout.is_single = wanted.is_single;
-    layout.compression = wanted.compression;
     return layout;
 }
 

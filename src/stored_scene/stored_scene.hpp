@@ -33,6 +33,8 @@ void refuse_other_run(const CheckpointHeader& header, const Scene& scene, const 
 std::string first_difference(const CheckpointHeader& there, const Scene& scene);
 
 /// What a trajectory of the scene's run holds.
+/// What recordings of the scene say of its discs.
+RecordedSystem system_of(const Scene& scene);
 TrajectoryLayout layout_of(const Scene& scene, const TrajectoryOutput& wanted);
 
 } // namespace carrom

@@ -207,7 +207,7 @@ int main(int argc, char** argv) {
     add(
         "log_to_go_on_with", 0, [&] { write_sample_log(path(), world); },
         [&](const std::string& file) {
-            CollisionLog log(file, "0.1.0", world);
+            CollisionLog log(file, sample_layout(false).system, world);
             log.go_on(3);
             log.append(std::vector<LoggedCollision>(5));
             log.commit();

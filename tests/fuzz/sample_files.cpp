@@ -63,22 +63,21 @@ void write_sample_checkpoint(const std::string& path, const Communicator& world)
     write_checkpoint(path, header, some_discs(), world, 1, {}, some_spins());
 }
 
-TrajectoryLayout sample_layout(bool is_compressed) {
+TrajectoryLayout sample_layout(bool is_double) {
     TrajectoryLayout layout;
-    layout.program_version = "0.1.0";
-    layout.n_discs = some_discs().size();
-    layout.box_size = 10;
-    layout.radius = 0.5;
+    layout.system.program_version = "0.1.0";
+    layout.system.n_discs = some_discs().size();
+    layout.system.box_size = 10;
+    layout.system.radius = 0.5;
     layout.has_collisions = true;
-    layout.compression = is_compressed ? 4 : 0;
-    layout.has_angular_velocity = is_compressed;
+    layout.is_single = !is_double;
+    layout.has_angular_velocity = is_double;
     return layout;
 }
 
-void write_sample_trajectory(const std::string& path, bool is_compressed,
-                             const Communicator& world) {
+void write_sample_trajectory(const std::string& path, bool is_double, const Communicator& world) {
     const std::vector<Disc> discs = some_discs();
-    Trajectory trajectory(path, sample_layout(is_compressed), world);
+    Trajectory trajectory(path, sample_layout(is_double), world);
     trajectory.begin();
     for (const std::int64_t step : {0, 10, 20}) trajectory.append(step, discs, 6, some_spins());
     trajectory.commit();
@@ -89,7 +88,7 @@ void write_sample_log(const std::string& path, const Communicator& world) {
     for (std::int64_t i = 0; i < 20; ++i)
         rows.push_back(
             {1 + i / 4, 0.25 * static_cast<double>(i), i % 6, i % 3 == 0 ? -1 : 6 + i % 6, 0.5});
-    CollisionLog log(path, "0.1.0", world);
+    CollisionLog log(path, sample_layout(false).system, world);
     log.begin();
     log.append(rows);
     log.commit();

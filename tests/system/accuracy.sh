@@ -58,11 +58,11 @@ expect_code 2 'wrong options'
 for option in --starts --share --arithmetic; do expect_told "$option" 'all wrong options at once'; done
 
 for ranks in 1 2; do
-    run "$ranks" run small.toml --accuracy 1e-6 --set output.checkpoint.folder="kept$ranks"
+    run "$ranks" run small.toml --accuracy 1e-6 --set output.folder="kept$ranks"
     expect_code 0 "a run with an accuracy on $ranks ranks"
     expect_told 'method = "event-driven"' 'what was chosen'
 done
-run 1 run small.toml --accuracy 1e-6 --steps 30 --set output.checkpoint.folder=kept1 --restart latest
+run 1 run small.toml --accuracy 1e-6 --steps 30 --set output.folder=kept1 --restart latest
 expect_code 0 'going on from a run with an accuracy'
 expect_told 'going on with the checkpoint' 'a restart does not choose again'
 run 1 run --restart kept1 --steps 40 --accuracy 0.2

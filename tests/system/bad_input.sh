@@ -134,7 +134,6 @@ refuse_toml 'a wrong number of discs and wrong discs' "${with_file/count = 2/cou
 refuse_toml 'a wrong box and wrong discs' "${with_file/size = 10/size = 1}" $'L < 2 r\n'"$lines"
 printf '%s\n' "$with_file" >file.toml
 refuse 'a wrong option and wrong discs' $'--threads: must be\n'"$lines" run file.toml --threads none
-refuse 'a wrong place for output and wrong discs' $'output.trajectory.file .: is a directory\n'"$lines" run file.toml --set output.trajectory.file=.
 rm discs.txt file.toml
 refuse_text 'a wrong header and wrong discs' "${header/2/-2}0 3 3 1\n0 7 7 0 0\n" $'bad.in:1: \nbad.in:6: expected\nbad.in:7: disc 0 is listed twice'
 refuse 'a window too short to end' '--window: must be a number from 1e-05 on' run good.toml --window 1e-300
@@ -148,28 +147,16 @@ refuse 'wrong options and a wrong scene at once' $'--threads: must be\n--set dis
 run "$ranks" run good.toml --report nowhere/report.json
 expect_code 2 'a report in a folder that is not there'
 expect_told '--report nowhere/report.json: cannot be written' 'a report in a folder that is not there'
+cp good.toml kept.toml
 run "$ranks" run good.toml --output good.toml
 expect_code 2 'output into the input'
 expect_told '--output good.toml: is the input itself' 'output into the input'
-cp good.toml kept.toml
-for what in output.trajectory.file output.collisions.file; do
-    refuse "a recording into the input" "$what good.toml: is the input itself" run good.toml --set "$what=good.toml"
-done
-refuse 'a recording and the lines in one file' 'is the same file as --output' \
-    run good.toml --set output.collisions.file=./lines.txt
-refuse 'a recording in the place of a sidecar' 'the sidecar of output.trajectory.file' \
-    run good.toml --set output.trajectory.file=a.h5 --set output.collisions.file=./a.xdmf
-mkfifo pipe
-refuse 'a recording into a pipe' 'output.trajectory.file pipe: is not a plain file' run good.toml --set output.trajectory.file=pipe
 : >file
-refuse 'a folder that is a file' 'output.checkpoint.folder file: cannot be made: Not a directory' run good.toml --set output.checkpoint.folder=file
-refuse 'a folder below a file' 'output.checkpoint.folder file/below: cannot be made' run good.toml --set output.checkpoint.folder=file/below
-refuse 'a folder where there can be none' 'output.checkpoint.folder /proc/carrom: cannot be made' run good.toml --set output.checkpoint.folder=/proc/carrom
-refuse 'recordings into folders' $'output.trajectory.file .: is a directory\noutput.collisions.file no/c.h5: cannot be written: No such file' \
-    run good.toml --set output.trajectory.file=. --set output.collisions.file=no/c.h5 --set output.checkpoint.folder=new
-refuse 'a wrong scene and wrong places' \
-    $'--set discs.count\noutput.collisions.file good.toml: is the input itself\noutput.trajectory.file .: is a directory\noutput.checkpoint.folder file/below: cannot be made' \
-    run good.toml --set discs.count=-1 --set output.collisions.file=good.toml --set output.trajectory.file=. --set output.checkpoint.folder=file/below
+refuse 'a folder that is a file' 'output.folder file: ' run good.toml -o file
+refuse 'a folder below a file' 'output.folder file/below: ' run good.toml -o file/below
+refuse 'a folder where there can be none' 'output.folder /proc/carrom: ' run good.toml -o /proc/carrom
+refuse 'a wrong scene and a wrong place' $'--set discs.count\noutput.folder file/below: ' \
+    run good.toml --set discs.count=-1 -o file/below
 ulimit -Sv 4194304
 refuse 'more discs than memory' 'good.toml: discs.count = 200000000 needs at least' \
     run good.toml --set discs.count=200000000 --set discs.packing=0.1

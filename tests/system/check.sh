@@ -6,13 +6,13 @@ source "$CARROM_SOURCE_DIR/tests/system/common.sh"
 expect_unchanged() {
     local what=$1 ranks
     shift
-    run 1 run "$@" --quiet --report plain.json --set output.collisions.file=plain.h5
+    run 1 run "$@" --quiet --report plain.json -o plain --overwrite --set output.collisions=true
     expect_code 0 "$what, unchecked"
     for ranks in 1 3; do
-        run "$ranks" run "$@" --quiet --check --threads 2 --report checked.json --set output.collisions.file=checked.h5
+        run "$ranks" run "$@" --quiet --check --threads 2 --report checked.json -o checked --overwrite --set output.collisions=true
         expect_code 0 "$what on $ranks ranks"
         [ "$(json_value checked.json state_hash)" = "$(json_value plain.json state_hash)" ] || complain "other bits with --check: $what"
-        run 1 diff plain.h5 checked.h5
+        run 1 diff plain/collisions.h5 checked/collisions.h5
         expect_code 0 "the log of $what on $ranks ranks"
     done
 }

@@ -13,7 +13,7 @@ failed() {
     expect_told "$2" "$1"
 }
 goes_on_from() { # FOLDER STEP WHAT
-    [ "$(ls "$1")" = "$(printf 'checkpoint-%012d.h5' "$2")" ] || complain "not the last good checkpoint alone: $3: $(ls "$1")"
+    [ "$(ls "$1/checkpoints")" = "$(printf 'checkpoint-%012d.h5' "$2")" ] || complain "not the last good checkpoint alone: $3: $(ls "$1/checkpoints")"
     run 1 run --restart "$1" --steps "$2" --quiet
     expect_code 0 "going on after $3"
 }
@@ -23,11 +23,11 @@ if mount -t tmpfs -o size=4m tmpfs tiny 2>/dev/null; then
     trap 'umount "$test_folder/files/tiny"' EXIT
     for ranks in 1 3; do
         rm -rf tiny/*
-        run "$ranks" run "${scene[@]}" --set output.checkpoint.folder=tiny/kept
+        run "$ranks" run "${scene[@]}" --set output.folder=tiny/kept
         failed 'a full disk' 'No space left on device'
         goes_on_from tiny/kept 10 'a full disk'
         mount -o remount,ro tiny
-        run "$ranks" run "${scene[@]}" --set output.checkpoint.folder=tiny/kept
+        run "$ranks" run "${scene[@]}" --set output.folder=tiny/kept --overwrite
         failed 'a read-only disk' 'Read-only file system'
         mount -o remount,rw tiny
     done
@@ -41,14 +41,14 @@ cat >traced.sh <<'END'
 rank=$1 injection=$2
 shift 2
 [ "${OMPI_COMM_WORLD_RANK:-${PMI_RANK:-0}}" = "$rank" ] || exec "$@"
-exec strace -f -o trace -P "$PWD/kept/checkpoint-000000000020.h5.partial" -e inject="$injection" "$@"
+exec strace -f -o trace -P "$PWD/kept/checkpoints/checkpoint-000000000020.h5.partial" -e inject="$injection" "$@"
 END
 chmod +x traced.sh
 fault() {
     local program=$CARROM_PROGRAM
     rm -rf kept
     timeout --kill-after=5 60 "$CARROM_MPIEXEC" -n 3 ./traced.sh "$1" "$2" "$program" run "${scene[@]}" \
-        --set output.checkpoint.folder="$PWD/kept" >"$test_folder/out" 2>"$test_folder/err"
+        --set output.folder="$PWD/kept" >"$test_folder/out" 2>"$test_folder/err"
     code=$?
     failed "$2 on rank $1" "checkpoint-000000000020.h5"
     goes_on_from kept 10 "$2 on rank $1"
@@ -74,7 +74,7 @@ on_one_rank() {
     printf '#!/bin/sh\n[ "${OMPI_COMM_WORLD_RANK:-${PMI_RANK:-0}}" = %s ] && { %s; }\nexec "$@"\n' "$1" "$2" >one.sh
     chmod +x one.sh
     rm -rf kept
-    timeout --kill-after=5 60 "$CARROM_MPIEXEC" -n 3 ./one.sh "$CARROM_PROGRAM" run "${scene[@]}" --set output.checkpoint.folder=kept \
+    timeout --kill-after=5 60 "$CARROM_MPIEXEC" -n 3 ./one.sh "$CARROM_PROGRAM" run "${scene[@]}" --set output.folder=kept \
         >"$test_folder/out" 2>"$test_folder/err"
     code=$?
 }
@@ -83,11 +83,11 @@ on_one_rank() {
 for rank in 0 1; do
     on_one_rank "$rank" "export LD_PRELOAD=$short_writes"
     expect_code 0 "short writes on rank $rank"
-    run 2 verify kept/checkpoint-000000000030.h5
+    run 2 verify kept/checkpoints/checkpoint-000000000030.h5
     expect_code 0 "after short writes on rank $rank"
 done
 # A rank that may not write as far as its share lies: a write that ends early, then errors.
 on_one_rank 1 "ulimit -f 150"
 failed 'a limit to the size of files on rank 1' 'checkpoint-000000000010.h5'
-[ -z "$(ls kept)" ] || complain "a file is left though none was written whole: $(ls kept)"
+[ -z "$(ls kept/checkpoints)" ] || complain "a file is left though none was written whole: $(ls kept/checkpoints)"
 finish

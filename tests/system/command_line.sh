@@ -64,9 +64,9 @@ run 2 run tiny.in --quiet --threads "$cores"
 
 # No MPI where none is needed, and no daemon of its own for a run without mpirun. MPI makes itself known by its libraries'
 # settings, a daemon by being another program.
-run 1 run tiny.in --quiet --set output.trajectory.file=t.h5 --set output.checkpoint.folder=kept
+run 1 run tiny.in --quiet -o kept --set output.trajectory.every_steps=1
 expect_code 0 'a run with files'
-file=kept/$(ls kept)
+file=kept/checkpoints/$(ls kept/checkpoints)
 if command -v strace >/dev/null; then
     # opened WORD...: sets `n_mpi`, how many of MPI's settings are read, and `n_started`, how many programs are started.
     opened() {

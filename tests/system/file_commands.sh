@@ -4,11 +4,10 @@
 source "$(dirname "$0")/common.sh"
 scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=300 --set discs.speed=2 --quiet --steps 20)
 
-run 2 run "${scene[@]}" --set output.text=every_step --output lines --report report.json --set output.checkpoint.folder=kept \
-    --set output.checkpoint.every_steps=10 --set output.trajectory.file=t.h5 --set output.trajectory.precision=double \
-    --set output.collisions.file=c.h5
+run 2 run "${scene[@]}" --set output.text=every_step --output lines --report report.json -o kept \
+    --set output.checkpoint.every_steps=10 --set output.trajectory.precision=double --set output.collisions=true
 expect_code 0 'a run'
-last=kept/checkpoint-000000000020.h5 first=kept/checkpoint-000000000010.h5
+last=kept/checkpoints/checkpoint-000000000020.h5 first=kept/checkpoints/checkpoint-000000000010.h5
 shown() { # FILE OPTION...: what convert writes, in `out`
     run 2 convert "$@"
     expect_code 0 "convert $*"
@@ -20,35 +19,35 @@ for text in 'kind        checkpoint' '300 discs' 'step        20' "$(json_value 
     grep -qF "${text/300 discs/300 in a box}" "$test_folder/out" || complain "info does not say: $text"
 done
 
-run 1 info t.h5
+run 1 info kept/trajectory.h5
 for text in 'discs       300 in a box of' 'fields      position velocity' 'numbers     of 8 bytes' 'frames      21, of steps 0 to 20, every 1'; do
     grep -qF "$text" "$test_folder/out" || complain "info of a trajectory does not say: $text"
 done
-run 1 info c.h5
+run 1 info kept/collisions.h5
 grep -q '^steps       1 to 20, times 0[.][0-9]* to 1[89][.]' "$test_folder/out" || complain "info of a log does not tell its span: $(cat "$test_folder/out")"
 
 shown "$last" --to text
 tail -n 300 lines | cmp - "$test_folder/out" || complain 'the last lines are not those of the checkpoint'
-shown t.h5 --to text
+shown kept/trajectory.h5 --to text
 cut -d' ' -f1-6 lines | cmp - "$test_folder/out" || complain 'the lines are not those of the trajectory'
-shown t.h5 --to xyz --output t.xyz
+shown kept/trajectory.h5 --to xyz --output t.xyz
 [ "$(grep -c '^300$' t.xyz)" -eq 21 ] || complain 'not 21 frames of 300 discs'
 [ "$(wc -l <t.xyz)" -eq $((21 * 302)) ] || complain 'extended XYZ of another length'
 sed -n 2p t.xyz | grep -q '^Lattice="1023 0 0 0 1023 0 0 0 1" Properties=species:S:1:pos:R:3:velo:R:3:id:I:1 Time=0' || complain 'another second line'
 sed -n 2p t.xyz | grep -q 'pbc="F F F"$' || complain 'walls are told as periodic'
 run 1 run "$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=100 --set box.left.kind=periodic --set box.right.kind=periodic --steps 1 --quiet \
-    --set output.trajectory.file=periodic.h5 --set output.trajectory.every_steps=1
+    -o periodic --set output.trajectory.every_steps=1
 expect_code 0 'a periodic box'
-shown periodic.h5 --to xyz
+shown periodic/trajectory.h5 --to xyz
 sed -n 2p "$test_folder/out" | grep -q 'pbc="T F F"$' || complain 'periodic sides are not told'
 shown "$last" --to csv
 [ "$(sed -n '2s/,.*//p' "$test_folder/out")" = 20 ] || complain 'CSV without the step'
-shown c.h5 --to csv
+shown kept/collisions.h5 --to csv
 [ "$(wc -l <"$test_folder/out")" -eq $((1 + $(json_value report.json wall_collisions) + $(json_value report.json pair_collisions))) ] ||
     complain 'CSV of another length than there were collisions'
 sort -t, -k2,2g -c <(tail -n +2 "$test_folder/out") || complain 'the collisions are not in the order of time'
 
-for file in "$last" t.h5 c.h5; do
+for file in "$last" kept/trajectory.h5 kept/collisions.h5; do
     for ranks in 1 3; do
         run "$ranks" verify "$file"
         expect_code 0 "verify $file"
@@ -62,14 +61,14 @@ expect_code 1 'diff of two steps'
 grep -q '^first: .*step: 10 and 20$' "$test_folder/out" || complain 'diff does not name the step'
 
 # A second run that differs in one disc only after a while.
-run 1 run "${scene[@]}" --set discs.seed=1 --set output.trajectory.file=other.h5
-run 1 diff t.h5 other.h5
+run 1 run "${scene[@]}" --set discs.seed=1 -o other --set output.trajectory.every_steps=1
+run 1 diff kept/trajectory.h5 other/trajectory.h5
 expect_code 1 'diff of two runs'
 grep -q '^first: step 0, disc 0, x: ' "$test_folder/out" || complain 'diff does not name the first disc and field'
 grep -q '^largest: ' "$test_folder/out" || complain 'diff does not tell the largest difference'
 
 # A flipped bit among the numbers of a recording is noticed by its own checksums.
-for file in t.h5 c.h5; do
+for file in kept/trajectory.h5 kept/collisions.h5; do
     cp "$file" damaged.h5
     place=$(($(stat -c %s "$file") / 2))
     byte=$(od -An -tu1 -j "$place" -N 1 "$file")
@@ -92,9 +91,9 @@ for command in info verify "diff $first" 'convert --to csv'; do
     expect_code 2 "$command of a checkpoint with a damaged first line"
     expect_silence "$command of a checkpoint with a damaged first line"
 done
-run 1 diff "$first" t.h5
+run 1 diff "$first" kept/trajectory.h5
 expect_code 2 'diff of two kinds'
-run 1 convert c.h5 --to xyz
+run 1 convert kept/collisions.h5 --to xyz
 expect_code 2 'a log to xyz'
 echo text >text
 for command in verify info; do

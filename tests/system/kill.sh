@@ -6,7 +6,8 @@ source "$(dirname "$0")/common.sh"
 n_kills=$1
 RANDOM=3210
 scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=3000 --set discs.speed=2 --quiet
-       --set output.checkpoint.folder=kept --set output.checkpoint.every_steps=20)
+       --set output.folder=kept --set output.checkpoint.every_steps=20
+       --set output.trajectory.every_steps=10 --set output.collisions=true)
 endless=1000000000 # no run is over before it is killed, on whatever machine
 
 # kill_once RANKS MILLISECONDS: starts or goes on, and kills one rank that time after there are any.
@@ -41,13 +42,13 @@ end_of() {
 # newest: the step of the newest checkpoint that was finished; 0 if there is none.
 newest() {
     local step
-    step=$(find kept -name 'checkpoint-*.h5' 2>/dev/null | sed 's/.*checkpoint-0*//; s/[.]h5$//' | sort -n | tail -1)
+    step=$(find kept/checkpoints -name 'checkpoint-*.h5' 2>/dev/null | sed 's/.*checkpoint-0*//; s/[.]h5$//' | sort -n | tail -1)
     echo "${step:-0}"
 }
 
 # Moments lie before and after ranks have begun to step, however long that takes on a busy machine.
 begin=$(date +%s%N)
-run 4 run "${scene[@]}" --steps 1 --set output.checkpoint.folder=first
+run 4 run "${scene[@]}" --steps 1 --set output.folder=first
 expect_code 0 'a first step'
 start_milliseconds=$((($(date +%s%N) - begin) / 1000000))
 
@@ -62,8 +63,14 @@ patience=300
 run 3 run "${scene[@]}" --steps "$steps" --restart latest --report report.json
 expect_code 0 'the last stretch'
 killed=$(json_value report.json state_hash)
-run 2 run "${scene[@]}" --steps "$steps" --set output.checkpoint.folder=whole --set output.checkpoint.every_steps="$endless" --report report.json
+run 2 run "${scene[@]}" --steps "$steps" --set output.folder=whole --set output.checkpoint.every_steps="$endless" --report report.json
 expect_code 0 'uninterrupted'
 [ "$(json_value report.json state_hash)" = "$killed" ] || complain "another state hash after $n_kills kills"
-[ "$(find kept -name '*.h5' | wc -l)" -ge 1 ] || complain 'no checkpoint is left'
+[ "$(find kept/checkpoints -name '*.h5' | wc -l)" -ge 1 ] || complain 'no checkpoint is left'
+for file in trajectory.h5 collisions.h5; do # what was recorded between the kills
+    run 1 verify "kept/$file"
+    expect_code 0 "verify $file"
+    run 1 diff "kept/$file" "whole/$file"
+    expect_code 0 "$file is that of the uninterrupted run"
+done
 finish

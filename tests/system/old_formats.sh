@@ -9,14 +9,14 @@ gunzip -c "$CARROM_SOURCE_DIR/tests/system/expected/checkpoint_format_1.h5.gz" >
 run 1 verify old.h5
 expect_code 0 'verify a file of format 1'
 for ranks in 1 3; do
-    run "$ranks" run --restart old.h5 --steps 150 --quiet --report report_1.json --set output.checkpoint.folder=kept
+    run "$ranks" run --restart old.h5 --steps 150 --quiet --report report_1.json --set output.folder=kept
     expect_code 0 "go on from format 1 on $ranks ranks"
     mv kept "kept_$ranks"
 done
-expect_same kept_1/checkpoint-000000000150.h5 kept_3/checkpoint-000000000150.h5 'another file on other ranks'
+expect_same kept_1/checkpoints/checkpoint-000000000150.h5 kept_3/checkpoints/checkpoint-000000000150.h5 'another file on other ranks'
 run 1 run "$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=60 --set discs.speed=2 --steps 150 --quiet --report report.json
 [ "$(json_value report.json state_hash)" = "$(json_value report_1.json state_hash)" ] || complain 'format 1 goes on with other bits'
-[ "$(head -n 1 kept_1/checkpoint-000000000150.h5)" = 'carrom checkpoint, format 2' ] || complain 'what is written is not of format 2'
+[ "$(head -n 1 kept_1/checkpoints/checkpoint-000000000150.h5)" = 'carrom checkpoint, format 2' ] || complain 'what is written is not of format 2'
 
 # flipped PLACE: verify notices one other byte there.
 flipped() {

@@ -26,32 +26,32 @@ has() {
 }
 
 scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=300 --set discs.speed=2 --quiet --steps 20)
-run 2 run "${scene[@]}" --set output.text=every_step --output lines --set output.checkpoint.folder=kept \
-    --set output.trajectory.file=t.h5 --set output.trajectory.every_steps=5 --set output.collisions.file=c.h5 --report report.json
+run 2 run "${scene[@]}" --set output.text=every_step --output lines -o run --set output.trajectory.every_steps=5 \
+    --set output.collisions=true --report report.json
 expect_code 0 'a run'
 
 for reader in 'h5py h5py' 'pyh5md h5py pyh5md' 'MDAnalysis h5py MDAnalysis' 'vtk vtk'; do
     read -r module packages <<<"$reader"
     if has "$module" $packages; then
-        "$python" "$tests/readers.py" "$module" lines t.h5 kept/checkpoint-000000000020.h5 || complain "$module"
+        "$python" "$tests/readers.py" "$module" lines run/trajectory.h5 run/checkpoints/checkpoint-000000000020.h5 || complain "$module"
     else
         skip "$module is not to be had: $(tail -n 1 "$test_folder/err")"
     fi
 done
 
 if has matplotlib matplotlib && has h5py h5py; then
-    "$python" "$tools/plot_frame.py" kept/checkpoint-000000000020.h5 -o speed.png || complain 'plot_frame.py of a checkpoint'
-    "$python" "$tools/plot_frame.py" t.h5 --step 10 --colour strip --ranks 3 -o strip.png || complain 'plot_frame.py of a trajectory'
-    "$python" "$tools/plot_frame.py" t.h5 --step 11 -o no.png 2>"$test_folder/err" && complain 'plot_frame.py of no frame'
+    "$python" "$tools/plot_frame.py" run/checkpoints/checkpoint-000000000020.h5 -o speed.png || complain 'plot_frame.py of a checkpoint'
+    "$python" "$tools/plot_frame.py" run/trajectory.h5 --step 10 --colour strip --ranks 3 -o strip.png || complain 'plot_frame.py of a trajectory'
+    "$python" "$tools/plot_frame.py" run/trajectory.h5 --step 11 -o no.png 2>"$test_folder/err" && complain 'plot_frame.py of no frame'
     expect_told 'no frame of step 11; there are 5, of steps 0 to 20' 'plot_frame.py'
-    "$python" "$tools/plot_movie.py" t.h5 --dpi 40 -o movie.gif || complain 'plot_movie.py'
+    "$python" "$tools/plot_movie.py" run/trajectory.h5 --dpi 40 -o movie.gif || complain 'plot_movie.py'
     if command -v ffmpeg >/dev/null || "$python" -c 'import imageio_ffmpeg' 2>/dev/null; then
-        "$python" "$tools/plot_movie.py" t.h5 --dpi 41 -o movie.mp4 || complain 'plot_movie.py to MP4'
+        "$python" "$tools/plot_movie.py" run/trajectory.h5 --dpi 41 -o movie.mp4 || complain 'plot_movie.py to MP4'
         head -c 12 movie.mp4 | grep -q ftyp || complain 'no MP4'
-        "$python" "$tools/plot_movie.py" t.h5 -o none/movie.mp4 2>"$test_folder/err" && complain 'plot_movie.py to nowhere'
+        "$python" "$tools/plot_movie.py" run/trajectory.h5 -o none/movie.mp4 2>"$test_folder/err" && complain 'plot_movie.py to nowhere'
         expect_told 'ffmpeg has failed' 'plot_movie.py to nowhere'
     fi
-    "$python" "$tools/plot_history.py" --trajectory t.h5 --collisions c.h5 -o history.png || complain 'plot_history.py'
+    "$python" "$tools/plot_history.py" --trajectory run/trajectory.h5 --collisions run/collisions.h5 -o history.png || complain 'plot_history.py'
     "$python" "$tests/readers.py" pictures lines speed.png strip.png movie.gif history.png || complain 'pictures'
 else
     skip "matplotlib or h5py is not to be had: $(tail -n 1 "$test_folder/err")"

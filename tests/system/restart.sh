@@ -6,7 +6,7 @@ source "$(dirname "$0")/common.sh"
 input=$CARROM_SOURCE_DIR/$1
 shift
 small=("$@" --quiet)
-store=(--set output.checkpoint.folder=kept --set output.checkpoint.every_steps=17)
+store=(--set output.folder=kept --set output.checkpoint.every_steps=17)
 
 hash_of_report() { json_value report.json state_hash; }
 has_hash() {
@@ -29,11 +29,11 @@ run 3 run "$input" "${small[@]}" "${store[@]}" --restart latest --report report.
 has_hash '1 rank, then 4, then 3'
 tail -n 20 "$test_folder/out" | cmp - "$test_folder/end" || complain 'other lines at the end'
 [ "$(json_value report.json first_step)" = 60 ] || complain 'the third stretch did not begin at step 60'
-[ "$(ls kept)" = "$(printf 'checkpoint-%012d.h5\n' 85 90)" ] || complain "not the last two checkpoints: $(ls kept)"
+[ "$(ls kept/checkpoints)" = "$(printf 'checkpoint-%012d.h5\n' 85 90)" ] || complain "not the last two checkpoints: $(ls kept/checkpoints)"
 
 # From a checkpoint in the middle of a sync interval, without naming the scene again, and on more ranks.
 for ranks in 1 7; do
-    run "$ranks" run --restart kept/checkpoint-000000000085.h5 --report report.json --quiet --set output.checkpoint.folder=other
+    run "$ranks" run --restart kept/checkpoints/checkpoint-000000000085.h5 --report report.json --quiet --set output.folder=other
     has_hash "from step 85 on $ranks ranks"
 done
 
@@ -57,24 +57,24 @@ refused() {
     [ ! -e refused.json ] || complain "a report of a run that was refused: $*"
 }
 refused "'box.size' is" "$input" "${small[@]}" --set box.size=3333 --restart kept
-refused "'time.sync_every' is" --restart kept/checkpoint-000000000097.h5 --set time.sync_every=3
-refused 'the run is to end at step 50' --restart kept/checkpoint-000000000097.h5 --steps 50
+refused "'time.sync_every' is" --restart kept/checkpoints/checkpoint-000000000097.h5 --set time.sync_every=3
+refused 'the run is to end at step 50' --restart kept/checkpoints/checkpoint-000000000097.h5 --steps 50
 refused 'No such file' --restart kept/none.h5
-refused 'name the scene too' --restart latest
-refused 'no output.checkpoint.folder' "$input" "${small[@]}" --restart latest
+refused 'name the folder of the run with -o' --restart latest
+refused 'name output.folder or -o' "$input" "${small[@]}" --restart latest
 refused 'no checkpoint there can be gone on from' "$input" "${small[@]}" --set time.sync_every=3 --restart kept
 mkdir empty
 refused 'there is no checkpoint' --restart empty
 
 # A folder without checkpoints is a run's start; damaged files are passed over with the reason.
-run 2 run "$input" "${small[@]}" --steps 97 --restart empty --report report.json
+run 2 run "$input" "${small[@]}" -o empty --steps 97 --restart latest --report report.json
 has_hash 'from an empty folder'
-expect_told 'no checkpoint in empty: beginning at step 0' 'from an empty folder'
-newest=kept/checkpoint-000000000097.h5
+expect_told 'no checkpoint in empty/checkpoints: beginning at step 0' 'from an empty folder'
+newest=kept/checkpoints/checkpoint-000000000097.h5
 printf 'X' | dd of="$newest" bs=1 seek=9000 conv=notrunc status=none
-head -c 5000 kept/checkpoint-000000000090.h5 >kept/checkpoint-000000000098.h5
-echo 'no checkpoint' >kept/checkpoint-000000000099.h5
-: >kept/checkpoint-000000000100.h5.partial
+head -c 5000 kept/checkpoints/checkpoint-000000000090.h5 >kept/checkpoints/checkpoint-000000000098.h5
+echo 'no checkpoint' >kept/checkpoints/checkpoint-000000000099.h5
+: >kept/checkpoints/checkpoint-000000000100.h5.partial
 run 3 run "$input" "${small[@]}" --steps 97 --restart kept --report report.json
 has_hash 'from the newest whole one'
 [ "$(json_value report.json first_step)" = 90 ] || complain 'not from step 90'

@@ -1,73 +1,99 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# One place, one run: a second run that would write where another is writing is refused, whatever became of that one's
-# predecessors; and a run does not write over the checkpoints of another scene.
+# One folder, one run: a second run that would write where another is writing is an error, whatever became of that one's
+# predecessors. A run does not write over another, nor over files that are no run's, nor through symbolic links.
 source "$(dirname "$0")/common.sh"
 scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=500 --set discs.speed=2 --quiet)
-folder=(--set output.checkpoint.folder=kept)
-trajectory=(--set output.trajectory.file=t.h5 --set output.trajectory.every_steps=1000000)
-log=(--set output.collisions.file=c.h5)
 
-# begin WORD...: an endless run that has begun, as `program`.
-begin() {
-    "$CARROM_PROGRAM" run "${scene[@]}" "$@" --steps 100000000 >"$test_folder/first" 2>&1 &
-    program=$!
-    for ((i = 0; i < 200; ++i)); do
-        ls -A kept 2>/dev/null | grep -q '[.]lock$' || ls -A | grep -q '[.]lock$' || { sleep 0.1; continue; }
-        break
+"$CARROM_PROGRAM" run "${scene[@]}" -o kept --set output.trajectory.every_steps=1000 --steps 100000000 >"$test_folder/first" 2>&1 &
+program=$!
+for ((i = 0; i < 200; ++i)); do
+    [ ! -e kept/scene.toml ] || break
+    sleep 0.1
+done
+for ranks in 1 3; do
+    for how in --overwrite --resume; do
+        run "$ranks" run "${scene[@]}" -o ./kept/../kept "$how" --steps 5
+        expect_code 2 "a second run $how on $ranks ranks"
+        expect_told 'output.folder ./kept/../kept: another run is writing there (process' "a second run $how on $ranks ranks"
     done
-}
-end() { # SIGNAL CODE WHAT
-    kill -"$1" "$program"
-    wait "$program" 2>/dev/null
-    code=$?
-    expect_code "$2" "$3"
-}
-
-begin "${folder[@]}" "${trajectory[@]}"
-for ranks in 1 3; do
-    run "$ranks" run "${scene[@]}" "${folder[@]}" --steps 5
-    expect_code 2 "a second run into a folder on $ranks ranks"
-    expect_told "output.checkpoint.folder kept: another run is writing there (process $program on" "a second run into a folder on $ranks ranks"
 done
-run 1 run "${scene[@]}" "${trajectory[@]}" --set output.checkpoint.folder=./kept/../kept --steps 5
-expect_code 2 'a second run into both'
-expect_told 'output.trajectory.file t.h5: another run is writing there' 'a second run into both'
-expect_told 'output.checkpoint.folder ./kept/../kept: another run' 'a second run into both'
-end KILL 137 'a killed run'
+kill -KILL "$program"
+wait "$program" 2>/dev/null
 [ -e kept/.carrom.lock ] || complain 'the lock of a killed run is not what this test thinks it is'
-run 2 run "${scene[@]}" "${folder[@]}" "${trajectory[@]}" --steps 5
+
+# Killed before its first checkpoint, it begins anew from the copy of its scene, with what was set.
+run 2 run -o kept --resume --steps 5 --quiet
 expect_code 0 'a run after a killed one'
-[ -z "$(ls -A . kept | grep 'lock$')" ] || complain "locks are left: $(ls -A . kept)"
+expect_told 'beginning at step 0' 'a run after a killed one'
+[ -z "$(find kept -name '.carrom*')" ] || complain "locks are left: $(find kept -name '.carrom*')"
+hash=$(json_value kept/report.json state_hash)
+run 1 run "${scene[@]}" -o other --steps 5
+[ "$(json_value other/report.json state_hash)" = "$hash" ] || complain 'the copy of the scene is another scene'
 
-begin "${log[@]}"
-run 1 run "${scene[@]}" "${log[@]}" --steps 5
-expect_code 2 'a second run into a log'
-expect_told 'output.collisions.file c.h5: another run' 'a second run into a log'
-end TERM 75 'the first run'
-run 1 verify c.h5
-expect_code 0 'the first log'
-
-# The same scene begun anew is told of its older checkpoints, another is refused.
-cp kept/checkpoint-000000000005.h5 before.h5
-run 2 run "${scene[@]}" "${folder[@]}" --steps 5
-expect_code 0 'the same run again'
-expect_told 'kept has checkpoints of this very run up to step 5' 'the same run again'
-run 1 diff before.h5 kept/checkpoint-000000000005.h5
-expect_code 0 'the same run again has the same end'
-before=$(md5sum kept/*)
+# A folder with a run, and one with a file of that name.
+before=$(find kept -type f -exec md5sum {} +)
 for ranks in 1 3; do
-    run "$ranks" run "${scene[@]}" "${folder[@]}" --steps 7 --set discs.seed=7 --report report.json
-    expect_code 2 "another run on $ranks ranks"
-    expect_told "checkpoint-000000000005.h5 is another run's ('discs.seed' is 3210 there and 7 here) and would be written over" "another run on $ranks ranks"
-    [ ! -e report.json ] || complain 'a refused run has written'
+    run "$ranks" run "${scene[@]}" -o kept --steps 7 --report report.json
+    expect_code 2 "a fresh run into a folder with a run on $ranks ranks"
+    expect_told 'output.folder kept: has scene.toml of a run: go on with it by --resume' 'a folder with a run'
+    run "$ranks" run "${scene[@]}" -o kept --steps 7 --set discs.seed=7 --resume --report report.json
+    expect_code 2 "going on with another scene on $ranks ranks"
+    expect_told "'discs.seed' is" 'going on with another scene'
+    [ ! -e report.json ] || complain 'a run with an error has written'
 done
-run 1 run "${scene[@]}" --set output.checkpoint.folder=other --steps 3 --set discs.seed=7
-expect_code 0 'another run elsewhere'
-run 1 run --restart other --quiet --steps 9 --set output.checkpoint.folder=kept
-expect_code 2 'going on into the folder of another run'
-[ "$(md5sum kept/*)" = "$before" ] || complain 'checkpoints of a run were touched by another'
-run 1 run --restart other --quiet --steps 4 --set output.checkpoint.folder=kept
-expect_code 0 'going on beside checkpoints that are not reached'
-expect_told "checkpoint-000000000005.h5 is another run's ('discs.seed' is 3210 there and 7 here), and --restart with this folder" 'going on beside them'
+run 1 run --restart other --quiet --steps 9 --set output.folder=kept --set time.sync_every=7
+expect_code 2 'another run into the folder'
+[ "$(find kept -type f -exec md5sum {} +)" = "$before" ] || complain 'a run was touched by another'
+for name in trajectory.h5 collisions.h5 report.json; do
+    mkdir "with_$name"
+    echo 'my thesis' >"with_$name/$name"
+    run 1 run "${scene[@]}" -o "with_$name" --steps 1
+    expect_code 2 "a file $name of somebody"
+    [ "$(cat "with_$name/$name")" = 'my thesis' ] || complain "$name was written over"
+done
+mkdir -p taken/trajectory.xdmf
+run 1 run "${scene[@]}" -o taken --steps 1 --overwrite
+expect_code 2 'a folder in the place of a file'
+expect_told 'taken/trajectory.xdmf is not a plain file' 'a folder in the place of a file'
+
+# --overwrite removes what the run before has written, and nothing else.
+echo notes >kept/notes.txt
+run 2 run "${scene[@]}" -o kept --overwrite --steps 3
+expect_code 0 '--overwrite'
+[ "$(ls kept/checkpoints)" = checkpoint-000000000003.h5 ] || complain "older checkpoints: $(ls kept/checkpoints)"
+[ -e kept/notes.txt ] || complain 'a foreign file is gone'
+
+# Symbolic links: the lock must hold, and no victim is written.
+mkdir linked
+echo victim >victim
+ln -s ../victim linked/.carrom.lock
+run 1 run "${scene[@]}" -o linked --steps 1
+expect_code 2 'a link in the place of the lock'
+expect_told '.carrom.lock cannot be opened: Too many levels of symbolic links' 'a link in the place of the lock'
+rm linked/.carrom.lock
+ln -s ../victim linked/report.json
+run 1 run "${scene[@]}" -o linked --steps 1
+expect_code 2 'a link in the place of the report'
+ln -s victim report.json.partial
+run 1 run "${scene[@]}" --report report.json --steps 1
+expect_code 0 'a link in the place where reports were written beside'
+[ "$(cat victim)" = victim ] || complain 'a file was written through a link'
+[ -L report.json.partial ] || complain 'a foreign file was removed'
+
+# Empty words are variables that are not set, and only a run's own folder may begin anew.
+for option in --restart --output --report -o; do
+    run 1 run "${scene[@]}" --steps 1 "$option" ""
+    expect_code 2 "$option with an empty word"
+done
+mkdir none
+run 1 run "${scene[@]}" --steps 1 --restart none
+expect_code 2 'a restart from a folder without a checkpoint'
+expect_told 'there is no checkpoint' 'a restart from a folder without a checkpoint'
+run 1 run "${scene[@]}" --steps 1 -o none --resume
+expect_code 2 'going on where no run has begun'
+run 1 run -o none --resume
+expect_code 2 'going on where no run has begun, without a scene'
+run 2 run "${scene[@]}" --steps 1 -o none --restart latest
+expect_code 0 'latest begins anew'
 finish

@@ -4,7 +4,7 @@
 # bits of the uninterrupted run.
 source "$(dirname "$0")/common.sh"
 scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=2000 --set discs.speed=2 --quiet)
-store=(--set output.checkpoint.folder=kept)
+store=(--set output.folder=kept)
 
 # stopped RANKS SIGNAL: begins an endless run and sends the signal, to mpiexec where there are several ranks.
 stopped() {
@@ -20,12 +20,12 @@ stopped() {
     expect_code 75 "$2 on $1 ranks"
     expect_told 'told to stop: the steps under way' "$2 on $1 ranks"
     expect_told 'stopped on request at step' "$2 on $1 ranks"
-    [ "$(ls kept | wc -l)" -eq 1 ] || complain "$2 on $1 ranks did not leave one checkpoint: $(ls kept)"
+    [ "$(ls kept/checkpoints | wc -l)" -eq 1 ] || complain "$2 on $1 ranks did not leave one checkpoint: $(ls kept/checkpoints)"
 }
 
 goes_on() {
-    local file=kept/$(ls kept) step
-    step=$((10#$(ls kept | tr -cd 0-9 | sed 's/5$//') + 50))
+    local file=kept/checkpoints/$(ls kept/checkpoints) step
+    step=$((10#$(ls kept/checkpoints | tr -cd 0-9 | sed 's/5$//') + 50))
     run 2 run --restart "$file" --steps "$step" --quiet --report report.json
     expect_code 0 'going on'
     local hash
@@ -54,7 +54,7 @@ kill -USR1 "$program"
 wait "$program"
 code=$?
 expect_code 75 'USR1 while discs are made'
-[ "$(ls kept)" = checkpoint-000000000000.h5 ] || complain "USR1 while discs are made did not leave the start: $(ls kept)"
+[ "$(ls kept/checkpoints)" = checkpoint-000000000000.h5 ] || complain "USR1 while discs are made did not leave the start: $(ls kept/checkpoints)"
 
 # A signal at any moment, from MPI's start to its end, does not make a failure of a short run: it is complete, or has
 # stopped with a checkpoint.
@@ -74,13 +74,15 @@ for ((k = 0; k < 24; ++k)); do
     code=$?
     [ "$code" -eq 0 ] && n_complete=$((n_complete + 1))
     [ "$code" -eq 0 ] || [ "$code" -eq 75 ] || { complain "code $code after a signal at moment $k"; show; }
-    [ "$(ls kept | wc -l)" -ge 1 ] || complain "no checkpoint after a signal at moment $k"
+    [ "$(ls kept/checkpoints | wc -l)" -ge 1 ] || complain "no checkpoint after a signal at moment $k"
 done
 [ "$n_complete" -lt 24 ] || complain 'no signal came early enough to stop a short run'
 
 # Without a folder for checkpoints the run ends in order too: its recordings are whole, and it says that nothing else is.
 for signal in TERM USR1; do
-    "$CARROM_PROGRAM" run "${scene[@]}" --steps 100000000 --set output.trajectory.file=t.h5 --set output.trajectory.every_steps=1000 \
+    folder=(-o "recorded_$signal" --set output.trajectory.every_steps=1000)
+    [ "$signal" = TERM ] || folder=()
+    "$CARROM_PROGRAM" run "${scene[@]}" "${folder[@]}" --steps 100000000 \
         >"$test_folder/out" 2>"$test_folder/err" &
     program=$!
     sleep 2
@@ -88,8 +90,12 @@ for signal in TERM USR1; do
     wait "$program"
     code=$?
     expect_code 75 "$signal without checkpoints"
-    expect_told 'nothing is kept to go on from' "$signal without checkpoints"
-    run 1 verify t.h5
+    if [ "$signal" = USR1 ]; then
+        expect_told 'nothing is kept to go on from' "$signal without a folder"
+        continue
+    fi
+    expect_told 'carrom run -o recorded_TERM --resume goes on' "$signal with a folder"
+    run 1 verify recorded_TERM/trajectory.h5
     expect_code 0 "the trajectory after $signal"
 done
 finish

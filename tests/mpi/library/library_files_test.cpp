@@ -69,7 +69,7 @@ TEST_CASE("measurements go on from a checkpoint") {
     const Session session;
     const Folder folder(session);
     Scene scene = gas("event-driven", 40);
-    scene.set("output.measurements.folder", folder.file("unused"));
+    scene.set("output.folder", folder.file("unused"));
     scene.set("output.measurements.quantities", "[\"velocities\", \"wall_pressure\"]");
     scene.set("output.measurements.every_steps", 4);
     Simulation whole(session, scene);
@@ -110,7 +110,7 @@ TEST_CASE("a trajectory shows the discs of each step that was added") {
     const Session session;
     const Folder folder(session);
     const std::string path = folder.file("frames.h5");
-    const TrajectoryFields fields{.collisions = true, .single_precision = false, .compression = 2};
+    const TrajectoryFields fields{.collisions = true, .single_precision = false};
     std::vector<std::vector<Disc>> shown;
     Simulation simulation(session, gas("time-stepped", 30));
     {

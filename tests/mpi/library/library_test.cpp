@@ -146,7 +146,7 @@ TEST_CASE("measurements are sampled as the run goes on, and no file is written")
     const Session session;
     const std::string folder = "/tmp/carrom_library_test_measured";
     Scene scene = gas("event-driven", 20);
-    scene.set("output.measurements.folder", folder);
+    scene.set("output.folder", folder);
     scene.set("output.measurements.quantities", "[\"velocities\"]");
     scene.set("output.measurements.every_steps", 5);
     Simulation simulation(session, scene);

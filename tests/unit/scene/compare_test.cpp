@@ -23,8 +23,8 @@ std::vector<std::string> differences(const std::vector<std::string>& overrides) 
 
 TEST_CASE("What has no say in the bits is no difference") {
     CHECK(differences({}).empty());
-    CHECK(differences({"time.steps=9", "output.text=ends", "output.checkpoint.folder=a",
-                       "output.trajectory.file=b"})
+    CHECK(differences({"time.steps=9", "output.text=ends", "output.folder=a",
+                       "output.trajectory.every_steps=2"})
               .empty());
     CHECK(differences({"discs.radius=1.0", "discs.seed=3210", "discs.generator=random",
                        "time.sync_every=64"})

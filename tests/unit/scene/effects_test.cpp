@@ -186,15 +186,15 @@ TEST_CASE("Rough discs are read, and refused beside what does not go with them y
               "from -1 to 1, not 1.5"));
     CHECK(has(problems_with(with({"effects.drag.rate=0.01", "time.method=event-driven"})),
               "cannot have drag together with rough discs"));
-    CHECK(problems_with(with({"output.checkpoint.folder=kept"})).empty());
+    CHECK(problems_with(with({"output.folder=kept"})).empty());
 
-    const std::string file = "output.trajectory.file=t.h5",
+    const std::string folder = "output.folder=t", every = "output.trajectory.every_steps=1",
                       fields = "output.trajectory.fields=[\"position\", \"angular_velocity\"]";
-    CHECK(read_scene(good, "s.toml", with({file})).trajectory->has_angular_velocity);
-    CHECK(!read_scene(good, "s.toml", {file}).trajectory->has_angular_velocity);
-    const TrajectoryOutput named = *read_scene(good, "s.toml", with({file, fields})).trajectory;
+    CHECK(read_scene(good, "s.toml", with({folder, every})).trajectory->has_angular_velocity);
+    CHECK(!read_scene(good, "s.toml", {folder, every}).trajectory->has_angular_velocity);
+    const TrajectoryOutput named = *read_scene(good, "s.toml", with({folder, fields})).trajectory;
     CHECK((named.has_position && !named.has_velocity && named.has_angular_velocity));
-    CHECK(has(problems_with({file, fields}),
+    CHECK(has(problems_with({folder, fields}),
               "needs discs that turn, effects.contact.kind = \"rough\""));
 }
 
@@ -285,7 +285,7 @@ TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
         Texts texts = is_around ? Texts{"box.left.kind=periodic", "box.right.kind=periodic"}
                                 : Texts{};
         texts.insert(texts.end(), along_y.begin(), along_y.end());
-        texts.insert(texts.end(), {"output.measurements.folder=tables",
+        texts.insert(texts.end(), {"output.folder=tables",
                                    std::string("output.measurements.quantities=") + quantities});
         return problems_with(texts);
     };
@@ -301,7 +301,7 @@ TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
         });
     };
     CHECK(mixed_in("100").empty());
-    const Texts measuring_g{"output.measurements.folder=tables",
+    const Texts measuring_g{"output.folder=tables",
                             "output.measurements.quantities=[\"radial_distribution\"]"};
     Texts all_round{"box.left.kind=periodic", "box.right.kind=periodic"};
     all_round.insert(all_round.end(), along_y.begin(), along_y.end());

@@ -242,7 +242,7 @@ TEST_CASE("Misspelt effects and outputs name the right ones") {
         {"effects.gravty.y=1", "effects.gravity.y"},
         {"effects.contact.restituton=1", "effects.contact.restitution"},
         {"effects.obstacle.discs=[]", "effects.obstacles.discs"},
-        {"output.chekpoint.folder=a", "output.checkpoint.folder"},
+        {"output.chekpoint.keep=3", "output.checkpoint.keep"},
         {"box.lft.kind=wall", "box.left.kind"}};
     for (const auto& [wrong, right] : pairs) {
         CAPTURE(wrong);
@@ -262,9 +262,8 @@ TEST_CASE("Text that would overrun the parser, and floods of problems, end in fe
         CHECK(mentions(problems, "a key of more than 32 parts"));
     }
     CHECK(problems_in(good, {"discs.list={" + deep + "=1}"}).size() == 1);
-    CHECK(problems_in(good + "[output.trajectory]\nfile = \"" + deep + "\" # " + deep + '\n')
-              .empty());
-    CHECK(problems_in(good + "[output.trajectory]\nfile = \"\"\"\n" + deep + "\"\"\"\n").empty());
+    CHECK(problems_in(good + "[output]\nfolder = \"" + deep + "\" # " + deep + '\n').empty());
+    CHECK(problems_in(good + "[output]\nfolder = \"\"\"\n" + deep + "\"\"\"\n").empty());
 
     std::string flood;
     for (int i = 0; i < 100000; ++i) flood += "k" + std::to_string(i) + " = 1\n";
@@ -277,8 +276,8 @@ TEST_CASE("Text that would overrun the parser, and floods of problems, end in fe
 }
 
 TEST_CASE("A name of a file has no NUL, and a speed can be followed") {
-    CHECK(mentions(problems_in(good + "[output.checkpoint]\nfolder = \"a\\u0000b\"\n"),
-                   "has a NUL character"));
+    CHECK(
+        mentions(problems_in(good + "[output]\nfolder = \"a\\u0000b\"\n"), "has a NUL character"));
     CHECK(mentions(problems_in(good, {"discs.speed=1e60", "time.method=event-driven"}),
                    "crosses the box more than 2^40 times in a micro-step"));
     CHECK(problems_in(good, {"discs.speed=1e60"}).empty());

@@ -323,35 +323,33 @@ TEST_CASE("All problems of a scene come at once, in the order of lines, those of
     CHECK(mentions(problems, "did you mean 'region'?"));
     CHECK(mentions(problems, "no such key 'effects.charge'; [effects] has contact, gravity"));
     CHECK(mentions(problems, "no such key 'effects.wind.speed'; [effects] has contact, gravity"));
-    CHECK(mentions(problems, "no such key 'output.movie'; [output] has text, checkpoint"));
+    CHECK(mentions(problems, "no such key 'output.movie'; [output] has text, folder"));
 }
 
 TEST_CASE("Outputs to files are read and checked") {
     const Scene scene = read_scene(
-        std::string(good) +
-            "[output.checkpoint]\nfolder = 'a b'\nevery_steps = 1e3\nevery_minutes = 0.5\n"
-            "keep = 3\nat_end = false\n[output.trajectory]\nfile = 't.h5'\nevery_steps = 7\n"
-            "fields = ['velocity', 'collisions']\nprecision = 'double'\ncompression = 4\n"
-            "[output.collisions]\nfile = 'c.h5'\n",
+        std::string(good) + "[output]\nfolder = 'a b'\ncollisions = "
+                            "true\n[output.checkpoint]\nevery_steps = 1e3\nevery_minutes = 0.5\n"
+                            "keep = 3\nat_end = false\n[output.trajectory]\nevery_steps = 7\n"
+                            "fields = ['velocity', 'collisions']\nprecision = 'double'\n",
         "s.toml");
     REQUIRE(scene.checkpoint);
-    CHECK(scene.checkpoint->folder == "a b");
+    CHECK(scene.checkpoint->folder == "a b/checkpoints");
     CHECK(scene.checkpoint->every_steps == 1000);
     CHECK(scene.checkpoint->every_minutes == 0.5);
     CHECK(scene.checkpoint->keep == 3);
     CHECK(!scene.checkpoint->at_end);
     REQUIRE(scene.trajectory);
-    CHECK(scene.trajectory->file == "t.h5");
+    CHECK(scene.trajectory->file == "a b/trajectory.h5");
     CHECK(scene.trajectory->every_steps == 7);
     CHECK((!scene.trajectory->has_position && scene.trajectory->has_velocity &&
            scene.trajectory->has_collisions));
     CHECK(!scene.trajectory->is_single);
-    CHECK(scene.trajectory->compression == 4);
     REQUIRE(scene.collisions);
-    CHECK(scene.collisions->file == "c.h5");
+    CHECK(scene.collisions->file == "a b/collisions.h5");
 
     const Scene plain = read_scene(good, "s.toml",
-                                   {"output.checkpoint.folder=x", "output.trajectory.file=y"});
+                                   {"output.folder=x", "output.trajectory.every_steps=1"});
     REQUIRE(plain.checkpoint);
     CHECK(plain.checkpoint->keep == 2);
     CHECK(plain.checkpoint->at_end);
@@ -362,17 +360,18 @@ TEST_CASE("Outputs to files are read and checked") {
     CHECK(!plain.collisions);
 
     for (const char* wrong :
-         {"[output.checkpoint]", "[output.checkpoint]\nkeep = 1",
-          "[output.checkpoint]\nfolder = ''", "[output.checkpoint]\nfolder = 'a'\nkeep = 0",
-          "[output.checkpoint]\nfolder = 'a'\nevery_steps = 0",
-          "[output.checkpoint]\nfolder = 'a'\nevery_minutes = 0",
-          "[output.checkpoint]\nfolder = 'a'\nat_end = 1",
-          "[output.checkpoint]\nfolder = 'a'\nevery = 1", "[output.trajectory]\nevery_steps = 1",
-          "[output.trajectory]\nfile = 'a'\nfields = ['mass']",
-          "[output.trajectory]\nfile = 'a'\nfields = [1]",
-          "[output.trajectory]\nfile = 'a'\nfields = []",
-          "[output.trajectory]\nfile = 'a'\ncompression = 10",
-          "[output.trajectory]\nfile = 'a'\nprecision = 'half'", "[output.collisions]",
+         {"[output.checkpoint]\nkeep = 1", "[output]\nfolder = ''", "[output]\ncollisions = true",
+          "[output]\nfolder = 'a'\n[output.checkpoint]\nkeep = 0",
+          "[output]\nfolder = 'a'\n[output.checkpoint]\nevery_steps = 0",
+          "[output]\nfolder = 'a'\n[output.checkpoint]\nevery_minutes = 0",
+          "[output]\nfolder = 'a'\n[output.checkpoint]\nat_end = 1",
+          "[output]\nfolder = 'a'\n[output.checkpoint]\nevery = 1",
+          "[output.trajectory]\nevery_steps = 1",
+          "[output]\nfolder = 'a'\n[output.trajectory]\nfields = ['mass']",
+          "[output]\nfolder = 'a'\n[output.trajectory]\nfields = [1]",
+          "[output]\nfolder = 'a'\n[output.trajectory]\nfields = []",
+          "[output]\nfolder = 'a'\n[output.trajectory]\nprecision = 'half'",
+          "[output]\nfolder = 'a'\n[output.trajectory]\nfile = 'a'",
           "[output]\ncollisions = 'a'"}) {
         CAPTURE(wrong);
         CHECK(problems_in(std::string(good) + wrong + "\n").size() == 1);
@@ -402,7 +401,7 @@ TEST_CASE("Where no known key is near none is guessed: those that there are get 
                    "the tables [box], [discs], [time], [effects] and [output]"));
     CHECK(mentions(problems_in(good, {"box.sidelength=1"}), "[box] has size"));
     CHECK(mentions(problems_in(good, {"output.trajectory.colour=1"}),
-                   "[output.trajectory] has file, every_steps, fields"));
+                   "[output.trajectory] has every_steps, fields"));
     CHECK_FALSE(mentions(problems_in(good, {"time.method=exact"}), "did you mean"));
     CHECK(
         mentions(problems_in(good, {"time.method=evnt-driven"}), "did you mean \"event-driven\"?"));

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The folder of a run: all that it writes, and a copy of its scene to go on with.
+//
+//   scene.toml (scene.in for legacy text), report.json, .carrom.lock
+//   checkpoints/checkpoint-STEP.h5
+//   trajectory.h5, trajectory.xdmf, trajectory/NNNN.h5
+//   collisions.h5, collisions/NNNN.h5
+//   measurements/NAME.csv
+//
+// One run writes there at a time: one lock. A run that begins anew needs a folder without a run.
+// All calls are rank 0's.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace carrom {
+
+/// Files that stand in the folder itself.
+std::vector<std::string> files_of_run(const std::string& folder);
+std::string report_of_run(const std::string& folder);
+std::string checkpoints_of_run(const std::string& folder);
+
+/// The name of something that a run has written there; empty if there is nothing.
+std::string trace_of_run(const std::string& folder);
+
+/// The copy of the scene, if there is one; else empty.
+std::string scene_copy_of(const std::string& folder);
+
+/// What was set on top of the text of a copy; nothing for other files.
+std::vector<std::string> overrides_of_copy(const std::string& path);
+
+/// How the run of the folder differs from the scene; empty if it does not. Words, too, where the
+/// folder has no scene that can be read.
+std::string difference_from_run(const std::string& folder, const Scene& scene);
+
+/// Removes what a run has written, the copy of its scene first. Leaves all other files.
+void remove_run(const std::string& folder);
+
+/// Makes the folders and writes the copy of the scene. Throws FileError.
+void prepare_folder(const Scene& scene);
+
+} // namespace carrom

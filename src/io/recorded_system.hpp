@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a recording says of its discs once and for all.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "dynamics/species.hpp"
+
+namespace carrom {
+
+struct RecordedSystem {
+    std::string program_version;
+    std::uint64_t n_discs = 0;
+    double box_size = 0, radius = 0; ///< the largest radius
+    std::vector<Species> species;    ///< empty where all discs have that radius and mass 1
+    bool is_periodic_x = false, is_periodic_y = false;
+    std::array<bool, 4> open_boundaries{}; ///< left, right, bottom, top: discs may lie beyond these
+};
+
+} // namespace carrom
