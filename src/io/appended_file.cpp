@@ -15,7 +15,7 @@ namespace carrom {
 void AppendedFile::create(const Act& build) {
     journal_.commit(0);
     ::unlink(path_.c_str());
-    h5::File file = h5::create_file(path_, 0);
+    h5::File file = h5::create_file(path_);
     try {
         build(file.id());
         file.close("cannot be written");
