@@ -79,8 +79,9 @@ void Checkpoints::write(const Simulation& simulation, Recordings& recordings) {
         .commit(); // a restart cuts them back to its step, but cannot make up for what is missing
     const CheckpointHeader header = header_now(scene_, simulation);
     const std::string path = checkpoint_path(scene_.checkpoint->folder, header.step);
-    write_checkpoint(path, header, simulation.discs(), ranks_, n_threads_, recordings.samples(),
-                     simulation.spins());
+    write_checkpoint(path, header, simulation.discs(), ranks_,
+                     {n_threads_, scene_.checkpoint->transfers == Transfers::collective},
+                     recordings.samples(), simulation.spins());
     last_written_ = header.step;
     std::erase(kept_, path);
     kept_.push_back(path);

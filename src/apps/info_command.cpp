@@ -79,7 +79,7 @@ std::string header_text(const CheckpointHeader& header) {
     std::string text = labelled_line("step", fmt::format("{}", header.step));
     text += labelled_line("radius", fmt::format("{:g}", header.radius));
     text += labelled_line("method",
-                          fmt::format("{}, micro_steps = {}, sync_every = {}", header.collisions,
+                          fmt::format("{}, micro_steps = {}, sync_every = {}", header.method,
                                       header.micro_steps, header.sync_every));
     text += labelled_line(
         "collisions",

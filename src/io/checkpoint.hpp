@@ -4,14 +4,14 @@
 //
 // Discs stand in the order of their ids, so the file does not show which ranks wrote it.
 // /carrom/discs holds the stored state, column by column, to the bit; /carrom/run what the run is;
-// /particles/discs the same discs as tools for trajectories expect them (H5MD; positions at the
-// time of the step, in single precision). A seal over all bytes tells a whole file from a damaged
-// one (src/io/seal.hpp).
+// /particles/discs the same discs as other programs expect them (H5MD; positions at the time of the
+// step, in single precision). Checksums of all bytes are in /carrom/checksums (checksums.hpp).
 //
-// Each rank writes its share of the ids to where rank 0 has made room for it, and reads its share
-// through MPI-IO. Price of writing: 80 bytes a disc to disk, a disc sent once if it is another
-// rank's, 8 bytes a disc of memory and some megabytes; 8 bytes more to disk for discs that turn,
-// and 24 of memory.
+// Rank 0 makes the file and takes its room on disk. Then each rank writes its share of the ids
+// through HDF5 and MPI-IO, and reads it so. Price of writing: 80 bytes a disc to disk, and a disc
+// is sent once if it is another rank's. Memory: 8 bytes a disc and some megabytes. Discs that turn
+// take 8 bytes more on disk and 24 of memory. Collective transfers take 80 bytes a disc of memory
+// more.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ struct CheckpointHeader {
     std::int64_t scene_discs_follow = 0;
 
     double box_size = 0, radius = 0;
-    std::string collisions; ///< the method, "time-stepped" or "event-driven"
+    std::string method; ///< "time-stepped" or "event-driven"
     std::int64_t micro_steps = 1, sync_every = 1;
 
     std::int64_t step = 0, micro_steps_done = 0;
@@ -49,6 +49,8 @@ struct CheckpointHeader {
         species; ///< where a file of discs had them, for the scene's text has not; else empty
     bool has_spins =
         false; ///< discs turn; the file has their spins then, and the state hash covers them
+    std::vector<Species> shown; ///< whose radii other programs see; empty where all are `radius`.
+                                ///< Not read.
 
     /// Micro-steps since the last sync, or what the frame's clock makes of them: the time that the
     /// discs' own times belong to.
@@ -61,13 +63,18 @@ struct CheckpointHeader {
 /// Called on rank 0.
 using DifferenceFrom = std::function<std::string(const CheckpointHeader& there)>;
 
-/// Writes `discs`, spread over the ranks in any way, as a whole file or not at all: beside its
-/// place first, brought to disk, then renamed; with `n_threads` threads a rank, and one that
-/// writes. `spins`, per micro-step, run along the discs where the header has some. The header's
-/// last four numbers and its hash are filled in here. If it fails on any rank every rank throws
-/// CollectiveError, code 4, and an older file of that name is as it was. **Collective.**
+/// How the numbers of discs come to disk.
+struct WriteSettings {
+    int n_threads = 1;          ///< of a rank, that pack; one more writes
+    bool is_collective = false; ///< MPI-IO chooses ranks that write for all (aggregators)
+};
+
+/// Writes `discs`, in any distribution, as a whole file or not at all: beside its place first,
+/// brought to disk, then renamed. `spins`, per micro-step, run along the discs where the header has
+/// some. The header's counters and its hash are filled in here. If it fails on any rank every rank
+/// throws CollectiveError, code 4, and an older file of that name is as it was. **Collective.**
 void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs,
-                      const Communicator& communicator, int n_threads = 1,
+                      const Communicator& communicator, const WriteSettings& settings = {},
                       const StoredSamples& samples = {}, std::span<const double> spins = {});
 
 struct Checkpoint {
@@ -78,15 +85,15 @@ struct Checkpoint {
 };
 
 /// Reads a checkpoint. If it is damaged in any way, or none, every rank throws CollectiveError,
-/// code 2, with the reason after the path. **Collective.**
+/// code 2, with the reason after the path; InputError if it is of version 0.1. **Collective.**
 Checkpoint read_checkpoint(const std::string& path, const Communicator& communicator);
 
 /// The same without the discs; the file is read to its end all the same, for its checksum.
 /// **Collective.**
 CheckpointHeader read_checkpoint_header(const std::string& path, const Communicator& communicator);
 
-/// Throws like `read_checkpoint` where a file is a checkpoint and damaged; does nothing for other
-/// files. **Collective.**
+/// Throws like `read_checkpoint` where a file is a damaged checkpoint or cannot be read at all;
+/// does nothing for other files of ours. **Collective.**
 void check_damage(const std::string& path, const Communicator& communicator);
 
 } // namespace carrom

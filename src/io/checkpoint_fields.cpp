@@ -72,7 +72,7 @@ std::vector<Species> read_species(hid_t file, std::uint64_t n_discs) {
             h5::dimensions_of(column.id()).front());
         if (numbers.empty() || numbers.size() > n_discs ||
             (!species.empty() && species.size() != numbers.size()))
-            throw FileError("its classes of discs are no such list");
+            throw FileError("its species are no such list");
         h5::read_rows(column.id(), {0, numbers.size()}, type, numbers.data());
         species.resize(numbers.size());
         for (std::size_t k = 0; k < numbers.size(); ++k) species[k].*field = numbers[k];
@@ -85,10 +85,10 @@ std::vector<Species> read_species(hid_t file, std::uint64_t n_discs) {
         const bool is_body = one.radius > 0 && one.mass > 0 && std::isfinite(one.radius) &&
                              std::isfinite(one.mass);
         if (one.count == 0 || one.count > n_discs - n || !is_body)
-            throw FileError("its classes of discs cannot be those of its discs");
+            throw FileError("its species cannot be those of its discs");
         n += one.count;
     }
-    if (n != n_discs) throw FileError("its classes of discs cannot be those of its discs");
+    if (n != n_discs) throw FileError("its species cannot be those of its discs");
     return species;
 }
 

@@ -14,6 +14,10 @@
 
 namespace carrom {
 
+/// In /carrom/format. Formats 1 and 2 began with a text instead of HDF5's signature.
+inline constexpr std::int64_t checkpoint_format = 3;
+inline constexpr const char* format_path = "/carrom/format";
+
 /// One more, of doubles, where discs turn: angles per micro-step.
 inline constexpr const char* spin_column = "/carrom/discs/spin";
 
@@ -35,7 +39,7 @@ inline constexpr std::array<HeaderField, 17> checkpoint_header = {
      {"scene_discs_follow", &H::scene_discs_follow},
      {"box_size", &H::box_size},
      {"radius", &H::radius},
-     {"collisions", &H::collisions},
+     {"method", &H::method},
      {"micro_steps", &H::micro_steps},
      {"sync_every", &H::sync_every},
      {"step", &H::step},
@@ -83,7 +87,7 @@ void write_header(hid_t group, const CheckpointHeader& header);
 /// `has_spins` to say.
 CheckpointHeader read_header(hid_t group);
 bool has_spins(hid_t file);
-/// The classes of /carrom/species, a column each for counts, radii and masses; nothing where there
+/// The species of /carrom/species, a column each for counts, radii and masses; nothing where there
 /// are none. Throw FileError.
 void write_species(hid_t carrom, const std::vector<Species>& species);
 std::vector<Species> read_species(hid_t file, std::uint64_t n_discs);

@@ -1,160 +1,337 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Rank 0 looks at a file's metadata first, in a child process, for HDF5 may crash on forged ones.
+// Then it holds all bytes but the numbers of discs against their checksum, so HDF5 meets on all
+// ranks only what has been looked at. The ranks check and read the numbers by H5Dread through
+// MPI-IO, each its share.
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
 #include <vector>
 
 #include <fcntl.h>
+
+#include <fmt/format.h>
 
 #include "core/state_hash.hpp"
 #include "io/checked_dataset.hpp"
 #include "io/checkpoint.hpp"
 #include "io/checkpoint_fields.hpp"
-#include "io/crash_guard.hpp"
+#include "io/checksums.hpp"
+#include "io/child_process.hpp"
 #include "io/files.hpp"
-#include "io/seal.hpp"
 #include "parallel/slabs.hpp"
 
 namespace carrom {
 
 namespace {
 
-/// What no writer of this program would write; a sealed file that has it was made by something
-/// else.
+constexpr const char* run_path = "/carrom/run";
+constexpr const char* measurements_path = "/carrom/measurements";
+constexpr const char* sums_path = "/carrom/measurements/sums";
+
+/// In boxes, and in box lengths: the most that measurements can go on with.
+constexpr double farthest_place = 2, most_lengths = 0x1p21;
+
+std::string path_of(const DiscColumn& column) {
+    return std::string("/carrom/discs/") + column.name;
+}
+std::string path_of(const SampleColumn& column) {
+    return std::string(measurements_path) + '/' + column.name;
+}
+
+/// What no writer of this program would write; a file with right checksums that has it was made by
+/// something else.
 void check_header(const CheckpointHeader& header) {
-    if (header.micro_steps < 1 || header.sync_every < 1 || header.step < 0 || header.n_discs == 0 ||
-        header.micro_steps_done / header.micro_steps != header.step ||
-        header.micro_steps_done % header.micro_steps != 0)
-        throw FileError("its numbers contradict each other");
+    const Frame& frame = header.frame;
+    const std::array finite = {frame.x,       frame.y,     frame.vx,       frame.vy,
+                               frame.slowing, frame.clock, frame.period_x, frame.period_y};
+    const bool is_sound = header.micro_steps >= 1 && header.sync_every >= 1 && header.step >= 0 &&
+                          header.n_discs > 0 &&
+                          header.micro_steps_done / header.micro_steps == header.step &&
+                          header.micro_steps_done % header.micro_steps == 0 &&
+                          std::isfinite(header.box_size) && header.box_size > 0 &&
+                          std::isfinite(header.radius) && header.radius > 0 &&
+                          std::all_of(finite.begin(), finite.end(),
+                                      [](double x) { return std::isfinite(x); });
+    if (!is_sound) throw FileError("its numbers contradict each other");
 }
 
-CheckpointHeader header_of(const std::string& path, const Communicator& communicator) {
+/// All that is in a file but the numbers of discs.
+struct Contents {
     CheckpointHeader header;
-    on_root(communicator, path, ExitCode::bad_input, [&] {
-        const CrashGuard guard(path);
-        const h5::File file = h5::open_file(path, h5::Access::read);
-        const h5::Group run(
-            h5::checked(H5Gopen2(file.id(), "/carrom/run", H5P_DEFAULT), "has no /carrom/run"));
-        header = read_header(run.id());
-        header.has_spins = has_spins(file.id());
-        check_header(header);
-        // A file that claims more discs than it has room for must not cost their memory.
-        if (header.n_discs > Descriptor(path, O_RDONLY).size() / (8 * disc_columns.size()))
-            throw FileError("has not got as many discs as it says");
-        header.species = read_species(file.id(), header.n_discs);
-    });
-    broadcast(header, communicator);
-    return header;
+    Checksums sums;
+    StoredSamples samples; ///< without places
+};
+
+bool is_listed(const Checksums& sums, const std::string& path) {
+    return std::any_of(sums.data.begin(), sums.data.end(),
+                       [&](const DiscData& data) { return data.path == path; });
 }
 
-/// This rank's share of all columns. A rank that cannot read leaves no other waiting.
-void read_columns(hid_t file, const std::string& path, std::uint64_t n, std::vector<Disc>& slab,
-                  const Communicator& communicator) {
-    std::vector<h5::Dataset> datasets;
-    on_all(communicator, path, ExitCode::bad_input, [&] {
-        for (const DiscColumn& column : disc_columns) {
-            datasets.push_back(
-                h5::open_checked(file, std::string("/carrom/discs/") + column.name, {n}));
-        }
-    });
-    const std::uint64_t first = slab_begin(communicator.rank(), n, communicator.size());
-    on_all(communicator, path, ExitCode::bad_input, [&] {
-        std::vector<std::uint64_t> numbers(rows_per_piece);
-        for (std::uint64_t begin = 0; begin < slab.size(); begin += rows_per_piece) {
-            const std::uint64_t end = std::min<std::uint64_t>(begin + rows_per_piece, slab.size());
-            for (std::size_t k = 0; k < datasets.size(); ++k) {
-                h5::read_rows(datasets[k].id(), {first + begin, first + end},
-                              type_of(disc_columns[k]), numbers.data());
-                for (std::uint64_t row = begin; row < end; ++row)
-                    disc_columns[k].set(slab[row], numbers[row - begin]);
-            }
-        }
-    });
-}
-
-/// This rank's share of the spins; empty where discs do not turn. **Collective.**
-std::vector<double> read_spins(hid_t file, const std::string& path, const CheckpointHeader& header,
-                               const Communicator& communicator) {
-    if (!header.has_spins) return {};
-    const std::uint64_t first = slab_begin(communicator.rank(), header.n_discs,
-                                           communicator.size());
-    std::vector<double> spins(
-        slab_begin(communicator.rank() + 1, header.n_discs, communicator.size()) - first);
-    on_all(communicator, path, ExitCode::bad_input, [&] {
-        const h5::Dataset column = h5::open_checked(file, spin_column, {header.n_discs});
-        if (!spins.empty())
-            h5::read_rows(column.id(), {first, first + spins.size()}, H5T_NATIVE_DOUBLE,
-                          spins.data());
-    });
-    return spins;
-}
-
-/// What the file has of measurements; most have nothing.
-StoredSamples read_samples(hid_t file, const std::string& path, std::uint64_t n,
-                           const Communicator& communicator) {
-    constexpr const char* sums_name = "/carrom/measurements/sums";
+StoredSamples samples_of(hid_t file, const Checksums& sums) {
     StoredSamples samples;
-    const std::uint64_t first = slab_begin(communicator.rank(), n, communicator.size());
-    const std::uint64_t end = slab_begin(communicator.rank() + 1, n, communicator.size());
-    on_all(communicator, path, ExitCode::bad_input, [&] {
-        if (H5Lexists(file, "/carrom/measurements", H5P_DEFAULT) <= 0) return;
-        const h5::Dataset sums = h5::open_checked(file, sums_name, {std::nullopt});
-        const hsize_t size = h5::dimensions_of(sums.id()).front();
-        if (size == 0) throw FileError("its measurements are no list of sums");
-        samples.sums.resize(size);
-        h5::read_rows(sums.id(), {0, size}, H5T_NATIVE_INT64, samples.sums.data());
-        samples.have_first_places = H5Lexists(file, "/carrom/measurements/first_x", H5P_DEFAULT) >
-                                    0;
-        samples.have_lengths = H5Lexists(file, "/carrom/measurements/lengths_x", H5P_DEFAULT) > 0;
-        if (!samples.have_first_places) return;
-        samples.first_places.resize(end - first);
-        std::vector<double> numbers(end - first);
-        for (const SampleColumn& column : sample_columns) {
-            if (!column.is_in(samples)) continue;
-            const h5::Dataset places = h5::open_checked(
-                file, std::string("/carrom/measurements/") + column.name, {n});
-            if (numbers.empty()) continue;
-            h5::read_rows(places.id(), {first, end}, H5T_NATIVE_DOUBLE, numbers.data());
-            for (std::size_t i = 0; i < numbers.size(); ++i)
-                samples.first_places[i].*column.field = numbers[i];
-        }
-        for (std::size_t i = 0; i < samples.first_places.size(); ++i)
-            samples.first_places[i].id = first + i;
-    });
+    const auto has = [&](const SampleColumn& column) { return is_listed(sums, path_of(column)); };
+    samples.have_first_places = has(sample_columns[0]) || has(sample_columns[1]);
+    samples.have_lengths = has(sample_columns[2]) || has(sample_columns[3]);
+    if (!h5::has(file, measurements_path)) return samples;
+    const h5::Dataset stored = h5::open_checked(file, sums_path, {std::nullopt});
+    samples.sums.resize(h5::n_rows_of(stored.id()));
+    if (samples.sums.empty()) throw FileError("its measurements are no list of sums");
+    h5::read_rows(stored.id(), {0, samples.sums.size()}, H5T_NATIVE_INT64, samples.sums.data());
     return samples;
+}
+
+/// Every data set of discs must be there, have its checksum and a row for each disc.
+void check_disc_data(const Contents& contents) {
+    std::vector<std::string> wanted;
+    for (const DiscColumn& column : disc_columns) wanted.push_back(path_of(column));
+    if (contents.header.has_spins) wanted.push_back(spin_column);
+    for (const SampleColumn& column : sample_columns)
+        if (column.is_in(contents.samples)) wanted.push_back(path_of(column));
+    for (const std::string& path : wanted)
+        if (!is_listed(contents.sums, path)) throw FileError("has no " + path);
+    for (const DiscData& data : contents.sums.data)
+        if (data.rows != contents.header.n_discs)
+            throw FileError(data.path + " has not got as many discs as the file says");
+}
+
+void check_format(hid_t file) {
+    std::int64_t format = 0;
+    if (!h5::has(file, run_path) || !h5::has(file, format_path))
+        throw FileError("is no checkpoint of carrom");
+    h5::read_scalar(file, format_path, format);
+    if (format != checkpoint_format)
+        throw FileError(fmt::format("is a checkpoint of format {}; this version reads format {}",
+                                    format, checkpoint_format));
+}
+
+Contents contents_of(const std::string& path) {
+    const h5::File file = h5::open_file(path, h5::Access::read);
+    check_format(file.id());
+    Contents contents;
+    const h5::Group run(h5::checked(H5Gopen2(file.id(), run_path, H5P_DEFAULT), run_path));
+    contents.header = read_header(run.id());
+    contents.header.has_spins = has_spins(file.id());
+    check_header(contents.header);
+    contents.header.species = read_species(file.id(), contents.header.n_discs);
+    contents.sums = read_checksums(file.id());
+    contents.samples = samples_of(file.id(), contents.sums);
+    check_disc_data(contents);
+    if (checksum_of_others(path, contents.sums.left_out()) != contents.sums.others)
+        throw FileError("is damaged: bytes besides the data sets of discs do not have the checksum "
+                        "they had when it was written");
+    return contents;
+}
+
+/// The same with a word for what HDF5 finds fault with.
+Contents looked_through(const std::string& path) {
+    try {
+        return contents_of(path);
+    } catch (const FileError& error) {
+        const std::string text = error.what();
+        throw FileError(text.starts_with("is ") ? text : "is damaged: " + text);
+    }
+}
+
+/// Files of version 0.1 began with a text; HDF5 would find no fault with them. They are whole, so
+/// this is an InputError and not damage. **Collective.**
+void refuse_old_format(const std::string& path, const Communicator& communicator) {
+    constexpr std::string_view family = "carrom checkpoint, format ";
+    std::array<char, family.size()> front{};
+    on_root(communicator, path, ExitCode::bad_input,
+            [&] { Descriptor(path, O_RDONLY).read(std::as_writable_bytes(std::span(front)), 0); });
+    std::vector<Problem> problems;
+    if (std::string_view(front.data(), front.size()) == family)
+        problems.push_back({path, 0,
+                            fmt::format("is a checkpoint of carrom 0.1; this version reads format "
+                                        "{} only. Go on with it in version 0.1, or begin anew",
+                                        checkpoint_format)});
+    agree_on_problems(communicator, problems);
+}
+
+/// **Collective.**
+void broadcast(Contents& contents, const Communicator& communicator) {
+    broadcast(contents.header, communicator);
+    std::uint64_t n_data = contents.sums.data.size();
+    communicator.broadcast(n_data);
+    contents.sums.data.resize(n_data);
+    for (DiscData& data : contents.sums.data) {
+        communicator.broadcast(data.path);
+        communicator.broadcast(data.rows);
+        communicator.broadcast(data.bytes_per_row);
+        communicator.broadcast(data.checksum);
+    }
+    communicator.broadcast(contents.samples.sums);
+    std::array<std::uint64_t, 2> flags = {contents.samples.have_first_places ? 1u : 0u,
+                                          contents.samples.have_lengths ? 1u : 0u};
+    communicator.broadcast(flags);
+    contents.samples.have_first_places = flags[0] == 1;
+    contents.samples.have_lengths = flags[1] == 1;
+}
+
+/// A checkpoint whose bytes have their checksums, open on all ranks.
+class WholeFile {
+public:
+    /// Throws CollectiveError on every rank unless all is well. **Collective.**
+    WholeFile(const std::string& path, const Communicator& communicator)
+        : path_(path), communicator_(communicator) {
+        refuse_old_format(path_, communicator_);
+        on_root(communicator_, path_, ExitCode::bad_input, [&] {
+            try_in_child([&] { static_cast<void>(looked_through(path_)); });
+            contents = looked_through(path_);
+        });
+        broadcast(contents, communicator_);
+        on_all(communicator_, path_, ExitCode::bad_input,
+               [&] { file_ = h5::SharedFile(path_, h5::Access::read, communicator_); });
+        on_all(communicator_, path_, ExitCode::bad_input, [&] {
+            for (const DiscData& data : contents.sums.data)
+                datasets_.push_back(h5::open_checked(file_.id(), data.path));
+        });
+        check_numbers();
+    }
+
+    /// This rank's share of the rows of a data set, 8 bytes each. Not collective; throws FileError.
+    template <class Number>
+    void read(const std::string& path, std::span<Number> numbers, std::uint64_t begin,
+              hid_t type) const {
+        static_assert(sizeof(Number) == 8);
+        for (std::size_t k = 0; k < datasets_.size(); ++k)
+            if (contents.sums.data[k].path == path && !numbers.empty())
+                h5::read_rows(datasets_[k].id(), {begin, begin + numbers.size()}, type,
+                              numbers.data());
+    }
+
+    /// **Collective.**
+    void close() {
+        datasets_.clear();
+        on_all(communicator_, path_, ExitCode::bad_input, [&] { file_.close(); });
+    }
+
+    Contents contents;
+
+private:
+    void check_numbers() {
+        std::vector<std::uint64_t> words; // summed word by word
+        on_all(communicator_, path_, ExitCode::bad_input, [&] {
+            for (std::size_t k = 0; k < datasets_.size(); ++k) {
+                const StateHash share = share_of_checksum(datasets_[k].id(), contents.sums.data[k],
+                                                          communicator_);
+                words.insert(words.end(), {share.low, share.high});
+            }
+        });
+        communicator_.sum(words);
+        std::string names;
+        for (std::size_t k = 0; k < datasets_.size(); ++k)
+            if (StateHash{words[2 * k], words[2 * k + 1]} != contents.sums.data[k].checksum)
+                names += (names.empty() ? "" : ", ") + contents.sums.data[k].path;
+        on_root(communicator_, path_, ExitCode::bad_input, [&] {
+            if (!names.empty())
+                throw FileError("is damaged: these data sets do not have the checksum they had "
+                                "when it was written: " +
+                                names);
+        });
+    }
+
+    std::string path_;
+    const Communicator& communicator_;
+    h5::SharedFile file_;
+    std::vector<h5::Dataset> datasets_;
+};
+
+/// Ids of this rank.
+struct Share {
+    std::uint64_t begin = 0, end = 0;
+
+    Share(std::uint64_t n, const Communicator& communicator)
+        : begin(slab_begin(communicator.rank(), n, communicator.size())),
+          end(slab_begin(communicator.rank() + 1, n, communicator.size())) {}
+    std::uint64_t size() const { return end - begin; }
+};
+
+/// Reads some discs at a time, so that they stay in cache. Throws FileError.
+std::vector<Disc> read_discs(const WholeFile& file, const Share& share) {
+    std::vector<Disc> discs(share.size());
+    std::vector<std::uint64_t> numbers(std::min(rows_per_piece, share.size()));
+    for (std::uint64_t begin = 0; begin < share.size(); begin += rows_per_piece) {
+        const auto wanted = std::span(numbers).first(
+            std::min(rows_per_piece, share.size() - begin));
+        for (std::size_t i = 0; i < wanted.size(); ++i)
+            discs[begin + i].id = share.begin + begin + i;
+        for (const DiscColumn& column : disc_columns) {
+            file.read(path_of(column), wanted, share.begin + begin, type_of(column));
+            for (std::size_t i = 0; i < wanted.size(); ++i) column.set(discs[begin + i], wanted[i]);
+        }
+    }
+    return discs;
+}
+
+/// Throws FileError.
+std::vector<FirstPlace> read_places(const WholeFile& file, const Share& share) {
+    const StoredSamples& samples = file.contents.samples;
+    if (!samples.have_first_places) return {};
+    std::vector<FirstPlace> places(share.size());
+    for (std::size_t i = 0; i < places.size(); ++i) places[i].id = share.begin + i;
+    std::vector<double> numbers(share.size());
+    for (const SampleColumn& column : sample_columns) {
+        if (!column.is_in(samples)) continue;
+        file.read(path_of(column), std::span(numbers), share.begin, H5T_NATIVE_DOUBLE);
+        const double most = column.is_of_periodic_boxes
+                                ? most_lengths
+                                : farthest_place * file.contents.header.box_size;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            if (!(std::fabs(numbers[i]) <= most))
+                throw FileError(path_of(column) + " holds what is no place");
+            places[i].*column.field = numbers[i];
+        }
+    }
+    return places;
+}
+
+StateHash hash_of(const Checkpoint& checkpoint) {
+    StateHash hash = hash_of(checkpoint.discs);
+    for (std::size_t i = 0; i < checkpoint.spins.size(); ++i)
+        hash += hash_of_spin(checkpoint.discs[i].id, checkpoint.spins[i]);
+    return hash;
 }
 
 } // namespace
 
 CheckpointHeader read_checkpoint_header(const std::string& path, const Communicator& communicator) {
-    check_seal(path, communicator); // HDF5 does not promise to survive every damaged file
-    return header_of(path, communicator);
+    WholeFile file(path, communicator);
+    file.close();
+    return file.contents.header;
 }
 
 void check_damage(const std::string& path, const Communicator& communicator) {
+    refuse_old_format(path, communicator);
     std::uint64_t is_checkpoint = 0;
-    on_root(communicator, path, ExitCode::bad_input,
-            [&] { is_checkpoint = is_sealed(path) ? 1 : 0; });
+    on_root(communicator, path, ExitCode::bad_input, [&] {
+        const auto look = [&] {
+            is_checkpoint = h5::has(h5::open_file(path, h5::Access::read).id(), run_path) ? 1 : 0;
+        };
+        try_in_child(look);
+        look();
+    });
     communicator.broadcast(is_checkpoint);
-    if (is_checkpoint == 1) check_seal(path, communicator);
+    if (is_checkpoint == 1) WholeFile(path, communicator).close();
 }
 
 Checkpoint read_checkpoint(const std::string& path, const Communicator& communicator) {
-    check_seal(path, communicator);
+    WholeFile file(path, communicator);
     Checkpoint checkpoint;
-    checkpoint.header = header_of(path, communicator);
-    const std::uint64_t n = checkpoint.header.n_discs;
-    const std::uint64_t first = slab_begin(communicator.rank(), n, communicator.size());
-    checkpoint.discs.resize(slab_begin(communicator.rank() + 1, n, communicator.size()) - first);
-    for (std::size_t i = 0; i < checkpoint.discs.size(); ++i) checkpoint.discs[i].id = first + i;
-    const CrashGuard guard(path);
-    h5::File file;
-    on_all(communicator, path, ExitCode::bad_input,
-           [&] { file = h5::open_file(path, h5::Access::read, communicator); });
-    read_columns(file.id(), path, n, checkpoint.discs, communicator);
-    checkpoint.spins = read_spins(file.id(), path, checkpoint.header, communicator);
-    checkpoint.samples = read_samples(file.id(), path, n, communicator);
-    StateHash mine = hash_of(checkpoint.discs);
-    for (std::size_t i = 0; i < checkpoint.spins.size(); ++i)
-        mine += hash_of_spin(checkpoint.discs[i].id, checkpoint.spins[i]);
+    checkpoint.header = file.contents.header;
+    checkpoint.samples = file.contents.samples;
+    const Share share(checkpoint.header.n_discs, communicator);
+    on_all(communicator, path, ExitCode::bad_input, [&] {
+        checkpoint.discs = read_discs(file, share);
+        checkpoint.spins.resize(checkpoint.header.has_spins ? share.size() : 0);
+        if (checkpoint.header.has_spins)
+            file.read(spin_column, std::span(checkpoint.spins), share.begin, H5T_NATIVE_DOUBLE);
+        checkpoint.samples.first_places = read_places(file, share);
+    });
+    file.close();
+    const StateHash mine = hash_of(checkpoint);
     std::uint64_t sums[] = {mine.low, mine.high};
     communicator.sum(sums);
     on_root(communicator, path, ExitCode::bad_input, [&] {

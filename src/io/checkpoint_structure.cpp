@@ -43,6 +43,14 @@ h5::Group create_frame(hid_t parent, const char* name, const CheckpointHeader& h
     return group;
 }
 
+/// A radius for each disc where they differ, else one value.
+void create_radius(hid_t discs, const CheckpointHeader& header) {
+    if (header.shown.empty())
+        h5::write_scalar(discs, "radius", header.radius);
+    else
+        create_column(discs, "radius", std::array<hsize_t, 1>{header.n_discs}, H5T_NATIVE_FLOAT);
+}
+
 void create_groups(hid_t file, const CheckpointHeader& header, const StoredSamples& samples) {
     h5md::write_metadata(file, header.program_version);
     const h5::Group particles = h5::create_group(file, "particles");
@@ -56,8 +64,10 @@ void create_groups(hid_t file, const CheckpointHeader& header, const StoredSampl
     for (const char* name : {"position", "velocity"})
         create_column(create_frame(discs.id(), name, header).id(), "value", vectors,
                       H5T_NATIVE_FLOAT);
+    create_radius(discs.id(), header);
 
     const h5::Group carrom = h5::create_group(file, "carrom");
+    h5::write_scalar(file, format_path, checkpoint_format);
     write_header(h5::create_group(carrom.id(), "run").id(), header);
     write_species(carrom.id(), header.species);
     const h5::Group columns = h5::create_group(carrom.id(), "discs");
@@ -76,13 +86,6 @@ void create_groups(hid_t file, const CheckpointHeader& header, const StoredSampl
                           H5T_NATIVE_DOUBLE);
 }
 
-/// Where a contiguous data set's numbers begin, counted from the front of the file.
-std::uint64_t place_of(hid_t file, const std::string& name) {
-    const haddr_t place = H5Dget_offset(h5::open_dataset(file, name.c_str()).id());
-    if (place == HADDR_UNDEF) h5::fail(name + " has no place in the file");
-    return place;
-}
-
 } // namespace
 
 std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples,
@@ -93,34 +96,42 @@ std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const Store
     const auto vector_of = [](double x, double y) {
         return std::array<float, 3>{static_cast<float>(x), static_cast<float>(y), 0};
     };
-    const auto add = [&](std::string name, std::uint64_t bytes_per_row,
+    const auto add = [&](std::string path, hid_t type, std::uint64_t n_numbers,
                          std::function<void(std::span<const Disc>, std::byte*)> put) {
-        targets.push_back(
-            {{std::move(name), 0, header.n_discs, bytes_per_row, {}}, std::move(put)});
+        targets.push_back({std::move(path), type, n_numbers * H5Tget_size(type), std::move(put)});
     };
-    add("/particles/discs/position/value", 3 * sizeof(float),
+    add("/particles/discs/position/value", H5T_NATIVE_FLOAT, 3,
         [=](std::span<const Disc> discs, std::byte* out) {
             put_each(discs, out, [=](const Disc& disc) {
                 const Disc shown = frame.in_box(disc, clock);
                 return vector_of(shown.x, shown.y);
             });
         });
-    add("/particles/discs/velocity/value", 3 * sizeof(float),
+    add("/particles/discs/velocity/value", H5T_NATIVE_FLOAT, 3,
         [=](std::span<const Disc> discs, std::byte* out) {
             put_each(discs, out, [=](const Disc& disc) {
                 const Disc shown = frame.in_box(disc, clock);
                 return vector_of(shown.vx * k, shown.vy * k);
             });
         });
+    if (!header.shown.empty())
+        add("/particles/discs/radius", H5T_NATIVE_FLOAT, 1,
+            [table = SpeciesTable(header.shown, header.radius)](std::span<const Disc> discs,
+                                                                std::byte* out) {
+                put_each(discs, out, [&](const Disc& disc) {
+                    return static_cast<float>(table.of(disc.id).radius);
+                });
+            });
     for (const DiscColumn& column : disc_columns)
-        add(std::string("/carrom/discs/") + column.name, sizeof(std::uint64_t), column.put);
+        add(std::string("/carrom/discs/") + column.name, type_of(column), 1, column.put);
     if (header.has_spins)
-        add(spin_column, sizeof(double), [&spins](std::span<const Disc> discs, std::byte* out) {
-            put_each(discs, out, [&spins](const Disc& disc) { return spins.of(disc); });
-        });
+        add(spin_column, H5T_NATIVE_DOUBLE, 1,
+            [&spins](std::span<const Disc> discs, std::byte* out) {
+                put_each(discs, out, [&spins](const Disc& disc) { return spins.of(disc); });
+            });
     for (const SampleColumn& column : sample_columns) {
         if (!column.is_in(samples)) continue;
-        add(std::string("/carrom/measurements/") + column.name, sizeof(double),
+        add(std::string("/carrom/measurements/") + column.name, H5T_NATIVE_DOUBLE, 1,
             [&column, &places = samples.first_places](std::span<const Disc> discs, std::byte* out) {
                 put_each(discs, out, [&](const Disc& disc) {
                     return places[disc.id - places.front().id].*column.field;
@@ -130,27 +141,32 @@ std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const Store
     return targets;
 }
 
-HeaderPlaces create_structure(const std::string& path, CheckpointHeader header,
-                              const StoredSamples& samples, std::vector<DiscTarget>& targets) {
+void create_structure(const std::string& path, CheckpointHeader header,
+                      const StoredSamples& samples, const std::vector<DiscTarget>& targets) {
     header.wall_collisions = header.pair_collisions = 0;
     header.state_hash = to_string(StateHash{});
-    h5::File file = h5::create_file(path, seal_size);
+    Checksums sums;
+    for (const DiscTarget& target : targets) sums.data.push_back({target.path, 0, 0, {}, {}});
+    h5::File file = h5::create_file_for_ranks(path);
     create_groups(file.id(), header, samples);
-    for (DiscTarget& target : targets) target.part.begin = place_of(file.id(), target.part.name);
-    const HeaderPlaces places = {place_of(file.id(), "/carrom/run/wall_collisions"),
-                                 place_of(file.id(), "/carrom/run/pair_collisions"),
-                                 place_of(file.id(), "/carrom/run/state_hash")};
+    h5::write_scalar(file.id(), checksums_path, sums.text());
     file.close("cannot be written");
-    return places;
 }
 
-void fill_in(const std::string& path, const HeaderPlaces& places, const StateSums& sums) {
-    const Descriptor file(path, O_WRONLY);
-    const std::uint64_t pairs = sums.pair_collisions / 2;
-    const std::string hash = to_string(sums.hash);
-    file.write(std::as_bytes(std::span(&sums.wall_collisions, 1)), places.wall_collisions);
-    file.write(std::as_bytes(std::span(&pairs, 1)), places.pair_collisions);
-    file.write(std::as_bytes(std::span(hash)), places.state_hash);
+void complete(const std::string& path, const StateSums& sums,
+              const std::vector<StateHash>& checksums) {
+    h5::File file = h5::open_file(path, h5::Access::write);
+    h5::overwrite_scalar(file.id(), "/carrom/run/wall_collisions", sums.wall_collisions);
+    h5::overwrite_scalar(file.id(), "/carrom/run/pair_collisions", sums.pair_collisions / 2);
+    h5::overwrite_scalar(file.id(), "/carrom/run/state_hash", to_string(sums.hash));
+    Checksums all = read_checksums(file.id());
+    file.close("cannot be written");
+    for (std::size_t k = 0; k < checksums.size(); ++k) all.data[k].checksum = checksums[k];
+    all.others = checksum_of_others(path, all.left_out()); // a file open to be written says so
+    file = h5::open_file(path, h5::Access::write);
+    h5::overwrite_scalar(file.id(), checksums_path, all.text());
+    file.close("cannot be written");
+    Descriptor(path, O_RDWR).sync();
 }
 
 } // namespace carrom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A checkpoint's HDF5 file with all its structure and none of its numbers, and where those belong.
+// A checkpoint's HDF5 file with all its structure and none of its numbers.
 #pragma once
 
 #include <array>
@@ -12,15 +12,17 @@
 
 #include "core/disc.hpp"
 #include "core/state_hash.hpp"
+#include "dynamics/species.hpp"
 #include "io/checkpoint.hpp"
-#include "io/seal.hpp"
+#include "io/checksums.hpp"
 
 namespace carrom {
 
-/// A data set with one row for each disc, and how discs become its bytes. Its part's `begin` is
-/// known once the file is there.
+/// A data set with one row for each disc, and how discs become its bytes.
 struct DiscTarget {
-    SealedPart part;
+    std::string path;
+    hid_t type; ///< of its numbers
+    std::uint64_t bytes_per_row = 0;
     std::function<void(std::span<const Disc>, std::byte*)> put;
 };
 
@@ -32,7 +34,7 @@ struct SpinsOfPieces {
     double of(const Disc& disc) const { return values[disc.id - first]; }
 };
 
-/// The data sets of discs that a checkpoint has, in the order in which they stand in the file.
+/// The data sets of discs that a checkpoint has.
 /// `samples` and `spins` must outlive them.
 std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples,
                                      const SpinsOfPieces& spins);
@@ -43,17 +45,14 @@ struct StateSums {
     StateHash hash;
 };
 
-/// Where single values of /carrom/run stand in the file.
-struct HeaderPlaces {
-    std::uint64_t wall_collisions = 0, pair_collisions = 0, state_hash = 0;
-};
+/// Makes the file. The header's counters and hash and all checksums stay open. Of one rank; throws
+/// FileError.
+void create_structure(const std::string& path, CheckpointHeader header,
+                      const StoredSamples& samples, const std::vector<DiscTarget>& targets);
 
-/// Makes the file and fills in where each target's rows begin. The header's counters and hash stay
-/// open. Of one rank; throws FileError.
-HeaderPlaces create_structure(const std::string& path, CheckpointHeader header,
-                              const StoredSamples& samples, std::vector<DiscTarget>& targets);
-
-/// Writes the values that were left open. Of one rank; throws FileError.
-void fill_in(const std::string& path, const HeaderPlaces& places, const StateSums& sums);
+/// Writes what was left open, the targets' checksums and that of all other bytes included, and
+/// brings it to disk. Of one rank; throws FileError.
+void complete(const std::string& path, const StateSums& sums,
+              const std::vector<StateHash>& checksums);
 
 } // namespace carrom

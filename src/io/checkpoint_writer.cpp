@@ -1,23 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rank 0 makes the file with all its structure and takes its room on disk; then the ranks fill in
-// the columns. So what is written side by side is numbers alone, at places that no longer move:
-// plain writes, without HDF5 or MPI-IO, which leave nobody waiting where one rank's fail. A rank's
-// pieces begin at pages of their own, so that nodes whose caches know nothing of each other do not
-// share any.
+// Rank 0 makes the file with all its structure and takes its room on disk. Then all ranks open it
+// and fill in the numbers of discs by H5Dwrite through MPI-IO. The places no longer move, so no
+// write changes HDF5's metadata. A rank's pieces begin at pages of their own, so that nodes whose
+// caches know nothing of each other do not share any.
+//
+// For independent transfers each rank has a handle of its own (of_this_rank). So no call on the
+// file waits for another rank: each rank sees its own failure, and then all agree. With one handle
+// for all, HDF5 1.10 waits for ever where rank 0 cannot write the mark of an open file when all
+// close it. Each handle writes that mark, the same bytes, when it is opened and when it is closed.
+//
+// Collective transfers need one handle for all ranks. A rank that fails leaves the others waiting
+// inside HDF5; then `agree`, or a deadline for closing, ends the run with the same exit code.
 #include <algorithm>
 #include <array>
-#include <future>
+#include <csignal>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <fcntl.h>
+#include <omp.h>
 #include <unistd.h>
 
 #include "io/checkpoint.hpp"
 #include "io/checkpoint_structure.hpp"
+#include "io/checksums.hpp"
 #include "io/files.hpp"
-#include "io/seal.hpp"
+#include "parallel/mpi.hpp"
 #include "parallel/pieces.hpp"
 
 namespace carrom {
@@ -47,56 +56,109 @@ private:
     bool is_mine_;
 };
 
-/// Writes packed pieces in the background, one at a time; knows of the first failure and writes
-/// nothing after it.
-class PieceWriter {
+/// Ends all ranks where HDF5 does not come back from closing a file that ranks share.
+class Deadline {
 public:
-    PieceWriter(const std::string& path, const std::vector<DiscTarget>& targets)
-        : file_(path, O_WRONLY), targets_(targets) {}
-    ~PieceWriter() {
-        if (under_way_.valid()) under_way_.wait();
+    Deadline() {
+        struct sigaction action{};
+        action.sa_handler = [](int) {
+            abort_from_signal("carrom: a checkpoint cannot be closed: ranks wait for each other\n",
+                              static_cast<int>(ExitCode::output_failure));
+        };
+        ::sigaction(SIGALRM, &action, &before_);
+        ::alarm(patience_seconds);
     }
-
-    /// One buffer for each target; good until the call after the next one.
-    using Buffers = std::vector<std::vector<std::byte>>;
-
-    /// Waits for the piece before, then lets `buffers` be written as rows from `first` on.
-    void write(std::uint64_t first, const Buffers& buffers) {
-        if (!wait()) return;
-        const bool starts_sync = ++n_pieces_ % pieces_between_syncs == 0;
-        under_way_ = std::async(
-            std::launch::async | std::launch::deferred, [this, first, &buffers, starts_sync] {
-                for (std::size_t k = 0; k < targets_.size(); ++k)
-                    file_.write(buffers[k],
-                                targets_[k].part.begin + first * targets_[k].part.bytes_per_row);
-                if (starts_sync) file_.start_sync();
-            });
+    ~Deadline() {
+        ::alarm(0);
+        ::sigaction(SIGALRM, &before_, nullptr);
     }
-
-    /// Waits for what is under way and brings all to disk: on several nodes it is in caches of
-    /// their own. Throws FileError.
-    void finish() {
-        if (!wait()) throw FileError(failure_);
-        file_.sync();
-    }
+    Deadline(const Deadline&) = delete;
+    Deadline& operator=(const Deadline&) = delete;
 
 private:
-    static constexpr std::uint64_t pieces_between_syncs = 8;
+    static constexpr unsigned patience_seconds = 30;
+    struct sigaction before_{};
+};
 
-    bool wait() {
+/// Packed rows of this rank, one buffer for each target.
+struct Batch {
+    std::uint64_t first = 0, n_rows = 0;
+    std::vector<std::vector<std::byte>> buffers;
+
+    bool is_empty() const { return n_rows == 0; }
+    void clear() { n_rows = 0; }
+};
+
+/// The file as this rank writes to it; knows of the first failure and writes nothing after it.
+class RankWriter {
+public:
+    /// **Collective.**
+    RankWriter(const std::string& path, const std::vector<DiscTarget>& targets, bool is_collective,
+               const Communicator& communicator)
+        : path_(path), targets_(targets), communicator_(communicator),
+          writers_(is_collective ? communicator : Communicator::of_this_rank()) {
+        on_all(communicator_, path_, ExitCode::output_failure,
+               [&] { bytes_.emplace(path_, O_WRONLY); }); // knows of failures from now on
+        on_all(communicator_, path_, ExitCode::output_failure,
+               [&] { file_ = h5::SharedFile(path_, h5::Access::write, writers_); });
+        on_all(communicator_, path_, ExitCode::output_failure, [&] {
+            for (const DiscTarget& target : targets_)
+                datasets_.push_back(h5::open_dataset(file_.id(), target.path.c_str()));
+        });
+    }
+
+    /// Not collective, but for the thread that may call MPI.
+    void write(const Batch& batch) {
+        if (!failure_.empty()) return;
         try {
-            if (under_way_.valid()) under_way_.get();
+            for (std::size_t k = 0; k < targets_.size(); ++k)
+                write(k, batch, h5::Transfer::independent);
+            if (++n_batches_ % batches_between_syncs == 0) bytes_->start_sync();
         } catch (const FileError& error) {
             failure_ = error.what();
         }
-        return failure_.empty();
     }
 
-    Descriptor file_;
+    /// All ranks' batches at once. A rank that fails leaves HDF5's collective write before the
+    /// others do; they wait in vain then, and `agree` ends the run. **Collective.**
+    void write_together(const Batch& batch) {
+        for (std::size_t k = 0; k < targets_.size(); ++k)
+            on_all(communicator_, path_, ExitCode::output_failure,
+                   [&] { write(k, batch, h5::Transfer::collective); });
+    }
+
+    /// Brings to disk what this rank has written: on several nodes it is in caches of their own.
+    /// Then closes the file. **Collective.**
+    void finish() {
+        on_all(communicator_, path_, ExitCode::output_failure, [&] {
+            if (!failure_.empty()) throw FileError(failure_);
+            bytes_->sync();
+        });
+        datasets_.clear();
+        on_all(communicator_, path_, ExitCode::output_failure, [&] {
+            std::optional<Deadline> deadline;
+            if (writers_.size() > 1) deadline.emplace();
+            file_.close();
+        });
+    }
+
+private:
+    static constexpr std::uint64_t batches_between_syncs = 8;
+
+    void write(std::size_t k, const Batch& batch, h5::Transfer transfer) {
+        h5::write_rows(datasets_[k].id(), {batch.first, batch.first + batch.n_rows},
+                       targets_[k].type, batch.buffers[k].data(), transfer);
+    }
+
+    std::string path_;
     const std::vector<DiscTarget>& targets_;
-    std::future<void> under_way_;
+    const Communicator& communicator_;
+    Communicator writers_; ///< who share a handle of the file
+    std::optional<Descriptor> bytes_;
+    h5::SharedFile file_;
+    std::vector<h5::Dataset> datasets_;
     std::string failure_;
-    std::uint64_t n_pieces_ = 0;
+    std::uint64_t n_batches_ = 0;
 };
 
 /// What is summed over discs while they are at hand; words, so that threads and ranks may add up.
@@ -136,26 +198,33 @@ private:
     std::vector<std::uint64_t> words_;
 };
 
-/// Takes a piece apart into the targets' bytes, block by block; threads share the blocks.
+/// Takes a piece apart into the targets' bytes, behind what is in the batch. Threads share the
+/// blocks; the first one, which alone may call MPI, does `first_of_all` before.
+template <class Act>
 void pack(std::span<const Disc> piece, std::uint64_t first, const SpinsOfPieces& spins,
-          const std::vector<DiscTarget>& targets, PieceWriter::Buffers& buffers, Sums& sums,
-          int n_threads) {
+          const std::vector<DiscTarget>& targets, Batch& batch, Sums& sums, int n_threads,
+          const Act& first_of_all) {
+    const std::size_t before = batch.n_rows;
+    if (batch.is_empty()) batch.first = first;
+    batch.n_rows += piece.size();
     for (std::size_t k = 0; k < targets.size(); ++k)
-        buffers[k].resize(piece.size() * targets[k].part.bytes_per_row);
+        batch.buffers[k].resize(batch.n_rows * targets[k].bytes_per_row);
     const std::size_t n_blocks = (piece.size() + rows_per_block - 1) / rows_per_block;
-#pragma omp parallel num_threads(n_threads)
+#pragma omp parallel num_threads(n_threads + 1)
     {
+        if (omp_get_thread_num() == 0) first_of_all();
         Sums mine(targets.size());
-#pragma omp for schedule(static)
+#pragma omp for schedule(dynamic)
         for (std::size_t block = 0; block < n_blocks; ++block) {
             const std::size_t row = block * rows_per_block;
             const std::span<const Disc> discs = piece.subspan(
                 row, std::min<std::size_t>(rows_per_block, piece.size() - row));
             mine.add(discs, spins);
             for (std::size_t k = 0; k < targets.size(); ++k) {
-                const std::size_t width = targets[k].part.bytes_per_row;
-                const std::span<std::byte> bytes =
-                    std::span(buffers[k]).subspan(row * width, discs.size() * width);
+                const std::size_t width = targets[k].bytes_per_row;
+                const std::span<std::byte> bytes = std::span(batch.buffers[k])
+                                                       .subspan((before + row) * width,
+                                                                discs.size() * width);
                 targets[k].put(discs, bytes.data());
                 mine.add_checksum(k, checksum_of_block(bytes, first / rows_per_block + block));
             }
@@ -186,24 +255,30 @@ SpinsOfPieces in_pieces(std::span<const Disc> discs, std::span<const double> spi
     return mine;
 }
 
-/// Fills the columns: the ranks' pieces, each written while the next one is taken apart.
-/// **Collective.**
+/// Fills the data sets with the ranks' pieces. Each piece is written while the next one is packed;
+/// collective transfers come at the end instead, one for each data set. **Collective.**
 Sums write_discs(const std::string& path, const std::vector<DiscTarget>& targets,
                  std::span<const Disc> discs, const SpinsOfPieces& spins, std::uint64_t n_discs,
-                 int n_threads, const Communicator& communicator) {
-    std::optional<PieceWriter> writer;
-    on_all(communicator, path, ExitCode::output_failure, [&] { writer.emplace(path, targets); });
+                 const WriteSettings& settings, const Communicator& communicator) {
+    RankWriter writer(path, targets, settings.is_collective, communicator);
     PieceStream stream(communicator, discs, n_discs, [](const Disc& disc) { return disc.id; });
     Sums sums(targets.size());
-    std::array<PieceWriter::Buffers, 2> buffers;
-    buffers.fill(PieceWriter::Buffers(targets.size()));
+    Batch next, last;
+    next.buffers.resize(targets.size());
+    last.buffers.resize(targets.size());
+    const auto write_last = [&] {
+        if (!last.is_empty()) writer.write(last);
+        last.clear();
+    };
     for (std::uint64_t round = 0; round < stream.pieces().n_rounds(); ++round) {
         const std::span<const Disc> piece = stream.next();
         if (piece.empty()) continue;
-        pack(piece, stream.begin(), spins, targets, buffers[round % 2], sums, n_threads);
-        writer->write(stream.begin(), buffers[round % 2]);
+        pack(piece, stream.begin(), spins, targets, next, sums, settings.n_threads, write_last);
+        if (!settings.is_collective) std::swap(next, last);
     }
-    on_all(communicator, path, ExitCode::output_failure, [&] { writer->finish(); });
+    write_last();
+    if (settings.is_collective) writer.write_together(next);
+    writer.finish();
     sums.add_over(communicator);
     return sums;
 }
@@ -211,37 +286,28 @@ Sums write_discs(const std::string& path, const std::vector<DiscTarget>& targets
 } // namespace
 
 void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs,
-                      const Communicator& communicator, int n_threads, const StoredSamples& samples,
-                      std::span<const double> spins) {
+                      const Communicator& communicator, const WriteSettings& settings,
+                      const StoredSamples& samples, std::span<const double> spins) {
     header.n_discs = communicator.sum(std::uint64_t{discs.size()});
     const SpinsOfPieces spins_of_pieces = header.has_spins ? in_pieces(discs, spins, header.n_discs,
                                                                        communicator)
                                                            : SpinsOfPieces{};
-    std::vector<DiscTarget> targets = disc_targets(header, samples, spins_of_pieces);
+    const std::vector<DiscTarget> targets = disc_targets(header, samples, spins_of_pieces);
     const PartialFile partial(path + ".partial", communicator);
-    HeaderPlaces places;
     on_root(communicator, path, ExitCode::output_failure, [&] {
         std::uint64_t bytes = bytes_of_structure + samples.sums.size() * sizeof(std::int64_t) +
                               header.species.size() * sizeof(Species);
-        for (const DiscTarget& target : targets)
-            bytes += target.part.rows * target.part.bytes_per_row;
+        for (const DiscTarget& target : targets) bytes += header.n_discs * target.bytes_per_row;
         check_room(folder_of(path), bytes);
-        places = create_structure(partial.path(), header, samples, targets);
+        create_structure(partial.path(), header, samples, targets);
         reserve(partial.path());
     });
-    for (DiscTarget& target : targets) communicator.broadcast(target.part.begin);
     const Sums sums = write_discs(partial.path(), targets, discs, spins_of_pieces, header.n_discs,
-                                  n_threads, communicator);
+                                  settings, communicator);
     on_root(communicator, path, ExitCode::output_failure, [&] {
-        fill_in(partial.path(), places, sums.state());
-        std::vector<SealedPart> parts;
-        for (std::size_t k = 0; k < targets.size(); ++k) {
-            parts.push_back(targets[k].part);
-            parts.back().checksum = sums.checksum(k);
-        }
-        std::sort(parts.begin(), parts.end(),
-                  [](const SealedPart& a, const SealedPart& b) { return a.begin < b.begin; });
-        seal(partial.path(), parts);
+        std::vector<StateHash> checksums;
+        for (std::size_t k = 0; k < targets.size(); ++k) checksums.push_back(sums.checksum(k));
+        complete(partial.path(), sums.state(), checksums);
         rename_durably(partial.path(), path);
     });
 }

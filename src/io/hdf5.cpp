@@ -18,7 +18,8 @@ void start_io() {
     // Readers look at recordings that grow, and runs have a lock of their own.
     setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
     H5dont_atexit();
-    H5open(); // started before MPI it does not hook into MPI's end either
+    H5open();                         // started before MPI it does not hook into MPI's end either
+    H5Lunregister(H5L_TYPE_EXTERNAL); // no link of a file leads into another one
 }
 
 std::string hdf5_version() {
@@ -34,6 +35,7 @@ namespace carrom::h5 {
 namespace {
 
 constexpr std::size_t longest_text = std::size_t{1} << 28; // scenes end at 2^26
+constexpr unsigned most_links = 64;                        // of a group of ours
 
 /// The innermost entries of the error stack say what the system has said.
 herr_t take_text(unsigned number, const H5E_error2_t* error, void* text) {
@@ -45,6 +47,21 @@ herr_t take_text(unsigned number, const H5E_error2_t* error, void* text) {
 
 /// HDF5 would print its stack of errors to standard error by itself, on every rank.
 void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+/// When something was made is no part of it: the same contents are the same bytes.
+void leave_out_times(const Properties& creation) {
+    checked(H5Pset_obj_track_times(creation.id(), false), "cannot leave out times");
+}
+
+/// Groups whose order is kept are of the newer kind: their metadata have a checksum by HDF5, links
+/// included.
+void as_checked_group(const Properties& creation) {
+    leave_out_times(creation);
+    checked(H5Pset_link_creation_order(creation.id(), H5P_CRT_ORDER_TRACKED),
+            "cannot keep an order of links");
+    checked(H5Pset_link_phase_change(creation.id(), most_links, most_links / 2),
+            "cannot keep links together");
+}
 
 Type text_type(std::size_t length) {
     Type type(checked(H5Tcopy(H5T_C_S1), "cannot make a text type"));
@@ -71,6 +88,12 @@ void write_dataset(hid_t parent, const char* name, const Space& shape, hid_t typ
     dataset.close(name);
 }
 
+void overwrite(hid_t parent, const char* name, hid_t type, const void* value) {
+    Dataset dataset = open_dataset(parent, name);
+    checked(H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value), name);
+    dataset.close(name);
+}
+
 /// Checks that there is one value, so that nothing is written beyond it.
 void read_scalar_as(hid_t parent, const char* name, hid_t type, void* value) {
     const Dataset dataset = open_checked(parent, name);
@@ -81,6 +104,30 @@ void read_scalar_as(hid_t parent, const char* name, hid_t type, void* value) {
     if (H5Sget_simple_extent_npoints(shape.id()) != 1)
         throw FileError(std::string(name) + " is not a single value");
     checked(H5Dread(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value), name);
+}
+
+/// Rows of a data set, and as much memory without gaps.
+struct Selection {
+    Space memory, file;
+};
+
+Selection select(hid_t dataset, const Rows& rows) {
+    std::vector<hsize_t> count = dimensions_of(dataset), start(count.size(), 0);
+    if (count.empty()) throw FileError("a data set has no rows");
+    const std::size_t axis = count.size() > 1 ? 1 : 0;
+    start[axis] = rows.begin;
+    count[axis] = rows.end - rows.begin;
+    Selection selected{space(count),
+                       Space(checked(H5Dget_space(dataset), "cannot look at a dataset"))};
+    if (rows.begin == rows.end) {
+        checked(H5Sselect_none(selected.memory.id()), "cannot select no rows");
+        checked(H5Sselect_none(selected.file.id()), "cannot select no rows");
+        return selected;
+    }
+    checked(H5Sselect_hyperslab(selected.file.id(), H5S_SELECT_SET, start.data(), nullptr,
+                                count.data(), nullptr),
+            "cannot select rows");
+    return selected;
 }
 
 } // namespace
@@ -97,7 +144,9 @@ Properties properties(hid_t kind) {
 
 Properties dataset_creation() {
     Properties creation = properties(H5P_DATASET_CREATE);
-    checked(H5Pset_obj_track_times(creation.id(), false), "cannot leave out times");
+    leave_out_times(creation);
+    checked(H5Pset_attr_creation_order(creation.id(), H5P_CRT_ORDER_TRACKED),
+            "cannot keep an order of attributes"); // as for groups
     return creation;
 }
 
@@ -109,13 +158,18 @@ Space space(std::span<const hsize_t> dimensions, std::span<const hsize_t> larges
 
 Space scalar_space() { return Space(checked(H5Screate(H5S_SCALAR), "cannot make a data space")); }
 
-File create_file(const std::string& path, std::uint64_t user_block) {
+File create_file(const std::string& path) {
+    be_quiet();
+    return File(checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
+                        "cannot be created"));
+}
+
+File create_file_for_ranks(const std::string& path) {
     be_quiet();
     const Properties creation = properties(H5P_FILE_CREATE), access = properties(H5P_FILE_ACCESS);
-    checked(H5Pset_userblock(creation.id(), user_block), "cannot set a user block");
-    if (user_block > 0)
-        checked(H5Pset_alignment(access.id(), 1 << 16, 1 << 12), "cannot align datasets to pages");
-    return File(checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()),
+    as_checked_group(creation);
+    checked(H5Pset_alignment(access.id(), 1 << 16, 1 << 12), "cannot align data sets to pages");
+    return File(checked(H5Fcreate(path.c_str(), H5F_ACC_EXCL, creation.id(), access.id()),
                         "cannot be created"));
 }
 
@@ -136,18 +190,26 @@ File open_file(const std::string& path, Access access) {
                     "cannot be opened"));
     } catch (const FileError& error) {
         if (std::string_view(error.what()).find("truncated file") == std::string_view::npos) throw;
-        throw FileError("is cut short: it was not copied whole");
+        throw FileError("is cut short, or its first bytes are damaged");
     }
 }
 
-File open_file(const std::string& path, Access access, const Communicator& communicator) {
+File open_file(const std::string& path, const Properties& access) {
     be_quiet();
-    if (native(communicator) == MPI_COMM_NULL) return open_file(path, access);
+    return File(checked(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), "cannot be opened"));
+}
+
+SharedFile::SharedFile(const std::string& path, Access access, const Communicator& communicator) {
+    if (native(communicator) == MPI_COMM_NULL) { // a program without MPI
+        file_ = open_file(path, access);
+        return;
+    }
+    be_quiet();
     const Properties list = properties(H5P_FILE_ACCESS);
     checked(H5Pset_fapl_mpio(list.id(), native(communicator), MPI_INFO_NULL),
             "cannot choose MPI-IO");
     checked(H5Pset_all_coll_metadata_ops(list.id(), true), "cannot choose collective metadata");
-    return File(checked(
+    file_ = File(checked(
         H5Fopen(path.c_str(), access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR, list.id()),
         "cannot be opened"));
 }
@@ -162,7 +224,10 @@ bool has(hid_t file, const std::string& path) {
 Group create_group(hid_t parent, const char* name) {
     const Properties links = properties(H5P_LINK_CREATE);
     checked(H5Pset_create_intermediate_group(links.id(), 1), name);
-    return Group(checked(H5Gcreate2(parent, name, links.id(), H5P_DEFAULT, H5P_DEFAULT), name));
+    const Properties creation = properties(H5P_GROUP_CREATE);
+    as_checked_group(creation);
+    return Group(
+        checked(H5Gcreate2(parent, name, links.id(), creation.id(), H5P_DEFAULT), name));
 }
 
 Dataset open_dataset(hid_t parent, const char* name) {
@@ -203,6 +268,13 @@ void write_scalar(hid_t parent, const char* name, const std::string& value) {
     write_dataset(parent, name, scalar_space(), text_type(value.size()).id(), value.c_str());
 }
 
+void overwrite_scalar(hid_t parent, const char* name, std::uint64_t value) {
+    overwrite(parent, name, H5T_NATIVE_UINT64, &value);
+}
+void overwrite_scalar(hid_t parent, const char* name, const std::string& value) {
+    overwrite(parent, name, text_type(value.size()).id(), value.c_str());
+}
+
 void read_scalar(hid_t parent, const char* name, double& value) {
     read_scalar_as(parent, name, H5T_NATIVE_DOUBLE, &value);
 }
@@ -238,13 +310,26 @@ std::vector<hsize_t> dimensions_of(hid_t dataset) {
     return dimensions;
 }
 
+std::uint64_t n_rows_of(hid_t dataset) {
+    const std::vector<hsize_t> sizes = dimensions_of(dataset);
+    return sizes.empty() ? 0 : sizes[sizes.size() > 1 ? 1 : 0];
+}
+
 void read_rows(hid_t dataset, const Rows& rows, hid_t type, void* numbers) {
-    const hsize_t start = rows.begin, count = rows.end - rows.begin;
-    const Space memory = space({&count, 1}),
-                file(checked(H5Dget_space(dataset), "cannot look at a dataset"));
-    checked(H5Sselect_hyperslab(file.id(), H5S_SELECT_SET, &start, nullptr, &count, nullptr),
-            "cannot select rows");
-    checked(H5Dread(dataset, type, memory.id(), file.id(), H5P_DEFAULT, numbers), "cannot be read");
+    const Selection selected = select(dataset, rows);
+    checked(H5Dread(dataset, type, selected.memory.id(), selected.file.id(), H5P_DEFAULT, numbers),
+            "cannot be read");
+}
+
+void write_rows(hid_t dataset, const Rows& rows, hid_t type, const void* numbers,
+                Transfer transfer) {
+    const Selection selected = select(dataset, rows);
+    const Properties list = properties(H5P_DATASET_XFER);
+    checked(H5Pset_dxpl_mpio(list.id(), transfer == Transfer::collective ? H5FD_MPIO_COLLECTIVE
+                                                                         : H5FD_MPIO_INDEPENDENT),
+            "cannot choose a way to write");
+    checked(H5Dwrite(dataset, type, selected.memory.id(), selected.file.id(), list.id(), numbers),
+            "cannot be written");
 }
 
 } // namespace carrom::h5

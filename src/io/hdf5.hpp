@@ -44,7 +44,9 @@ public:
     hid_t id() const { return id_; }
 
     /// What has been written must be closed with this: some failures show only here.
-    void close(const char* what) { checked(close_function(std::exchange(id_, -1)), what); }
+    void close(const char* what) {
+        if (id_ >= 0) checked(close_function(std::exchange(id_, -1)), what);
+    }
 
     /// Leaves the object open for good.
     void abandon() { id_ = -1; }
@@ -67,15 +69,35 @@ Properties dataset_creation();
 Space space(std::span<const hsize_t> dimensions, std::span<const hsize_t> largest = {});
 Space scalar_space();
 
-/// A new file of this process alone, in place of any other; `user_block` bytes at its front are
-/// left to the caller: none, or a power of 2 from 4096.
-File create_file(const std::string& path, std::uint64_t user_block);
+/// A new file of this process alone, in place of any other.
+File create_file(const std::string& path);
 /// The same where no file, nor a symbolic link, may be of that name.
 File create_new_file(const std::string& path);
+/// The same where no file is yet. Large data sets begin at pages of 4096 bytes.
+File create_file_for_ranks(const std::string& path);
 enum class Access { read, write };
 File open_file(const std::string& path, Access access);
-/// The same for all ranks together. **Collective.**
-File open_file(const std::string& path, Access access, const Communicator& communicator);
+/// An existing file to write to, by the driver that `access` names.
+File open_file(const std::string& path, const Properties& access);
+
+/// A file that ranks have open through MPI-IO, each to read or write rows of its own. Nothing
+/// collective is called on one that has failed: unless it is closed, it stays open until the
+/// program's end.
+class SharedFile {
+public:
+    SharedFile() = default;
+    /// **Collective.**
+    SharedFile(const std::string& path, Access access, const Communicator& communicator);
+    ~SharedFile() { file_.abandon(); }
+    SharedFile(SharedFile&&) = default;
+    SharedFile& operator=(SharedFile&&) = default;
+    hid_t id() const { return file_.id(); }
+    /// To be called once all ranks are known to be well. **Collective.**
+    void close() { file_.close("cannot be closed"); }
+
+private:
+    File file_;
+};
 
 /// Whether there is something at an absolute path. HDF5 wants every group on the way to be asked
 /// for.
@@ -93,6 +115,9 @@ void write_scalar(hid_t parent, const char* name, double value);
 void write_scalar(hid_t parent, const char* name, std::int64_t value);
 void write_scalar(hid_t parent, const char* name, std::uint64_t value);
 void write_scalar(hid_t parent, const char* name, const std::string& value);
+/// Replaces the value of one that is there; a text by one as long.
+void overwrite_scalar(hid_t parent, const char* name, std::uint64_t value);
+void overwrite_scalar(hid_t parent, const char* name, const std::string& value);
 void read_scalar(hid_t parent, const char* name, double& value);
 void read_scalar(hid_t parent, const char* name, std::int64_t& value);
 void read_scalar(hid_t parent, const char* name, std::uint64_t& value);
@@ -110,9 +135,19 @@ struct Rows {
     std::uint64_t begin = 0, end = 0;
 };
 
-/// This rank's rows, at least one, of a dataset of one axis that all ranks have open. Not
-/// collective: a rank's rows are one large piece of the file, so there is nothing for MPI-IO to
-/// gather.
+/// Rows run along a data set's only axis, or along the second one where it has several.
+std::uint64_t n_rows_of(hid_t dataset);
+
+/// Rows, at least one, of a data set. Not collective: a rank's rows are one large piece of the
+/// file, so there is nothing for MPI-IO to gather.
 void read_rows(hid_t dataset, const Rows& rows, hid_t type, void* numbers);
+
+/// Independent: each rank writes as it comes to it. Collective: all ranks write together, and
+/// MPI-IO may hand the numbers to a few of them that write them in large pieces.
+enum class Transfer { independent, collective };
+
+/// This rank's rows of a data set. **Collective** if `transfer` is; a rank may have no rows then.
+void write_rows(hid_t dataset, const Rows& rows, hid_t type, const void* numbers,
+                Transfer transfer);
 
 } // namespace carrom::h5

@@ -139,7 +139,7 @@ std::vector<MeasuredTable> Simulation::measurements() const {
 void Simulation::write_checkpoint(const std::string& path) const {
     const State& now = *state_;
     carrom::write_checkpoint(path, header_now(now.scene, now.simulation), now.simulation.discs(),
-                             now.ranks, now.n_threads,
+                             now.ranks, {.n_threads = now.n_threads},
                              now.sampler ? now.sampler->stored() : StoredSamples{},
                              now.simulation.spins());
 }

@@ -143,14 +143,14 @@ void Sampler::go_on(StoredSamples stored) {
                               found->largest_distance, asked.largest_distance, step)}});
         asked.largest_distance = found->largest_distance;
     }
-    const bool is_same = found && found->quantities == asked.quantities &&
-                         found->every_steps == asked.every_steps &&
-                         found->wanted_from == asked.wanted_from &&
-                         found->largest_distance == asked.largest_distance &&
-                         (!output_.largest_velocity ||
-                          found->largest_velocity == asked.largest_velocity) &&
-                         found->pairs.size() == asked.pairs.size() &&
-                         found->vx.size() == asked.vx.size() && found->x.size() == asked.x.size();
+    const bool is_same =
+        found && found->quantities == asked.quantities && found->every_steps == asked.every_steps &&
+        found->wanted_from == asked.wanted_from &&
+        found->largest_distance == asked.largest_distance &&
+        (!output_.largest_velocity || found->largest_velocity == asked.largest_velocity) &&
+        found->pairs.size() == asked.pairs.size() && found->vx.size() == asked.vx.size() &&
+        found->x.size() == asked.x.size() && stored.have_first_places == output_.displacement &&
+        stored.have_lengths == (output_.displacement && scene_.effects.are_periodic());
     if (!is_same)
         throw InputError(
             {{"[output.measurements]", 0,

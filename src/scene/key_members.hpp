@@ -51,6 +51,9 @@ inline constexpr std::array words_of<BoundaryKind>{
     Word{"moving", BoundaryKind::moving}, Word{"open", BoundaryKind::open},
     Word{"periodic", BoundaryKind::periodic}};
 template <>
+inline constexpr std::array words_of<Transfers>{Word{"independent", Transfers::independent},
+                                                Word{"collective", Transfers::collective}};
+template <>
 inline constexpr std::array words_of<TextOutput>{Word{"none", TextOutput::none},
                                                  Word{"ends", TextOutput::first_and_last},
                                                  Word{"every_step", TextOutput::every_step}};

@@ -68,6 +68,9 @@ std::vector<Key> keys_of_checkpoints() {
             "How many to keep; older ones are removed once a newer one is on disk.",
             [](auto& s) -> auto& { return s.checkpoint->keep; })
             .within({1, 1e6}),
+        key("output.checkpoint.transfers", "",
+            "How ranks write: each its own discs, or some for all (for parallel file systems).",
+            [](auto& s) -> auto& { return s.checkpoint->transfers; }),
     };
 }
 

@@ -55,6 +55,9 @@ struct Stream {
     double vx = 0, vy = 0;
 };
 
+/// Each rank writes its own discs, or MPI-IO chooses ranks that write for all.
+enum class Transfers { independent, collective };
+
 /// `[output.checkpoint]`: when the state is stored, and where. At the end and on a signal as well.
 struct CheckpointOutput {
     std::string folder; ///< in the run's folder
@@ -62,6 +65,7 @@ struct CheckpointOutput {
     std::optional<double> every_minutes; ///< of wall time
     std::int64_t keep = 2;               ///< older ones are removed
     bool at_end = true;
+    Transfers transfers = Transfers::independent;
 };
 
 /// `[output.trajectory]`: every so-many-th step in one file.

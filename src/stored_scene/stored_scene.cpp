@@ -22,7 +22,7 @@ CheckpointHeader header_of(const Scene& scene) {
     header.scene_discs_follow = scene.discs_follow ? 1 : 0;
     header.box_size = scene.box_size;
     header.radius = scene.radius;
-    header.collisions = scene.method == Method::time_stepped ? "time-stepped" : "event-driven";
+    header.method = scene.method == Method::time_stepped ? "time-stepped" : "event-driven";
     header.micro_steps = scene.micro_steps;
     header.sync_every = scene.sync_every;
     if (has_column(scene, DiscColumn::radius)) header.species = scene.effects.species;
@@ -35,6 +35,7 @@ CheckpointHeader header_now(const Scene& scene, const Simulation& simulation) {
     header.micro_steps_done = simulation.micro_steps_done();
     header.frame = simulation.frame();
     header.has_spins = scene.effects.contact.kind == ContactKind::rough;
+    header.shown = scene.effects.species;
     return header;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads files whose bytes have been replaced anywhere, HDF5's own metadata included, each in a
-// process of its own with 4 GB of memory and ten seconds: checkpoints sealed anew as a forger
-// would, trajectories and logs of collisions, which have no seal, and recordings that a run is to
-// go on with.
+// process of its own with 4 GB of memory and ten seconds: checkpoints with right checksums, as a
+// forger would make them, trajectories, logs of collisions, and recordings that a run is to go on
+// with.
 //
 //   damaged_files COUNT [SEED [KIND]]      COUNT files of each kind; the numbers of those that have
 //   failed are told damaged_files 1 SEED KIND              this one, which stays where it is said
@@ -17,6 +17,7 @@
 #include <cstring>
 #include <exception>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,6 @@
 #include "io/checkpoint.hpp"
 #include "io/collision_log.hpp"
 #include "io/frame_file.hpp"
-#include "io/seal.hpp"
 #include "io/start_io.hpp"
 #include "io/trajectory.hpp"
 #include "parallel/mpi.hpp"
@@ -70,16 +70,15 @@ void read_all(const std::string& file_path, const Communicator& world) {
 struct Kind {
     const char* name;
     std::vector<char> whole;
-    std::size_t first; ///< byte that may be replaced
+    std::optional<Forger> forger;
     std::function<void(const std::string&)> read;
 };
 
 /// Where something stands: most of a small file is the room between its data sets.
 std::vector<std::size_t> places_in(const Kind& kind) {
     std::vector<std::size_t> places;
-    for (std::size_t i = kind.first; i < kind.whole.size(); ++i) {
-        const std::size_t from = i > kind.first + 8 ? i - 8 : kind.first,
-                          to = std::min(i + 8, kind.whole.size());
+    for (std::size_t i = 0; i < kind.whole.size(); ++i) {
+        const std::size_t from = i > 8 ? i - 8 : 0, to = std::min(i + 8, kind.whole.size());
         if (std::any_of(kind.whole.begin() + static_cast<std::ptrdiff_t>(from),
                         kind.whole.begin() + static_cast<std::ptrdiff_t>(to),
                         [](char c) { return c != 0; }))
@@ -147,8 +146,10 @@ int try_kind(const Kind& kind, std::uint64_t seed, std::uint64_t count) {
         Random random(i);
         const std::vector<char> bytes = damaged(kind, places, random);
         ::unlink((path() + ".undo").c_str()); // of one that has failed
-        write_bytes(path(), bytes);
-        if (kind.first > 0) seal_anew(path(), bytes);
+        if (kind.forger)
+            kind.forger->write(path(), bytes);
+        else
+            write_bytes(path(), bytes);
         const pid_t child = ::fork();
         if (child == 0) read_and_exit(kind);
         int status = 0;
@@ -187,17 +188,18 @@ int main(int argc, char** argv) {
                         seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
     const auto read = [&](const std::string& file) { read_all(file, world); };
     std::vector<Kind> kinds;
-    const auto add = [&](const char* name, std::size_t first, const auto& write,
+    const auto add = [&](const char* name, const auto& write,
                          std::function<void(const std::string&)> use) {
         write();
-        kinds.push_back({name, bytes_of(path()), first, std::move(use)});
+        kinds.push_back({name, bytes_of(path()), {}, std::move(use)});
     };
-    add("checkpoint", seal_size, [&] { write_sample_checkpoint(path(), world); }, read);
-    add("trajectory", 0, [&] { write_sample_trajectory(path(), false, world); }, read);
-    add("compressed_trajectory", 0, [&] { write_sample_trajectory(path(), true, world); }, read);
-    add("log", 0, [&] { write_sample_log(path(), world); }, read);
+    add("checkpoint", [&] { write_sample_checkpoint(path(), world); }, read);
+    kinds.back().forger.emplace(path());
+    add("trajectory", [&] { write_sample_trajectory(path(), false, world); }, read);
+    add("compressed_trajectory", [&] { write_sample_trajectory(path(), true, world); }, read);
+    add("log", [&] { write_sample_log(path(), world); }, read);
     add(
-        "trajectory_to_go_on_with", 0, [&] { write_sample_trajectory(path(), false, world); },
+        "trajectory_to_go_on_with", [&] { write_sample_trajectory(path(), false, world); },
         [&](const std::string& file) {
             Trajectory trajectory(file, sample_layout(false), world);
             trajectory.go_on(10);
@@ -205,7 +207,7 @@ int main(int argc, char** argv) {
             trajectory.commit();
         });
     add(
-        "log_to_go_on_with", 0, [&] { write_sample_log(path(), world); },
+        "log_to_go_on_with", [&] { write_sample_log(path(), world); },
         [&](const std::string& file) {
             CollisionLog log(file, sample_layout(false).system, world);
             log.go_on(3);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small files of each kind to be damaged, and how a damaged checkpoint is given the seal that a
-// writer of just these bytes would have given it.
+// Small files of each kind to be damaged, and how a damaged checkpoint is given the checksums that
+// a writer of just these bytes would have given it.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "io/checksums.hpp"
 #include "io/trajectory.hpp"
 #include "parallel/communicator.hpp"
 
@@ -28,7 +29,17 @@ void write_sample_trajectory(const std::string& path, bool is_double,
 /// Twenty collisions. **Collective.**
 void write_sample_log(const std::string& path, const Communicator& world);
 
-/// Seals a checkpoint that holds `bytes` anew; its seal must still name its parts. Of one rank.
-void seal_anew(const std::string& path, const std::vector<char>& bytes);
+/// Gives damaged copies of a checkpoint right checksums: HDF5's own over its metadata, and those of
+/// carrom. All stand where they stood. Of one rank.
+class Forger {
+public:
+    explicit Forger(const std::string& whole);
+    /// Replaces the file by `bytes`, which are as many as before, with other checksums.
+    void write(const std::string& path, std::vector<char> bytes) const;
+
+private:
+    Checksums sums_;
+    std::vector<ByteRange> metadata_; ///< each is followed by the 4 bytes of its checksum
+};
 
 } // namespace carrom::test

@@ -22,10 +22,12 @@ mkdir tiny
 if mount -t tmpfs -o size=4m tmpfs tiny 2>/dev/null; then
     trap 'umount "$test_folder/files/tiny"' EXIT
     for ranks in 1 3; do
-        rm -rf tiny/*
-        run "$ranks" run "${scene[@]}" --set output.folder=tiny/kept
-        failed 'a full disk' 'No space left on device'
-        goes_on_from tiny/kept 10 'a full disk'
+        for transfers in independent collective; do
+            rm -rf tiny/*
+            run "$ranks" run "${scene[@]}" --set output.folder=tiny/kept --set output.checkpoint.transfers="$transfers"
+            failed 'a full disk' 'No space left on device'
+            goes_on_from tiny/kept 10 'a full disk'
+        done
         mount -o remount,ro tiny
         run "$ranks" run "${scene[@]}" --set output.folder=tiny/kept --overwrite
         failed 'a read-only disk' 'Read-only file system'
@@ -41,30 +43,49 @@ cat >traced.sh <<'END'
 rank=$1 injection=$2
 shift 2
 [ "${OMPI_COMM_WORLD_RANK:-${PMI_RANK:-0}}" = "$rank" ] || exec "$@"
-exec strace -f -o trace -P "$PWD/kept/checkpoints/checkpoint-000000000020.h5.partial" -e inject="$injection" "$@"
+[ "$injection" = none ] && action=trace=pwrite64 || action=inject=$injection
+exec strace -f -o trace -P "$PWD/kept/checkpoints/checkpoint-000000000020.h5.partial" -e "$action" "$@"
 END
 chmod +x traced.sh
-fault() {
-    local program=$CARROM_PROGRAM
+# traced RANK INJECTION: three ranks, of which one is traced.
+traced() {
     rm -rf kept
-    timeout --kill-after=5 60 "$CARROM_MPIEXEC" -n 3 ./traced.sh "$1" "$2" "$program" run "${scene[@]}" \
+    timeout --kill-after=5 60 "$CARROM_MPIEXEC" -n 3 ./traced.sh "$1" "$2" "$CARROM_PROGRAM" run "${scene[@]}" "${transfers[@]}" \
         --set output.folder="$PWD/kept" >"$test_folder/out" 2>"$test_folder/err"
     code=$?
+}
+fault() {
+    traced "$1" "$2"
     failed "$2 on rank $1" "checkpoint-000000000020.h5"
+    [ "$leaves_partial" = no ] || rm -f kept/checkpoints/*.partial
     goes_on_from kept 10 "$2 on rank $1"
 }
 if strace -o /dev/null true 2>/dev/null; then
-    fault 0 pwrite64:error=EIO:when=1   # the structure of the file, on its first and its last write
+    transfers=() leaves_partial=no
+    traced 0 none
+    expect_code 0 'a run that is only traced'
+    n_writes=$(grep -c 'pwrite64(' trace)
+    [ "$n_writes" -gt 60 ] || complain "rank 0 has written $n_writes times only"
+    fault 0 pwrite64:error=EIO:when=1   # the structure of the file, on its first write and later
     fault 0 pwrite64:error=ENOSPC:when=20+
-    fault 0 pwrite64:error=EIO:when=37+ # then, on this thread, the sums
-    fault 2 pwrite64:error=EIO:when=1+  # the discs
+    fault 0 pwrite64:error=EIO:when=$((n_writes / 2))        # its discs
+    fault 0 pwrite64:error=EIO:when=$((n_writes / 2))+       # and all that follows
+    for last in 0 1 2 3 5 7 8 9; do
+        fault 0 pwrite64:error=EIO:when=$((n_writes - last))+ # sums, checksums, HDF5's marks at opening and closing
+    done
+    fault 2 pwrite64:error=EIO:when=1+
     fault 1 pwrite64:error=ENOSPC:when=3
     fault 0 fsync:error=EIO:when=1
-    fault 0 fsync:error=EIO:when=2      # the seal
+    fault 0 fsync:error=EIO:when=2      # the checksums
     fault 2 fsync:error=EIO:when=1
     fault 0 fallocate:error=ENOSPC:when=1
     fault 0 pread64:error=EIO:when=1+
     fault 0 rename:error=EIO:when=1
+    # In collective transfers the other ranks wait for the one that has failed, until it ends the run. The half file stays.
+    leaves_partial=yes
+    transfers=(--set output.checkpoint.transfers=collective)
+    fault 0 pwrite64:error=EIO:when=$((n_writes / 2 - 5))+
+    fault 2 pwrite64:error=EIO:when=1+
 else
     echo 'skipped: failing disks (strace is not there, or may not trace here)'
 fi

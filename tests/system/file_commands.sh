@@ -82,7 +82,7 @@ printf 'X' | dd of="$last" bs=1 seek=9000 conv=notrunc status=none
 for command in verify info; do
     run 3 "$command" "$last"
     expect_code 2 "$command of a damaged file"
-    expect_told 'is damaged: these bytes do not have the checksum they had when it was written: ' "$command of a damaged file"
+    expect_told 'is damaged: these data sets do not have the checksum they had when it was written: ' "$command of a damaged file"
 done
 cp "$first" blurred.h5
 printf 'X' | dd of=blurred.h5 bs=1 seek=5 conv=notrunc status=none

@@ -78,7 +78,7 @@ echo 'no checkpoint' >kept/checkpoints/checkpoint-000000000099.h5
 run 3 run "$input" "${small[@]}" --steps 97 --restart kept --report report.json
 has_hash 'from the newest whole one'
 [ "$(json_value report.json first_step)" = 90 ] || complain 'not from step 90'
-for reason in '000000000097.h5: is damaged' '000000000098.h5: has 5000 bytes' '000000000099.h5: is no checkpoint' 'it was never finished'; do
+for reason in '000000000097.h5: is damaged' '000000000098.h5: is cut short' '000000000099.h5: is no HDF5 file' 'it was never finished'; do
     expect_told "$reason" 'damaged files'
 done
 finish

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <random>
 #include <string>
@@ -22,7 +23,9 @@
 #include "core/disc_columns.hpp"
 #include "core/errors.hpp"
 #include "core/state_hash.hpp"
-#include "io/seal.hpp"
+#include "io/checkpoint_fields.hpp"
+#include "io/checksums.hpp"
+#include "io/hdf5.hpp"
 #include "parallel/slabs.hpp"
 
 using namespace carrom;
@@ -103,7 +106,7 @@ CheckpointHeader some_header() {
     header.scene_discs_follow = 1;
     header.box_size = 0.1;
     header.radius = 0x1p-1000;
-    header.collisions = "one";
+    header.method = "time-stepped";
     header.micro_steps = 4;
     header.sync_every = 6;
     header.step = 25;
@@ -130,6 +133,8 @@ std::string problem_of(const std::string& path, const Communicator& world) {
         read_checkpoint(path, world);
     } catch (const CollectiveError& error) {
         return std::to_string(static_cast<int>(error.code())) + ' ' + error.what();
+    } catch (const InputError& error) {
+        return std::string("2 ") + error.what();
     }
     return {};
 }
@@ -181,7 +186,7 @@ TEST_CASE("spins are read as they were written, and are part of the state hash")
         for (DiscId id = 0; id < n; ++id) hash += hash_of_spin(id, odd_spin(id));
         for (unsigned method = 0; method < 3; ++method) {
             const std::vector<Disc> mine = share(n, world, method);
-            write_checkpoint(path, turning, mine, world, 2, {}, spins_of(mine));
+            write_checkpoint(path, turning, mine, world, {2}, {}, spins_of(mine));
             const Checkpoint read = read_checkpoint(path, world);
             CHECK(read.header.has_spins);
             CHECK(read_checkpoint_header(path, world).has_spins);
@@ -218,7 +223,7 @@ TEST_CASE("the header comes back whole") {
         CHECK(header.scene_discs_follow == wanted.scene_discs_follow);
         CHECK(header.box_size == wanted.box_size);
         CHECK(header.radius == wanted.radius);
-        CHECK(header.collisions == wanted.collisions);
+        CHECK(header.method == wanted.method);
         CHECK(header.micro_steps == wanted.micro_steps);
         CHECK(header.sync_every == wanted.sync_every);
         CHECK(header.step == wanted.step);
@@ -234,17 +239,19 @@ TEST_CASE("the file does not depend on who holds which disc, and nothing else is
     for (const std::uint64_t n : {777u, 9000u}) {
         CheckpointHeader header = some_header();
         header.has_spins = n == 9000;
-        const auto write = [&](const char* name, unsigned method, int n_threads) {
+        const auto write = [&](const char* name, unsigned method, const WriteSettings& settings) {
             const std::vector<Disc> mine = share(n, world, method);
-            write_checkpoint(folder.file(name), header, mine, world, n_threads, {}, spins_of(mine));
+            write_checkpoint(folder.file(name), header, mine, world, settings, {}, spins_of(mine));
         };
-        write("a.h5", 0, 1);
+        write("a.h5", 0, {1});
         if (n == 777)
             std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // nor on the time of day
-        write("b.h5", 1, 3);                                              // nor on the threads
-        const bool same_bytes = bytes_of(folder.file("a.h5")) ==
-                                bytes_of(folder.file("b.h5")); // not told byte by byte
-        CHECK(same_bytes);
+        write("b.h5", 1, {3});                                            // nor on the threads
+        write("c.h5", 2, {2, true});                                      // nor on who writes
+        const std::string bytes = bytes_of(folder.file("a.h5"));
+        const bool same_bytes = bytes == bytes_of(folder.file("b.h5")) &&
+                                bytes == bytes_of(folder.file("c.h5"));
+        CHECK(same_bytes); // not told byte by byte
     }
     CHECK(!std::filesystem::exists(folder.file("a.h5.partial")));
 }
@@ -260,15 +267,17 @@ TEST_CASE("a damaged file is refused on every rank, with the reason") {
         if (world.is_root()) std::ofstream(path, std::ios::binary) << bytes;
         world.barrier();
         const std::string problem = problem_of(path, world);
+        CAPTURE(problem, reason);
         CHECK(problem.substr(0, 2 + path.size()) == "2 " + path);
         CHECK(problem.find(reason) != std::string::npos);
     };
-    refused("", "no checkpoint");
-    refused("some text\n", "no checkpoint");
-    refused(good.substr(0, 300), "bytes instead of");
-    refused(good.substr(0, good.size() - 1), "bytes instead of");
-    refused(good + 'x', "bytes instead of");
-    refused(std::string(4096, '\0') + good.substr(512), "no checkpoint");
+    refused("", "no HDF5 file");
+    refused("some text\n", "no HDF5 file");
+    refused("carrom checkpoint, format 2\nbytes 7\n", "a checkpoint of carrom 0.1");
+    refused(good.substr(0, 300), "cut short");
+    refused(good.substr(0, good.size() - 1), "cut short");
+    refused(good + 'x', "damaged");
+    refused(std::string(4096, '\0') + good.substr(512), "no HDF5 file");
     for (const std::size_t place : {std::size_t{40}, std::size_t{4095}, std::size_t{4096},
                                     std::size_t{5000}, good.size() - 1}) {
         std::string bytes = good;
@@ -286,10 +295,11 @@ TEST_CASE("damage is told by the data set that it is in") {
     CheckpointHeader header = some_header();
     header.has_spins = true;
     const std::vector<Disc> mine = share(5000, world, 0);
-    write_checkpoint(path, header, mine, world, 1, {}, spins_of(mine));
+    write_checkpoint(path, header, mine, world, {}, {}, spins_of(mine));
     const std::string good = bytes_of(path);
-    const std::vector<SealedPart> parts = sealed_parts(path);
-    CHECK(parts.size() == 10);
+    const Checksums sums = read_checksums(h5::open_file(path, h5::Access::read).id());
+    CHECK(sums.data.size() == 10);
+    CHECK(good.substr(sums.place.begin, sums.place.end - sums.place.begin) == sums.text());
     const auto reported = [&](std::vector<std::size_t> places) {
         world.barrier();
         if (world.is_root()) {
@@ -302,14 +312,15 @@ TEST_CASE("damage is told by the data set that it is in") {
         const std::string problem = problem_of(path, world);
         return problem.substr(std::min(problem.size(), problem.rfind(": ") + 2));
     };
-    for (const SealedPart& part : parts)
+    for (const DiscData& data : sums.data)
         for (const std::size_t place :
-             {part.begin, part.begin + 2500 * part.bytes_per_row, part.end() - 1})
-            CHECK(reported({place}) == part.name);
-    CHECK(reported({parts[2].begin + 100, parts[5].end() - 9}) ==
+             {data.place.begin, data.place.begin + 2500 * data.bytes_per_row, data.place.end - 1})
+            CHECK(reported({place}) == data.path);
+    CHECK(reported({sums.data[2].place.begin + 100, sums.data[5].place.end - 9}) ==
           "/carrom/discs/x, /carrom/discs/vy");
-    CHECK(reported({seal_size + 20}) == "what stands between the data sets");
-    CHECK(reported({200}) == "is damaged in its first lines");
+    CHECK(reported({good.find("box]\nsize")}).starts_with("bytes besides the data sets"));
+    for (const std::size_t place : {0u, 31u, 40u, 340u})
+        CHECK(reported({sums.place.begin + place}).find("its checksums") != std::string::npos);
 }
 
 namespace {
@@ -355,6 +366,79 @@ TEST_CASE("a flipped bit in any byte is noticed", "[.long]") {
     std::vector<std::size_t> places(40000); // more than the file has
     for (std::size_t k = 0; k < places.size(); ++k) places[k] = k;
     CHECK(unnoticed_flips(places, world) == 0);
+}
+
+namespace {
+
+/// Gives a changed file the checksums that a writer would have given it, without those of
+/// `dropped`.
+void write_checksums_again(const std::string& path, const std::string& dropped) {
+    h5::File file = h5::open_file(path, h5::Access::write);
+    std::string text;
+    h5::read_scalar(file.id(), checksums_path, text);
+    Checksums sums;
+    for (const DiscColumn& column : disc_columns)
+        sums.data.push_back({std::string("/carrom/discs/") + column.name, 0, 0, {}, {}});
+    for (const SampleColumn& column : sample_columns) {
+        const std::string name = std::string("/carrom/measurements/") + column.name;
+        if (name != dropped) sums.data.push_back({name, 0, 0, {}, {}});
+    }
+    REQUIRE(H5Ldelete(file.id(), checksums_path, H5P_DEFAULT) >= 0);
+    h5::write_scalar(file.id(), checksums_path, sums.text());
+    sums = read_checksums(file.id());
+    file.close("");
+    const std::string bytes = bytes_of(path);
+    for (DiscData& one : sums.data)
+        one.checksum = checksum_of_block(
+            std::as_bytes(std::span(bytes))
+                .subspan(one.place.begin, one.place.end - one.place.begin),
+            0);
+    sums.others = checksum_of_others(path, sums.left_out());
+    file = h5::open_file(path, h5::Access::write);
+    h5::overwrite_scalar(file.id(), checksums_path, sums.text());
+    file.close("");
+}
+
+} // namespace
+
+TEST_CASE("a forged checkpoint with right checksums is refused where its places are none") {
+    const Communicator world = Communicator::world();
+    const TestFolder folder(world);
+    const std::string whole = folder.file("whole.h5"), path = folder.file("forged.h5");
+    StoredSamples samples;
+    samples.sums = {1, 2, 3};
+    samples.have_first_places = samples.have_lengths = true;
+    for (DiscId id = 0; id < 20; ++id) // fewer than a piece: all are rank 0's
+        if (world.is_root()) samples.first_places.push_back({id, 0.01, 0.02, 1, -2});
+    write_checkpoint(whole, some_header(), share(20, world, 0), world, {}, samples);
+    const auto forged = [&](const std::string& dataset, const std::function<void(hid_t)>& change) {
+        world.barrier();
+        if (world.is_root()) {
+            std::filesystem::copy_file(whole, path,
+                                       std::filesystem::copy_options::overwrite_existing);
+            h5::File file = h5::open_file(path, h5::Access::write);
+            change(file.id());
+            file.close("");
+            write_checksums_again(path, dataset);
+        }
+        world.barrier();
+        return problem_of(path, world);
+    };
+    CHECK(forged("", [](hid_t) {}).empty());
+    for (const SampleColumn& column : sample_columns) {
+        const std::string name = std::string("/carrom/measurements/") + column.name;
+        const std::string problem = forged(
+            name, [&](hid_t file) { H5Ldelete(file, name.c_str(), H5P_DEFAULT); });
+        CHECK(problem.find("has no " + name) != std::string::npos);
+        for (const double number : {std::numeric_limits<double>::quiet_NaN(),
+                                    std::numeric_limits<double>::infinity(), 1e300}) {
+            const std::string other = forged("", [&](hid_t file) {
+                h5::write_rows(h5::open_dataset(file, name.c_str()).id(), {7, 8}, H5T_NATIVE_DOUBLE,
+                               &number, h5::Transfer::independent);
+            });
+            CHECK(other.find(name + " holds what is no place") != std::string::npos);
+        }
+    }
 }
 
 TEST_CASE("what cannot be written is an error on every rank, and the older file stays") {

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/checksums.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <sstream>
+#include <string_view>
+
+#include <fcntl.h>
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include "core/errors.hpp"
+#include "io/checked_dataset.hpp"
+#include "io/files.hpp"
+#include "parallel/slabs.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr std::uint64_t bytes_at_a_time = 1 << 20;
+constexpr std::size_t n_digits = 32;
+constexpr std::string_view blanks = "  ", others_name = "all other bytes",
+                           lines_name = "the lines above";
+
+StateHash as_state_hash(const XXH128_hash_t& hash) { return {hash.low64, hash.high64}; }
+
+[[noreturn]] void refuse() { throw FileError("is damaged in its checksums"); }
+
+std::uint64_t number_of(std::string_view digits) {
+    std::uint64_t number = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number,
+                                              16);
+    if (error != std::errc{} || end != digits.data() + digits.size()) refuse();
+    return number;
+}
+
+std::string line(const StateHash& hash, std::string_view name) {
+    return fmt::format("{}{}{}\n", to_string(hash), blanks, name);
+}
+
+/// What is parsed is exactly what was written: the same sums have one text.
+Checksums parsed(const std::string& text) {
+    Checksums sums;
+    std::istringstream lines(text);
+    for (std::string one; std::getline(lines, one);) {
+        if (one.size() < n_digits + blanks.size()) refuse();
+        const std::string_view digits = std::string_view(one).substr(0, n_digits);
+        const StateHash hash = {number_of(digits.substr(n_digits / 2)),
+                                number_of(digits.substr(0, n_digits / 2))};
+        const std::string name = one.substr(n_digits + blanks.size());
+        if (name == lines_name) break;
+        if (name == others_name)
+            sums.others = hash;
+        else
+            sums.data.push_back({name, 0, 0, {}, hash});
+    }
+    if (sums.text() != text) refuse();
+    return sums;
+}
+
+ByteRange place_of(hid_t dataset, const std::string& path) {
+    const haddr_t begin = H5Dget_offset(dataset);
+    if (begin == HADDR_UNDEF) throw FileError(path + " has no place in the file");
+    return {begin, begin + H5Dget_storage_size(dataset)};
+}
+
+} // namespace
+
+StateHash checksum_of_block(std::span<const std::byte> bytes, std::uint64_t block) {
+    return as_state_hash(XXH3_128bits_withSeed(bytes.data(), bytes.size(), block));
+}
+
+std::string Checksums::text() const {
+    std::string text;
+    for (const DiscData& one : data) text += line(one.checksum, one.path);
+    text += line(others, others_name);
+    return text + line(as_state_hash(XXH3_128bits(text.data(), text.size())), lines_name);
+}
+
+std::vector<ByteRange> Checksums::left_out() const {
+    std::vector<ByteRange> extents = {place};
+    for (const DiscData& one : data) extents.push_back(one.place);
+    return extents;
+}
+
+Checksums read_checksums(hid_t file) {
+    std::string text;
+    h5::read_scalar(file, checksums_path, text);
+    Checksums sums = parsed(text);
+    sums.place = place_of(h5::open_checked(file, checksums_path).id(), checksums_path);
+    for (DiscData& one : sums.data) {
+        if (!h5::has(file, one.path)) throw FileError("has no " + one.path);
+        const h5::Dataset dataset = h5::open_checked(file, one.path);
+        one.place = place_of(dataset.id(), one.path);
+        one.rows = h5::n_rows_of(dataset.id());
+        const std::uint64_t size = one.place.end - one.place.begin;
+        one.bytes_per_row = size / std::max<std::uint64_t>(1, one.rows);
+        if (size == 0 || one.rows * one.bytes_per_row != size)
+            throw FileError(one.path + " has another size than its rows");
+    }
+    return sums;
+}
+
+StateHash checksum_of_others(const std::string& path, std::vector<ByteRange> left_out) {
+    std::sort(left_out.begin(), left_out.end(),
+              [](const ByteRange& a, const ByteRange& b) { return a.begin < b.begin; });
+    const Descriptor bytes_of(path, O_RDONLY);
+    const std::uint64_t size = bytes_of.size();
+    left_out.push_back({size, size});
+    const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(),
+                                                                                XXH3_freeState);
+    ensure(state != nullptr && XXH3_128bits_reset(state.get()) == XXH_OK,
+           "no memory for a checksum");
+    std::vector<std::byte> bytes(bytes_at_a_time);
+    std::uint64_t place = 0;
+    for (const ByteRange& hole : left_out) {
+        if (hole.begin < place || hole.end < hole.begin || hole.end > size)
+            throw FileError("is damaged: its data sets lie over each other");
+        for (; place < hole.begin; place += std::min(bytes_at_a_time, hole.begin - place)) {
+            const auto wanted = std::span(bytes).first(
+                std::min(bytes_at_a_time, hole.begin - place));
+            if (bytes_of.read(wanted, place) < wanted.size())
+                throw FileError("ends while it is being read");
+            XXH3_128bits_update(state.get(), wanted.data(), wanted.size());
+        }
+        place = hole.end;
+    }
+    return as_state_hash(XXH3_128bits_digest(state.get()));
+}
+
+StateHash share_of_checksum(hid_t dataset, const DiscData& data, const Communicator& communicator) {
+    const std::uint64_t n_blocks = (data.rows + rows_per_block - 1) / rows_per_block;
+    std::uint64_t block = slab_begin(communicator.rank(), n_blocks, communicator.size());
+    const std::uint64_t last = slab_begin(communicator.rank() + 1, n_blocks, communicator.size());
+    const std::uint64_t block_size = rows_per_block * data.bytes_per_row;
+    const std::uint64_t at_a_time = std::max<std::uint64_t>(1, bytes_at_a_time / block_size);
+    const h5::Type stored(h5::checked(H5Dget_type(dataset), data.path.c_str()));
+    std::vector<std::byte> bytes(at_a_time * block_size);
+    StateHash sum;
+    while (block < last) {
+        const std::uint64_t begin = block * rows_per_block;
+        const std::uint64_t end = std::min(std::min(last, block + at_a_time) * rows_per_block,
+                                           data.rows);
+        h5::read_rows(dataset, {begin, end}, stored.id(), bytes.data());
+        auto rest = std::span(bytes).first((end - begin) * data.bytes_per_row);
+        for (; !rest.empty(); rest = rest.subspan(std::min(block_size, rest.size())))
+            sum += checksum_of_block(rest.first(std::min(block_size, rest.size())), block++);
+    }
+    return sum;
+}
+
+} // namespace carrom

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Checksums of a checkpoint, so that no flipped byte goes unnoticed.
+//
+// They stand in the file as a text, /carrom/checksums, one line each like those of sha256sum:
+//
+//     32 hexadecimal digits, two blanks, the path of a data set      for each data set of discs
+//     32 hexadecimal digits, two blanks, "all other bytes"
+//     32 hexadecimal digits, two blanks, "the lines above"
+//
+// A data set's checksum is the sum, modulo 2^64 in each half, of the XXH3-128 of its blocks of 1024
+// rows, each with its number as seed. A sum has no order, so threads and ranks hash their shares
+// side by side. The second last line is the XXH3-128 of the file without those data sets and
+// without this text. HDF5 itself says where they are.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/state_hash.hpp"
+#include "io/hdf5.hpp"
+
+namespace carrom {
+
+inline constexpr const char* checksums_path = "/carrom/checksums";
+
+/// Rows that are hashed at a time; the last block of a data set may be shorter.
+inline constexpr std::uint64_t rows_per_block = 1 << 10;
+
+/// What one block adds to its data set's checksum.
+StateHash checksum_of_block(std::span<const std::byte> bytes, std::uint64_t block);
+
+/// Bytes [begin, end) of a file.
+struct ByteRange {
+    std::uint64_t begin = 0, end = 0;
+};
+
+/// A data set with a row for each disc, its bytes in the file, and their checksum.
+struct DiscData {
+    std::string path;
+    std::uint64_t rows = 0, bytes_per_row = 0;
+    ByteRange place;
+    StateHash checksum;
+};
+
+struct Checksums {
+    std::vector<DiscData> data;
+    StateHash others; ///< of all other bytes
+    ByteRange place;  ///< of the text
+
+    /// As long for any sums.
+    std::string text() const;
+    /// What `others` leaves out.
+    std::vector<ByteRange> left_out() const;
+};
+
+/// Reads the text of a file, and where it and its data sets are. Of one rank; throws FileError
+/// where the text is none of ours.
+Checksums read_checksums(hid_t file);
+
+/// The checksum of a file without these bytes. Of one rank; throws FileError.
+StateHash checksum_of_others(const std::string& path, std::vector<ByteRange> left_out);
+
+/// This rank's share of a data set's checksum, read through the file's driver. Not collective;
+/// throws FileError.
+StateHash share_of_checksum(hid_t dataset, const DiscData& data, const Communicator& communicator);
+
+} // namespace carrom
