@@ -17,6 +17,7 @@
 #include "apps/recordings.hpp"
 #include "apps/report.hpp"
 #include "apps/report_file.hpp"
+#include "apps/restart.hpp"
 #include "apps/run_folder.hpp"
 #include "apps/run_options.hpp"
 #include "apps/setting_choice.hpp"
@@ -178,10 +179,10 @@ Subcommand run_subcommand() {
     const auto words = std::make_shared<RunWords>();
     const auto action = [words](std::vector<Problem>& problems) -> Action {
         RunOptions options = checked_run_options(*words, problems);
-        if (options.input.empty() && options.restart.empty())
+        const bool has_input = !options.input.empty() || goes_on(options);
+        if (!has_input)
             problems.push_back({"carrom run", 0,
                                 "no input; name a SCENE.toml, a FILE.in, or - for standard input"});
-        const bool has_input = !options.input.empty() || !options.restart.empty();
         const bool reads_input = options.input == "-"; // which may keep us waiting
         if (!has_input) return failing(problems);
         return {[options = std::move(options), problems](const Communicator& ranks) {

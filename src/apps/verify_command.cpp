@@ -154,6 +154,7 @@ ExitCode verify(const std::string& path, const Communicator& ranks) {
     int is_checkpoint = 0;
     let_root(ranks, [&] {
         const FrameFile file(path);
+        file.check_numbers();
         is_checkpoint = file.summary().kind == FileKind::checkpoint ? 1 : 0;
         if (file.summary().kind == FileKind::trajectory) verify_frames(file, path);
         if (file.summary().kind == FileKind::collisions) verify_log(file, path);

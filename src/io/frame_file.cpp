@@ -166,6 +166,12 @@ FrameFile::~FrameFile() {
 }
 FrameFile::FrameFile(FrameFile&&) noexcept = default;
 
+void FrameFile::check_numbers() const {
+    guarded(path_, [&] {
+        if (joins_segments(path_)) check_segments(path_, true);
+    });
+}
+
 void FrameFile::read(std::size_t frame, std::uint64_t begin, std::uint64_t end,
                      std::vector<FrameRow>& rows) const {
     const hid_t file = state_->file.id();

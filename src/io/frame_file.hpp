@@ -49,6 +49,9 @@ public:
 
     const FileSummary& summary() const { return summary_; }
 
+    /// Checks every byte of a recording. Opening it checks all but its numbers.
+    void check_numbers() const;
+
     /// Replaces `rows` by those of the discs [begin, end) in a frame.
     void read(std::size_t frame, std::uint64_t begin, std::uint64_t end,
               std::vector<FrameRow>& rows) const;

@@ -115,7 +115,7 @@ refuse_toml 'an older name of a key' "$good"$'\ncollisions = "one"' 'write time.
 refuse_toml 'an older word' "${good/radius = 1/radius = 1$'\n'generator = \"ancestor\"}" '"ancestor" is now "legacy"'
 refuse_toml 'an older name of a table' "$good"$'\n[[discs.classes]]\ncount = 2\nradius = 1' "'discs.classes' is now 'discs.species'"
 refuse_toml 'a misspelt effect' "$good"$'\n[effects.gravty]\ny = 1' "did you mean 'effects.gravity'?"
-refuse_toml 'a name with a NUL' "$good"$'\n[output.checkpoint]\nfolder = "a\\u0000b"' 'has a NUL character'
+refuse_toml 'a name with a NUL' "$good"$'\n[output]\nfolder = "a\\u0000b"' 'has a NUL character'
 refuse_toml 'a key of 40,000 parts' "$good"$'\n'"$(printf 'a.%.0s' $(seq 40000))a = 1" 'bad.toml:8: a key of more than 32 parts'
 refuse_toml 'a flood of unknown keys' "$(seq -f 'k%.0f = 1' 100000)"$'\n'"$good" 'and 99980 more unknown keys'
 refuse 'discs too fast to follow' 'crosses the box more than 2^40 times' run good.toml --set discs.speed=1e60 --set time.method=event-driven
