@@ -26,16 +26,16 @@ class Frames:
         self.radii = self._radii(is_checkpoint)
 
     def _radii(self, is_checkpoint):
-        """Of each disc, or one number for all. A checkpoint has them in its scene's text, or as classes of their own."""
+        """Of each disc, or one number for all. A checkpoint has them in its scene's text, or as species of their own."""
         if "radius" in self.discs:
-            return self.discs["radius"][:]
-        if "carrom/classes" in self.file:
-            return np.repeat(self.file["carrom/classes/radius"][:], self.file["carrom/classes/count"][:].astype(int))
+            return self.discs["radius"][()]
+        if "carrom/species" in self.file:
+            return np.repeat(self.file["carrom/species/radius"][:], self.file["carrom/species/count"][:].astype(int))
         if not is_checkpoint or not self.file["carrom/run/scene_name"].asstr()[()].endswith(".toml"):
             return self.radius
         discs = tomllib.loads(self.file["carrom/run/scene_text"].asstr()[()]).get("discs", {})
-        if "classes" in discs:
-            return np.concatenate([np.full(int(one["count"]), float(one["radius"])) for one in discs["classes"]])
+        if "species" in discs:
+            return np.concatenate([np.full(int(one["count"]), float(one["radius"])) for one in discs["species"]])
         rows = discs.get("list", [])
         return np.array([row[4] for row in rows]) if rows and len(rows[0]) >= 6 else self.radius
 

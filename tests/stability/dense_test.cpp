@@ -82,9 +82,9 @@ void cascade(TestScene scene, const std::string& what, double gap, double collis
     }
     INFO(what << ": " << done << " collisions a disc");
     CHECK(done >= collisions);
-    hold("dense", what + ": deepest overlap, ulp(L)", "all", overlap, 64);
-    hold("dense", what + ": farthest outside, ulp(L)", "all", outside, 4);
-    hold("dense", what + ": change of the energy", "all", energy, 1e-12);
+    hold("dense", what + ": deepest overlap, ulp(L)", "event-driven", overlap, 64);
+    hold("dense", what + ": farthest outside, ulp(L)", "event-driven", outside, 4);
+    hold("dense", what + ": change of the energy", "event-driven", energy, 1e-12);
 }
 
 } // namespace

@@ -13,7 +13,7 @@ namespace carrom::test {
 
 /// Checks that `worst` <= `bound`. If $CARROM_STABILITY_TABLE names a file, appends a line to it:
 /// family, case, rule
-/// ("one", "all", or "both" where the rule has no say), bound, worst value.
+/// (of one method, or "both" where the case is of both), bound, worst value.
 inline void hold(const char* family, const std::string& what, const std::string& method,
                  double worst, double bound) {
     INFO(family << ": " << what << ", rule " << method);

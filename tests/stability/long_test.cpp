@@ -182,7 +182,7 @@ TEST_CASE("long: late in a long sync interval overlaps are as deep as times are 
         hold("long",
              "sync_every 2^" + std::to_string(bits) +
                  ": deepest overlap over 64 ulp(L) + 2 |v| ulp(time)",
-             "all", worst, 1);
+             "event-driven", worst, 1);
     }
 }
 
@@ -201,9 +201,10 @@ TEST_CASE("long: discs faster than times can tell end in finite time, with their
                                std::sqrt(squared_speeds(after)) * ulp_of(32);
         outside = std::max(outside, farthest_outside(after, scene.setting) / allowed);
     }
-    hold("long", "2^30 to 2^200 diameters a step: change of the energy", "one", worst, 1e-12);
+    hold("long", "2^30 to 2^200 diameters a step: change of the energy", "time-stepped", worst,
+         1e-12);
     hold("long", "2^30 to 2^200 diameters a step: farthest outside over 4 ulp(L) + |v| ulp(64)",
-         "one", outside, 1);
+         "time-stepped", outside, 1);
 }
 
 TEST_CASE("long: energy and restarts over 2e5 collisions", "[long]") {

@@ -32,7 +32,9 @@ std::vector<Item> gathered(std::span<const Item> mine, const Communicator& world
 
 } // namespace
 
-std::string name_of(Method method) { return method == Method::time_stepped ? "one" : "all"; }
+std::string name_of(Method method) {
+    return method == Method::time_stepped ? "time-stepped" : "event-driven";
+}
 
 Simulation start(const TestScene& scene, Method method, Tuning tuning, unsigned seed) {
     const Communicator world = Communicator::world();

@@ -19,7 +19,7 @@ struct Outcome {
     Totals totals;
 };
 
-/// "one" or "all".
+/// "time-stepped" or "event-driven".
 std::string name_of(Method method);
 
 /// The scene's start, dealt to the ranks at random and in an arbitrary order. As many threads as

@@ -120,7 +120,7 @@ TEST_CASE("walls: a disc that fills the box", "[walls]") {
         add_disc(scene, 1, 1, speed, -0.75 * speed);
         const Outcome outcome = run(scene, Method::time_stepped);
         hold("walls", "a disc that fills the box, speed " + number(speed) + ": way from its place",
-             "one",
+             "time-stepped",
              std::fabs(outcome.discs[0].x_at(outcome.clock) - 1) +
                  std::fabs(outcome.discs[0].y_at(outcome.clock) - 1),
              0);
@@ -131,7 +131,7 @@ TEST_CASE("walls: a disc that fills the box", "[walls]") {
         hold("walls",
              "a disc that fills the box, speed " + number(speed) +
                  ": runs that do not end with a message",
-             "all", !is_reported, 0);
+             "event-driven", !is_reported, 0);
     }
 }
 

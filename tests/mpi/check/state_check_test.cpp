@@ -205,7 +205,7 @@ private:
 /// disc if `disc` is given.
 void expect(Invariant invariant, const std::function<std::optional<DiscId>(OneStep&)>& spoil) {
     for (const Method method : both) {
-        INFO("rule " << (method == Method::time_stepped ? "one" : "all"));
+        INFO("rule " << (method == Method::time_stepped ? "time-stepped" : "event-driven"));
         OneStep step(method);
         const std::optional<DiscId> disc = spoil(step);
         const auto failure = step.look();

@@ -192,7 +192,7 @@ TEST_CASE("effects: discs leave through open sides when their flights say, and a
         Simulation simulation = simulation_of(scene, method, world);
         advance_to(simulation, 60);
         const Totals totals = simulation.totals();
-        INFO((method == Method::time_stepped ? "one" : "all"));
+        INFO((method == Method::time_stepped ? "time-stepped" : "event-driven"));
         CHECK(totals.departed == known);
         CHECK(known[1] > 20);
         CHECK(known[2] > 20);
