@@ -96,7 +96,7 @@ bool shrink_effects(TestScene& scene, const Fails& fails) {
 
 /// Effects, key by key, and the rule.
 std::string toml_of(const Effects& effects, Method method) {
-    std::string text = fmt::format("collisions = \"{}\"\n", name_of(method));
+    std::string text = fmt::format("method = \"{}\"\n", name_of(method));
     bool is_lossy = effects.gravity.is_any() || effects.obstacles.restitution < 1;
     for (std::size_t k = 0; k < boundary_names.size(); ++k) {
         const Boundary& side = effects.boundaries[k];
