@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# The state hash of every scene of inputs/ under both methods, and the fingerprint of hashes.cpp, as
+# CSV in the order of its lines: two systems' tables can be compared by diff.
+#
+#   tests/stability/scene_hashes.sh [BUILD]              prints the table; default: build
+#   tests/stability/scene_hashes.sh [BUILD] --compare    prints what differs from scene_hashes.csv
+#
+# Scenes run 100 steps, on 3 ranks of 2 threads; RANKS, THREADS and STEPS say otherwise. Some two
+# minutes on two cores, of which the fingerprint takes one and a half. Code 1: a hash differs.
+set -euo pipefail
+tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+top=$tests/../..
+build=$top/build
+is_comparison=no
+for word; do
+    case $word in --compare) is_comparison=yes ;; *) build=$word ;; esac
+done
+build=$(cd "$build" && pwd)
+source "$top/job_scripts/setup.sh"
+launcher=$(mpi_launcher "$build")
+export OMP_NUM_THREADS=${THREADS:-2}
+use_mpi_settings $((2 * $(nproc)))
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+# scene_hash SCENE METHOD: a hash, or `refused` for a scene that needs the other method
+scene_hash() {
+    local code=0
+    rm -f "$folder/report.json"
+    "$launcher" -n "${RANKS:-3}" "$build/carrom" run "$1" --set time.method="$2" \
+        --steps "${STEPS:-100}" --output "$folder/lines" --report "$folder/report.json" --quiet \
+        >"$folder/said" 2>&1 </dev/null || code=$?
+    case $code in
+        0) sed -n 's/^ *"state_hash": "\(.*\)",*$/\1/p' "$folder/report.json" ;;
+        2) grep -q 'time.method' "$folder/said" && echo refused || echo 'failed with code 2' ;;
+        *) echo "failed with code $code" ;;
+    esac
+}
+
+table() {
+    local scene method
+    echo 'scene,method,hash'
+    for scene in "$top"/inputs/*.toml "$top"/inputs/*.in; do
+        for method in time-stepped event-driven; do
+            echo "$(basename "$scene"),$method,$(cd "$folder" && scene_hash "$scene" $method)"
+        done
+    done
+    echo "fingerprint,both,$("$build/tests/stability_hashes" 2>/dev/null || echo failed)"
+}
+
+export LC_ALL=C
+table >"$folder/table"
+if [ $is_comparison = no ]; then cat "$folder/table"; exit 0; fi
+diff "$tests/scene_hashes.csv" "$folder/table"
+echo "all $(($(wc -l <"$folder/table") - 1)) hashes agree"
