@@ -16,6 +16,8 @@ template <class Enum> struct Word {
     Enum value;
     std::string_view old_name = "";
 };
+/// Clang 14 does not deduce the argument of an aggregate by itself.
+template <class Enum> Word(std::string_view, Enum) -> Word<Enum>;
 
 /// The words that scenes have for an enumeration.
 template <class Enum> inline constexpr std::array<Word<Enum>, 0> words_of{};
