@@ -9,24 +9,24 @@ export INPUT=inputs/gas.toml STEPS=4000
 small='--set discs.count=3000 --set discs.speed=2 --quiet'
 export OPTIONS="$small --set output.checkpoint.every_steps=300"
 
-begin() { # NAME WORD...: the job's checkpoints and its report are named after it
+begin() { # NAME WORD...: the folder of the run is named after it
     local name=$1
     shift
-    FOLDER=$PWD/$name REPORT=$PWD/$name.json submit long_run.sbatch --ntasks=2 --ntasks-per-node=2 --cpus-per-task=1 "$@"
+    FOLDER=$PWD/$name submit long_run.sbatch --ntasks=2 --ntasks-per-node=2 --cpus-per-task=1 "$@"
     declare -g "$name=$job"
 }
-has_checkpoint() { compgen -G "$1/checkpoint-*.h5" >/dev/null; }
+has_checkpoint() { compgen -G "$1/checkpoints/checkpoint-*.h5" >/dev/null; }
 under_way() { wait_until 60 has_checkpoint "$1" || complain "$1: no checkpoint within a minute"; }
 has_hash() {
-    [ "$(json_value "$1.json" state_hash)" = "$hash" ] || complain "another state hash: $1"
-    [ "$(json_value "$1.json" first_step)" -gt 0 ] || complain "$1: the last part began at the start"
+    [ "$(json_value "$1/report.json" state_hash)" = "$hash" ] || complain "another state hash: $1"
+    [ "$(json_value "$1/report.json" first_step)" -gt 0 ] || complain "$1: the last part began at the start"
 }
 restarts() { restart "${!1}" || complain "$1: not requeued: $(job_state "${!1}")"; }
 
 # This one hangs once it has a checkpoint: until its limit of a minute is over, while the others are tried.
 cat >stalls.sh <<END
 #!/bin/sh
-(until ls "$PWD/limit"/checkpoint-*.h5; do sleep 0.1; done; kill -STOP \$\$) >/dev/null 2>&1 &
+(until ls "$PWD/limit"/checkpoints/checkpoint-*.h5; do sleep 0.1; done; kill -STOP \$\$) >/dev/null 2>&1 &
 exec "$CARROM_PROGRAM" "\$@"
 END
 chmod +x stalls.sh
