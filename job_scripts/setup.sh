@@ -102,12 +102,13 @@ mpi_words() {
         "-DHDF5_C_COMPILER_EXECUTABLE=$(command -v "h5pcc.$MPI")"
 }
 
-# configure WORD...: makes the build, or changes it by cmake's words
+# configure WORD...: makes the build, or changes it by cmake's words. Several sources are compiled as
+# one: for those who build all, once.
 configure() {
     local words=()
     export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}
     [ -e "$build/CMakeCache.txt" ] || mapfile -t words < <(mpi_words)
-    cmake -S "$top" -B "$build" "${words[@]}" "$@" >&2 </dev/null ||
+    cmake -S "$top" -B "$build" -DCMAKE_UNITY_BUILD=ON "${words[@]}" "$@" >&2 </dev/null ||
         die "cmake could not configure the build in $build"
 }
 

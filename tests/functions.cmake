@@ -56,7 +56,9 @@ function(carrom_unit_test module)
   set(target ${module}_unit_test)
   add_executable(${target} ${arg_SOURCES})
   carrom_test_executable(${target} ${module} carrom_unit_main ${arg_LINKS})
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>) # takes half the time to build; what is tested has its own options
+  # Half the time to build; what is tested has its own options.
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_precompile_headers(${target} REUSE_FROM carrom_unit_main)
   catch_discover_tests(${target} TEST_PREFIX "${module}:"
                        PROPERTIES LABELS unit TIMEOUT ${arg_TIMEOUT} ENVIRONMENT "OMP_NUM_THREADS=2")
 endfunction()
@@ -79,6 +81,7 @@ function(carrom_mpi_test name)
   set(target ${name}_mpi_test)
   add_executable(${target} ${arg_SOURCES})
   carrom_test_executable(${target} ${name} carrom_mpi_main carrom::parallel ${arg_LINKS})
+  target_precompile_headers(${target} REUSE_FROM carrom_mpi_main)
   list(LENGTH arg_RANKS n_ranks)
   list(LENGTH arg_THREADS n_threads)
   math(EXPR n_parts "${n_ranks} * ${n_threads}")

@@ -29,8 +29,6 @@ bool is_finite(const Disc& disc) {
            std::isfinite(disc.vy) && std::isfinite(disc.tau);
 }
 
-double squared_speed(const Disc& disc) { return disc.vx * disc.vx + disc.vy * disc.vy; }
-
 /// The bits as they are stored where the box's coordinates are the discs' own.
 Disc as_seen(const Disc& disc, const Frame& frame, double time, double micro_steps_since_sync) {
     if (!frame.is_moving) return disc;
@@ -77,7 +75,7 @@ StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64
         const double turning = spins.empty() ? 0 : species_.of(own[i].id).radius * spins[i];
         square = std::max(
             square, mass_of(own[i].id) / smallest_mass_ *
-                        (squared_speed(own[i]) + effects_.contact.inertia * turning * turning));
+                        (squared_speed_of(own[i]) + effects_.contact.inertia * turning * turning));
     }
     fastest_ = std::sqrt(communicator_.max(square)) * std::sqrt(static_cast<double>(scene.n_discs));
     energy_ = energy_of(own);

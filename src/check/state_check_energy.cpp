@@ -22,8 +22,6 @@ constexpr double motion_bound = 1e-13;
 constexpr double energy_bound = 1e-12;
 constexpr double energy_bound_per_collision = 32 * 0x1p-53;
 
-double squared_speed(const Disc& disc) { return disc.vx * disc.vx + disc.vy * disc.vy; }
-
 } // namespace
 
 /// What collisions of discs take, spins included: surfaces that stick and neither lose nor forget
@@ -59,7 +57,7 @@ Finding StateCheck::first_other_motion() const {
                      wy = disc.vy - (then.vy * left + effects_.gravity.y * time);
         const double bound = is_free ? 0
                                      : motion_bound * (1 + n_syncs_since(micro_steps_before_)) *
-                                           (std::sqrt(squared_speed(then)) + gained);
+                                           (std::sqrt(squared_speed_of(then)) + gained);
         if (!(std::fabs(wx) <= bound && std::fabs(wy) <= bound))
             return {Invariant::motion, now.owner, 1, first_id_ + i, 0, std::hypot(wx, wy), bound};
     }
@@ -147,7 +145,7 @@ SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
 void StateCheck::note_speeds() {
     if (!scene_.effects.are_any()) return;
     double square = 0;
-    for (const Known& known : known_) square = std::max(square, squared_speed(known.disc));
+    for (const Known& known : known_) square = std::max(square, squared_speed_of(known.disc));
     fastest_ = std::max(fastest_, std::sqrt(communicator_.max(square)));
 }
 
@@ -157,7 +155,7 @@ double StateCheck::twice_energy(const Known& known) const {
     const Disc& seen = known.disc;
     const SizeAndMass& body = species_.of(seen.id);
     const double turning = body.radius * known.spin,
-                 square = squared_speed(seen) + effects_.contact.inertia * turning * turning;
+                 square = squared_speed_of(seen) + effects_.contact.inertia * turning * turning;
     if (!effects_.gravity.is_any()) return body.mass * square;
     const double clock = seen.tau; // as it was seen
     const auto height = [this](double place, double pull) {

@@ -50,4 +50,6 @@ struct alignas(64) Disc {
 };
 static_assert(sizeof(Disc) == 64);
 
+inline double squared_speed_of(const Disc& disc) { return disc.vx * disc.vx + disc.vy * disc.vy; }
+
 } // namespace carrom

@@ -13,11 +13,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "core/disc.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/gravity.hpp"
+#include "dynamics/never.hpp"
 
 namespace carrom {
 
@@ -25,8 +25,6 @@ enum class Axis : std::size_t { x = 0, y = 1 };
 
 class Boundaries {
 public:
-    static constexpr double never = std::numeric_limits<double>::infinity();
-
     /// `effects` per micro-step; `radius` is the largest one.
     Boundaries(double box_size, double radius, const Effects& effects,
                const SpeciesTable& species_table);

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dynamics/falling_contact.hpp"
+#include "dynamics/never.hpp"
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace carrom {
 
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
 /// Newton's rule takes some ten steps, and halving alone brings a bracket to its last bit in hardly
 /// more than these.
-constexpr int most_steps = 100;
+constexpr int most_newton_steps = 100;
 
 struct Value {
     double value, slope;
@@ -23,7 +22,7 @@ struct Value {
 template <class Function>
 double root_between(double low, double high, bool rises, const Function& function) {
     double s = low + (high - low) / 2;
-    for (int k = 0; k < most_steps; ++k) {
+    for (int k = 0; k < most_newton_steps; ++k) {
         const auto [value, slope] = function(s);
         ((value < 0) == rises ? low : high) = s;
         double next = s - value / slope;

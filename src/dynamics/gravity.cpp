@@ -7,7 +7,6 @@ namespace carrom {
 
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
 /// Of 1 - c s, at the latest contact that counts.
 constexpr double least_slowing = 0.01;
 /// Newton's rule takes four to twelve.

@@ -14,11 +14,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/disc.hpp"
 #include "core/frame.hpp"
 #include "dynamics/effects.hpp"
+#include "dynamics/never.hpp"
 
 namespace carrom {
 
@@ -26,7 +26,6 @@ namespace carrom {
 /// if there is none. Touching counts while it falls, not while it grows. No like numbers are
 /// subtracted.
 inline double fall_delay(double distance, double velocity, double pull) {
-    constexpr double never = std::numeric_limits<double>::infinity();
     if (velocity < 0) {
         if (!(distance > 0)) return 0;
         if (pull == 0) return distance / -velocity;

@@ -7,13 +7,13 @@
 #include <fmt/format.h>
 
 #include "dynamics/falling_contact.hpp"
+#include "dynamics/never.hpp"
 #include "geometry/pair_contact.hpp"
 
 namespace carrom {
 
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
 /// Those of a body that a disc in the box may touch: the body's own and eight around.
 constexpr std::uint32_t n_images = 9;
 

@@ -18,8 +18,6 @@
 
 namespace carrom {
 
-inline double squared_speed_of(const Disc& disc) { return disc.vx * disc.vx + disc.vy * disc.vy; }
-
 template <class Dynamics> class EngineBase : public Engine {
 public:
     void advance_towards(std::int64_t last_step) final;

@@ -18,14 +18,14 @@ namespace carrom {
 
 namespace {
 
-constexpr std::size_t rows_per_piece = 1 << 18;
+constexpr std::size_t rows_at_once = 1 << 18;
 
 struct Column {
     const char* path;
     std::variant<double LoggedCollision::*, std::int64_t LoggedCollision::*> field;
 };
 
-constexpr std::array<Column, 5> columns = {
+constexpr std::array<Column, 5> log_columns = {
     {{"/carrom/collisions/step", &LoggedCollision::step},
      {"/carrom/collisions/time", &LoggedCollision::time},
      {"/carrom/collisions/p", &LoggedCollision::p},
@@ -34,7 +34,7 @@ constexpr std::array<Column, 5> columns = {
 
 std::vector<RecordedColumn> recorded_columns() {
     std::vector<RecordedColumn> recorded;
-    for (const Column& column : columns)
+    for (const Column& column : log_columns)
         recorded.push_back(
             {column.path, column.field.index() == 0 ? H5T_IEEE_F64LE : H5T_STD_I64LE, {}});
     return recorded;
@@ -52,11 +52,11 @@ void write_rows(SegmentedFile& file, std::span<const LoggedCollision> rows) {
     while (!rows.empty()) {
         const auto some = rows.first(std::min<std::uint64_t>(rows.size(), file.room()));
         std::vector<std::uint64_t> numbers(some.size());
-        for (std::size_t k = 0; k < columns.size(); ++k) {
+        for (std::size_t k = 0; k < log_columns.size(); ++k) {
             for (std::size_t i = 0; i < some.size(); ++i)
                 numbers[i] = std::visit(
                     [&](auto field) { return std::bit_cast<std::uint64_t>(some[i].*field); },
-                    columns[k].field);
+                    log_columns[k].field);
             file.write(k, 0, some.size(), std::as_bytes(std::span(numbers)));
         }
         file.add(some.size());
@@ -98,7 +98,7 @@ bool CollisionLog::go_on(std::int64_t step) {
         return false;
     }
     on_root(communicator_, path_, ExitCode::bad_input, [&] {
-        state_->file.go_on(columns.front().path, step, [&](hid_t file) {
+        state_->file.go_on(log_columns.front().path, step, [&](hid_t file) {
             if (!h5::has(file, "/carrom/collisions")) throw FileError("is no log of collisions");
         });
     });
@@ -115,7 +115,7 @@ void CollisionLog::append(std::span<const LoggedCollision> mine) {
     const auto write = [&](std::span<const LoggedCollision> rows) {
         state_->file.attempt([&] { write_rows(state_->file, rows); });
     };
-    stream_to_root(communicator_, mine, write, rows_per_piece);
+    stream_to_root(communicator_, mine, write, rows_at_once);
     on_root(communicator_, path_, ExitCode::output_failure, [&] { state_->file.close(); });
 }
 

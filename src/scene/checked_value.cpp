@@ -18,7 +18,7 @@ std::string value_text(const Value& value) {
     if (std::holds_alternative<bool>(value.data)) return "true or false";
     if (std::holds_alternative<std::int64_t>(value.data)) return "a whole number";
     if (std::holds_alternative<double>(value.data)) return "a number";
-    if (const auto* text = std::get_if<std::string>(&value.data)) return quoted(*text);
+    if (const auto* text = std::get_if<std::string>(&value.data)) return in_quotes(*text);
     if (std::holds_alternative<Values>(value.data)) return "an array";
     if (std::holds_alternative<NamedValues>(value.data)) return "a table";
     return "a date or time";
@@ -110,7 +110,7 @@ private:
                 return refuse(
                     fmt::format("'{}': \"{}\" is now \"{}\"", key_.name, old_word, new_word));
         refuse(fmt::format("'{}' must be {}, not {}{}", key_.name, words_text(key_.words),
-                           quoted(*word), guess(*word, key_.words, '"')));
+                           in_quotes(*word), guess(*word, key_.words, '"')));
     }
     void check_words() {
         check_type<Values>();
@@ -176,7 +176,7 @@ private:
         for (const Field& field : key_.fields) names.push_back(field.name);
         for (const auto& [word, value] : *table)
             if (std::find(names.begin(), names.end(), word) == names.end())
-                refuse_at(value.line, fmt::format("{} has no {}{}", name, quoted(word),
+                refuse_at(value.line, fmt::format("{} has no {}{}", name, in_quotes(word),
                                                   guess(word, names, '\'')));
         Numbers all;
         for (const Field& field : key_.fields) {

@@ -98,7 +98,7 @@ bool DiscReader::parse(std::string_view line, InputDisc& disc) {
         if (number)
             *numbers[i] = *number;
         else
-            add(fmt::format("{} is not a number", quoted(words_[i + 1])));
+            add(fmt::format("{} is not a number", in_quotes(words_[i + 1])));
     }
     const bool are_numbers = text.empty();
     for (std::size_t k = 0; k < columns.size() && are_numbers; ++k)
@@ -106,7 +106,7 @@ bool DiscReader::parse(std::string_view line, InputDisc& disc) {
             add(fault);
     if (text.empty()) text = disc_problem(disc, scene_, body.radius);
     if (words_.size() > n_words)
-        add(fmt::format("{} after the {} numbers '{}'", quoted(words_[n_words]), n_words,
+        add(fmt::format("{} after the {} numbers '{}'", in_quotes(words_[n_words]), n_words,
                         columns_text(columns)));
     if (text.empty()) return true;
     refuse(std::move(text));
@@ -117,7 +117,7 @@ bool DiscReader::note_id(std::string_view word, DiscId& id) {
     const auto number = parse_id(word);
     const auto integer = parse_integer(word);
     if (!number && !integer) {
-        refuse(fmt::format("{} is not the id of a disc", quoted(word)));
+        refuse(fmt::format("{} is not the id of a disc", in_quotes(word)));
     } else if (!number || *number >= most_discs()) {
         refuse(fmt::format("disc {} is out of range: ids are 0 to {}", word, most_discs() - 1));
     } else if (has_seen(*number)) {

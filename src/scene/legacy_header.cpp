@@ -43,7 +43,7 @@ void add_entry(Settings& settings, Problems& problems, const Entry& entry, std::
     auto value = value_of(entry, word);
     if (!value)
         return add_problem(problems, place,
-                           fmt::format("expected {}, not {}", entry.meaning, quoted(word)));
+                           fmt::format("expected {}, not {}", entry.meaning, in_quotes(word)));
     value->line = place.line;
     settings.set({std::string(entry.key), place, std::move(*value)});
 }
@@ -67,7 +67,7 @@ void add_legacy_header(Settings& settings, Problems& problems, std::string_view 
         add_entry(settings, problems, entry, word, place);
         if (word.size() < line.size())
             add_problem(problems, place,
-                        fmt::format("{} after {}", quoted(trimmed(line.substr(word.size()))),
+                        fmt::format("{} after {}", in_quotes(trimmed(line.substr(word.size()))),
                                     entry.meaning));
     }
     if (found == 0)

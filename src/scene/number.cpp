@@ -43,7 +43,7 @@ void split_words(std::string_view line, std::size_t limit, std::vector<std::stri
     }
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
     constexpr std::size_t longest = 40;
     std::string result = "'";
     for (const char c : text.substr(0, longest))

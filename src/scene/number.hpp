@@ -26,6 +26,6 @@ std::string_view trimmed(std::string_view text);
 void split_words(std::string_view line, std::size_t limit, std::vector<std::string_view>& words);
 
 /// `text` in quotes, cut to a readable length, with control characters shown as `?`.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 } // namespace carrom

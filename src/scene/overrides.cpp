@@ -56,14 +56,14 @@ void add_overrides(Settings& settings, Problems& problems,
         const Key* key = find_key(name);
         if (equals == std::string::npos || name.empty()) {
             add_problem(problems, place,
-                        fmt::format("{} is not of the form key=value", quoted(text)));
+                        fmt::format("{} is not of the form key=value", in_quotes(text)));
         } else if (!key) {
             add_problem(problems, place, unknown_key_text(name, Value{word}));
         } else {
             const auto value = parse_value(*key, word);
             if (!value)
                 add_problem(problems, place,
-                            fmt::format("must be {}, not {}", kind_text(*key), quoted(word)));
+                            fmt::format("must be {}, not {}", kind_text(*key), in_quotes(word)));
             given.set({name, place, value.value_or(Value{}), !value});
         }
     }

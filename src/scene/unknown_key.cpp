@@ -76,9 +76,10 @@ std::string unknown_key_text(std::string_view key, const Value& value) {
     for (const std::string_view old : {"output.checkpoint.folder", "output.trajectory.file",
                                        "output.collisions.file", "output.measurements.folder"})
         if (key == old)
-            return quoted(key) + " is no more: name 'output.folder', where all that a run writes "
-                                 "has its place";
-    if (find_table(key)) return quoted(key) + " is a table, not a value";
+            return in_quotes(key) +
+                   " is no more: name 'output.folder', where all that a run writes "
+                   "has its place";
+    if (find_table(key)) return in_quotes(key) + " is a table, not a value";
     const std::string_view table = table_of(key);
     const bool is_known = !table.empty() && find_table(table);
     const std::vector<std::string_view> names = names_in(table, is_known);
@@ -86,7 +87,7 @@ std::string unknown_key_text(std::string_view key, const Value& value) {
     if (is_known || table.empty()) // a key without a table: its table may have been forgotten
         std::transform(names.begin(), names.end(), compared.begin(), last_of);
     const auto nearest = nearest_of(is_known ? last_of(key) : key, compared);
-    return "no such key " + quoted(key) +
+    return "no such key " + in_quotes(key) +
            (nearest ? fmt::format("; did you mean '{}'?", names[*nearest]) : what_there_is(table));
 }
 

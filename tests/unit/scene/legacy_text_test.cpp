@@ -105,7 +105,7 @@ TEST_CASE("Each wrong header has its problems at their lines") {
         CAPTURE(wrong.text);
         CHECK(places_of(problems_in(wrong.text)) == wrong.places);
     }
-    CHECK(places_of(problems_in(std::string(5000, '1') + "\n")) == Texts{"t.in:1"});
+    CHECK(places_of(problems_in("1" + std::string(4999, '1'))) == Texts{"t.in:1"});
 }
 
 TEST_CASE("Files that cannot be read are a problem of their own") {
