@@ -98,7 +98,7 @@ void check_width(const Check& check, double smallest_radius) {
                                              "radii wide, and above {:.0e} positions "
                                              "are too coarse for contacts with walls",
                                              r, l, l / r, largest_box_in_radii);
-        if (scene.method == Method::event_driven)
+        if (scene.method == Method::event_driven && !scene.accuracy)
             scene.warnings.push_back(text);
         else
             check.refuse_first(size_keys, text + "; take larger discs or a smaller box (method = "

@@ -144,8 +144,8 @@ std::vector<Key> keys_of_time() {
             .required()
             .not_physical(),
         key("time.method", "",
-            "Time-stepped: at most one collision per disc and micro-step. Event-driven: "
-            "every collision at its time.",
+            "Event-driven: every collision at its time. Time-stepped: at most one collision per "
+            "disc and micro-step; legacy text has this one.",
             [](auto& s) -> auto& { return s.method; })
             .formerly("time.collisions"),
         key("time.micro_steps", "micro-steps/step",

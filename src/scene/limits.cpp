@@ -43,6 +43,7 @@ std::string velocity_problem(double component) {
 std::string speed_problem(double speed, const Scene& scene) {
     const double most = most_crossings * scene.box_size * static_cast<double>(scene.micro_steps);
     if (scene.method != Method::event_driven || !(std::fabs(speed) > most) || most == 0) return {};
+    if (std::fabs(speed) > largest_size) return {}; // velocity_problem has it
     return fmt::format("the speed {} crosses the box more than 2^40 times in a micro-step; take "
                        "more time.micro_steps, or at most {:g}",
                        speed, most);

@@ -121,7 +121,7 @@ struct Scene {
         spins; ///< at the start, in the order of ids; empty where all discs begin without
 
     std::int64_t steps = 0;
-    Method method = Method::time_stepped;
+    Method method = Method::event_driven; ///< legacy text: time-stepped
     std::int64_t micro_steps = 1;
     std::int64_t sync_every = 64;
     Precision precision = Precision::double_;

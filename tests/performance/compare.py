@@ -33,7 +33,7 @@ def slow(n_discs, steps):
     """Packing 0.2, Maxwell's speeds: 0.005 diameters per component and step (rms), as LAMMPS moves its discs."""
     size = math.sqrt(n_discs * math.pi / 4 / 0.2)
     return (f"[box]\nsize = {size!r}\n[discs]\ncount = {n_discs}\nradius = 0.5\nvelocities = \"maxwell\"\n"
-            f"speed = {0.005 * math.sqrt(2)!r}\n[time]\nsteps = {steps}\n", "toml")
+            f"speed = {0.005 * math.sqrt(2)!r}\n[time]\nsteps = {steps}\nmethod = \"time-stepped\"\n", "toml")
 
 
 class Case:

@@ -25,7 +25,7 @@ SETTINGS = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_R
 GAS = "[box]\nsize = 250.66\n[discs]\ncount = 4000\nradius = 1\nspeed = 0.3\n[time]\n"
 # name: (scene, kind, steps)
 SCENES = {
-    "gas, time-stepped": (GAS + "steps = 128\n", "toml", 128),
+    "gas, time-stepped": (GAS + "steps = 128\nmethod = \"time-stepped\"\n", "toml", 128),
     "generated, time-stepped": ("2000\n20000\n1\n10\nperf\n", "in", 10),
     "gas, event-driven": (GAS + "steps = 64\nmethod = \"event-driven\"\n", "toml", 64),
 }

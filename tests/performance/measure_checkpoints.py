@@ -29,7 +29,7 @@ def checkpoint_rate(program, n_discs, shape, folder):
     scene = os.path.join(folder, "scene.toml")
     with open(scene, "w") as file:
         file.write(f"[box]\nsize = {(n_discs * 10.0) ** 0.5!r}\n[discs]\ncount = {n_discs}\nradius = 0.5\n"
-                   f"generator = \"lattice\"\nspeed = 0.01\n[time]\nsteps = {CHECKPOINTS}\n"
+                   f"generator = \"lattice\"\nspeed = 0.01\n[time]\nsteps = {CHECKPOINTS}\nmethod = \"time-stepped\"\n"
                    f"[output.checkpoint]\nfolder = \"{kept}\"\nevery_steps = 1\nkeep = 1\n")
     n_ranks, n_threads = shape.split("x")
     subprocess.run(["mpirun", "-np", n_ranks, program, "run", scene, "--threads", n_threads, "--quiet", "--report", report],

@@ -40,6 +40,7 @@ Scene scene_of(const TestScene& test_scene) {
     scene.generator = Generator::file;
     scene.listed_discs = test_scene.discs;
     scene.steps = test_scene.steps;
+    scene.method = Method::time_stepped; // unless the test says otherwise
     scene.micro_steps = test_scene.setting.micro_steps;
     scene.sync_every = test_scene.setting.sync_every;
     scene.effects = test_scene.setting.effects;

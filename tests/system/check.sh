@@ -18,8 +18,8 @@ expect_unchanged() {
 }
 
 inputs=$CARROM_SOURCE_DIR/inputs
-expect_unchanged 'a gas' "$inputs/gas.toml" --steps 70 --set discs.count=600 --set discs.speed=2
-expect_unchanged 'micro-steps' "$inputs/gas.toml" --steps 20 --set discs.count=500 --set discs.speed=20 \
+expect_unchanged 'a gas' "$inputs/gas.toml" --set time.method=time-stepped --steps 70 --set discs.count=600 --set discs.speed=2
+expect_unchanged 'micro-steps' "$inputs/gas.toml" --set time.method=time-stepped --steps 20 --set discs.count=500 --set discs.speed=20 \
     --set time.micro_steps=4 --set time.sync_every=6
 expect_unchanged 'the rule all' "$inputs/dense.toml" --steps 20 --set discs.count=600 --set discs.speed=0.5 --set time.method=event-driven
 

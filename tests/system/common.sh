@@ -43,7 +43,7 @@ expect_told() { grep -qF -- "$1" "$test_folder/err" || { complain "not told: \"$
 expect_same() { cmp "$1" "$2" || complain "$3"; }
 
 # gas_scene SIZE COUNT PACKING SPEED STEPS: a scene's text, discs at random.
-gas_scene() { printf '[box]\nsize = %s\n[discs]\ncount = %s\npacking = %s\nspeed = %s\n[time]\nsteps = %s\n' "$@"; }
+gas_scene() { printf '[box]\nsize = %s\n[discs]\ncount = %s\npacking = %s\nspeed = %s\n[time]\nmethod = "time-stepped"\nsteps = %s\n' "$@"; }
 
 # json_value FILE KEY: the value of a key that stands on a line of its own.
 json_value() { sed -n "s/^ *\"$2\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}\$/\1/p" "$1"; }

@@ -77,6 +77,7 @@ radius = 0.53125
 speed = 1
 [time]
 steps = 100
+method = "time-stepped"
 [output]
 folder = "out"
 [output.trajectory]
@@ -147,6 +148,7 @@ count = 300
 radius = 0.5
 [time]
 steps = 60
+method = "time-stepped"
 SCENE
 run 3 run mixture.toml --quiet --report one.json --set output.trajectory.every_steps=1 -o mixed
 expect_code 0 'a mixture'

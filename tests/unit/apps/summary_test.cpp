@@ -15,6 +15,7 @@ Scene small_scene() {
     scene.box_size = 10;
     scene.radius = 1;
     scene.n_discs = 4;
+    scene.method = Method::time_stepped;
     scene.micro_steps = 2;
     scene.steps = 50;
     return scene;

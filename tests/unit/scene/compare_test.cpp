@@ -34,7 +34,7 @@ TEST_CASE("What has no say in the bits is no difference") {
 TEST_CASE("Everything else is, and is named") {
     for (const char* override :
          {"box.size=101", "discs.count=11", "discs.radius=1.5", "discs.generator=lattice",
-          "discs.speed=2", "discs.velocities=uniform", "discs.seed=1", "time.method=event-driven",
+          "discs.speed=2", "discs.velocities=uniform", "discs.seed=1", "time.method=time-stepped",
           "time.micro_steps=2", "time.sync_every=63", "time.precision=single",
           "time.arithmetic=naive", "discs.packing=0.01"}) {
         const std::string key = std::string(override).substr(0, std::string(override).find('='));

@@ -31,6 +31,7 @@ TEST_CASE("A header alone asks for the legacy generator") {
     CHECK(scene.steps == 500);
     CHECK(scene.text_output == TextOutput::first_and_last);
     CHECK(scene.generator == Generator::legacy);
+    CHECK(scene.method == Method::time_stepped);
     CHECK_FALSE(scene.reads_disc_lines());
     CHECK(read_scene("1\n2.0\n1e0\n0\nprint", "standard input").text_output ==
           TextOutput::every_step);
@@ -62,6 +63,9 @@ TEST_CASE("Overrides work on the legacy text format") {
     CHECK(scene.steps == 7);
     CHECK(scene.text_output == TextOutput::none);
     CHECK(scene.seed == 5);
+    const std::string text = "100\n20000\n1\n500\nperf\n";
+    CHECK(read_scene(text, "t.in", {"time.method=event-driven"}).method == Method::event_driven);
+    CHECK(read_scene(text, "t.in", {"time.accuracy=0.1"}).accuracy == 0.1);
     CHECK(places_of(problems_in("100\n20000\n1\n500\nperf\n",
                                 {"time.method=event-driven", "box.sze=1", "discs.speed=3"})) ==
           Texts{"--set box.sze", "--set discs.speed"});

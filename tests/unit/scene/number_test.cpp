@@ -39,10 +39,10 @@ TEST_CASE("A double written with 17 digits is read back bit for bit, in text and
         CHECK(std::bit_cast<std::uint64_t>(*parse_double(text)) ==
               std::bit_cast<std::uint64_t>(size));
         char scene_text[400];
-        std::snprintf(
-            scene_text, sizeof scene_text,
-            "[box]\nsize = %.17e\n[discs]\ncount = 1\nradius = %.17e\n[time]\nsteps = 1\n",
-            4 * size, size);
+        std::snprintf(scene_text, sizeof scene_text,
+                      "[box]\nsize = %.17e\n[discs]\ncount = 1\nradius = %.17e\n[time]\nsteps = "
+                      "1\nmethod = \"time-stepped\"\n",
+                      4 * size, size);
         const Scene scene = read_scene(scene_text, "s.toml");
         CHECK(scene.radius == size);
         CHECK(scene.box_size == 4 * size);
