@@ -43,6 +43,7 @@ void BlockRun<Dynamics>::run(const BlockGround& ground, const CellBlock& block, 
     outcome.log.clear();
     outcome.n_events = 0;
     outcome.is_cascade = false;
+    outcome.far_partner = 0;
     s.gather(ground, block, halo);
     s.mark_own(block);
     if constexpr (Dynamics::is_periodic) {
@@ -57,7 +58,7 @@ void BlockRun<Dynamics>::run(const BlockGround& ground, const CellBlock& block, 
     };
     for (Event event; s.queue.pop(event, before, is_current) && !outcome.is_cascade;)
         s.happen(event);
-    s.report(block, histories);
+    s.report(histories);
 }
 
 /// The flight of a disc that has just collided.
@@ -276,6 +277,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
         if constexpr (Dynamics::may_have_obstacles)
             dynamics.bounce_off_at(p, event.q - first_obstacle, event.time);
     } else {
+        if (is_own[event.p] != is_own[event.q] && !are_images_linked())
+            check_partner(is_own[event.p] != 0 ? event.q : event.p);
         if constexpr (Dynamics::has_spin)
             dynamics.collide_at(p, discs[event.q], event.time, columns[SideColumn::spin][event.p],
                                 columns[SideColumn::spin][event.q]);
@@ -292,6 +295,14 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
         if (ground.is_logged)
             log_event(event, is_pushed ? p.vx - vx_before : 0, is_pushed ? p.vy - vy_before : 0);
     }
+}
+
+/// Of a disc that an own one has met. Nobody compares what happens beyond the ring. Who comes from
+/// there has got further than the bound on speeds allows, in truth or because the run is wrong.
+template <class Dynamics> void BlockRun<Dynamics>::Scratch::check_partner(std::uint32_t slot) {
+    if (is_compared(slot)) return;
+    outcome->far_partner = std::max({outcome->far_partner, std::sqrt(speed_squared(discs[slot])),
+                                     ground.window.speed_bound * (1 + 1e-6)});
 }
 
 /// Writes down what has happened to one of an event's discs.

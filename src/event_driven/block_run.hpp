@@ -5,9 +5,9 @@
 //
 // A run does not see what happens beyond its halo, and may be wrong without noticing. So it also
 // reports the event histories of the ring, the discs within one reach of its own cells. It is right
-// if their owners have found the same. Block-local copies in the order of cells, a line of 64 bytes
-// and four floats a disc, stay in the L2 cache. Whole runs of cells are rejected in single
-// precision; the double predicate decides on the rest.
+// if their owners have found the same, and if own discs have met no others. Block-local copies in
+// the order of cells, a line of 64 bytes and four floats a disc, stay in the L2 cache. Whole runs
+// of cells are rejected in single precision; the double predicate decides on the rest.
 #pragma once
 
 #include <cstdint>
@@ -113,6 +113,8 @@ struct BlockOutcome {
     std::vector<LoggedEvent> log;
     std::uint64_t n_events = 0; ///< whose first disc is own
     double too_fast = 0;        ///< the largest speed of an own disc that got too far, else 0
+    double far_partner = 0; ///< the largest speed of a disc from beyond the ring that an own disc
+                            ///< has met, else 0
     double largest_speed_at_end = 0;
     bool is_cascade = false; ///< the run was given up in a collision cascade of this disc
     DiscId cascade_disc = 0, cascade_partner = 0; ///< equal if it is a wall that it meets

@@ -67,6 +67,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void mirror(std::uint32_t slot, double time);
     void predict_images(std::uint32_t slot);
     void carry_out(const Event& event);
+    void check_partner(std::uint32_t slot);
     void note(std::uint32_t slot, std::uint32_t partner, const Event& event);
     void hold_to_schedule(std::uint32_t slot, double time);
     FlightBox box_of(const Flight& flight) const;
@@ -77,7 +78,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void predict_walls(std::uint32_t slot);
     void predict_obstacle(std::uint32_t slot);
     void push(double time, std::uint32_t a, std::uint32_t b);
-    void report(const CellBlock& own, std::span<std::uint64_t> histories);
+    void report(std::span<std::uint64_t> histories);
 
     Flight flight_of(std::uint32_t slot) const;
     /// Whether the disc, as one of its images, is the block's own.
@@ -132,6 +133,16 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
                         last_row - cells.first_row);
     }
 
+    /// Whether the disc's owner reports what happens to it: it is own or of the ring.
+    bool is_compared(std::uint32_t slot) const {
+        const auto behind = std::upper_bound(cell_starts.begin(), cell_starts.end(), slot);
+        const auto cell = static_cast<std::size_t>(behind - cell_starts.begin()) - 1;
+        const int column = cells.first_column + static_cast<int>(cell / cell_rows),
+                  row = cells.first_row + static_cast<int>(cell % cell_rows);
+        return column >= ring.first_column && column < ring.end_column && row >= ring.first_row &&
+               row < ring.end_row;
+    }
+
     [[gnu::noinline]] void give_up(const Event& event) {
         outcome->is_cascade = true;
         outcome->cascade_disc = discs[event.p].id;
@@ -152,6 +163,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     Dynamics dynamics;
     BlockGround ground;
     CellBlock cells; ///< own ones and the halo
+    CellBlock ring;  ///< own ones and those within one reach of them
     double x_corner = 0, y_corner = 0, cells_per_length = 1, cells_per_speed = 1,
            windows_per_time = 1;
     float column_limit = 0, row_limit = 0;

@@ -22,6 +22,10 @@ void BlockRun<Dynamics>::Scratch::gather(const BlockGround& of_rank, const CellB
     cells.end_column = std::min(geometry.n_columns, own.end_column + halo);
     cells.first_row = std::max(0, own.first_row - halo);
     cells.end_row = std::min(geometry.n_rows, own.end_row + halo);
+    ring.first_column = std::max(cells.first_column, own.first_column - geometry.n_reach);
+    ring.end_column = std::min(cells.end_column, own.end_column + geometry.n_reach);
+    ring.first_row = std::max(cells.first_row, own.first_row - geometry.n_reach);
+    ring.end_row = std::min(cells.end_row, own.end_row + geometry.n_reach);
     cell_rows = static_cast<std::size_t>(cells.end_row - cells.first_row) + 1;
     cell_starts.clear();
     indices.clear();
@@ -108,7 +112,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own(const CellB
 /// Writes down what has become of the block's own discs, and what has been seen of those of its
 /// ring.
 template <class Dynamics>
-void BlockRun<Dynamics>::Scratch::report(const CellBlock& own, std::span<std::uint64_t> histories) {
+void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
     outcome->too_fast = too_fast;
     double end_squared = 0;
     // Memory for what a block has, not for twice as much: all blocks keep theirs until the window
@@ -121,12 +125,8 @@ void BlockRun<Dynamics>::Scratch::report(const CellBlock& own, std::span<std::ui
     outcome->columns = side_columns_of<Dynamics>();
     outcome->columns.resize(n_hit);
     std::size_t next = 0;
-    const int ring = ground.grid->geometry().n_reach;
-    const int first_column = std::max(cells.first_column, own.first_column - ring);
-    const int end_column = std::min(cells.end_column, own.end_column + ring);
-    for (int column = first_column; column < end_column; ++column) {
-        const SlotRange run = grid_run(column, std::max(cells.first_row, own.first_row - ring),
-                                       std::min(cells.end_row, own.end_row + ring) - 1);
+    for (int column = ring.first_column; column < ring.end_column; ++column) {
+        const SlotRange run = grid_run(column, ring.first_row, ring.end_row - 1);
         for (std::uint32_t slot = run.begin; slot < run.end; ++slot) {
             const EventHistory& past_events = past_events_of[slot];
             if (is_own[slot] == 0) {
@@ -194,7 +194,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_images(std::
 #define CARROM_DEFINE(Dynamics)                                                                    \
     template void BlockRun<Dynamics>::Scratch::gather(const BlockGround&, const CellBlock&, int);  \
     template void BlockRun<Dynamics>::Scratch::mark_own(const CellBlock&);                         \
-    template void BlockRun<Dynamics>::Scratch::report(const CellBlock&, std::span<std::uint64_t>);
+    template void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t>);
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
 #undef CARROM_DEFINE
 

@@ -75,6 +75,7 @@ private:
     void log_events(const BlockOutcome& outcome);
 
     Verdict validate();
+    void check_partners();
     void compare_histories(std::vector<LocalIndex>& foreign);
     void mark_owner(LocalIndex own_index);
     bool widen_marked();

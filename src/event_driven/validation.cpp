@@ -15,6 +15,7 @@ namespace carrom {
 template <class Dynamics>
 typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::validate() {
     const PhaseClock::Scope scope(phases_, Phase::resolve);
+    check_partners();
     double fastest = 0;
     for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.too_fast);
     const bool is_too_fast = fastest > 0;
@@ -42,6 +43,19 @@ typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::valid
     discs_.report_to_owners(foreign, reported);
     for (const LocalIndex index : reported) mark_owner(index);
     return Verdict::repeat;
+}
+
+/// Marks the blocks whose own discs have met others from beyond the ring. If the block has seen the
+/// whole box, it is right, and the other disc was too fast.
+template <class Dynamics> void EventDrivenEngine<Dynamics>::check_partners() {
+    for (Block& block : blocks_) {
+        BlockOutcome& outcome = block.outcome;
+        if (!(outcome.far_partner > 0)) continue;
+        if (sees_all(block))
+            outcome.too_fast = std::max(outcome.too_fast, outcome.far_partner);
+        else
+            block.is_marked = 1;
+    }
 }
 
 /// Marks both blocks wherever a ring disc has another history than its owner has seen; `foreign`
