@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Repeats the study of docs/accuracy.md: tables of CSV in a folder, one for each gas, then the figures. Tables that are
+# Repeats the study of docs/understanding/accuracy.md: tables of CSV in a folder, one for each gas, then the figures. Tables that are
 # there are kept, so a study that was stopped goes on with the same command.
 #
 #   job_scripts/accuracy_study.sh [FOLDER]           all of it on one core; default folder build/accuracy

@@ -5,7 +5,7 @@
 Errors are taken start by start, against the event-driven method (double, stable, K = 1) from the same start; bars are one standard
 error over starts. Costs are medians over starts and repetitions, with bars from quartile to quartile, in core-microseconds
 per disc and mean free time (that of the event-driven method), which is physical time; ratios of costs are taken within a start and
-repetition. A figure is drawn where the tables have what it needs. tables.md gets the numbers.
+repetition. A figure is drawn where the tables have what it needs. points.csv gets the numbers.
 """
 import argparse
 import csv
@@ -272,73 +272,68 @@ def percent(mean):
     return f"{100 * mean[0]:.2f} ± {100 * mean[1]:.2f}"
 
 
-def table_of_errors(errors):
-    lines = ["| packing | the event-driven method costs (µs per disc and mean free time) | time-stepped at K = 1 | time-stepped costs as much at | and is wrong there by |", "|---|---|---|---|---|"]
-    for (packing, _), points in errors.items():
-        crossing, first, exact = crossover(points), default_curve(points)[0][1], exact_point(points)
-        lines.append(f"| {packing:.3g} | {exact.cost:.3f} ({exact.costs[0]:.3f} to {exact.costs[2]:.3f}) | {first.cost:.3f}, wrong by {100 * abs(first.rate[0]):.0f} % | " +
-                     (f"K = {crossing[1]} to {crossing[2]} | {100 * crossing[0]:.2g} % |" if crossing else
-                      "no K: always dearer | |" if first.cost >= exact.cost else "no K of these: always cheaper | |"))
-    lines += ["", "The event-driven method's two pressures, which must agree: " + "; ".join(
-        f"packing {packing:.3g}: {percent(exact_point(points).identity)} %" for (packing, _), points in errors.items()) + "."]
-    spreads = [p.spread() for points in errors.values() for p in points.values() if len(p.runs) > p.n_starts]
-    if spreads:
-        lines += ["", f"The same trial, timed again in turns: the slowest over the fastest is {100 * np.median(spreads):.0f} % more in the median setting."]
-    lines += ["", "| packing | method | K | ν dt | rate, % | pressure (virial), % | pressure (walls), % | overlapping pairs per disc | deepest, σ | distance after one collision, σ | cost, µs: median (quartiles) |",
-              "|---|---|---|---|---|---|---|---|---|---|---|"]
-    for (packing, _), points in errors.items():
-        for method in ("time-stepped", "event-driven"):
-            for k, p in curve_of(points, method, LAWS[0]):
-                lines.append(f"| {packing:.3g} | {method} | {k} | {p.nu_dt:.4f} | {percent(p.rate)} | {percent(p.pressure)} | {percent(p.wall)} | {p.overlaps[0]:.4f} ± {p.overlaps[1]:.4f} | "
-                             f"{p.deepest:.2f} | {p.distance[0]:.2g} | {p.cost:.3f} ({p.costs[0]:.3f} to {p.costs[2]:.3f}) |")
-    return lines
+POINT_COLUMNS = ["study", "packing", "discs", "starts", "collisions_per_disc", "method", "micro_steps", "precision", "arithmetic", "contraction", "nu_dt",
+                 "rate_error_percent", "rate_standard_error", "virial_pressure_error_percent", "virial_pressure_standard_error", "wall_pressure_error_percent",
+                 "wall_pressure_standard_error", "overlapping_pairs_per_disc", "deepest_overlap", "distance", "cost_us", "cost_us_lower_quartile",
+                 "cost_us_upper_quartile", "failures"]
 
 
-def table_of_laws(title, gases, wanted):
-    """Lines for each precision and formula, of the K that `wanted` says; failures are marked."""
-    lines = ["", title, "", "| packing | N | method | precision, formula | K | rate, % | overlapping pairs per disc | deepest, σ | distance after one collision, σ | cost, µs: median (quartiles) | |",
-             "|---|---|---|---|---|---|---|---|---|---|---|"]
-    for (packing, n), points in gases.items():
-        for method in ("time-stepped", "event-driven"):
-            for law in LAWS:
-                for k, p in curve_of(points, method, law):
-                    if wanted(k):
-                        lines.append(f"| {packing:.3g} | {n} | {method} | {law_name(law)} | {k} | {percent(p.rate)} | {p.overlaps[0]:.2g} | {p.deepest:.2g} | {p.distance[0]:.2g} | "
-                                     f"{p.cost:.3f} ({p.costs[0]:.3f} to {p.costs[2]:.3f}) | {'**fails**: discs in each other, or stopped' if p.failures else ''} |")
-    return lines
+def write_points(studies, path):
+    """A line for each setting of each gas: means over starts, and costs."""
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(POINT_COLUMNS)
+        for study, gases in studies.items():
+            for (packing, n), points in gases.items():
+                for setting, p in sorted(points.items()):
+                    numbers = [p.nu_dt, *(100 * value for mean in (p.rate, p.pressure, p.wall) for value in mean), p.overlaps[0], p.deepest, p.distance[0],
+                               p.cost, p.costs[0], p.costs[2]]
+                    writer.writerow([study, f"{packing:.3g}", n, p.n_starts, f"{p.collisions:.0f}", *setting, *(f"{number:.4g}" for number in numbers), p.failures])
 
 
-def table_of_lengths(errors, long):
+def as_table(heading, rows):
+    return "\n".join(["| " + " | ".join(heading) + " |", "|" + "---|" * len(heading)] + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def crossover_text(points):
+    crossing, first, exact = crossover(points), default_curve(points)[0][1], exact_point(points)
+    if crossing:
+        return f"{100 * crossing[0]:.2g} %, K = {crossing[1]} to {crossing[2]}"
+    return "always slower" if first.cost >= exact.cost else "always faster"
+
+
+def crossover_table(errors, large):
+    rows = []
+    for gases in (errors, large):
+        for (packing, n), points in gases.items():
+            exact, first = exact_point(points), default_curve(points)[0][1]
+            rows.append([f"{packing:.3g}", str(n), str(exact.n_starts), f"{exact.cost:.3f}", f"{first.cost:.3f}", percent(first.rate), crossover_text(points)])
+    return as_table(["packing", "discs", "starts", "event-driven, µs", "time-stepped K = 1, µs", "its error of the rate, %", "equal cost at"], rows)
+
+
+def length_table(errors, long):
     """Errors of the same gases in runs of other lengths."""
-    lines = ["", "Longer runs", "", "| packing | K | rate, %, in runs of as many collisions per disc: | overlapping pairs per disc |", "|---|---|---|---|"]
+    rows = []
     for gas, points in long.items():
         others = dict(default_curve(errors.get(gas, {})))
         for k, p in default_curve(points):
-            both = [q for q in (others.get(k), p) if q]
-            lines.append(f"| {gas[0]:.3g} | {k} | " + "; ".join(f"{q.collisions:.0f}: {percent(q.rate)}" for q in both) + " | " +
-                         "; ".join(f"{q.overlaps[0]:.2g}" for q in both) + " |")
-    return lines
+            if k in (1, 16, 32, 256) and k in others:
+                rows.append([f"{gas[0]:.3g}", str(k), percent(others[k].rate), percent(p.rate)])
+    return as_table(["packing", "K", "100 collisions a disc, 8 starts", "400 collisions a disc, 4 starts"], rows)
 
 
-def tables(errors, large, long, arithmetic, sizes, thin):
-    lines = table_of_errors(errors) if errors else []
-    if large:
-        lines += ["", "A larger gas", ""] + table_of_errors(large)
-    if long:
-        lines += table_of_lengths(errors, long)
-    if arithmetic:
-        lines += table_of_laws("Precision and formula, two gases", arithmetic, lambda k: k in (1, 16, 256))
-    if sizes:
-        lines += table_of_laws("Cost against N, K = 1", sizes, lambda k: k == 1)
-    if thin:
-        lines += table_of_laws("Few small discs, long flights", thin, lambda k: True)
-    return "\n".join(lines) + "\n"
+def put(text, name, part):
+    begin, end = f"<!-- {name} -->", f"<!-- end of {name} -->"
+    if begin not in text or end not in text:
+        raise SystemExit(f"the page has no markers '{begin}' and '{end}'")
+    return text[:text.index(begin) + len(begin)] + "\n" + part + "\n" + text[text.index(end):]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("tables", nargs="+", type=pathlib.Path, help="error*.csv, large*.csv, long*.csv, arithmetic*.csv, size*.csv and thin*.csv of a study, or any one table")
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("."), help="folder for the figures")
+    parser.add_argument("--page", type=pathlib.Path, help="a page to put tables into, between its markers")
     options = parser.parse_args()
     named = {kind: points_by_gas(read([p for p in options.tables if p.name.startswith(kind)])) for kind in ("large", "long", "arithmetic", "size", "thin")}
     errors = points_by_gas(read([p for p in options.tables if not p.name.startswith(tuple(named))]))
@@ -352,7 +347,10 @@ def main():
         figure_cost_against_size(named["size"], options.output / "cost_against_size.png")
     if named["thin"]:
         figure_formulas(named["thin"], options.output / "formulas.png")
-    (options.output / "tables.md").write_text(tables(errors, named["large"], named["long"], named["arithmetic"], named["size"], named["thin"]))
+    write_points({"error": errors, **named}, options.output / "points.csv")
+    if options.page:
+        text = put(options.page.read_text(encoding="utf-8"), "crossover", crossover_table(errors, named["large"]))
+        options.page.write_text(put(text, "lengths", length_table(errors, named["long"])), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@
 
 Lines are medians over starts of the root mean square distance, bands from the lowest to the highest start. The horizons are
 where a difference that grows by the largest Lyapunov exponent comes from one rounding, of 1e-16 or 6e-8, to 1: beyond them a
-trajectory says nothing, whatever computed it. Writes distances.png and distances.md, with the growth that was found.
+trajectory says nothing, whatever computed it. Writes distances.png, and growth.csv with the growth that was found.
 """
 import argparse
 import csv
@@ -102,15 +102,17 @@ def first_above(looks, limit):
     return next((f"{c:.0f}" for c, d in looks.items() if np.median(d) > limit), f"more than {max(looks):.0f}")
 
 
-def table(gases):
-    lines = ["| packing | method | K | precision | 1e-6 σ after | 0.1 σ after (collisions per disc) | growth per collision | Lyapunov exponent |", "|---|---|---|---|---|---|---|---|"]
-    for packing, settings in gases.items():
-        for (method, k, precision), looks in sorted(settings.items()):
-            found = growth(looks) if method == "event-driven" else None
-            text = f"{found[0]:.3f} ± {found[1]:.3f}" if found and precision == "double" else ""
-            known = exponent_of(packing) if text else None
-            lines.append(f"| {packing:.3g} | {method} | {k} | {precision} | {first_above(looks, 1e-6)} | {first_above(looks, 0.1)} | {text} | {known or ''} |")
-    return "\n".join(lines) + "\n"
+def write_growth(gases, path):
+    """A line for each setting: when distances are how large, and how fast roundings grow."""
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["packing", "method", "micro_steps", "precision", "collisions_to_1e-6_sigma", "collisions_to_0.1_sigma", "growth_per_collision",
+                         "standard_error", "lyapunov_exponent"])
+        for packing, settings in gases.items():
+            for (method, k, precision), looks in sorted(settings.items()):
+                found = growth(looks) if method == "event-driven" and precision == "double" else None
+                numbers = [f"{found[0]:.3f}", f"{found[1]:.3f}", exponent_of(packing) or ""] if found else ["", "", ""]
+                writer.writerow([f"{packing:.3g}", method, k, precision, first_above(looks, 1e-6), first_above(looks, 0.1), *numbers])
 
 
 def main():
@@ -121,7 +123,7 @@ def main():
     options.output.mkdir(parents=True, exist_ok=True)
     gases = read(options.tables)
     draw(gases, options.output / "distances.png")
-    (options.output / "distances.md").write_text(table(gases))
+    write_growth(gases, options.output / "growth.csv")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Warnings for scenes that are legal but lose digits, and the end of those that would lose discs
-// (docs/stability.md).
+// (docs/understanding/hard-cases.md).
 #pragma once
 
 #include "parallel/communicator.hpp"

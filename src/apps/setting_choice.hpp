@@ -8,7 +8,7 @@
 // downs, so the first good one is the cheapest. Good enough is what is so after 100 collisions of a
 // disc, and does not become worse: in dense gases discs that overlap stay together, and errors grow
 // for as long as a run goes on. Single precision and the naive formula are not tried: they save
-// next to no time (docs/accuracy.md).
+// next to no time (docs/understanding/accuracy.md).
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holds a run to its invariants, step by step (CheckFailure lists them; docs/stability.md has the
-// bounds).
+// Holds a run to its invariants, step by step (CheckFailure lists them;
+// docs/understanding/hard-cases.md has the bounds).
 //
 // It keeps a record of each disc as it was at the last look, by id, so that a disc is compared with
 // itself whichever rank owns it. The log shows which discs have collided.

@@ -2,8 +2,8 @@
 // A disc's stored state: where it was at its own time `tau`, and how often it has collided.
 //
 // The state is rewritten by the disc's own collisions and stops and by the common sync, and by
-// nothing else (docs/method.md, section 2). It fills one cache line: the engine reaches states at
-// random, one disc at a time.
+// nothing else (docs/understanding/method.md, section 2). It fills one cache line: the engine
+// reaches states at random, one disc at a time.
 #pragma once
 
 #include <cstdint>

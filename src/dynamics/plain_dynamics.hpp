@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The dynamics of a scene that names no effect: free flight, elastic pairs, four elastic walls at
-// rest (docs/method.md, section 3). Its answers are those of dynamics.hpp.
+// rest (docs/understanding/method.md, sections 3 and 4). Its answers are those of dynamics.hpp.
 //
 // A dynamics with effects is derived from it and replaces some answers. It uses the parts of the
 // others that are named at the end.

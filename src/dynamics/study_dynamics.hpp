@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plain dynamics computed less well, for the accuracy study (docs/accuracy.md): in single
-// precision, by the naive contact formula, or both. Runs use PlainDynamics unless a scene asks for
-// this one.
+// Plain dynamics computed less well, for the accuracy study (docs/understanding/accuracy.md): in
+// single precision, by the naive contact formula, or both. Runs use PlainDynamics unless a scene
+// asks for this one.
 //
 // `Real` is what states are rounded to and what is computed in. A float's state is stored in
 // doubles of the same value: nothing else in the program has to know. The formula is chosen when

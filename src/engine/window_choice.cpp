@@ -8,7 +8,7 @@ namespace carrom {
 
 namespace {
 
-/// In nanoseconds, on one core (docs/performance.md).
+/// In nanoseconds, on one core (docs/log/performance.md).
 struct Costs {
     double disc;        ///< of a disc in a window of any length
     double partner;     ///< and of each disc within a square of one reach

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A speculative run of a window of time in one block of cells, alone. It carries out every
 // collision of its own discs and of those around them, in the total order of the event-driven
-// method (docs/method.md, sections 3 and 8).
+// method (docs/understanding/method.md, sections 3.3 and 8).
 //
 // A run does not see what happens beyond its halo, and may be wrong without noticing. So it also
 // reports the event histories of the ring, the discs within one reach of its own cells. It is right

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-// Measured on one core, in nanoseconds (docs/performance.md).
+// Measured on one core, in nanoseconds (docs/log/performance.md).
 constexpr double cost_per_disc = 40; ///< to sort, copy and give back, once a window
 constexpr double cost_per_copy = 40; ///< of each disc in a block or its halo
 constexpr double cost_per_event = 160;
@@ -23,7 +23,7 @@ constexpr double discs_in_cache =
 constexpr double thin_gas = 0.2; ///< diameter to reach
 
 // To repeat a block's run with twice the halo costs two or three of it, a reach more of halo a
-// tenth: docs/performance.md.
+// tenth: docs/log/performance.md.
 constexpr double much_repeated = 0.08, mostly_repeated = 0.5;
 constexpr double memory = 0.9; ///< weight of the windows before the last one
 constexpr int most_more = 2;   ///< reaches

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Event-driven molecular dynamics on ranks and threads, by speculative runs of blocks of cells
-// (docs/method.md, section 8). A window of time goes through these phases:
+// (docs/understanding/method.md, section 8). A window of time goes through these phases:
 //
 //   redistribute  own discs to their strips, halo discs from the neighbours, all into cells; the
-//   own
-//                 cells into blocks
+//                 own cells into blocks
 //   run           each block with its halo, alone, by whichever thread is free
-//   validate      each block's ring has the histories that its owners found, and no disc was faster
-//                 than the bound; else rollback: blocks that differ run again with twice the halo,
-//                 in the end with the whole box
+//   validate      each block's ring has the histories that its owners found, own discs have met
+//                 no others, and none got too far; else rollback: blocks that differ run again with
+//                 twice the halo, in the end with the whole box
 //   commit        new states for the discs that were hit
 //
 // A rollback costs nothing but the run: states are rewritten at the commit only.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a window's block runs are the truth (docs/method.md, section 8, rule A), and what to do
-// where they may not be.
+// Whether a window's block runs are the truth (docs/understanding/method.md, sections 8.2 and 9),
+// and what to do where they may not be.
 #include <algorithm>
 #include <atomic>
 

@@ -4,9 +4,9 @@
 //
 // It takes B^2 - 4 A C and -B - sqrt(...) as they stand. Both are differences of like numbers when
 // a pair is far apart or grazes. In single precision it misses a fifth of the hits at a thousand
-// diameters (docs/accuracy.md). It would miss seven tenths if a discriminant that rounds to 0 were
-// no contact. A pair that overlaps, even by a rounding, has its root in the past: it passes
-// through.
+// diameters (docs/understanding/accuracy.md). It would miss seven tenths if a discriminant that
+// rounds to 0 were no contact. A pair that overlaps, even by a rounding, has its root in the past:
+// it passes through.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // When two freely flying discs touch: the one predicate that every decision rests on
-// (docs/method.md, section 4).
+// (docs/understanding/method.md, section 4).
 //
 // The discriminant is taken as (sqrt(A) sigma - |X|)(sqrt(A) sigma + |X|) with the cross product X
 // made exact by fused multiply-adds, and the root as C / (-b + sqrt(disc)): no subtraction of like

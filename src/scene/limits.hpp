@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What numbers a scene may hold. Sizes and speeds stay within 2^+-250, so that no product the
-// method takes of them can overflow or vanish (docs/method.md); lengths above 2^-230, below which
-// discriminants of near grazes are denormal.
+// method takes of them can overflow or vanish (docs/understanding/method.md, section 4.4); lengths
+// above 2^-230, below which discriminants of near grazes are denormal.
 #pragma once
 
 #include <cstdint>

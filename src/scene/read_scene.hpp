@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From an input's text to one checked `Scene` (docs/method.md, section 10). No MPI: rank 0 takes
+// From an input's text to one checked `Scene` (docs/reference/keys.md). No MPI: rank 0 takes
 // the text from the file, every rank reads the same text and so finds the same scene or the same
 // problems.
 //

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decides what no rank can decide alone: conflict chains of candidates across strips.
+// Decides what no rank can decide alone: conflict chains of candidates across strips
+// (docs/understanding/method.md, section 7).
 //
 // Neighbours exchange messages first. For every candidate with discs of two ranks each reports
 // whether it comes first for the own disc, among those that are left. A candidate that comes first

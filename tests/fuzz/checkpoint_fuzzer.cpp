@@ -7,7 +7,7 @@
 // only values change, those of the header and of the discs, and it gets right checksums, so that
 // HDF5 and the reader's own checks are reached. (Forged metadata are tried by damaged_files.cpp.) A
 // file must end in a checkpoint that keeps its promises, or in an error of code 2; one that is not
-// forged and differs must be refused. docs/stability.md says how to run it.
+// forged and differs must be refused. docs/understanding/hard-cases.md says how to run it.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

@@ -3,7 +3,7 @@
 //
 // Every text must end in a scene that keeps its promises or in an InputError that names a problem;
 // a crash, a hang, any other exception and whatever the sanitizers find is a bug. How to run it is
-// told in docs/stability.md.
+// told in docs/understanding/hard-cases.md.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

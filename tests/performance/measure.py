@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measure what a disc-step costs, and write one CSV row per run (docs/performance.md shows the medians).
+"""Measure what a disc-step costs, and write one CSV row per run (docs/understanding/performance.md shows the medians).
 
   tests/performance/measure.py --program build/carrom --output rates.csv [--only NAME ...] [--rounds 5]
 

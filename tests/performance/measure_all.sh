@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Measure everything that docs/performance.md shows, in about twelve minutes of an otherwise idle machine:
+# Measure everything that docs/understanding/performance.md shows, in about twelve minutes of an otherwise idle machine:
 #
 #   tests/performance/measure_all.sh [BUILD [FOLDER]]       BUILD: build; FOLDER: docs/performance
 #   tests/performance/page.py                               then draws the page anew

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Put what has been measured into docs/performance.md: tables between its markers, pictures beside its CSV files.
+"""Put what has been measured into docs/understanding/performance.md: tables between its markers, pictures beside its CSV files.
 
-  tests/performance/page.py [--folder docs/performance] [--page docs/performance.md]
+  tests/performance/page.py [--folder docs/performance] [--page docs/understanding/performance.md]
 
 Reads rates.csv (compare.py), cluster.csv (simulate.py --study), kernels.json (carrom_benchmarks) and peaks.txt (machine_peaks);
 measure_all.sh writes all four. A part whose file is missing keeps what it says. Words around the markers are the page's
@@ -43,26 +43,26 @@ def rate_text(row):
 
 def rates_part(rows):
     first = rows[0]
-    lines = [f"{first['machine']}; {first['compiler']}; version {first['version']}. Medians of {min(int(r['rounds']) for r in rows)} rounds, "
-             "least and most beside them; ratios are taken within a round.", ""]
-    body = [[r["case"], f"{r['ranks']} x {r['threads']}", f"{rate_text(r)} ({short(float(r['least']) / 1e6)} to {short(float(r['most']) / 1e6)})",
-             r["unit"], r["goal"], short(r["over_lammps"]), short(r["over_stream"], 2), short(r["bytes_per_disc"]) if int(r["n_discs"]) >= 1_000_000 else ""] for r in rows if "generated" not in r["case"]]
-    lines.append(table(["case", "ranks x threads", "million per second", "of", "goal per second", "x LAMMPS", "of the stream's rate", "bytes a disc (from 1e6 discs on)"], body))
-    for r in rows:
-        if "generated" in r["case"]:
-            lines += ["", f"The generated scene of 10,000 discs, 500 steps, start and end of the program included: {short(r['seconds'])} s (goal: {r['goal']})."]
+    lines = [f"{first['machine']}; {first['compiler']}; version {first['version']}. Medians of {min(int(r['rounds']) for r in rows)} rounds, with the least and "
+             "the most. Ratios to LAMMPS and to the stream are taken within a round.", ""]
+    body = [[r["case"].replace("all, ", "event-driven, "), f"{r['ranks']} x {r['threads']}", f"{rate_text(r)} ({short(float(r['least']) / 1e6)} to {short(float(r['most']) / 1e6)})",
+             r["unit"], short(r["over_lammps"]), short(r["over_stream"], 2)] for r in rows if "generated" not in r["case"]]
+    lines.append(table(["case", "ranks x threads", "million per second", "of", "x LAMMPS", "x stream"], body))
     by_name = {r["case"]: float(r["rate"]) for r in rows}
     pairs = [(name, by_name[name + ", 2 threads"] / rate, by_name[name + ", 2 ranks"] / rate)
              for name, rate in by_name.items() if name + ", 2 threads" in by_name and name + ", 2 ranks" in by_name]
-    lines += ["", table(["two cores against one (strong scaling)", "2 threads", "2 ranks"], [[n, f"{t:.2f}", f"{k:.2f}"] for n, t, k in pairs])]
+    lines += ["", "Two cores against one, as ratios of the medians above:", "",
+              table(["case", "2 threads", "2 ranks"], [[n.replace("all, ", "event-driven, "), f"{t:.2f}", f"{k:.2f}"] for n, t, k in pairs])]
     return "\n".join(lines)
 
 
 def cluster_part(rows):
-    body = [[r["case"], r["ranks"], f"{int(r['n_discs']) * int(r['stands_for']):.3g}", f"{float(r['efficiency']):.3f}", f"{float(r['messages']):.2f}", f"{float(r['most_messages']):.2f}",
-             f"{float(r['bytes']) * int(r['stands_for']) / 1e3:.3g}", f"{float(r['collectives']):.2f}", f"{float(r['any_to_any']):g}", f"{float(r['network_messages']):.2f}"] for r in rows]
-    return table(["case", "ranks", "discs", "efficiency", "messages", "most of any rank", "kB", "collective operations", "of these any-to-any",
-                  "messages with those inside collectives"], body)
+    """Efficiency by case and ranks; cluster.csv has the rest."""
+    ranks = sorted({int(r["ranks"]) for r in rows})
+    cases = {}
+    for r in rows:
+        cases.setdefault(r["case"], {})[int(r["ranks"])] = f"{float(r['efficiency']):.3f}"
+    return table(["efficiency, by ranks", *map(str, ranks)], [[case, *(found.get(n, "") for n in ranks)] for case, found in cases.items()])
 
 
 def new_axes(xlabel, ylabel):
@@ -120,16 +120,9 @@ def read_peaks(path):
     return {name: float(value) for name, value in (line.split() for line in path.read_text(encoding="utf-8").splitlines())}
 
 
-def kernels_part(kernels, peaks):
-    body = []
-    for kernel in kernels:
-        rate, flops, size = kernel["items_per_second"], kernel["flops"], kernel["bytes"]
-        body.append([kernel.get("run_name", kernel["name"]).removesuffix("_median"), f"{1e9 / rate:.3g}", f"{flops:g}" if flops else "", f"{size:.3g}" if size else "",
-                     f"{rate * flops / 1e9:.3g}" if flops else "", f"{rate * size / 1e9:.3g}" if size else ""])
-    lines = [table(["kernel / discs", "ns per item", "operations an item", "bytes an item", "10^9 operations/s", "GB/s"], body), ""]
-    lines.append(f"The machine's peaks, one core: {peaks['double']:.3g} and {peaks['single']:.3g} x 10^9 operations a second in double and single precision; an in-place stream of "
-                 f"{peaks['stream_memory']:.3g} GB/s from memory, {peaks['stream_cache']:.3g} GB/s in the second level of cache (read and written bytes).")
-    return "\n".join(lines)
+def kernels_part(peaks):
+    return (f"The machine's peaks on one core are {peaks['double']:.3g} x 10^9 operations a second in double precision and {peaks['single']:.3g} x 10^9 in single. "
+            f"A stream in place moves {peaks['stream_memory']:.3g} GB/s from memory and {peaks['stream_cache']:.3g} GB/s in the second level of cache, read and written bytes.")
 
 
 def draw_roofline(kernels, peaks, folder):
@@ -163,7 +156,7 @@ def replace_part(text, name, part):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path("docs/performance"))
-    parser.add_argument("--page", type=pathlib.Path, default=pathlib.Path("docs/performance.md"))
+    parser.add_argument("--page", type=pathlib.Path, default=pathlib.Path("docs/understanding/performance.md"))
     options = parser.parse_args()
     folder, text = options.folder, options.page.read_text(encoding="utf-8")
     if (folder / "rates.csv").exists():
@@ -176,7 +169,7 @@ def main():
         draw_cluster(rows, folder)
     if (folder / "kernels.json").exists() and (folder / "peaks.txt").exists():
         kernels, peaks = read_kernels(folder / "kernels.json"), read_peaks(folder / "peaks.txt")
-        text = replace_part(text, "kernels", kernels_part(kernels, peaks))
+        text = replace_part(text, "kernels", kernels_part(peaks))
         draw_roofline(kernels, peaks, folder)
     options.page.write_text(text, encoding="utf-8")
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Collision rates and pressures of hard discs between hard walls against exact results and
-// equations of state. Sources and measured figures: docs/validation.md.
+// equations of state. Sources and measured figures: docs/understanding/validation.md.
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The event-driven method said plainly (docs/method.md, section 3, second half): every collision at
-// its time, one after another.
+// The event-driven method said plainly (docs/understanding/method.md, section 3.3): every collision
+// at its time, one after another.
 //
 // One heap, brute-force prediction: after each collision its discs are predicted anew against all
 // others. The order is time, generation, id of P, wall before pair, id of Q, x before y. Price: N

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Obstacles said plainly: bodies one by one, their formulas written a second time, from
-// docs/method.md.
+// docs/understanding/effects.md, section 10.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time-stepped method said plainly (docs/method.md, sections 1 to 4): what the engine is held
-// to, bit for bit.
+// The time-stepped method said plainly (docs/understanding/method.md, sections 1 to 4): what the
+// engine is held to, bit for bit.
 //
 // Every micro-step looks at all pairs, sorts all candidates by the total order and walks them. No
 // cells, no windows, no filters, no strips, and none of the engine's arithmetic: the formulas are

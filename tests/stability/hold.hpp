@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Worst values against their bounds. The command tests/stability/table.sh makes docs/stability.md
+// Worst values against their bounds. The command tests/stability/table.sh makes docs/hard_cases
 // of them.
 #pragma once
 

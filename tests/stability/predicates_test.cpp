@@ -5,9 +5,9 @@
 // Why hard: the textbook discriminant b^2 - A C subtracts equal numbers and loses 41 % of the
 // grazing hits at 1e4 diameters. Sources: Kahan, On the cost of floating-point computation without
 // extra-precise arithmetic (2004); Haines, Guenther, Akenine-Moeller, Ray Tracing Gems, chapter 7
-// (2019). Bounds (docs/method.md): error of the time 16 u (|d| + sigma sqrt(A sigma^2/disc)) / |w|;
-// relative error of the discriminant 10 u (1 + A sigma^2/disc); no hit missed whose disc > 16 u A
-// sigma^2. The table shows errors as shares of these bounds.
+// (2019). Bounds (docs/understanding/method.md, section 4.2): error of the time 16 u (|d| + sigma
+// sqrt(A sigma^2/disc)) / |w|; relative error of the discriminant 10 u (1 + A sigma^2/disc); no hit
+// missed whose disc > 16 u A sigma^2. The table shows errors as shares of these bounds.
 #include "catch.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Makes the tables of docs/stability.md anew: every case, its bound, and the worst value measured.
+# Makes the tables of docs/hard_cases anew: every case, its bound, and the worst value measured.
 #
 #   tests/stability/table.sh [BUILD] [--long | --long=FAMILY]
 #
@@ -9,7 +9,7 @@
 # family its rows alone are made anew. Without --long their table stays as it is.
 set -euo pipefail
 source_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-page=$source_folder/docs/stability.md
+tables=$source_folder/docs/hard_cases
 build=$source_folder/build
 is_long=no family=
 for word; do
@@ -20,25 +20,20 @@ export CARROM_TEST_SECONDS=7200
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# table MARK [FAMILY]: puts the measured lines between <!-- MARK --> and <!-- end of MARK --> of the page, in the place of
-# all that stand there, or of the family's.
+# table NAME [FAMILY]: writes the measured lines to NAME.csv, in the place of all that it has, or of the family's.
 table() {
     {
-        printf '| family | case | rule | bound | worst |\n|---|---|---|---|---|\n'
-        [ -z "${2:-}" ] || sed -n "/<!-- $1 -->/,/<!-- end of $1 -->/p" "$page" | grep '^| ' | grep -v -e '^| family |' -e "^| $2 |" || true
-        awk -F '\t' '{ gsub(/\|/, "\\|"); printf "| %s | %s | %s | %s | %s |\n", $1, $2, $3, $4, $5 }' "$CARROM_STABILITY_TABLE"
+        echo 'family,case,method,bound,worst'
+        [ -z "${2:-}" ] || grep -v -e '^family,' -e "^$2," "$tables/$1.csv" || true
+        awk -F '\t' '{ print $1 ",\"" $2 "\"," $3 "," $4 "," $5 }' "$CARROM_STABILITY_TABLE"
     } >"$folder/table"
-    awk -v mark="$1" -v table="$folder/table" '
-        $0 == "<!-- end of " mark " -->" { is_inside = 0 }
-        !is_inside { print }
-        $0 == "<!-- " mark " -->" { is_inside = 1; while ((getline line < table) > 0) print line }' "$page" >"$folder/page"
-    cat "$folder/page" >"$page"
+    mv "$folder/table" "$tables/$1.csv"
 }
 
 export CARROM_STABILITY_TABLE=$folder/short
 "$build/tests/stability_unit_test"
 "$build/tests/stability_mpi_test"
-table 'cases'
+table cases
 [ $is_long = yes ] || exit 0
 
 # One table for each case, in the order in which they are listed, however they end.
@@ -64,4 +59,4 @@ wait
 [ ! -e "$folder/failed" ] || exit 1
 export CARROM_STABILITY_TABLE=$folder/long
 for number in "${!cases[@]}"; do cat "$folder/long.$number"; done >"$folder/long"
-table 'long cases' "$family"
+table long_cases "$family"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The program warns when a scene enters a case that loses digits, and only then (docs/stability.md).
+# The program warns when a scene enters a case that loses digits, and only then (docs/understanding/hard-cases.md).
 source "$CARROM_SOURCE_DIR/tests/system/common.sh"
 
 # scene SIZE SPEED SYNC RULE: two discs of radius 1.

@@ -89,7 +89,8 @@ TEST_CASE("measurements: a gas has Maxwell's velocities, one pressure on all sid
                            n_samples * n,
                            maxwell) < kolmogorov_one_in_a_thousand / std::sqrt(n_samples * n));
 
-    // Bulk discs at this packing, and walls: Z_box = Z_bulk + 0.98 / sqrt(N) (docs/validation.md).
+    // Bulk discs at this packing, and walls: Z_box = Z_bulk + 0.98 / sqrt(N)
+    // (docs/understanding/validation.md).
     const double pressure = n * kT / (scene.box_size * scene.box_size) *
                             (1.57036 + 0.98 / std::sqrt(n));
     for (const char* side : {"left", "right", "bottom", "top"}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contact predicate against quad precision: the bounds of docs/method.md, section 4, on cases
-// made to break them.
+// The contact predicate against quad precision: the bounds of docs/understanding/method.md,
+// section 4.2, on cases made to break them.
 #include "catch.hpp"
 
 #include <algorithm>
