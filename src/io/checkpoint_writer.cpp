@@ -13,13 +13,15 @@
 // inside HDF5; then `agree`, or a deadline for closing, ends the run with the same exit code.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <csignal>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <fcntl.h>
-#include <omp.h>
 #include <unistd.h>
 
 #include "io/checkpoint.hpp"
@@ -199,7 +201,8 @@ private:
 };
 
 /// Takes a piece apart into the targets' bytes, behind what is in the batch. Threads share the
-/// blocks; the first one, which alone may call MPI, does `first_of_all` before.
+/// blocks. Meanwhile this thread, which alone may call MPI, does `first_of_all`. They wait for each
+/// other asleep: ranks may share their cores.
 template <class Act>
 void pack(std::span<const Disc> piece, std::uint64_t first, const SpinsOfPieces& spins,
           const std::vector<DiscTarget>& targets, Batch& batch, Sums& sums, int n_threads,
@@ -210,12 +213,11 @@ void pack(std::span<const Disc> piece, std::uint64_t first, const SpinsOfPieces&
     for (std::size_t k = 0; k < targets.size(); ++k)
         batch.buffers[k].resize(batch.n_rows * targets[k].bytes_per_row);
     const std::size_t n_blocks = (piece.size() + rows_per_block - 1) / rows_per_block;
-#pragma omp parallel num_threads(n_threads + 1)
-    {
-        if (omp_get_thread_num() == 0) first_of_all();
+    std::atomic<std::size_t> next{0};
+    std::mutex adding;
+    const auto pack_blocks = [&] {
         Sums mine(targets.size());
-#pragma omp for schedule(dynamic)
-        for (std::size_t block = 0; block < n_blocks; ++block) {
+        for (std::size_t block = next++; block < n_blocks; block = next++) {
             const std::size_t row = block * rows_per_block;
             const std::span<const Disc> discs = piece.subspan(
                 row, std::min<std::size_t>(rows_per_block, piece.size() - row));
@@ -229,9 +231,13 @@ void pack(std::span<const Disc> piece, std::uint64_t first, const SpinsOfPieces&
                 mine.add_checksum(k, checksum_of_block(bytes, first / rows_per_block + block));
             }
         }
-#pragma omp critical(sums_of_a_piece)
+        const std::lock_guard lock(adding);
         sums.add(mine);
-    }
+    };
+    std::vector<std::jthread> threads; // joined at the end
+    for (int k = 0; k < n_threads; ++k) threads.emplace_back(pack_blocks);
+    first_of_all();
+    pack_blocks();
 }
 
 struct DiscSpin {
