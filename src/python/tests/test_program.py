@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The program is found where it is, and its absence is an error that says what to do."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import carrom
+
+
+def test_wrong_path_in_environment_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("CARROM", "/nowhere/carrom")
+    with pytest.raises(
+        carrom.ProgramNotFoundError, match="CARROM names no program: /nowhere/carrom"
+    ):
+        carrom.find_program()
+
+
+def test_argument_counts_before_the_environment(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    program = tmp_path / "carrom"
+    program.write_text("#!/bin/sh\n")
+    program.chmod(0o755)
+    monkeypatch.setenv("CARROM", "/nowhere/carrom")
+    assert carrom.find_program(program) == program
+
+
+def test_program_on_path_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    program = tmp_path / "carrom"
+    program.write_text("#!/bin/sh\n")
+    program.chmod(0o755)
+    monkeypatch.delenv("CARROM", raising=False)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert carrom.find_program() == program
