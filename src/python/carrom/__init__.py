@@ -5,6 +5,7 @@ Lengths are in the scene's unit, times in steps, velocities in lengths per step 
 the scene's unit of mass. `docs/python.md` has a lesson.
 """
 
+from carrom.checkpoints import Checkpoint
 from carrom.errors import (
     CarromError,
     CollectiveError,
@@ -18,14 +19,26 @@ from carrom.errors import (
     ProgramNotFoundError,
     StoppedError,
 )
+from carrom.frame import Frame
+from carrom.frames import Frames
 from carrom.program import find_program, program_version
+from carrom.running import CarromWarning, resume, run
+from carrom.runs import Checkpoints, Run, read_lines
+from carrom.runs import open_run as open
+from carrom.scene import read_scene, to_toml
+from carrom.tables import Table, Tables, read_csv
 
 __version__ = "0.2.0"
 
 __all__ = [
     "CarromError",
+    "CarromWarning",
+    "Checkpoint",
+    "Checkpoints",
     "CollectiveError",
     "FileError",
+    "Frame",
+    "Frames",
     "InputError",
     "InvariantError",
     "MissingPackageError",
@@ -33,7 +46,17 @@ __all__ = [
     "OutputError",
     "ProgramError",
     "ProgramNotFoundError",
+    "Run",
     "StoppedError",
+    "Table",
+    "Tables",
     "find_program",
+    "open",
     "program_version",
+    "read_csv",
+    "read_lines",
+    "read_scene",
+    "resume",
+    "run",
+    "to_toml",
 ]

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Frames for freud, MDAnalysis, ASE and OVITO. Each package is needed for its own function."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from carrom.errors import MissingPackageError, NoDataError
+from carrom.frame import Array, Frame
+
+
+def package(name: str, wanted_by: str, project: str = "") -> Any:
+    """Import a package, or say how to install it."""
+    try:
+        return importlib.import_module(name)
+    except ImportError as error:
+        raise MissingPackageError(
+            f"{wanted_by} needs {name} ({error}): pip install {project or name}"
+        ) from None
+
+
+def in_three_dimensions(vectors: Array, dtype: npt.DTypeLike = np.float64) -> Array:
+    """Return (N, 3) for (N, 2), with zeros along z."""
+    result = np.zeros((len(vectors), 3), dtype=dtype)
+    result[:, :2] = vectors
+    return result
+
+
+def velocities_of(frame: Frame) -> Array | None:
+    """Return velocities (N, 2), or None where frames have none."""
+    try:
+        return frame.v
+    except NoDataError:
+        return None
+
+
+def to_freud(frame: Frame) -> Any:
+    """See `Frame.to_freud`."""
+    freud = package("freud", "to_freud", "freud-analysis")
+    box = freud.box.Box(Lx=frame.box[0], Ly=frame.box[1], is2D=True)
+    box.periodic = (*frame.periodic, False)
+    points = in_three_dimensions(frame.x[frame.present] - frame.box / 2, np.float32)
+    return box, points
+
+
+def to_mdanalysis(frames: Sequence[Frame]) -> Any:
+    """See `Frames.to_mdanalysis`."""
+    mda = package("MDAnalysis", "to_mdanalysis")
+    memory = package("MDAnalysis.coordinates.memory", "to_mdanalysis", "MDAnalysis")
+    if len(frames) == 0:
+        raise NoDataError("to_mdanalysis needs at least one frame")
+    first = frames[0]
+    universe = mda.Universe.empty(first.n_discs, trajectory=False, velocities=True)
+    universe.add_TopologyAttr("masses", first.mass)
+    universe.add_TopologyAttr("radii", first.radius)
+    universe.add_TopologyAttr("types", [str(number + 1) for number in first.species])
+    positions = np.stack([in_three_dimensions(frame.x, np.float32) for frame in frames])
+    moving = [velocities_of(frame) for frame in frames]
+    velocities = None
+    if all(v is not None for v in moving):
+        velocities = np.stack([in_three_dimensions(v, np.float32) for v in moving if v is not None])
+    dimensions = np.array([[*frame.box, 1, 90, 90, 90] for frame in frames], dtype=np.float32)
+    universe.load_new(
+        positions,
+        format=memory.MemoryReader,
+        order="fac",
+        dimensions=dimensions,
+        velocities=velocities,
+        dt=_interval(frames),
+        time_offset=first.time,
+    )
+    universe.trajectory.filename = None
+    return universe
+
+
+def _interval(frames: Sequence[Frame]) -> float:
+    """Return steps from frame to frame.
+
+    Raises:
+        ValueError: they are not equal; MDAnalysis knows one `dt`
+    """
+    gaps = np.diff([frame.step for frame in frames])
+    if len(gaps) == 0:
+        return 1.0
+    if np.any(gaps != gaps[0]):
+        raise ValueError(
+            "frames are not equally far apart, but MDAnalysis knows one dt; take a slice"
+        )
+    return float(gaps[0])
+
+
+def to_ase(frame: Frame) -> Any:
+    """See `Frame.to_ase`."""
+    ase = package("ase", "to_ase")
+    atoms = ase.Atoms(
+        numbers=np.zeros(frame.n_discs, dtype=int),
+        positions=in_three_dimensions(frame.x),
+        masses=frame.mass,
+        cell=[*frame.box, 1.0],
+        pbc=[*frame.periodic, False],
+        info={"step": frame.step, "time": frame.time},
+    )
+    atoms.set_array("radius", np.array(frame.radius))
+    atoms.set_array("species", np.array(frame.species))
+    velocities = velocities_of(frame)
+    if velocities is not None:
+        atoms.set_array("velocity", in_three_dimensions(velocities))
+    return atoms
+
+
+def to_ovito(frame: Frame) -> Any:
+    """See `Frame.to_ovito`."""
+    data = package("ovito.data", "to_ovito", "ovito").DataCollection()
+    fill_ovito(data, frame)
+    return data
+
+
+def fill_ovito(data: Any, frame: Frame) -> None:
+    """Put a frame into an empty DataCollection."""
+    cell = np.zeros((3, 4))
+    cell[:, :3] = np.diag([*frame.box, 1.0])
+    data.create_cell(cell, pbc=(*frame.periodic, False)).is2D = True
+    data.attributes["Timestep"] = frame.step
+    data.attributes["Time"] = frame.time
+    particles = data.create_particles(count=frame.n_discs)
+    particles.create_property("Position", data=in_three_dimensions(frame.x))
+    particles.create_property("Particle Identifier", data=np.arange(frame.n_discs))
+    particles.create_property("Radius", data=frame.radius)
+    particles.create_property("Mass", data=frame.mass)
+    types = particles.create_property("Particle Type", data=frame.species + 1)
+    for number in np.unique(frame.species):
+        kind = types.add_type_id(int(number) + 1, particles, name=f"species {number + 1}")
+        kind.radius = float(frame.radius[frame.species == number][0])
+    velocities = velocities_of(frame)
+    if velocities is not None:
+        particles.create_property("Velocity", data=in_three_dimensions(velocities))
+
+
+def to_ovito_pipeline(frames: Sequence[Frame]) -> Any:
+    """See `Frames.to_ovito`."""
+    module = package("ovito.pipeline", "to_ovito", "ovito")
+
+    class Source(module.PipelineSourceInterface):  # type: ignore[misc]
+        """Gives OVITO the frame that it shows."""
+
+        def compute_trajectory_length(self, **_: Any) -> int:
+            return len(frames)
+
+        def create(self, data: Any, *, frame: int, **_: Any) -> None:
+            fill_ovito(data, frames[frame])
+
+    return module.Pipeline(source=module.PythonSource(delegate=Source()))

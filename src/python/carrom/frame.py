@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A frame: where all discs are at one step.
+
+Arrays have one row a disc, in the order of ids 0 to N-1. Lengths are in the scene's unit, times
+in steps, velocities in lengths per step, angles in radians. Arrays have the precision of the
+file: float32 or float64.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+if TYPE_CHECKING:
+    import ase
+    import freud
+    from MDAnalysis import Universe
+    from ovito.data import DataCollection
+
+Array = npt.NDArray[Any]
+
+
+class Frame(ABC):
+    """All discs at one step.
+
+    Attributes:
+        step: the step, from 0
+        radius: (N,) float64, lengths
+        mass: (N,) float64, in the scene's unit; 1 unless the scene gives masses
+        species: (N,) int64, from 0, in the order of ids
+        box: (2,) float64, the box's edges along x and y, lengths; its corner is the origin
+        periodic: whether the sides along x and along y are periodic
+    """
+
+    step: int
+    box: Array
+    periodic: tuple[bool, bool]
+
+    @property
+    def time(self) -> float:
+        """Time in steps."""
+        return float(self.step)
+
+    @property
+    @abstractmethod
+    def n_discs(self) -> int:
+        """N, the number of discs."""
+
+    @cached_property
+    @abstractmethod
+    def x(self) -> Array:
+        """Positions (N, 2), lengths; between periodic sides inside the box."""
+
+    @cached_property
+    @abstractmethod
+    def v(self) -> Array:
+        """Velocities (N, 2), lengths per step."""
+
+    @cached_property
+    @abstractmethod
+    def spin(self) -> Array:
+        """Angular velocities (N,) of rough discs, radians per step, counterclockwise."""
+
+    @cached_property
+    @abstractmethod
+    def wall_collisions(self) -> Array:
+        """Collisions with walls and obstacles since the scene's start, (N,) integers."""
+
+    @cached_property
+    @abstractmethod
+    def pair_collisions(self) -> Array:
+        """Collisions with other discs since the scene's start, (N,) integers."""
+
+    @property
+    @abstractmethod
+    def radius(self) -> Array:
+        """Radii (N,) float64, lengths."""
+
+    @property
+    @abstractmethod
+    def mass(self) -> Array:
+        """Masses (N,) float64."""
+
+    @property
+    @abstractmethod
+    def species(self) -> Array:
+        """Species (N,) int64, from 0."""
+
+    @cached_property
+    @abstractmethod
+    def present(self) -> Array:
+        """Whether each disc is in the box, (N,) bool: False once it has left by an open side."""
+
+    @cached_property
+    def speed(self) -> Array:
+        """Speeds (N,), lengths per step."""
+        return np.asarray(np.hypot(self.v[:, 0], self.v[:, 1]))
+
+    @property
+    def kinetic_energy(self) -> float:
+        """Sum of m v^2 / 2 over the discs, without spins; in double precision."""
+        v = self.v.astype(np.float64)
+        return float(0.5 * np.sum(self.mass * np.sum(v * v, axis=1)))
+
+    @property
+    def packing(self) -> float:
+        """Packing fraction: the area of the discs in the box over that of the box."""
+        area = np.pi * np.sum(self.radius[self.present] ** 2)
+        return float(area / np.prod(self.box))
+
+    def strips(self, ranks: int) -> Array:
+        """Return the strip of each disc, (N,) int, when ranks own equally many discs along x."""
+        order = np.argsort(self.x[:, 0], kind="stable")
+        strip = np.empty(self.n_discs, dtype=int)
+        strip[order] = np.arange(self.n_discs) * ranks // max(self.n_discs, 1)
+        return strip
+
+    def to_freud(self) -> tuple[freud.box.Box, npt.NDArray[np.float32]]:
+        """Return (box, points) for freud's `compute`. Its boxes are centred on the origin.
+
+        Points (n, 3) are those of discs in the box. Between walls the freud box has no periodic
+        sides. freud shrinks no distance: keep `r_max` below half the box.
+        """
+        from carrom import adapters
+
+        result: tuple[freud.box.Box, npt.NDArray[np.float32]] = adapters.to_freud(self)
+        return result
+
+    def to_mdanalysis(self) -> Universe:
+        """Return an MDAnalysis Universe of one frame. See `Frames.to_mdanalysis`."""
+        from carrom import adapters
+
+        universe: Universe = adapters.to_mdanalysis([self])
+        return universe
+
+    def to_ase(self) -> ase.Atoms:
+        """Return ASE Atoms in a cell of height 1. Numbers stay in the scene's units.
+
+        Symbols are X. `arrays` has `radius` and `species`, `info` has `step` and `time`.
+        Velocities go to `arrays["velocity"]`: ASE's own momenta have a unit of time.
+        """
+        from carrom import adapters
+
+        atoms: ase.Atoms = adapters.to_ase(self)
+        return atoms
+
+    def to_ovito(self) -> DataCollection:
+        """Return an OVITO DataCollection: a 2D cell, discs to scale, species as types."""
+        from carrom import adapters
+
+        data: DataCollection = adapters.to_ovito(self)
+        return data
+
+    def __len__(self) -> int:
+        return self.n_discs
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of step {self.step}: {self.n_discs} discs>"

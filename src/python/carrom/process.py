@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The program as a child process: its messages, its lines of discs, and interrupts."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import pty
+import re
+import signal
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+from carrom.progress import Show, is_progress
+
+_ERASE = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
+
+
+class Process:
+    """The program, running.
+
+    Its standard error is a pseudo-terminal, so that it reports progress as to a person. Its
+    standard output goes to the file `text`, at its end.
+
+    Attributes:
+        lines: what it has printed to standard error, without progress
+    """
+
+    def __init__(self, command: Sequence[str], text: Path, environment: dict[str, str]) -> None:
+        """Start it in a session of its own, so that interrupts reach it through us alone."""
+        self.lines: list[str] = []
+        self._rest = ""
+        self._master, slave = pty.openpty()
+        try:
+            with open(text, "ab") as lines:
+                self._child = subprocess.Popen(
+                    command,
+                    stdin=subprocess.DEVNULL,
+                    stdout=lines,
+                    stderr=slave,
+                    env=environment,
+                    start_new_session=True,
+                )
+        except BaseException:
+            os.close(self._master)
+            raise
+        finally:
+            os.close(slave)
+
+    def wait(self, show: Show) -> int:
+        """Wait for its end and return its exit code.
+
+        Ctrl-C tells it to store a checkpoint and stop; once more ends it at once.
+        """
+        interrupts = 0
+        while True:
+            try:
+                self._read_all(show)
+                code = self._child.wait()
+                break
+            except KeyboardInterrupt:
+                interrupts += 1
+                self._signal(signal.SIGUSR1 if interrupts == 1 else signal.SIGKILL)
+            except BaseException:
+                self._signal(signal.SIGKILL)
+                self._child.wait()
+                raise
+        os.close(self._master)
+        if interrupts:
+            raise KeyboardInterrupt("\n".join(self.lines[-1:]))
+        return code
+
+    def _read_all(self, show: Show) -> None:
+        while True:
+            try:
+                block = os.read(self._master, 65536)
+            except OSError:  # Linux says so when the other side is closed
+                block = b""
+            if not block:
+                break
+            self._take(block.decode("utf-8", "replace"), show)
+        self._take("\n", show)
+
+    def _take(self, text: str, show: Show) -> None:
+        *whole, self._rest = re.split(r"[\r\n]+", self._rest + text)
+        for part in whole:
+            line = _ERASE.sub("", part)
+            if is_progress(line):
+                show(line)
+            elif line:
+                self.lines.append(line)
+
+    def _signal(self, number: signal.Signals) -> None:
+        with contextlib.suppress(ProcessLookupError):
+            if number == signal.SIGKILL:
+                os.killpg(self._child.pid, number)  # with all ranks
+            else:
+                self._child.send_signal(number)

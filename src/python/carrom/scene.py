@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scenes as Python sees them: dictionaries that become TOML, and keys that replace keys."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import tomllib
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from carrom.errors import FileError
+
+SceneLike = Mapping[str, Any] | str | os.PathLike[str]
+"""A scene: a dictionary, the path of a file, or TOML text (any string with a line break)."""
+
+_BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
+_REMARK = "# --set "
+
+
+def toml_value(value: Any) -> str:
+    """Write a value as TOML. Floats keep every bit.
+
+    Raises:
+        TypeError: TOML has no such value, for example None
+    """
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int | float):
+        return repr(value)
+    if isinstance(value, str | os.PathLike):
+        return json.dumps(os.fspath(value), ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, Mapping):
+        words = [f"{_key(key)} = {toml_value(item)}" for key, item in value.items()]
+        return "{" + ", ".join(words) + "}"
+    if isinstance(value, list | tuple | range):
+        return "[" + ", ".join(toml_value(item) for item in value) + "]"
+    raise TypeError(f"a scene cannot have {value!r}: TOML has no {type(value).__name__}")
+
+
+def to_toml(scene: Mapping[str, Any]) -> str:
+    """Write a scene as TOML, a table for each nested dictionary. Keys with dots are nested too."""
+    return "\n".join(_table_lines((), nested(scene))) + "\n"
+
+
+def _table_lines(path: tuple[str, ...], table: Mapping[str, Any]) -> list[str]:
+    plain = {key: value for key, value in table.items() if not isinstance(value, Mapping)}
+    tables = {key: value for key, value in table.items() if isinstance(value, Mapping)}
+    lines = []
+    if path and (plain or not tables):
+        lines.append("[" + ".".join(_key(word) for word in path) + "]")
+    for key, value in plain.items():
+        try:
+            lines.append(f"{_key(key)} = {toml_value(value)}")
+        except TypeError as error:
+            raise TypeError(f"{'.'.join((*path, key))}: {error}") from None
+    for key, value in tables.items():
+        lines += _table_lines((*path, key), value)
+    return lines
+
+
+def _key(word: object) -> str:
+    if not isinstance(word, str):
+        raise TypeError(f"keys of a scene are strings, not {word!r}")
+    return word if _BARE_KEY.fullmatch(word) else json.dumps(word)
+
+
+def flattened(overrides: Mapping[str, Any], above: str = "") -> dict[str, Any]:
+    """Return overrides by the program's keys.
+
+    `{"time": {"steps": 5}}`, `{"time.steps": 5}` and `{"time__steps": 5}` all give
+    `{"time.steps": 5}`.
+    """
+    flat: dict[str, Any] = {}
+    for name, value in overrides.items():
+        key = above + str(name).replace("__", ".")
+        if isinstance(value, Mapping):
+            flat |= flattened(value, key + ".")
+        else:
+            flat[key] = value
+    return flat
+
+
+def nested(scene: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a copy of a scene in which each dot of a key has become a table."""
+    result: dict[str, Any] = {}
+    for name, value in scene.items():
+        _put(result, name, nested(value) if isinstance(value, Mapping) else value)
+    return result
+
+
+def _put(scene: dict[str, Any], key: str, value: Any) -> None:
+    """Set a key like `time.steps`. Tables are merged."""
+    first, _, rest = key.partition(".") if isinstance(key, str) else (key, "", "")
+    if rest:
+        _put(_subtable(scene, first, key), rest, value)
+    elif isinstance(value, Mapping):
+        table = _subtable(scene, first, key)
+        for name, item in value.items():
+            _put(table, name, item)
+    else:
+        scene[first] = value
+
+
+def _subtable(scene: dict[str, Any], name: str, key: str) -> dict[str, Any]:
+    table = scene.setdefault(name, {})
+    if not isinstance(table, dict):
+        raise TypeError(f"{key}: {name} is a value and cannot have keys")
+    return table
+
+
+def merged(scene: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a copy of a scene with some keys set."""
+    result = nested(scene)
+    for key, value in flattened(overrides).items():
+        _put(result, key, value)
+    return result
+
+
+def read_scene(scene: SceneLike) -> dict[str, Any]:
+    """Return a scene as a dictionary, with what its remarks `# --set key=value` set.
+
+    Legacy text (`FILE.in`) has no keys: the dictionary is empty but for what remarks set.
+    """
+    if isinstance(scene, Mapping):
+        return nested(scene)
+    if isinstance(scene, str) and is_text(scene):
+        text, name = scene, "the scene's text"
+    else:
+        text, name = _file_text(Path(scene))
+    remarks = [line.removeprefix(_REMARK) for line in text.splitlines() if line.startswith(_REMARK)]
+    return parsed(text, name, remarks)
+
+
+def parsed(text: str, name: str, overrides: Iterable[str]) -> dict[str, Any]:
+    """Read a scene's text, with overrides `key=value`. The name tells legacy text from TOML."""
+    try:
+        known = {} if name.endswith(".in") or name == "-" else tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise FileError(f"{name}: {error}") from None
+    pairs = [line.partition("=") for line in overrides]
+    return merged(known, {key: _value_of(word) for key, _, word in pairs})
+
+
+def is_text(scene: object) -> bool:
+    """Whether a scene is TOML text: a string with a line break. Any other string is a path."""
+    return isinstance(scene, str) and "\n" in scene
+
+
+def _file_text(path: Path) -> tuple[str, str]:
+    try:
+        return path.read_text(encoding="utf-8"), str(path)
+    except (OSError, UnicodeDecodeError) as error:
+        raise FileError(f"{path}: cannot be read: {error}") from None
+
+
+def _value_of(word: str) -> Any:
+    """Read the value of `--set key=value`, whose words need no quotes."""
+    try:
+        return tomllib.loads(f"value = {word}")["value"]
+    except tomllib.TOMLDecodeError:
+        return word
+
+
+@dataclass
+class SceneFile:
+    """A scene as the command line has it.
+
+    Attributes:
+        path: the file that the program reads
+        overrides: `key=value` for `--set`
+        text: the TOML that was written for a dictionary or a text; else None
+    """
+
+    path: Path
+    overrides: list[str]
+    text: str | None = None
+
+
+@contextmanager
+def scene_file(scene: SceneLike, overrides: Mapping[str, Any], folder: Path) -> Iterator[SceneFile]:
+    """Give the program a file to read: `input.toml` in the folder, as long as the context lasts.
+
+    There all nodes of a cluster see it, and the name that the program stores is no random one.
+    """
+    words = set_words(overrides)
+    if not isinstance(scene, Mapping) and not is_text(scene):
+        yield SceneFile(Path(scene), words)
+        return
+    if isinstance(scene, Mapping):
+        text = to_toml(_with_absolute_files(merged(scene, overrides)))
+        words = []
+    else:
+        text = str(scene)
+        words += _absolute_file_words(text, words)
+    path = folder / "input.toml"
+    path.write_text(text, encoding="utf-8")
+    try:
+        yield SceneFile(path, words, text)
+    finally:
+        path.unlink(missing_ok=True)
+
+
+def set_words(overrides: Mapping[str, Any]) -> list[str]:
+    """Return overrides as `key=value`, for `--set`."""
+    return [f"{key}={toml_value(value)}" for key, value in flattened(overrides).items()]
+
+
+def _with_absolute_files(scene: dict[str, Any]) -> dict[str, Any]:
+    """Name `discs.file` from the working folder: the program looks beside the scene."""
+    discs = scene.get("discs")
+    if isinstance(discs, dict) and isinstance(discs.get("file"), str | os.PathLike):
+        discs["file"] = str(Path(discs["file"]).absolute())
+    return scene
+
+
+def _absolute_file_words(text: str, words: list[str]) -> list[str]:
+    try:
+        file = tomllib.loads(text).get("discs", {}).get("file")
+    except (tomllib.TOMLDecodeError, AttributeError):
+        return []  # the program reports it
+    if not isinstance(file, str) or any(word.startswith("discs.file=") for word in words):
+        return []
+    return [f"discs.file={toml_value(Path(file).absolute())}"]

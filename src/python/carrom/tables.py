@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tables of numbers with named columns."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from carrom.errors import FileError, MissingPackageError, NoDataError
+
+if TYPE_CHECKING:
+    import pandas
+
+_WHOLE = ("count", "pairs", "steps", "step", "collisions")
+
+
+class Table(np.ndarray[Any, np.dtype[np.void]]):
+    """A structured array: `table["g"]` is a column, `table[3]` a row.
+
+    Attributes:
+        remarks: what the program wrote about the table: samples, meaning, units
+    """
+
+    remarks: tuple[str, ...]
+
+    def __new__(cls, rows: npt.ArrayLike, remarks: Sequence[str] = ()) -> Table:
+        """Take a structured array as it is."""
+        table = np.asarray(rows).view(cls)
+        if table.dtype.names is None:
+            raise TypeError("a table has named columns")
+        table.remarks = tuple(remarks)
+        return table
+
+    def __array_finalize__(self, source: object) -> None:
+        self.remarks = getattr(source, "remarks", ())
+
+    @classmethod
+    def from_columns(
+        cls, columns: Mapping[str, npt.ArrayLike], remarks: Sequence[str] = ()
+    ) -> Table:
+        """Join columns of equal length."""
+        arrays = {name: np.asarray(values) for name, values in columns.items()}
+        length = len(next(iter(arrays.values()), np.empty(0)))
+        rows = np.empty(length, dtype=[(name, array.dtype) for name, array in arrays.items()])
+        for name, array in arrays.items():
+            rows[name] = array
+        return cls(rows, remarks)
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the columns."""
+        return self.dtype.names or ()
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Return the table as a pandas DataFrame; remarks go to its `attrs`."""
+        try:
+            import pandas
+        except ImportError:
+            raise MissingPackageError("to_pandas needs pandas: pip install pandas") from None
+        frame = pandas.DataFrame({name: np.asarray(self[name]) for name in self.columns})
+        frame.attrs["remarks"] = list(self.remarks)
+        return frame
+
+
+def _is_whole(name: str) -> bool:
+    """Whether a column of the program's tables holds whole numbers."""
+    words = name.split("_")
+    return words[-1] in _WHOLE or words[0] == "pairs"
+
+
+def read_csv(path: str | os.PathLike[str]) -> Table:
+    """Read a table that the program wrote: CSV with remarks behind `#`. Numbers keep every bit.
+
+    Columns of counts and steps become int64, all others float64.
+    """
+    try:
+        lines = Path(path).read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise FileError(f"{path}: cannot be read: {error}") from None
+    remarks = [line[1:].strip() for line in lines if line.startswith("#")]
+    rows = [line.split(",") for line in lines if line and not line.startswith("#")]
+    names = rows[0] if rows else []
+    if not names or any(len(row) != len(names) for row in rows):
+        raise FileError(f"{path}: is no table: rows have different lengths, or there are none")
+    dtype = [(name, np.int64 if _is_whole(name) else np.float64) for name in names]
+    try:
+        values = [
+            tuple(int(word) if kind is np.int64 else float(word) for (_, kind), word in zipped)
+            for zipped in (zip(dtype, row, strict=True) for row in rows[1:])
+        ]
+    except ValueError as error:
+        raise FileError(f"{path}: is no table of numbers: {error}") from None
+    return Table(np.array(values, dtype=dtype), remarks)
+
+
+class Tables(Mapping[str, Table]):
+    """The tables of a folder, by name: `run.tables["radial_distribution"]`. Read at each access."""
+
+    def __init__(self, folder: Path | None, owner: str) -> None:
+        """Look into a folder, or into none; `owner` is whose tables these are, for messages."""
+        self._folder = folder
+        self._owner = owner
+
+    def _paths(self) -> dict[str, Path]:
+        if self._folder is None or not self._folder.is_dir():
+            return {}
+        return {path.stem: path for path in sorted(self._folder.glob("*.csv"))}
+
+    def __getitem__(self, name: str) -> Table:
+        paths = self._paths()
+        if name not in paths:
+            known = ", ".join(paths) or "none yet"
+            raise _NoTableError(
+                f"{self._owner} has no table {name!r}; it has {known}. "
+                "output.measurements.quantities of the scene says what is measured"
+            )
+        return read_csv(paths[name])
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._paths())
+
+    def __len__(self) -> int:
+        return len(self._paths())
+
+    def __repr__(self) -> str:
+        return f"<tables of {self._owner}: {', '.join(self) or 'none'}>"
+
+
+class _NoTableError(NoDataError, KeyError):
+    """Is a KeyError too, so that `in` and `get` work."""
+
+    __str__ = Exception.__str__

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One frame of a trajectory, and what all of its frames share."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from carrom.errors import FileError
+from carrom.frame import Array, Frame
+
+if TYPE_CHECKING:
+    from carrom.frames import Frames
+
+
+class System:
+    """What a trajectory says of its discs once and for all."""
+
+    def __init__(self, file: Any) -> None:
+        """Read it from an open file."""
+        discs = file["particles/discs"]
+        self.n_discs = _number_of_discs(discs, file)
+        boundary = [
+            word.decode() if isinstance(word, bytes) else str(word)
+            for word in discs["box"].attrs["boundary"]
+        ]
+        self.periodic = (boundary[0] == "periodic", boundary[1] == "periodic")
+        sides = file["parameters/open_sides"][()] if "parameters/open_sides" in file else [0] * 4
+        self.open_sides = tuple(bool(side) for side in sides)
+        shape = (self.n_discs,)
+        radius = discs["radius"][()] if "radius" in discs else file["parameters/radius"][()]
+        self.radius = np.broadcast_to(np.asarray(radius, dtype=np.float64), shape)
+        mass = discs["mass"][()] if "mass" in discs else 1.0
+        self.mass = np.broadcast_to(np.asarray(mass, dtype=np.float64), shape)
+        species = discs["species"][()] if "species" in discs else 0
+        self.species = np.broadcast_to(np.asarray(species, dtype=np.int64), shape)
+
+
+def _number_of_discs(discs: Any, file: Any) -> int:
+    for name in ("position", "velocity", "collisions", "angular_velocity"):
+        if name in discs:
+            return int(discs[name]["value"].shape[1])
+    raise FileError(f"{file.filename}: its frames have no fields")
+
+
+class TrajectoryFrame(Frame):
+    """A frame of a trajectory. Arrays are read when they are first asked for."""
+
+    def __init__(self, frames: Frames, index: int) -> None:
+        """Stand for the frame at a place in the file."""
+        self._frames = frames
+        self._index = index
+        self.step = int(frames.all_steps[index])
+        self.box = np.asarray(frames.all_boxes[index, :2], dtype=np.float64)
+        self.periodic = frames.system.periodic
+
+    @property
+    def n_discs(self) -> int:
+        return self._frames.system.n_discs
+
+    @property
+    def radius(self) -> Array:
+        return self._frames.system.radius
+
+    @property
+    def mass(self) -> Array:
+        return self._frames.system.mass
+
+    @property
+    def species(self) -> Array:
+        return self._frames.system.species
+
+    @cached_property
+    def x(self) -> Array:
+        return self._frames.field("position", self._index)[:, :2]
+
+    @cached_property
+    def v(self) -> Array:
+        return self._frames.field("velocity", self._index)[:, :2]
+
+    @cached_property
+    def spin(self) -> Array:
+        return self._frames.field("angular_velocity", self._index)
+
+    @cached_property
+    def wall_collisions(self) -> Array:
+        return self._frames.field("collisions", self._index)[:, 0]
+
+    @cached_property
+    def pair_collisions(self) -> Array:
+        return self._frames.field("collisions", self._index)[:, 1]
+
+    @cached_property
+    def present(self) -> Array:
+        """Discs rest where they left: a radius beyond the line. One still leaving moves."""
+        left, right, bottom, top = self._frames.system.open_sides
+        outside = np.zeros(self.n_discs, dtype=bool)
+        for axis, low, high in ((0, left, right), (1, bottom, top)):
+            if low:
+                outside |= self.x[:, axis] < 0
+            if high:
+                outside |= self.x[:, axis] > self.box[axis]
+        if outside.any() and self._frames.has("velocity"):
+            outside &= ~self.v.any(axis=1)
+        return ~outside
