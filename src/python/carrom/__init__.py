@@ -21,11 +21,15 @@ from carrom.errors import (
 )
 from carrom.frame import Frame
 from carrom.frames import Frames
+from carrom.physics import Measured, average, compressibility, henderson, virial_series
 from carrom.program import find_program, program_version
 from carrom.running import CarromWarning, resume, run
 from carrom.runs import Checkpoints, Run, read_lines
 from carrom.runs import open_run as open
 from carrom.scene import read_scene, to_toml
+from carrom.slurm import SlurmError
+from carrom.sweeping import sweep
+from carrom.sweeps import Sweep, SweepError
 from carrom.tables import Table, Tables, read_csv
 
 __version__ = "0.2.0"
@@ -41,16 +45,23 @@ __all__ = [
     "Frames",
     "InputError",
     "InvariantError",
+    "Measured",
     "MissingPackageError",
     "NoDataError",
     "OutputError",
     "ProgramError",
     "ProgramNotFoundError",
     "Run",
+    "SlurmError",
     "StoppedError",
+    "Sweep",
+    "SweepError",
     "Table",
     "Tables",
+    "average",
+    "compressibility",
     "find_program",
+    "henderson",
     "open",
     "program_version",
     "read_csv",
@@ -58,5 +69,7 @@ __all__ = [
     "read_scene",
     "resume",
     "run",
+    "sweep",
     "to_toml",
+    "virial_series",
 ]

@@ -145,7 +145,9 @@ def to_ovito_pipeline(frames: Sequence[Frame]) -> Any:
     """See `Frames.to_ovito`."""
     module = package("ovito.pipeline", "to_ovito", "ovito")
 
-    class Source(module.PipelineSourceInterface):  # type: ignore[misc]
+    base: Any = module.PipelineSourceInterface
+
+    class Source(base):  # type: ignore[misc]
         """Gives OVITO the frame that it shows."""
 
         def compute_trajectory_length(self, **_: Any) -> int:

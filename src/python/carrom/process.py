@@ -7,14 +7,30 @@ import contextlib
 import os
 import pty
 import re
+import select
 import signal
 import subprocess
-from collections.abc import Sequence
+import threading
+from collections.abc import Iterator, Sequence
+from contextvars import ContextVar
 from pathlib import Path
 
 from carrom.progress import Show, is_progress
 
 _ERASE = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
+
+
+_stop: ContextVar[threading.Event | None] = ContextVar("stop", default=None)
+
+
+@contextlib.contextmanager
+def process_watch(stop: threading.Event) -> Iterator[None]:
+    """Let an event stop the processes that this thread waits for: they store a checkpoint."""
+    token = _stop.set(stop)
+    try:
+        yield
+    finally:
+        _stop.reset(token)
 
 
 class Process:
@@ -72,7 +88,14 @@ class Process:
         return code
 
     def _read_all(self, show: Show) -> None:
+        """Read until the other side is closed."""
+        stop = _stop.get()
         while True:
+            if stop is not None and not select.select([self._master], [], [], 0.1)[0]:
+                if stop.is_set():
+                    self._signal(signal.SIGUSR1)
+                    stop = None
+                continue
             try:
                 block = os.read(self._master, 65536)
             except OSError:  # Linux says so when the other side is closed

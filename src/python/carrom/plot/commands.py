@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`carrom-plot`: pictures of runs from the command line."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from carrom.errors import CarromError
+
+Options = argparse.Namespace
+_COLOURS = ("speed", "vx", "vy", "spin", "strip", "species")
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """Draw what the command line asks for; return 0, or 2 with a message."""
+    parser = _parser()
+    options = parser.parse_args(words)
+    try:
+        import matplotlib as mpl
+
+        mpl.use("Agg")
+        options.act(options)
+    except ImportError as error:
+        print(f"carrom-plot: {error}: pip install carrom[plot]", file=sys.stderr)
+        return 2
+    except (CarromError, ValueError, OSError) as error:
+        print(f"carrom-plot: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="carrom-plot", description="Draw runs of Carrom.")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+
+    def add(name: str, act: Callable[[Options], None], text: str, **source: Any) -> Any:
+        command = commands.add_parser(name, help=text, description=text)
+        command.set_defaults(act=act)
+        command.add_argument("source", **source)
+        output = "a picture (.png, .pdf, .svg), or a movie (.gif, .mp4)"
+        command.add_argument("-o", "--output", required=True, help=output)
+        command.add_argument("--dpi", type=int, default=110, help="dots per inch; default 110")
+        return command
+
+    run = {"help": "a run's folder, or a file of it"}
+    frame = add("frame", _frame, "one frame, discs to scale", **run)
+    frame.add_argument("--step", type=int, help="default: the last")
+    _add_look(frame)
+    movie = add("movie", _movie, "all frames, discs to scale", **run)
+    movie.add_argument("--every", type=int, default=1, help="show every so-many-th frame")
+    movie.add_argument("--rate", type=float, default=15, help="frames per second; default 15")
+    _add_look(movie)
+    add("history", _history, "kinetic energy and collisions over time", **run)
+    add("measurements", _measurements, "the tables of [output.measurements]", **run)
+    many = {"nargs": "+", "help": "folders of runs"}
+    gr = add("gr", _gr, "the radial distribution g(r)", **many)
+    gr.add_argument("--in-diameters", action="store_true", help="distances over the diameter")
+    add("eos", _eos, "the equation of state, and what theory says", **many)
+    return parser
+
+
+def _add_look(command: Any) -> None:
+    command.add_argument("--colour", choices=_COLOURS, default="speed")
+    command.add_argument("--ranks", type=int, default=4, help="how many strips; default 4")
+    command.add_argument(
+        "--view", type=float, nargs=4, metavar=("X0", "Y0", "X1", "Y1"), help="part of the box"
+    )
+    command.add_argument(
+        "--fastest", type=float, help="number of the strongest colour; default: 99 in 100 are below"
+    )
+    command.add_argument("--scene", help="a scene's TOML, to draw its obstacles")
+
+
+def _look(options: Options) -> dict[str, Any]:
+    from carrom.scene import read_scene
+
+    return {
+        "colour": options.colour,
+        "ranks": options.ranks,
+        "view": tuple(options.view) if options.view else None,
+        "fastest": options.fastest,
+        "scene": read_scene(options.scene) if options.scene else None,
+    }
+
+
+def _save(axes: Any, options: Options) -> None:
+    axes.figure.savefig(options.output, dpi=options.dpi)
+
+
+def _frame(options: Options) -> None:
+    from carrom import plot
+
+    _save(plot.frame(options.source, options.step, **_look(options)), options)
+
+
+def _movie(options: Options) -> None:
+    from carrom import plot
+
+    look = _look(options)
+    plot.movie(
+        options.source,
+        options.output,
+        every=options.every,
+        rate=options.rate,
+        dpi=options.dpi,
+        **look,
+    )
+
+
+def _history(options: Options) -> None:
+    from carrom import plot
+
+    _save(plot.history(options.source)[0], options)
+
+
+def _measurements(options: Options) -> None:
+    from carrom import plot
+
+    _save(plot.measurements(options.source)[0], options)
+
+
+def _gr(options: Options) -> None:
+    from carrom import plot
+
+    _save(plot.radial_distribution(options.source, in_diameters=options.in_diameters), options)
+
+
+def _eos(options: Options) -> None:
+    from carrom import plot
+
+    _save(plot.equation_of_state(options.source), options)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

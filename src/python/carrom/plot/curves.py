@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Curves of runs: energy and collisions over time, tables of measurements, equation of state."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+
+from carrom.errors import NoDataError
+from carrom.frame import Array
+from carrom.physics import compressibility, henderson, virial_series
+from carrom.plot.sources import as_run
+from carrom.runs import Run
+from carrom.sweeps import Sweep
+from carrom.tables import Table
+
+RunLike = Run | str | os.PathLike[str]
+
+
+def _new_axes(ax: Axes | None) -> Axes:
+    if ax is not None:
+        return ax
+    _, new = plt.subplots(figsize=(6.4, 4.4), layout="constrained")
+    return new
+
+
+def history(source: RunLike) -> list[Axes]:
+    """Draw kinetic energy (of the frames) and collisions per step (of the log) over time.
+
+    Energy is relative to the first frame. Frames in single precision show some 1e-7 of rounding.
+    """
+    run = as_run(source)
+    parts: list[Callable[[Axes, Run], None]] = []
+    if len(run.frames) and run.frames.has("velocity"):
+        parts.append(_draw_energy)
+    try:
+        run.collisions_between(0, 0)
+        parts.append(_draw_collisions)
+    except NoDataError:
+        pass
+    if not parts:
+        raise NoDataError(f"{run.name}: has neither frames with velocities nor collisions")
+    _, grid = plt.subplots(
+        len(parts),
+        figsize=(7.2, 2.8 * len(parts)),
+        sharex=True,
+        squeeze=False,
+        layout="constrained",
+    )
+    axes: list[Axes] = list(grid[:, 0])
+    for draw, ax in zip(parts, axes, strict=True):
+        draw(ax, run)
+    axes[-1].set_xlabel("step")
+    return axes
+
+
+def _draw_energy(ax: Axes, run: Run) -> None:
+    frames = run.frames
+    energy = np.array([frame.kinetic_energy for frame in frames])
+    start = energy[0] or 1.0
+    ax.plot(frames.steps, energy / start - 1, marker="." if len(energy) < 200 else None)
+    ax.set(ylabel="change of kinetic energy\n(of that at the start)")
+    ax.ticklabel_format(axis="y", style="sci", scilimits=(-3, 3))
+    ax.set_title(f"kinetic energy at the start {energy[0]:.10g}", fontsize="medium")
+
+
+def _draw_collisions(ax: Axes, run: Run, most_points: int = 400) -> None:
+    table = run.collisions
+    steps, partners = np.asarray(table["step"]), np.asarray(table["q"])
+    first = int(steps.min()) if len(steps) else 1
+    last = int(steps.max()) if len(steps) else 1
+    width = -(-(last - first + 1) // most_points)  # steps per point; the last point may have fewer
+    edges = np.minimum(np.arange(first, last + width + 1, width), last + 1) - 0.5
+    edges = np.unique(edges)
+    for is_wall, label in ((False, "pairs"), (True, "walls")):
+        counts, _ = np.histogram(steps[(partners < 0) == is_wall], edges)
+        ax.stairs(counts / np.diff(edges), edges, label=label)
+    ax.set(ylabel="collisions per step", ylim=(0, None))
+    ax.legend()
+
+
+def _middles(table: Table) -> Array:
+    return np.asarray(table["from"] + table["to"]) / 2
+
+
+def radial_distribution(
+    source: RunLike | Iterable[RunLike],
+    *,
+    in_diameters: bool = False,
+    ax: Axes | None = None,
+) -> Axes:
+    """Draw g(r) of one or more runs, of `"radial_distribution"` of `[output.measurements]`.
+
+    Args:
+        source: a run, a path, or several of them
+        in_diameters: show distances over the diameter of the largest disc
+        ax: where to draw; a new figure if None
+    """
+    ax = _new_axes(ax)
+    sources = [source] if isinstance(source, Run | str | os.PathLike) else list(source)
+    for item in sources:
+        run = as_run(item)
+        table = run.tables["radial_distribution"]
+        unit = _diameter(run) if in_diameters else 1.0
+        kinds = [name for name in table.columns if name == "g" or name.startswith("g_")]
+        for kind in kinds:
+            label = run.name if len(sources) > 1 else kind
+            ax.plot(_middles(table) / unit, table[kind], label=label)
+        if len(sources) > 1 or len(kinds) > 1:
+            ax.legend()
+    ax.axhline(1, color="0.7", linewidth=0.8)
+    ax.set(xlabel="distance / diameter" if in_diameters else "distance", ylabel="g", ylim=(0, None))
+    return ax
+
+
+def _diameter(run: Run) -> float:
+    frames = run.frames if len(run.frames) else run.checkpoints
+    return 2 * float(frames[-1].radius.max())
+
+
+def equation_of_state(
+    source: Sweep | Iterable[RunLike], *, theory: bool = True, ax: Axes | None = None
+) -> Axes:
+    """Draw Z = p A / (N kT) against the packing fraction, with one standard error.
+
+    `carrom.compressibility` says where Z comes from.
+
+    Args:
+        source: a sweep, or runs
+        theory: draw Henderson's equation and the virial series too
+        ax: where to draw; a new figure if None
+    """
+    ax = _new_axes(ax)
+    runs = source.runs if isinstance(source, Sweep) else [as_run(item) for item in source]
+    points = sorted((float(run.report["packing"]), *compressibility(run)) for run in runs)
+    packings, values, errors = (np.array(column) for column in zip(*points, strict=True))
+    if theory:
+        line = np.linspace(0, max(packings.max(), 0.05), 200)
+        ax.plot(line, henderson(line), color="0.6", label="Henderson (1975)")
+        ax.plot(line, virial_series(line), "k--", linewidth=0.8, label="ten virial coefficients")
+    ax.errorbar(packings, values, yerr=errors, fmt="o", markersize=4, capsize=2, label="measured")
+    ax.set(xlabel="packing fraction", ylabel="Z = p A / (N kT)")
+    ax.legend()
+    return ax
+
+
+def measurements(source: RunLike) -> list[Axes]:
+    """Draw the tables of `[output.measurements]`, a panel for each kind that is there."""
+    run = as_run(source)
+    panels = [draw for name, draw in _PANELS.items() if name in run.tables]
+    if not panels:
+        raise NoDataError(f"{run.name}: has none of the tables {', '.join(_PANELS)}")
+    n_columns = min(2, len(panels))
+    n_rows = -(-len(panels) // n_columns)
+    _, grid = plt.subplots(
+        n_rows,
+        n_columns,
+        figsize=(4.8 * n_columns, 3.4 * n_rows),
+        squeeze=False,
+        layout="constrained",
+    )
+    axes: list[Axes] = list(grid.flat)
+    for ax in axes[len(panels) :]:
+        ax.remove()
+    for ax, draw in zip(axes, panels, strict=False):
+        draw(ax, run)
+    return axes[: len(panels)]
+
+
+def _draw_radial_distribution(ax: Axes, run: Run) -> None:
+    radial_distribution(run, ax=ax)
+
+
+def _draw_velocities(ax: Axes, run: Run) -> None:
+    """Beside the normal distribution of the same variance."""
+    table = run.tables["velocities"]
+    v = _middles(table)
+    for name in ("vx", "vy"):
+        ax.plot(v, table[f"{name}_density"], drawstyle="steps-mid", label=name)
+    counts = table["vx_count"] + table["vy_count"]
+    variance = float(np.sum(counts * v**2) / max(np.sum(counts), 1))
+    if variance > 0:
+        normal = np.exp(-(v**2) / (2 * variance)) / np.sqrt(2 * np.pi * variance)
+        ax.plot(v, normal, color="black", linewidth=0.8, label="Maxwell")
+    ax.set(xlabel="velocity", ylabel="density of probability")
+    ax.legend()
+
+
+def _draw_density(ax: Axes, run: Run) -> None:
+    for name in ("x", "y"):
+        table = run.tables[f"density_{name}"]
+        ax.plot(_middles(table), table["density"], drawstyle="steps-mid", label=f"along {name}")
+    ax.set(xlabel="place", ylabel="discs per area", ylim=(0, None))
+    ax.legend()
+
+
+def _draw_wall_pressure(ax: Axes, run: Run) -> None:
+    """Over time, each side's mean in the legend. Periodic sides have none."""
+    past, mean = run.tables["wall_pressure_history"], run.tables["wall_pressure"]
+    middles = (past["from_step"] + past["to_step"]) / 2
+    for side in ("left", "right", "bottom", "top"):
+        if len(mean) and not np.isnan(mean[side][0]):
+            label = f"{side}: {mean[side][0]:.4g} ± {mean[side + '_error'][0]:.1g}"
+            ax.plot(middles, past[side], linewidth=0.8, label=label)
+    ax.set(xlabel="step", ylabel="wall pressure", ylim=(0, None))
+    ax.legend(fontsize="small")
+
+
+def _draw_displacement(ax: Axes, run: Run) -> None:
+    table = run.tables["displacement"]
+    moved = table["steps"] > 0
+    for name in ("x", "y", "sum"):
+        ax.loglog(table["steps"][moved], table[name][moved], label=name)
+    ax.set(xlabel="steps", ylabel="mean square displacement")
+    ax.legend()
+
+
+_PANELS: dict[str, Callable[[Axes, Run], None]] = {
+    "radial_distribution": _draw_radial_distribution,
+    "velocities": _draw_velocities,
+    "density_x": _draw_density,
+    "wall_pressure_history": _draw_wall_pressure,
+    "displacement": _draw_displacement,
+}

@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Discs to scale, coloured by what they do."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+import numpy as np
+import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.collections import EllipseCollection, LineCollection, PatchCollection
+from matplotlib.colors import Colormap, ListedColormap
+from matplotlib.patches import Circle
+
+from carrom.frame import Array, Frame
+from carrom.plot.sources import COLOURS, Drawable, frame_of, scene_of
+
+_LABELS = {
+    "speed": "speed (lengths per step)",
+    "vx": "velocity along x (lengths per step)",
+    "vy": "velocity along y (lengths per step)",
+    "spin": "spin (radians per step, counterclockwise)",
+    "strip": "strip",
+    "species": "species",
+}
+_TWO_SIDED = ("vx", "vy", "spin")
+_NUMBERED = ("strip", "species")
+
+
+@dataclass
+class Look:
+    """How discs are drawn.
+
+    Attributes:
+        colour: one of `COLOURS`, or one number a disc, (N,)
+        view: x0, y0, x1, y1 of the part to show; the box if None
+        fastest: the number of the strongest colour; 99 in 100 discs are below it if None
+        ranks: how many strips there are, for colour "strip"
+        label: what the bar of colours says
+        cmap: a colour map of matplotlib, instead of the usual one
+        bar: whether there is a bar of colours
+    """
+
+    colour: str | npt.ArrayLike = "speed"
+    view: tuple[float, float, float, float] | None = None
+    fastest: float | None = None
+    ranks: int = 4
+    label: str | None = None
+    cmap: str | Colormap | None = None
+    bar: bool = True
+
+    def __post_init__(self) -> None:
+        if isinstance(self.colour, str) and self.colour not in COLOURS:
+            known = ", ".join(COLOURS)
+            raise ValueError(f"no colour {self.colour!r}; there are {known}, or an array (N,)")
+
+
+def frame(
+    source: Drawable,
+    step: int | None = None,
+    *,
+    colour: str | npt.ArrayLike = "speed",
+    view: tuple[float, float, float, float] | None = None,
+    fastest: float | None = None,
+    ranks: int = 4,
+    label: str | None = None,
+    cmap: str | Colormap | None = None,
+    bar: bool = True,
+    scene: Mapping[str, Any] | None = None,
+    ax: Axes | None = None,
+) -> Axes:
+    """Draw the discs of one step to scale, with obstacles.
+
+    Args:
+        source: a run, frames, a frame, or a path
+        step: the step to show; the last one if None
+        colour: "speed", "vx", "vy", "spin", "strip", "species", or an array (N,)
+        view: x0, y0, x1, y1 of the part to show, lengths
+        fastest: the number of the strongest colour; 99 in 100 discs are below it if None
+        ranks: how many strips there are, for colour "strip"
+        label: what the bar of colours says
+        cmap: a colour map of matplotlib
+        bar: whether there is a bar of colours
+        scene: where obstacles stand, if the source does not know
+        ax: where to draw; a new figure if None
+    """
+    shown = frame_of(source, step)
+    look = Look(colour, view, fastest, ranks, label, cmap, bar)
+    picture = Picture(shown, look, scene_of(source) if scene is None else scene, ax)
+    picture.show(shown)
+    return picture.axes
+
+
+class Picture:
+    """Axes that show one frame after the other."""
+
+    def __init__(
+        self, first: Frame, look: Look, scene: Mapping[str, Any], ax: Axes | None = None
+    ) -> None:
+        """Set the scale of colours by the first frame; it is the same for all."""
+        if ax is None:
+            _, ax = plt.subplots(figsize=(7.2, 6.2), layout="constrained")
+        self.axes = ax
+        self.look = look
+        x0, y0, x1, y1 = look.view or (0.0, 0.0, float(first.box[0]), float(first.box[1]))
+        self.view = (x0, y0, x1, y1)
+        ax.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal", xlabel="x", ylabel="y")
+        _add_obstacles(ax, scene, first.box)
+        self.discs = EllipseCollection(
+            [],
+            [],
+            [],
+            units="xy",
+            offsets=np.empty((0, 2)),
+            offset_transform=ax.transData,
+            linewidths=0,
+            cmap=self._cmap(first),
+        )
+        self.discs.set_clim(*self._limits(first))
+        ax.add_collection(self.discs)
+        if look.bar and ax.figure is not None:
+            self._add_bar(first)
+
+    def show(self, frame: Frame) -> None:
+        """Show a frame instead of the one before."""
+        x0, y0, x1, y1 = self.view
+        x, y, r = frame.x[:, 0], frame.x[:, 1], frame.radius
+        seen = frame.present & (x > x0 - r) & (x < x1 + r) & (y > y0 - r) & (y < y1 + r)
+        width = 2 * r[seen]
+        self.discs.set(
+            widths=width,
+            heights=width,
+            angles=np.zeros(len(width)),
+            offsets=frame.x[seen],
+            array=self._values(frame)[seen],
+        )
+        self.axes.set_title(f"step {frame.step}")
+
+    def _values(self, frame: Frame) -> Array:
+        colour = self.look.colour
+        if not isinstance(colour, str):
+            values = np.asarray(colour)
+            if values.shape != (frame.n_discs,):
+                wanted = f"({frame.n_discs},): one number a disc"
+                raise ValueError(f"colour has the shape {values.shape}, not {wanted}")
+            return values
+        if colour == "strip":
+            return frame.strips(self.look.ranks)
+        if colour in ("vx", "vy"):
+            return np.asarray(frame.v[:, 0 if colour == "vx" else 1])
+        return np.asarray(getattr(frame, colour))
+
+    def _n_numbers(self, first: Frame) -> int:
+        """How many numbered colours there are."""
+        if self.look.colour == "strip":
+            return self.look.ranks
+        return int(first.species.max(initial=0)) + 1
+
+    def _is(self, kinds: tuple[str, ...]) -> bool:
+        return isinstance(self.look.colour, str) and self.look.colour in kinds
+
+    def _cmap(self, first: Frame) -> str | Colormap:
+        if self.look.cmap is not None:
+            return self.look.cmap
+        if self._is(_NUMBERED):
+            tab = mpl.colormaps["tab10"]
+            return ListedColormap([tab(k % 10) for k in range(self._n_numbers(first))])
+        return "coolwarm" if self._is(_TWO_SIDED) else "viridis"
+
+    def _limits(self, first: Frame) -> tuple[float, float]:
+        if self._is(_NUMBERED):
+            return -0.5, self._n_numbers(first) - 0.5
+        values = self._values(first)[first.present]
+        strongest = self.look.fastest
+        if strongest is None:
+            strongest = float(np.quantile(np.abs(values), 0.99)) if len(values) else 1.0
+            strongest = strongest or 1.0
+        if self._is(("speed",)):
+            return 0.0, strongest
+        if self._is(_TWO_SIDED):
+            return -strongest, strongest
+        lowest = min(0.0, float(values.min())) if len(values) else 0.0
+        return lowest, strongest
+
+    def _add_bar(self, first: Frame) -> None:
+        label = self.look.label
+        if label is None and isinstance(self.look.colour, str):
+            label = _LABELS[self.look.colour]
+        ticks = range(self._n_numbers(first)) if self._is(_NUMBERED) else None
+        self.axes.figure.colorbar(
+            self.discs, ax=self.axes, label=label or "", shrink=0.9, ticks=ticks
+        )
+
+
+def _add_obstacles(axes: Axes, scene: Mapping[str, Any], box: Array) -> None:
+    """Draw fixed discs and segments, and their images through periodic sides."""
+    obstacles = scene.get("effects", {}).get("obstacles", {})
+    walls = scene.get("box", {})
+    shifts = [0.0], [0.0]
+    for axis, side in enumerate(("left", "bottom")):
+        if walls.get(side, {}).get("kind") == "periodic":
+            shifts[axis][:] = [-float(box[axis]), 0.0, float(box[axis])]
+    moves = [(dx, dy) for dx in shifts[0] for dy in shifts[1]]
+    smallest = 0.002 * float(box[0])
+    circles = [
+        Circle((x + dx, y + dy), max(radius, smallest))
+        for x, y, radius in obstacles.get("discs", [])
+        for dx, dy in moves
+    ]
+    lines = [
+        ((x0 + dx, y0 + dy), (x1 + dx, y1 + dy))
+        for x0, y0, x1, y1 in obstacles.get("segments", [])
+        for dx, dy in moves
+    ]
+    axes.add_collection(PatchCollection(circles, facecolors="0.6", edgecolors="none"))
+    axes.add_collection(LineCollection(lines, colors="0.4", linewidths=1))

@@ -1,0 +1,271 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sweeps: one scene at each point of a grid of keys, in one table."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import os
+import re
+import zlib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from carrom.errors import CarromError, FileError, NoDataError, ProgramError
+from carrom.physics import average, compressibility
+from carrom.runs import Run
+from carrom.scene import SceneLike, flattened, is_text, merged, read_scene, to_toml, toml_value
+from carrom.tables import Table
+
+Quantity = Callable[[Run], float | tuple[float, float]]
+
+AVERAGES = (
+    "collision_frequency",
+    "mean_free_time",
+    "wall_pressure",
+    "virial_pressure",
+    "mean_speed",
+    "speed_kurtosis",
+)
+_PLAIN = re.compile(r"[A-Za-z0-9_.+-]{1,40}")
+_DEFAULT_SEED = 3210
+
+
+class SweepError(CarromError):
+    """Some points of a sweep failed; the others are done.
+
+    Attributes:
+        sweep: the sweep
+    """
+
+    def __init__(self, sweep: Sweep) -> None:
+        """List what failed."""
+        self.sweep = sweep
+        reasons = [f"{point.name}: {error}" for point, error in sweep.failures]
+        n = len(reasons)
+        text = f"{n} of {len(sweep.points)} runs failed:\n" + "\n".join(reasons)
+        super().__init__(text)
+
+
+@dataclass(frozen=True)
+class Point:
+    """A run of a sweep.
+
+    Attributes:
+        values: what the grid's keys are here
+        seed: `discs.seed` of a repeat; None where there are no repeats
+        scene: the whole scene, or the path of legacy text
+        overrides: what legacy text has set
+        folder: the run's folder
+    """
+
+    values: dict[str, Any]
+    seed: int | None
+    scene: dict[str, Any] | Path
+    overrides: dict[str, Any]
+    folder: Path
+
+    @property
+    def name(self) -> str:
+        """The last part of the folder's name."""
+        return self.folder.name
+
+    def run(self) -> Run | None:
+        """Return the run if it is finished.
+
+        Raises:
+            FileError: the folder has a run of another scene
+        """
+        if not self.has_begun:
+            return None
+        run = Run(self.folder)
+        self._check(run)
+        return run if run.is_finished else None
+
+    @property
+    def has_begun(self) -> bool:
+        """Whether the folder has a run."""
+        return any((self.folder / name).exists() for name in ("scene.toml", "scene.in"))
+
+    def _check(self, run: Run) -> None:
+        wanted = self.scene if isinstance(self.scene, dict) else merged({}, self.overrides)
+        here, there = (_comparable(scene) for scene in (wanted, run.scene))
+        if here != there:
+            different = sorted(key for key in here | there if here.get(key) != there.get(key))
+            raise FileError(
+                f"{self.folder}: holds a run of another scene ({', '.join(different)}); "
+                "name another folder for the sweep"
+            )
+
+
+def _comparable(scene: Mapping[str, Any]) -> dict[str, str]:
+    flat = {key: toml_value(value) for key, value in flattened(scene).items()}
+    return {key: value for key, value in flat.items() if key != "output.folder"}
+
+
+@dataclass
+class Sweep:
+    """A grid of runs.
+
+    Attributes:
+        folder: it has a folder for each run
+        keys: the grid's keys
+        points: all runs, also those that are not there yet
+        quantities: more columns of the table: functions of a run
+        failures: points that failed in this call, with their errors
+        job: the number of the Slurm job that was submitted; else None
+    """
+
+    folder: Path
+    keys: tuple[str, ...]
+    points: list[Point]
+    quantities: Mapping[str, Quantity] = field(default_factory=dict)
+    failures: list[tuple[Point, Exception]] = field(default_factory=list)
+    job: str | None = None
+
+    @property
+    def runs(self) -> list[Run]:
+        """The finished runs, in the order of the grid."""
+        return [run for point in self.points if (run := point.run()) is not None]
+
+    @property
+    def missing(self) -> list[Point]:
+        """The points whose runs are not finished."""
+        return [point for point in self.points if point.run() is None]
+
+    @property
+    def table(self) -> Table:
+        """One row for each point of the grid that has finished runs.
+
+        Columns are the keys, `runs` (how many), then `NAME` and `NAME_error` for the averages of
+        the report, `Z` (see `carrom.compressibility`), `packing`, `wall_seconds`, and the
+        quantities. An error is one standard error: over the repeats where there are several, else
+        that of the report. A number that a scene does not have is nan.
+        """
+        rows: list[dict[str, Any]] = []
+        for values, points in itertools.groupby(self.points, key=lambda point: point.values):
+            runs = [run for point in points if (run := point.run()) is not None]
+            if runs:
+                rows.append(values | {"runs": len(runs)} | self._averages(runs))
+        names = [*self.keys, "runs", *self._columns()]
+        columns = {name: _column([row[name] for row in rows]) for name in names}
+        return Table.from_columns(columns)
+
+    def _functions(self) -> dict[str, Quantity]:
+        functions: dict[str, Quantity] = {name: _averager(name) for name in AVERAGES}
+        functions |= {"Z": compressibility, "packing": _reporter("packing")}
+        functions |= {"wall_seconds": _reporter("wall_seconds")}
+        return functions | dict(self.quantities)
+
+    def _columns(self) -> list[str]:
+        return [name for key in self._functions() for name in (key, f"{key}_error")]
+
+    def _averages(self, runs: Sequence[Run]) -> dict[str, float]:
+        row = {}
+        for name, function in self._functions().items():
+            row[name], row[f"{name}_error"] = _average([_evaluated(function, run) for run in runs])
+        return row
+
+    def __repr__(self) -> str:
+        n = len(self.points)
+        done = f"{n - len(self.missing)} of {n} done"
+        return f"<Sweep of {', '.join(self.keys)} in {self.folder}: {done}>"
+
+
+def _averager(name: str) -> Quantity:
+    return lambda run: average(run, name)
+
+
+def _reporter(name: str) -> Quantity:
+    return lambda run: float(run.report[name])
+
+
+def _evaluated(function: Quantity, run: Run) -> tuple[float, float]:
+    try:
+        result = function(run)
+    except NoDataError:
+        return math.nan, math.nan
+    return result if isinstance(result, tuple) else (float(result), math.nan)
+
+
+def _average(pairs: Sequence[tuple[float, float]]) -> tuple[float, float]:
+    if len(pairs) == 1:
+        return pairs[0]
+    values = np.array([value for value, _ in pairs])
+    return float(values.mean()), float(values.std(ddof=1) / math.sqrt(len(values)))
+
+
+def _column(values: list[Any]) -> Any:
+    if all(isinstance(value, bool | int | float | np.generic) for value in values):
+        return np.array(values)
+    words = [value if isinstance(value, str) else toml_value(value) for value in values]
+    return np.array(words, dtype=np.str_)
+
+
+def grid_points(
+    scene: SceneLike,
+    grid: Mapping[str, Sequence[Any]],
+    folder: Path,
+    repeats: int,
+    overrides: Mapping[str, Any],
+) -> Iterator[Point]:
+    """Give all points of a grid, repeats of a point after each other."""
+    keys = {str(key).replace("__", "."): list(values) for key, values in grid.items()}
+    empty = [key for key, values in keys.items() if not values]
+    if not keys or empty:
+        raise ValueError(f"a sweep needs values for each key: {', '.join(empty) or 'no key'}")
+    if repeats < 1:
+        raise ValueError(f"repeats must be at least 1, not {repeats}")
+    is_legacy = _is_legacy(scene)
+    base = {} if is_legacy else _with_files(read_scene(scene), scene)
+    for combination in itertools.product(*keys.values()):
+        values = dict(zip(keys, combination, strict=True))
+        all_set = flattened(overrides) | values
+        first = int(all_set.get("discs.seed", base.get("discs", {}).get("seed", _DEFAULT_SEED)))
+        for number in range(repeats):
+            seed = first + number if repeats > 1 else None
+            chosen = all_set if seed is None else all_set | {"discs.seed": seed}
+            name = ",".join(f"{key}={_word(value)}" for key, value in values.items())
+            name += "" if seed is None else f",seed={seed}"
+            if isinstance(scene, Mapping) or not is_legacy:
+                yield Point(values, seed, merged(base, chosen), {}, folder / name)
+            else:
+                yield Point(values, seed, Path(scene), dict(chosen), folder / name)
+
+
+def _is_legacy(scene: SceneLike) -> bool:
+    """Whether a scene is the path of legacy text."""
+    if isinstance(scene, Mapping) or is_text(scene):
+        return False
+    return not os.fspath(scene).endswith(".toml")
+
+
+def _with_files(scene: dict[str, Any], source: SceneLike) -> dict[str, Any]:
+    """Name `discs.file` in full: points are run from elsewhere."""
+    discs = scene.get("discs", {})
+    if isinstance(discs, dict) and "file" in discs:
+        beside = Path() if isinstance(source, Mapping) or is_text(source) else Path(source).parent
+        discs["file"] = str((beside / discs["file"]).absolute())
+    return scene
+
+
+def _word(value: Any) -> str:
+    """Write a value for the name of a folder."""
+    text = value if isinstance(value, str) else toml_value(value)
+    return text if _PLAIN.fullmatch(text) else f"{zlib.crc32(text.encode()):08x}"
+
+
+def write_scene(point: Point, path: Path) -> None:
+    """Write the scene of a point as TOML."""
+    if isinstance(point.scene, Path):
+        raise TypeError(f"{point.scene}: legacy text is no TOML")
+    path.write_text(to_toml(point.scene), encoding="utf-8")
+
+
+def describe(error: Exception) -> str:
+    """Return the last line of an error."""
+    return error.lines[-1] if isinstance(error, ProgramError) and error.lines else str(error)
