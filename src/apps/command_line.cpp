@@ -27,6 +27,7 @@ constexpr const char* examples = R"(Examples:
   carrom info FILE.h5
   carrom diff A.h5 B.h5
   carrom convert FILE.h5 --to xyz > discs.xyz
+  carrom compare OUTPUT FILE.in
   carrom keys
   carrom run --help
 
@@ -138,8 +139,8 @@ Action parse_command_line(int argc, char** argv) {
     app.footer(examples);
     app.require_subcommand(1);
     const std::vector<Subcommand> subcommands = {
-        run_subcommand(),  accuracy_subcommand(), info_subcommand(), verify_subcommand(),
-        diff_subcommand(), convert_subcommand(),  keys_subcommand()};
+        run_subcommand(),  accuracy_subcommand(), info_subcommand(),    verify_subcommand(),
+        diff_subcommand(), convert_subcommand(),  compare_subcommand(), keys_subcommand()};
     for (const Subcommand& subcommand : subcommands) declare(app, subcommand);
     try {
         app.parse(argc, argv);

@@ -13,6 +13,8 @@ Subcommand info_subcommand();
 Subcommand verify_subcommand();
 Subcommand diff_subcommand();
 Subcommand convert_subcommand();
+/// Reads a scene and lines of text, and runs the scene on all ranks.
+Subcommand compare_subcommand();
 
 /// Rows that are read at a time.
 inline constexpr std::uint64_t rows_at_a_time = std::uint64_t{1} << 16;

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The time-stepped method for one process, with a switch for each way to get it wrong: `carrom
+// compare` finds out which mistake gives a student's line.
+//
+// A micro-step looks at all pairs whose paths may meet, sorts all candidates by the total order and
+// walks them. The decisions are those of the engine, bit for bit, where there is no mistake. Price:
+// up to N^2/2 predicates a micro-step, some 5 ns each; no windows, cells or strips.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/disc.hpp"
+#include "dynamics/resting_walls.hpp"
+#include "engine/collision.hpp"
+
+namespace carrom {
+
+/// One deviation from the rule. compare_mistakes.hpp has their words.
+enum class Mistake {
+    none,
+    ties_by_higher_id,
+    pair_before_wall,
+    order_of_ids,
+    walls_first,
+    pairs_first,
+    first_choices_only,
+    every_collision,
+    every_candidate,
+    no_stop,
+    bounce_for_stop,
+    stop_reverses,
+    stop_on_one_axis,
+    overlap_collides,
+    overlap_parting_collides,
+    overlap_leaves,
+    overlap_at_end,
+    corner_on_one_axis,
+};
+
+struct RuleSetting {
+    double box_size = 0, radius = 0;
+    std::int64_t micro_steps = 1, sync_every = 64;
+};
+
+class PlainRule {
+public:
+    /// A collision that may happen in a micro-step, and whether it does.
+    struct Candidate {
+        double t = 0; ///< from the micro-step's start
+        DiscId p = 0, q = Collision::wall;
+        bool is_kept = false;
+    };
+
+    /// `discs` by id, as a Simulation stores them after so many micro-steps.
+    PlainRule(const RuleSetting& setting, std::vector<Disc> discs, std::int64_t micro_steps_done,
+              Mistake mistake);
+
+    void run_micro_step();
+
+    /// By id, on `clock()`.
+    std::span<const Disc> discs() const { return discs_; }
+    double clock() const { return static_cast<double>(micro_steps_ % setting_.sync_every); }
+    /// Of the last micro-step, in the order of decision.
+    std::span<const Candidate> candidates() const { return candidates_; }
+
+private:
+    struct Path;
+
+    void find_candidates(double m);
+    void look_at(const Disc& p, const Disc& q, double m);
+    double contact_time(const Disc& p, const Disc& q, double m) const;
+    double overlap_time(const Disc& p, const Disc& q, double m) const;
+    double wall_time(const Disc& disc, double m) const;
+    void sort_candidates();
+    void keep_candidates(double m);
+    void keep_all_collisions(double m);
+    void keep(const Candidate& candidate, double m);
+    void collide(Disc& p, Disc& q, double time) const;
+    void bounce(Disc& disc, double m, double t) const;
+    void stop(Disc& disc, double m, double t) const;
+    void synchronize();
+
+    RuleSetting setting_;
+    RestingWalls<double> walls_;
+    double deepest_overlap_;
+    Mistake mistake_;
+    std::vector<Disc> discs_;
+    std::int64_t micro_steps_;
+    std::vector<Candidate> candidates_;
+};
+
+} // namespace carrom

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The run that a student's output is held to, and two runs of the same scene with other roundings:
+// one that begins some last bits away, one with the course program's formulas too. How far these
+// get from the first one is how far roundings have grown.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/disc.hpp"
+#include "parallel/communicator.hpp"
+#include "scene/scene.hpp"
+#include "simulation/simulation.hpp"
+
+namespace carrom {
+
+/// On rank 0, by id.
+struct ExpectedDiscs {
+    std::vector<Disc> discs;
+    double clock = 0;
+    std::vector<double> spread; ///< the largest difference of a number in another run, per step
+};
+
+class ComparedRuns {
+public:
+    /// `ranks` must outlive this. **Collective.**
+    ComparedRuns(const Scene& scene, const std::vector<InputDisc>& discs,
+                 const Communicator& ranks);
+
+    /// Goes on to that step. Discs are on rank 0, nothing elsewhere. **Collective.**
+    ExpectedDiscs at(std::int64_t step);
+
+private:
+    std::vector<Disc> gather(const Simulation& simulation) const;
+
+    const Communicator& ranks_;
+    std::uint64_t n_discs_;
+    std::vector<std::unique_ptr<Simulation>> runs_;
+};
+
+/// A number from -1 to 1, the same for the same arguments.
+double drawn(std::uint64_t id, std::uint64_t seed);
+
+/// `place` a few of its last bits up or down; 0 stays 0.
+double nudged(double place, std::uint64_t id, std::uint64_t seed);
+
+/// The largest difference between the four numbers of two discs. Velocities times `unit`.
+double difference(const Disc& a, double clock_a, const Disc& b, double clock_b, double unit);
+
+} // namespace carrom

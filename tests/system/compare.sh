@@ -1,0 +1,100 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# carrom compare: right outputs of other programs pass, and each mistake of student.py is named by its rule. Random
+# scenes show most mistakes; equal times and corners have a scene of their own.
+source "$(dirname "$0")/common.sh"
+student() { python3 "$CARROM_SOURCE_DIR/tests/system/student.py" "$@"; }
+command -v python3 >/dev/null || { echo 'skipped: there is no python3'; exit 77; }
+
+# Discs 0 and 2 meet disc 1 at one time; disc 3 flies into a corner; discs 4 and 5 meet as both meet a wall.
+cat >ties.in <<'SCENE'
+6
+16
+0.5
+6
+print
+0 4 8 2 0
+1 8 8 0 0
+2 12 8 -2 0
+3 2 2 -1 -1
+4 14 4 1 0
+5 14 8 1 -2
+SCENE
+for seed in 1 2 3; do student --scene 40 1.5 30 "$seed" >"random_$seed.in"; done
+
+compare() { # CODE OUTPUT SCENE OPTION...
+    local wanted=$1
+    shift
+    run 1 compare "$@"
+    expect_code "$wanted" "compare $*"
+}
+
+for scene in ties random_1 random_2 random_3; do
+    for digits in .17g .8f; do
+        student $scene.in '' $digits >$scene.out
+        compare 0 $scene.out $scene.in
+        grep -q '^same: ' "$test_folder/out" || complain "$scene: not said to be the same"
+    done
+done
+grep -q 'only amplified roundings' <("$CARROM_PROGRAM" compare random_1.out random_1.in 2>/dev/null) ||
+    complain 'nothing is said of roundings'
+
+n_named=0
+while read -r mistake rule; do
+    is_seen=no
+    for scene in ties random_1 random_2 random_3; do
+        student $scene.in "$mistake" .8f >wrong.out 2>/dev/null || continue # some mistakes end in a division by 0
+        cmp -s $scene.out wrong.out && continue
+        is_seen=yes
+        compare 1 wrong.out $scene.in
+        named=$(sed -n 's/^rule: //p' "$test_folder/out")
+        [ "$named" = "$rule" ] || complain "$mistake in $scene breaks the rule '$rule', not '$named': $(cat "$test_folder/out")"
+        n_named=$((n_named + 1))
+        # The right program's output has other numbers in the line that is named.
+        line=$(sed -n 's/^line \([0-9]*\):.*/\1/p' "$test_folder/out")
+        [ "$rule" = lines ] || [ "$(sed -n "${line}p" wrong.out)" != "$(sed -n "${line}p" $scene.out)" ] ||
+            complain "$mistake in $scene: line $line is right"
+    done
+    [ $is_seen = yes ] || complain "no scene shows the mistake $mistake"
+done < <(student --mistakes)
+[ "$n_named" -ge 40 ] || complain "only $n_named wrong outputs were tried"
+
+# The first line that differs is where one number was changed, and the tolerance is what decides.
+student ties.in '' .8f | sed '8s/ 8[.]00000000 0/ 8.00001000 0/' >moved.out
+compare 1 moved.out ties.in
+grep -q '^line 8: step 1, disc 1 differs' "$test_folder/out" || complain "another line than 8: $(cat "$test_folder/out")"
+compare 0 moved.out ties.in --tolerance 1e-3
+
+# The program's own output, on ranks, with micro-steps, first and last steps only, and from standard input.
+run 1 run random_1.in --set time.micro_steps=4 --output own.out --quiet
+run 3 compare own.out random_1.in --set time.micro_steps=4
+expect_code 0 'the own output on 3 ranks'
+compare 1 own.out random_1.in
+generated=$CARROM_SOURCE_DIR/inputs/generated.in
+run 1 run "$generated" --steps 30 --digits 8 --output own.out --quiet
+compare 0 own.out "$generated" --set time.steps=30
+grep -q 'was not graded' "$test_folder/out" || complain 'a step that roundings decide was graded'
+run 1 run "$generated" --steps 30 --set output.text=every_step --digits 8 --output own.out --quiet
+compare 0 own.out "$generated" --set time.steps=30 --set output.text=every_step
+"$CARROM_PROGRAM" compare - ties.in <ties.out >"$test_folder/out" 2>&1 || complain 'standard input'
+
+# Wrong inputs: every problem, nothing on standard output.
+refused() { # TEXT WORD...
+    local text=$1
+    shift
+    compare 2 "$@"
+    expect_told "$text" "compare $*"
+    expect_silence "compare $*"
+}
+echo 'Time: 3 s' >chatter.out
+refused 'chatter.out:1: is no line of a disc' chatter.out ties.in
+echo '0 0 1 2 x 4' >letters.out
+refused "letters.out:1: 'x' is no number" letters.out ties.in
+refused 'none.out' none.out none.in
+refused 'none.in' none.out none.in
+refused 'time-stepped' ties.out ties.in --set time.method=event-driven
+refused 'writes no lines' ties.out "$CARROM_SOURCE_DIR/inputs/gas.toml"
+refused '--tolerance' ties.out ties.in --tolerance -1
+echo '0 0 nan 8 2 0' | cat - <(tail -n +2 ties.out) >nan.out
+compare 1 nan.out ties.in
+finish
