@@ -15,7 +15,7 @@ namespace carrom {
 
 namespace {
 
-constexpr const char* teaching =
+constexpr const char* accuracy_footer =
     R"(Every setting is run from the same starts: discs that the event-driven method has brought to
 equilibrium. Starts are made from different seeds; discs that are listed are run on for longer and longer.
 FILE is a new table; it gets a line for each trial as soon as it is done. To share the work out (a Slurm
@@ -129,7 +129,7 @@ Subcommand accuracy_subcommand() {
                 },
                 true};
     };
-    return {"accuracy", "Measure what accuracy costs: a scene under many settings", teaching,
+    return {"accuracy", "Measure what accuracy costs: a scene under many settings", accuracy_footer,
             options_of(*words), action};
 }
 

@@ -20,7 +20,7 @@ namespace carrom {
 
 namespace {
 
-constexpr const char* teaching =
+constexpr const char* compare_footer =
     R"(OUTPUT has the lines that a program for the same scene has written: `step id x y vx vy`, in the
 last step also `p_c w_c`. It is held to the time-stepped method. The first line that differs is
 printed, with the rule that decides it and what the program may do instead: order, one collision
@@ -138,7 +138,7 @@ Subcommand compare_subcommand() {
     };
     return {"compare",
             "Grade the output of another program for the same scene",
-            teaching,
+            compare_footer,
             {{"OUTPUT", "", "Lines of discs; - for standard input", &words->output, true},
              {"SCENE", "", "SCENE.toml or FILE.in", &words->scene, true},
              {"--tolerance", "X", "Of each number; default 1e-6 of the radius", &words->tolerance},

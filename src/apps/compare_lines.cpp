@@ -41,13 +41,13 @@ void StudentOutput::refuse(const std::string& text) const {
 
 double StudentOutput::number(std::string_view word) const {
     const std::optional<double> value = parse_double(word);
-    if (!value) refuse(quoted(word) + " is no number; a line is `step id x y vx vy`");
+    if (!value) refuse(in_quotes(word) + " is no number; a line is `step id x y vx vy`");
     return *value;
 }
 
 std::uint64_t StudentOutput::count(std::string_view word) const {
     const std::optional<std::uint64_t> value = parse_id(word);
-    if (!value) refuse(quoted(word) + " is no whole number from 0 on");
+    if (!value) refuse(in_quotes(word) + " is no whole number from 0 on");
     return *value;
 }
 

@@ -33,7 +33,7 @@ namespace carrom {
 
 namespace {
 
-constexpr const char* teaching = R"(Input:
+constexpr const char* run_footer = R"(Input:
   SCENE.toml   a scene; inputs/ has some, docs/user.md lists the keys
   FILE.in      legacy text: N, L, r, S, print|perf, one per line, then nothing
                or N lines `id x y vx vy`
@@ -191,7 +191,7 @@ Subcommand run_subcommand() {
                 true, !reads_input};
     };
     return {"run",    "Run a scene",
-            teaching, run_options(*words),
+            run_footer, run_options(*words),
             action,   "one input is enough; carrom run takes one at a time"};
 }
 
