@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One run as the page sees it: its state, its frames, its curves.
+
+A follower opens files when they have changed, to read, and keeps no lock. It measures the time of
+the processor that looks take, and asks the page to look again so late that they take less than a
+hundredth of one core.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+from carrom.errors import CarromError, FileError, NoDataError
+from carrom.frames import Frames
+from carrom.runs import Checkpoints, Run, open_run
+from carrom.watch.curves import Curves, steps_of
+from carrom.watch.picture import View, picture
+from carrom.watch.progress import Rate, is_being_written, legacy_steps
+
+_SHARE = 0.01  # of one core
+_LEAST_PAUSE = 1.0
+_LONGEST_PAUSE = 120.0
+_SCENES = ("scene.toml", "scene.in")
+
+
+class Follower:
+    """Reads a run for the page. Threads may call it at once."""
+
+    def __init__(self, path: Path, *, may_wait: bool = False) -> None:
+        """Look at a folder, or at one file.
+
+        Raises:
+            FileError: there is nothing, or nothing of a run; an empty folder is a run to come
+        """
+        self.path = Path(path)
+        self._run: Run | None = None
+        self._lock = threading.Lock()
+        self._curves = Curves()
+        self._rate = Rate()
+        self._identity = ""
+        self._spent = 0.0
+        if not self.path.exists() and not may_wait:
+            raise FileError(f"{path}: there is no such folder; --wait waits for it")
+        is_empty = self.path.is_dir() and not any(
+            child for child in self.path.iterdir() if not child.name.startswith(".")
+        )
+        if self.path.exists() and not is_empty and not may_wait:
+            open_run(self.path)
+
+    def state(self, n_known: int, last_known: int) -> dict[str, Any]:
+        """Say how far the run is, with the steps of frames that the page does not know yet.
+
+        The page knows the first `n_known` frames, of which the last is of step `last_known`.
+        """
+        with self._lock:
+            begin = time.thread_time()
+            try:
+                return self._state(n_known, last_known)
+            finally:
+                self._spent += time.thread_time() - begin
+
+    def _state(self, n_known: int, last_known: int) -> dict[str, Any]:
+        self._find_run()
+        spent, self._spent = self._spent, 0.0
+        pause = spent / _SHARE if self._is_running() else _LEAST_PAUSE
+        answer: dict[str, Any] = {
+            "name": self.path.resolve().name,
+            "pause": min(max(_LEAST_PAUSE, pause), _LONGEST_PAUSE),
+            "run": self._identity,
+        }
+        if self._run is None:
+            return answer | {
+                "status": "waiting",
+                "message": "No run has begun here yet. This page will show it.",
+                "first": 0,
+                "steps": [],
+            }
+        frames, is_trajectory = self._frames()
+        steps = steps_of(frames)
+        is_known = 0 < n_known <= len(steps) and steps[n_known - 1] == last_known
+        first = n_known if is_known else 0
+        answer |= {"first": first, "steps": steps[first:]}
+        return answer | self._progress(steps, is_trajectory)
+
+    def _find_run(self) -> None:
+        """Open the run once it is there; notice when another has begun in its place."""
+        identity = self._identity_now()
+        if identity == self._identity and self._run is not None:
+            return
+        self._identity, self._run, self._rate = identity, None, Rate()
+        self._curves.clear()
+        try:
+            self._run = open_run(self.path)
+        except FileError:
+            if self.path.exists() and not self.path.is_dir():
+                raise
+
+    def _identity_now(self) -> str:
+        """Text that changes with the scene. A run that is gone on with may write the same again."""
+        for name in _SCENES:
+            try:
+                return hashlib.sha256((self.path / name).read_bytes()).hexdigest()[:16]
+            except OSError:
+                continue
+        return "file" if self.path.is_file() else ""
+
+    def _frames(self) -> tuple[Frames | Checkpoints, bool]:
+        """Return frames of the trajectory; without one, the checkpoints that are kept."""
+        assert self._run is not None
+        frames = self._run.frames
+        if len(frames) or frames.path is not None:
+            return frames, True
+        return self._run.checkpoints, False
+
+    def _progress(self, steps: list[int], is_trajectory: bool) -> dict[str, Any]:
+        run = self._run
+        assert run is not None
+        wanted = self._wanted_steps()
+        kept = [int(path.stem.split("-")[-1]) for path in run.checkpoints.paths if "-" in path.stem]
+        step = max([*steps[-1:], *kept], default=0)
+        is_running = self._is_running()
+        status = "running" if is_running else "stopped"
+        if run.folder is None:
+            status = "file"
+        elif not is_running and run.has_report:
+            report = run.report
+            step = max(step, int(report["first_step"]) + int(report["steps"]))
+            if run.is_finished:
+                status = "finished"
+        self._rate.note(step, time.monotonic())
+        rate = self._rate.steps_per_second() if is_running else None
+        left = (wanted - step) / rate if rate and wanted else None
+        return {
+            "status": status,
+            "step": step,
+            "wanted": wanted,
+            "steps_per_second": rate,
+            "seconds_left": left,
+            "is_trajectory": is_trajectory,
+            "message": _message(status, steps, is_trajectory, step, self.path),
+        }
+
+    def _is_running(self) -> bool:
+        folder = self._run.folder if self._run is not None else None
+        return folder is not None and is_being_written(folder)
+
+    def _wanted_steps(self) -> int | None:
+        run = self._run
+        assert run is not None
+        try:
+            steps = run.scene.get("time", {}).get("steps")
+        except CarromError:
+            return None
+        if steps is None and run.folder is not None:
+            return legacy_steps(run.folder / "scene.in")
+        return None if steps is None else int(steps)
+
+    def curves(self) -> dict[str, Any]:
+        """Return the curves as far as they have been read; see `Curves`."""
+        with self._lock:
+            begin = time.thread_time()
+            try:
+                self._find_run()
+                if self._run is None:
+                    raise NoDataError("no run has begun here yet")
+                frames, _ = self._frames()
+                n_discs = frames[-1].n_discs if len(frames) else 0
+                seconds = 0.05 if self._is_running() else 0.5
+                return self._curves.look(self._run, frames, n_discs, seconds)
+            finally:
+                self._spent += time.thread_time() - begin
+
+    def frame(
+        self, step: int, colour: str, view: View | None, follows: bool
+    ) -> tuple[dict[str, Any], bytes]:
+        """Return the picture of a step. What a reader plays back is not counted as following."""
+        with self._lock:
+            begin = time.thread_time()
+            try:
+                self._find_run()
+                if self._run is None:
+                    raise NoDataError("no run has begun here yet")
+                frames, _ = self._frames()
+                steps = steps_of(frames)
+                if step not in steps:
+                    raise NoDataError(f"there is no frame of step {step} (any more)")
+                return picture(frames[steps.index(step)], colour, view)
+            finally:
+                if follows:
+                    self._spent += time.thread_time() - begin
+
+
+def _message(status: str, steps: list[int], is_trajectory: bool, step: int, path: Path) -> str:
+    """Say what the reader should know or do."""
+    if status == "stopped":
+        return (
+            f"No process is writing this run. It stands at step {step}. "
+            f"Go on with: carrom run -o {path} --resume"
+        )
+    if not steps:
+        return "There are no frames yet. The first comes with the first look at the trajectory."
+    if not is_trajectory:
+        return (
+            "There is no trajectory: these are the newest checkpoints. "
+            "output.trajectory.every_steps of a scene asks for frames."
+        )
+    return ""

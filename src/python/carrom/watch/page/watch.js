@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The page: asks the server how far the run is, shows frames, and plays them back and forth.
+"use strict";
+
+const element = (id) => document.getElementById(id);
+const KEPT_BYTES = 200e6, AHEAD = 3;
+
+const page = {
+  run: null, steps: [], index: -1, state: {}, curves: {},
+  frames: new Map(), bytes: 0, asked: new Set(),
+  direction: 0, due: 0, shown: null, view: null, top: 0, isViewWhole: true, generation: 0,
+};
+
+function timeText(seconds) {
+  const s = Math.round(seconds), two = (n) => String(n).padStart(2, "0");
+  return `${Math.floor(s / 3600)}:${two(Math.floor(s / 60) % 60)}:${two(s % 60)}`;
+}
+
+function forgetFrames() {
+  page.frames.clear();
+  page.asked.clear();
+  page.bytes = 0;
+  page.generation++;
+}
+
+// Frames -------------------------------------------------------------------------------------
+
+const isWholeKept = () => page.isViewWhole || !page.shown || page.shown.about.total <= 150000;
+const key = (step) => `${step} ${element("colour").value} ${isWholeKept() ? "" : page.view.join()}`;
+
+function keep(name, frame) {
+  page.frames.set(name, frame);
+  page.bytes += frame.bytes;
+  for (const [old, one] of page.frames) {
+    if (page.bytes <= KEPT_BYTES || old === name) break;
+    page.frames.delete(old);
+    page.bytes -= one.bytes;
+  }
+}
+
+async function load(index) {
+  const step = page.steps[index], name = key(step), generation = page.generation;
+  if (step === undefined || page.frames.has(name) || page.asked.has(name)) return;
+  page.asked.add(name);
+  try {
+    const view = isWholeKept() ? "" : `&view=${page.view.join()}`;
+    const follow = page.direction === 0 && element("follow").checked ? "&follow=1" : "";
+    const answer = await fetch(`frame?step=${step}&colour=${element("colour").value}${view}${follow}`);
+    if (!answer.ok) throw new Error(await answer.text());
+    const about = JSON.parse(answer.headers.get("X-Frame"));
+    const frame = Discs.parse(about, new Float32Array(await answer.arrayBuffer()));
+    if (generation === page.generation) keep(name, frame);
+  } catch (error) {
+    element("note").textContent = error.message;
+  } finally {
+    page.asked.delete(name);
+  }
+  if (generation === page.generation && page.steps[page.index] === step) show();
+}
+
+function show() {
+  const step = page.steps[page.index];
+  const frame = page.frames.get(key(step));
+  if (!frame) return load(page.index);
+  const about = frame.about;
+  const box = [0, 0, about.box[0], about.box[1]];
+  if (!page.view || page.isViewWhole) page.view = box;
+  if (about.colour === "speed" && !(page.top > 0)) page.top = about.top || 0;
+  const top = about.colour === "psi6" ? 1 : page.top;
+  const drawn = Discs.draw(element("discs"), frame, page.view, top);
+  page.shown = frame;
+  const counted = about.kind === "density"
+    ? `density of ${about.shown} discs` : `${drawn} of ${about.total} discs drawn`;
+  element("shown").textContent = `step ${about.step}: ${counted}`;
+  const departed = about.total - about.inside;
+  element("note").textContent = about.note || (departed ? `${departed} have left the box` : "");
+  element("low").textContent = about.colour === "species" ? `${about.species} species` : "0";
+  element("high").textContent = about.colour === "species" ? "" : Curves.number(top);
+  Discs.drawGradient(element("gradient"), about.colour === "species");
+  Object.assign(document.body.dataset, { step: about.step, drawn, total: about.total, kind: about.kind });
+  drawCurves();
+}
+
+function goTo(index) {
+  page.index = Math.min(Math.max(index, 0), page.steps.length - 1);
+  element("slider").value = page.index;
+  if (page.index >= 0) show();
+}
+
+// Playing ------------------------------------------------------------------------------------
+
+function play(direction) {
+  page.direction = direction;
+  if (direction !== 0) element("follow").checked = false;
+  element("forth").classList.toggle("on", direction > 0);
+  element("back").classList.toggle("on", direction < 0);
+  if (direction > 0 && page.index === page.steps.length - 1) goTo(0);
+  if (direction < 0 && page.index === 0) goTo(page.steps.length - 1);
+  page.due = performance.now();
+}
+
+function tick(now) {
+  requestAnimationFrame(tick);
+  if (page.direction === 0 || now < page.due || page.index < 0) return;
+  const next = page.index + page.direction;
+  if (next < 0 || next >= page.steps.length) return play(0);
+  for (let k = 0; k < AHEAD; k++) load(next + k * page.direction);
+  if (!page.frames.has(key(page.steps[next]))) return;
+  page.due = Math.max(page.due + 1000 / element("speed").value, now - 100);
+  goTo(next);
+}
+
+// The run ------------------------------------------------------------------------------------
+
+function showState(state) {
+  page.state = state;
+  document.title = `${state.name} - Carrom`;
+  element("name").textContent = state.name;
+  element("status").textContent = element("status").className = state.status;
+  element("message").textContent = state.message || "";
+  const text = [];
+  if (state.step !== undefined) {
+    text.push(state.wanted ? `step ${state.step} of ${state.wanted}` : `step ${state.step}`);
+    if (state.steps_per_second) text.push(`${Curves.number(state.steps_per_second)} steps/s`);
+    if (state.seconds_left > 0) text.push(`${timeText(state.seconds_left)} left`);
+  }
+  element("progress").textContent = text.join(", ");
+  element("bar").hidden = !state.wanted;
+  element("bar").value = state.wanted ? state.step / state.wanted : 0;
+  document.body.dataset.status = state.status;
+  document.body.dataset.frames = page.steps.length;
+}
+
+function takeSteps(state) {
+  if (state.run !== page.run) {
+    forgetFrames();
+    Object.assign(page, { run: state.run, steps: [], index: -1, top: 0, isViewWhole: true, view: null, curves: {} });
+  }
+  const before = page.steps[page.index];
+  if (state.first < page.steps.length) forgetFrames(); // cut back by a restart
+  page.steps = page.steps.slice(0, state.first).concat(state.steps);
+  element("slider").max = Math.max(0, page.steps.length - 1);
+  if (element("follow").checked && page.steps.length) goTo(page.steps.length - 1);
+  else if (page.steps.length && page.steps[page.index] !== before) {
+    const found = page.steps.indexOf(before);
+    goTo(found < 0 ? page.steps.length - 1 : found);
+  }
+}
+
+async function look() {
+  let pause = 2;
+  try {
+    const have = page.steps.length, last = have ? page.steps[have - 1] : -1;
+    const answer = await fetch(`state?have=${have}&last=${last}`);
+    if (!answer.ok) throw new Error(await answer.text());
+    const state = await answer.json();
+    pause = state.pause;
+    takeSteps(state);
+    showState(state);
+    grantWishes();
+    if (state.status !== "waiting") {
+      const curves = await fetch("curves");
+      if (curves.ok) page.curves = await curves.json();
+      drawCurves();
+    }
+  } catch (error) {
+    element("status").textContent = element("status").className = "lost";
+    element("message").textContent = error instanceof TypeError
+      ? "The server has ended. Start it again: python -m carrom.watch FOLDER" : error.message;
+  }
+  setTimeout(look, 1000 * pause);
+}
+
+function drawCurves() {
+  const last = page.state.wanted || page.state.step || 1;
+  for (const name of ["energy", "pressure", "rate"]) {
+    Curves.draw(element(name), page.curves[name], last, page.steps[page.index] || 0);
+  }
+}
+
+// Zoom ---------------------------------------------------------------------------------------
+
+let viewTimer = 0;
+function setView(view) {
+  const [, , w, h] = [0, 0, ...page.shown.about.box];
+  page.isViewWhole = view === null || view[2] - view[0] >= w && view[3] - view[1] >= h;
+  page.view = page.isViewWhole ? [0, 0, w, h] : view;
+  if (page.shown.about.total <= 150000) return show();
+  clearTimeout(viewTimer);
+  viewTimer = setTimeout(show, 200);
+}
+
+function zoomAt(event) {
+  if (!page.shown) return;
+  event.preventDefault();
+  const canvas = element("discs"), ratio = window.devicePixelRatio || 1;
+  const map = Discs.mapping(canvas, page.view), box = canvas.getBoundingClientRect();
+  const x = map.toX((event.clientX - box.left) * ratio), y = map.toY((event.clientY - box.top) * ratio);
+  const factor = event.deltaY > 0 ? 1.25 : 0.8;
+  setView(page.view.map((edge, i) => (i % 2 ? y : x) + (edge - (i % 2 ? y : x)) * factor));
+}
+
+function dragFrom(event) {
+  if (!page.shown) return;
+  const canvas = element("discs"), ratio = window.devicePixelRatio || 1, from = [...page.view];
+  const scale = Discs.mapping(canvas, from).scale / ratio;
+  const move = (to) => {
+    const dx = (event.clientX - to.clientX) / scale, dy = (to.clientY - event.clientY) / scale;
+    if (!page.isViewWhole) setView([from[0] + dx, from[1] + dy, from[2] + dx, from[3] + dy]);
+  };
+  canvas.addEventListener("pointermove", move);
+  window.addEventListener("pointerup", () => canvas.removeEventListener("pointermove", move), { once: true });
+}
+
+// --------------------------------------------------------------------------------------------
+
+function setTheme(isDark) {
+  document.documentElement.classList.toggle("dark", isDark);
+  if (page.shown) show();
+  drawCurves();
+}
+
+function start() {
+  const asked = new URLSearchParams(location.search);
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  setTheme(asked.has("theme") ? asked.get("theme") === "dark" : dark.matches);
+  dark.addEventListener("change", () => setTheme(dark.matches));
+  element("theme").onclick = () => setTheme(!document.documentElement.classList.contains("dark"));
+  element("back").onclick = () => play(-1);
+  element("forth").onclick = () => play(1);
+  element("pause").onclick = () => play(0);
+  element("slider").oninput = (event) => {
+    element("follow").checked = false;
+    play(0);
+    goTo(Number(event.target.value));
+  };
+  element("follow").onchange = () => {
+    if (element("follow").checked) { play(0); goTo(page.steps.length - 1); }
+  };
+  element("colour").onchange = show;
+  const canvas = element("discs");
+  canvas.addEventListener("wheel", zoomAt, { passive: false });
+  canvas.addEventListener("pointerdown", dragFrom);
+  canvas.addEventListener("dblclick", () => page.shown && setView(null));
+  new ResizeObserver(() => { if (page.shown) show(); drawCurves(); }).observe(canvas);
+  document.addEventListener("keydown", (event) => {
+    if (["INPUT", "SELECT", "BUTTON"].includes(event.target.tagName)) return;
+    if (event.key === " ") { event.preventDefault(); play(page.direction ? 0 : 1); }
+    if (event.key === "b") play(-1);
+    if (event.key === "ArrowRight") { play(0); element("follow").checked = false; goTo(page.index + 1); }
+    if (event.key === "ArrowLeft") { play(0); element("follow").checked = false; goTo(page.index - 1); }
+  });
+  takeWishes(asked);
+  requestAnimationFrame(tick);
+  look();
+}
+
+// The address may ask for a colour, a step and a direction: ?colour=psi6&step=120&play=-1
+function takeWishes(asked) {
+  if (["speed", "psi6", "species"].includes(asked.get("colour"))) element("colour").value = asked.get("colour");
+  if (asked.has("step")) {
+    element("follow").checked = false;
+    page.wish = Number(asked.get("step"));
+  }
+  if (asked.has("play")) page.wishedPlay = Math.sign(asked.get("play"));
+}
+
+// Once there are frames: the last one that is not after the wished step.
+function grantWishes() {
+  if (page.steps.length === 0) return;
+  if (page.wish !== undefined) goTo(page.steps.filter((step) => step <= page.wish).length - 1);
+  if (page.wishedPlay) play(page.wishedPlay);
+  page.wish = page.wishedPlay = undefined;
+}
+
+start();

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The server of the page: a few addresses, on the loopback interface only."""
+
+from __future__ import annotations
+
+import errno
+import json
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from importlib import resources
+from typing import Any
+from urllib.parse import parse_qs, urlsplit
+
+from carrom.errors import CarromError, NoDataError
+from carrom.watch.follower import Follower
+from carrom.watch.picture import View
+
+DEFAULT_PORT = 8787
+_PAGES = {
+    "/": ("index.html", "text/html; charset=utf-8"),
+    "/watch.css": ("watch.css", "text/css; charset=utf-8"),
+    "/watch.js": ("watch.js", "text/javascript; charset=utf-8"),
+    "/discs.js": ("discs.js", "text/javascript; charset=utf-8"),
+    "/curves.js": ("curves.js", "text/javascript; charset=utf-8"),
+}
+_LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
+
+
+class Server(ThreadingHTTPServer):
+    """Answers for one run. Other machines cannot reach it."""
+
+    daemon_threads = True
+    allow_reuse_address = True
+
+    def __init__(self, follower: Follower, port: int) -> None:
+        """Bind the port of 127.0.0.1; 0 takes any free one."""
+        self.follower = follower
+        super().__init__(("127.0.0.1", port), _Handler)
+
+    @property
+    def address(self) -> str:
+        """What to open in a browser."""
+        return f"http://127.0.0.1:{self.server_address[1]}/"
+
+
+def serve(follower: Follower, port: int = DEFAULT_PORT) -> Server:
+    """Make a server; `serve_forever` runs it.
+
+    Raises:
+        CarromError: the port is in use, or may not be taken
+    """
+    try:
+        return Server(follower, port)
+    except OverflowError:
+        raise CarromError(f"port {port}: is no port; take one from 1024 to 65535") from None
+    except OSError as error:
+        if error.errno == errno.EADDRINUSE:
+            raise CarromError(
+                f"port {port} is in use, maybe by another watch; "
+                f"try: --port {port + 1}, or --port 0 for any free one"
+            ) from None
+        raise CarromError(f"port {port}: {error.strerror}; try: --port 0") from None
+
+
+class _Handler(BaseHTTPRequestHandler):
+    """One request."""
+
+    server: Server
+    protocol_version = "HTTP/1.1"
+
+    def do_GET(self) -> None:
+        """Answer a request for the page, the state, curves or a frame."""
+        host = self.headers.get("Host", "").rsplit(":", 1)[0]
+        if host not in _LOOPBACK:  # a page of another site must not reach this one by its name
+            self._answer(403, b"this page is for this machine only", "text/plain")
+            return
+        address = urlsplit(self.path)
+        words = {name: values[-1] for name, values in parse_qs(address.query).items()}
+        try:
+            self._dispatch(address.path, words)
+        except NoDataError as error:
+            self._answer(404, str(error).encode(), "text/plain; charset=utf-8")
+        except (CarromError, OSError) as error:  # the run may be replacing the file right now
+            self._answer(503, str(error).encode(), "text/plain; charset=utf-8")
+        except ValueError as error:
+            self._answer(400, f"no such request: {error}".encode(), "text/plain; charset=utf-8")
+
+    def _dispatch(self, path: str, words: dict[str, str]) -> None:
+        follower = self.server.follower
+        if path in _PAGES:
+            name, kind = _PAGES[path]
+            page = resources.files("carrom.watch").joinpath("page", name).read_bytes()
+            self._answer(200, page, kind)
+        elif path == "/state":
+            self._answer_json(follower.state(int(words.get("have", 0)), int(words.get("last", -1))))
+        elif path == "/curves":
+            self._answer_json(follower.curves())
+        elif path == "/frame":
+            numbers = [float(word) for word in words["view"].split(",")] if "view" in words else []
+            view = View(*numbers) if numbers else None
+            about, body = follower.frame(
+                int(words["step"]), words.get("colour", "speed"), view, "follow" in words
+            )
+            self._answer(200, body, "application/octet-stream", {"X-Frame": json.dumps(about)})
+        else:
+            self._answer(404, b"no such page", "text/plain")
+
+    def _answer_json(self, value: Any) -> None:
+        self._answer(200, json.dumps(value).encode(), "application/json")
+
+    def _answer(
+        self, code: int, body: bytes, kind: str, headers: dict[str, str] | None = None
+    ) -> None:
+        self.send_response(code)
+        self.send_header("Content-Type", kind)
+        self.send_header("Content-Length", str(len(body)))
+        self.send_header("Cache-Control", "no-store")
+        self.send_header("Content-Security-Policy", "default-src 'self'; img-src 'self' data:")
+        self.send_header("X-Content-Type-Options", "nosniff")
+        for name, value in (headers or {}).items():
+            self.send_header(name, value)
+        self.end_headers()
+        try:
+            self.wfile.write(body)
+        except (BrokenPipeError, ConnectionResetError):
+            self.close_connection = True  # the page has been closed
+
+    def log_message(self, format: str, *words: Any) -> None:
+        """Print nothing for each request."""

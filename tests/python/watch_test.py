@@ -1,0 +1,390 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The page of a run, held to the run's files as h5py reads them."""
+
+import json
+import os
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import urllib.error
+import urllib.request
+import zlib
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from carrom.watch import Follower, serve
+from carrom.watch.order import hexatic_order
+from carrom.watch.picture import View, picture
+
+PROGRAM = os.environ["CARROM_PROGRAM"]
+BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+SCENE = """
+[box]
+size = 40
+[discs]
+count = 200
+packing = 0.3
+speed = 0.2
+[time]
+method = "event-driven"
+steps = {steps}
+[output.trajectory]
+every_steps = {every}
+[output.measurements]
+quantities = ["wall_pressure"]
+every_steps = {pressure}
+"""
+
+
+def start(folder, steps=60, every=5, text=None, options=()):
+    """Start a run in the background."""
+    Path("scene.toml").write_text(text or SCENE.format(steps=steps, every=every, pressure=max(10, steps // 1000)), encoding="ascii")
+    command = [PROGRAM, "run", "scene.toml", "-o", folder, "--quiet", "--threads", "1", *options]
+    return subprocess.Popen(command, stdin=subprocess.DEVNULL)
+
+
+def run(folder, **words):
+    assert start(folder, **words).wait(timeout=60) == 0
+
+
+class Page:
+    """A server in a thread, and what it answers."""
+
+    def __init__(self, folder, **words):
+        self.server = serve(Follower(Path(folder), **words), 0)
+        threading.Thread(target=self.server.serve_forever, daemon=True).start()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.server.shutdown()
+        self.server.server_close()
+
+    def get(self, path, **headers):
+        request = urllib.request.Request(self.server.address + path, headers=headers)
+        with urllib.request.urlopen(request, timeout=30) as answer:
+            return answer.headers, answer.read()
+
+    def json(self, path):
+        return json.loads(self.get(path)[1])
+
+    def frame(self, words):
+        headers, body = self.get(f"frame?{words}")
+        return json.loads(headers["X-Frame"]), np.frombuffer(body, dtype="<f4")
+
+
+def stored(folder):
+    """Steps, positions and velocities of the trajectory, by h5py alone."""
+    with h5py.File(f"{folder}/trajectory.h5", locking=False) as file:
+        discs = file["particles/discs"]
+        return discs["position/step"][()], discs["position/value"][()], discs["velocity/value"][()]
+
+
+class ServerTest(unittest.TestCase):
+    def test_frames_are_those_of_the_file(self):
+        run("frames")
+        steps, places, velocities = stored("frames")
+        self.assertEqual(list(steps), list(range(0, 61, 5)))
+        with Page("frames") as page:
+            state = page.json("state?have=0&last=-1")
+            self.assertEqual(state["steps"], list(steps))
+            self.assertEqual((state["status"], state["step"], state["wanted"]), ("finished", 60, 60))
+            for index in (0, 7, 12):
+                about, numbers = page.frame(f"step={steps[index]}")
+                x, y, speed = numbers.reshape(3, 200)
+                self.assertEqual((about["step"], about["shown"], about["kind"]), (steps[index], 200, "discs"))
+                np.testing.assert_array_equal(x, places[index, :, 0])
+                np.testing.assert_array_equal(y, places[index, :, 1])
+                np.testing.assert_allclose(speed, np.linalg.norm(velocities[index], axis=1), rtol=1e-6)
+                self.assertAlmostEqual(about["radius"], np.sqrt(0.3 * 40**2 / 200 / np.pi), places=5)
+
+    def test_curves_are_those_of_the_tables(self):
+        run("curves", options=("--set", "output.collisions=true"))
+        _, _, velocities = stored("curves")
+        report = json.loads(Path("curves/report.json").read_text(encoding="ascii"))
+        with Page("curves") as page:
+            curves = page.json("curves")
+        energies = 0.5 * (velocities.astype(float) ** 2).sum(axis=(1, 2))
+        np.testing.assert_allclose(curves["energy"]["values"], energies, rtol=1e-12)
+        pairs = np.mean(curves["rate"]["values"]) * 60 * 200 / 2  # bins are of equal width here
+        self.assertAlmostEqual(pairs, report["pair_collisions"], places=6)
+        table = np.loadtxt("curves/measurements/wall_pressure_history.csv", delimiter=",", skiprows=4)
+        np.testing.assert_allclose(curves["pressure"]["values"], table[:, 2:].mean(axis=1), rtol=1e-12)
+
+    def test_only_new_steps_are_sent(self):
+        run("news")
+        with Page("news") as page:
+            state = page.json("state?have=5&last=20")
+            self.assertEqual((state["first"], state["steps"][0]), (5, 25))
+            state = page.json("state?have=5&last=21")  # another run: all anew
+            self.assertEqual((state["first"], state["steps"][0]), (0, 0))
+
+    def test_a_run_without_a_trajectory_shows_its_checkpoints(self):
+        text = SCENE.format(steps=40, every=5, pressure=10).replace("[output.trajectory]\nevery_steps = 5\n", "")
+        run("kept", text=text, options=("--set", "output.checkpoint.every_steps=20"))
+        with Page("kept") as page:
+            state = page.json("state?have=0&last=-1")
+            self.assertEqual(state["steps"], [20, 40])
+            self.assertIn("There is no trajectory", state["message"])
+            about, numbers = page.frame("step=40")
+            with h5py.File("kept/checkpoints/checkpoint-000000000040.h5", locking=False) as file:
+                expected = file["particles/discs/position/value"][()].reshape(200, -1)
+            np.testing.assert_allclose(numbers.reshape(3, 200)[0], expected[:, 0], rtol=1e-6)
+            self.assertEqual(page.json("curves")["rate"]["source"], "counters of frames or checkpoints")
+
+    def test_a_run_that_has_not_begun_is_waited_for(self):
+        os.mkdir("later")
+        with Page("later") as page, Page("much_later", may_wait=True) as other:
+            for one in (page, other):
+                self.assertEqual(one.json("state?have=0&last=-1")["status"], "waiting")
+            run("later", steps=10)
+            self.assertEqual(page.json("state?have=0&last=-1")["steps"], [0, 5, 10])
+
+    def test_a_killed_run_and_its_resumption(self):
+        options = ("--set", "output.checkpoint.every_steps=2000")
+        process = start("killed", steps=10**7, every=500, options=options)
+        with Page("killed", may_wait=True) as page:
+            wait_for(lambda: page.json("state?have=0&last=-1").get("step", 0) >= 4000)
+            state = page.json("state?have=0&last=-1")
+            self.assertEqual(state["status"], "running")
+            self.assertEqual(state["wanted"], 10**7)
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+            state = page.json("state?have=0&last=-1")
+            self.assertEqual(state["status"], "stopped")
+            self.assertIn("carrom run -o killed --resume", state["message"])
+            at = state["step"]
+            goal = at + 3000
+            subprocess.run(
+                [PROGRAM, "run", "-o", "killed", "--resume", "--steps", str(goal), "--quiet", "--threads", "1"],
+                check=True, timeout=60, stdin=subprocess.DEVNULL,
+            )
+            state = page.json("state?have=0&last=-1")
+            self.assertEqual((state["status"], state["step"]), ("finished", goal))
+            self.assertEqual(state["steps"], list(stored("killed")[0]))
+            page.frame(f"step={state['steps'][-1]}")
+
+    def test_requests_that_are_wrong(self):
+        run("wrong", steps=10)
+        with Page("wrong") as page:
+            for words, code in (("frame?step=7", 404), ("frame?step=x", 400), ("frame?step=5&colour=red", 400),
+                                ("frame?step=5&view=1,2,0,4", 400), ("../../etc/passwd", 404)):
+                with self.assertRaises(urllib.error.HTTPError) as caught:
+                    page.get(words)
+                self.assertEqual(caught.exception.code, code, words)
+            with self.assertRaises(urllib.error.HTTPError) as caught:
+                page.get("state", Host="somewhere.example:8787")
+            self.assertEqual(caught.exception.code, 403)
+
+    def test_wrong_command_lines(self):
+        run("there", steps=5)
+        os.makedirs("other/things")
+        with socket.create_server(("127.0.0.1", 0)) as taken:
+            port = str(taken.getsockname()[1])
+            for words, text in ((["there", "--port", port], f"port {port} is in use"),
+                                (["nowhere"], "nowhere: there is no such folder; --wait waits for it"),
+                                (["other"], "other: is no run of carrom"),
+                                (["there", "--port", "99999"], "is no port")):
+                done = subprocess.run([sys.executable, "-m", "carrom.watch", *words], timeout=60,
+                                      capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 2, words)
+                self.assertIn(text, done.stderr)
+                self.assertNotIn("Traceback", done.stderr)
+
+    def test_watching_takes_no_lock_and_writes_nothing(self):
+        run("quiet")
+        names = sorted(str(path) for path in Path("quiet").rglob("*"))
+        before = [(name, os.stat(name).st_mtime_ns) for name in names]
+        os.chmod("quiet", 0o555)
+        with Page("quiet") as page:
+            page.json("state?have=0&last=-1")
+            page.json("curves")
+            page.frame("step=60&colour=psi6")
+            files = [os.readlink(f"/proc/self/fd/{number}") for number in os.listdir("/proc/self/fd")
+                     if os.path.exists(f"/proc/self/fd/{number}")]
+            held = {f":{os.stat(name).st_ino} " for name in files if "/quiet/" in name}
+            locks = Path("/proc/locks").read_text(encoding="ascii")
+            self.assertFalse(any(inode in locks for inode in held))
+        os.chmod("quiet", 0o755)
+        self.assertEqual(before, [(name, os.stat(name).st_mtime_ns) for name in names])
+        run("unwatched")
+        hashes = [json.loads(Path(f"{name}/report.json").read_text(encoding="ascii"))["state_hash"]
+                  for name in ("quiet", "unwatched")]
+        self.assertEqual(hashes[0], hashes[1])
+
+
+class PictureTest(unittest.TestCase):
+    def test_psi6_by_all_pairs(self):
+        chance = np.random.default_rng(24)
+        for n, periods in ((300, (0, 0)), (300, (9, 0)), (250, (9, 7)), (7, (0, 0)), (12, (9, 7))):
+            x = chance.random((n, 2)) * (9, 7)
+            x[: n // 3] *= 0.2  # an uneven density
+            apart = x[None] - x[:, None]
+            for axis in (0, 1):
+                if periods[axis]:
+                    apart[..., axis] -= periods[axis] * np.round(apart[..., axis] / periods[axis])
+            squares = (apart**2).sum(axis=2) + np.diag(np.full(n, np.inf))
+            nearest = np.argsort(squares, axis=1)[:, :6]
+            vectors = np.take_along_axis(apart, nearest[..., None], axis=1)
+            expected = (((vectors[..., 0] + 1j * vectors[..., 1]) ** 6) / (vectors**2).sum(axis=2) ** 3).mean(axis=1)
+            np.testing.assert_allclose(hexatic_order(x, np.array(periods, dtype=float)), expected, atol=1e-9)
+        rows, columns = np.mgrid[:20, :20]
+        lattice = np.stack([columns + rows % 2 / 2, rows * np.sqrt(0.75)], axis=-1).reshape(-1, 2).astype(float)
+        np.testing.assert_allclose(np.abs(hexatic_order(lattice, np.array([20, 20 * np.sqrt(0.75)]))), 1)
+
+    def test_many_discs_are_a_density(self):
+        run("many", steps=5)
+        with Page("many") as page:
+            frame = page.server.follower._find_run() or page.server.follower._run.frames[0]
+        about, body = picture(frame, "speed", None, most=100)
+        fraction, mean = np.frombuffer(body, dtype="<f4").reshape(2, *about["grid"][::-1])
+        self.assertEqual(about["kind"], "density")
+        self.assertAlmostEqual(float(fraction.mean()), 0.3, places=5)  # the packing
+        self.assertAlmostEqual(float(mean.sum()), float(frame.speed.sum()), delta=0.05 * float(frame.speed.sum()))
+        about, body = picture(frame, "speed", View(10, 10, 20, 25), most=100)
+        inside = (abs(frame.x - (15, 17.5)) < (5 + about["radius"], 7.5 + about["radius"])).all(axis=1)
+        self.assertEqual(about["shown"], inside.sum())
+        x, y, _ = np.frombuffer(body, dtype="<f4").reshape(3, -1)
+        np.testing.assert_allclose(x, frame.x[inside, 0] - 10, atol=1e-5)
+
+
+def wait_for(claim, seconds=60):
+    end = time.monotonic() + seconds
+    while not claim():
+        if time.monotonic() > end:
+            raise AssertionError("it takes too long")
+        time.sleep(0.2)
+
+
+@unittest.skipUnless(BROWSER, "there is no chromium")
+class BrowserTest(unittest.TestCase):
+    def browse(self, address, *options, seconds=6, size="1200,900"):
+        """Return what Chromium writes of a page after some seconds of its own clock."""
+        with tempfile.TemporaryDirectory() as profile:
+            done = subprocess.run(
+                [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+                 "--disable-background-networking", "--disable-component-update", "--disable-sync",
+                 f"--user-data-dir={profile}", f"--window-size={size}", "--hide-scrollbars",
+                 f"--virtual-time-budget={1000 * seconds}", *options, address],
+                capture_output=True, timeout=120, check=True, text=True,
+            )
+        return done.stdout
+
+    def shown(self, page, words="", seconds=6):
+        text = self.browse(page.server.address + words, "--dump-dom", seconds=seconds)
+        body = re.search("<body[^>]*>", text)[0]
+        facts = dict(re.findall('data-([a-z]+)="([^"]*)"', body))
+        return facts, text
+
+    def test_a_finished_run(self):
+        run("done")
+        steps, _, _ = stored("done")
+        with Page("done") as page:
+            facts, text = self.shown(page)
+            self.assertEqual((facts["status"], facts["step"], facts["drawn"]), ("finished", "60", "200"))
+            self.assertEqual(facts["frames"], str(len(steps)))
+            self.assertIn("step 60: 200 of 200 discs drawn", text)
+            self.assertIn("step 60 of 60", text)
+            for step in (0, 25):
+                facts, _ = self.shown(page, f"?step={step}&colour=psi6")
+                self.assertEqual((facts["step"], facts["drawn"]), (str(step), "200"))
+            facts, _ = self.shown(page, "?step=20&play=-1")  # back to the start
+            self.assertEqual(facts["step"], "0")
+            facts, _ = self.shown(page, "?step=20&play=1")
+            self.assertEqual(facts["step"], "60")
+
+    def test_discs_have_their_size_on_the_screen(self):
+        run("sizes")
+        with Page("sizes") as page:
+            self.browse(page.server.address + "?theme=light&colour=species", "--screenshot=shot.png",
+                        size="800,500")
+        picture = pixels("shot.png")
+        ground, colour = np.array([241, 242, 244]), np.array([44, 116, 188])
+        away = picture[:, :500, :3] - ground.astype(float)  # further right there is the legend
+        covered = away @ (colour - ground) / ((colour - ground) ** 2).sum()
+        is_mixed = np.linalg.norm(away - covered[..., None] * (colour - ground), axis=2) < 8
+        covered = np.where(is_mixed & (covered > 0.05), np.minimum(covered, 1), 0)
+        rows, columns = np.nonzero(covered > 0.5)
+        radius = np.sqrt(0.3 * 40**2 / 200 / np.pi)
+        _, places, _ = stored("sizes")
+        width = np.ptp(places[-1, :, 0]) + 2 * radius  # from the first disc's edge to the last one's
+        scale = (np.ptp(columns) + 1) / width
+        height = np.ptp(places[-1, :, 1]) + 2 * radius
+        self.assertAlmostEqual((np.ptp(rows) + 1) / height, scale, delta=0.02 * scale)
+        self.assertAlmostEqual(covered.sum() / scale**2, 200 * np.pi * radius**2, delta=0.03 * 480)
+
+    def test_a_run_that_goes_on(self):
+        process = start("going", steps=10**7, every=200)
+        try:
+            with Page("going", may_wait=True) as page:
+                wait_for(lambda: len(page.json("state?have=0&last=-1")["steps"]) > 3)
+                facts, text = self.shown(page)
+                steps, _, _ = stored("going")
+                self.assertEqual((facts["status"], facts["drawn"]), ("running", "200"))
+                self.assertIn(int(facts["step"]), steps)
+                self.assertIn("of 10000000", text)
+                later, _ = self.shown(page)
+                wait_for(lambda: page.json("state?have=0&last=-1")["steps"][-1] > int(later["step"]))
+                newest, _ = self.shown(page)
+                self.assertGreater(int(newest["step"]), int(facts["step"]))
+        finally:
+            process.kill()
+            process.wait()
+
+    def test_a_page_without_a_run(self):
+        os.mkdir("nothing")
+        with Page("nothing") as page:
+            facts, text = self.shown(page, seconds=3)
+        self.assertEqual(facts["status"], "waiting")
+        self.assertIn("No run has begun here yet", text)
+
+
+def pixels(path):
+    """The pixels of a PNG of 8 bits a channel, (rows, columns, channels)."""
+    data, at, packed = Path(path).read_bytes(), 8, b""
+    while at < len(data):
+        length, kind = int.from_bytes(data[at : at + 4], "big"), data[at + 4 : at + 8]
+        part = data[at + 8 : at + 8 + length]
+        if kind == b"IHDR":
+            width, height = int.from_bytes(part[:4], "big"), int.from_bytes(part[4:8], "big")
+            channels = {2: 3, 6: 4}[part[9]]
+        packed += part if kind == b"IDAT" else b""
+        at += length + 12
+    lines, above = zlib.decompress(packed), bytes(width * channels)
+    picture = []
+    for begin in range(0, len(lines), 1 + width * channels):
+        above = unfiltered(lines[begin], lines[begin + 1 : begin + 1 + width * channels], above, channels)
+        picture.append(above)
+    return np.frombuffer(b"".join(picture), dtype=np.uint8).reshape(height, width, channels)
+
+
+def unfiltered(kind, row, above, channels):
+    """A row of a PNG: each byte was stored as its difference to a guess."""
+    if kind == 0:
+        return row
+    result = bytearray(channels) + bytearray(row)
+    before = bytes(channels) + above
+    for i in range(channels, len(result)):
+        left, up, corner = result[i - channels], before[i], before[i - channels]
+        guess = (None, left, up, (left + up) // 2)[kind] if kind < 4 else paeth(left, up, corner)
+        result[i] = (result[i] + guess) & 255
+    return bytes(result[channels:])
+
+
+def paeth(left, up, corner):
+    away = abs(up - corner), abs(left - corner), abs(left + up - 2 * corner)
+    return left if away[0] <= min(away[1:]) else up if away[1] <= away[2] else corner
+
+
+if __name__ == "__main__":
+    unittest.main()
