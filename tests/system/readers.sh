@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Other programs open our files and see what the run itself has written as text: h5py, pyh5md, MDAnalysis, VTK (through
-# XDMF), and our own tools for pictures. They come from PyPI, into a folder that is kept; each is skipped where it cannot be had.
+# XDMF), our own tools for pictures, and the worked example of docs/understanding/method.md. They come from PyPI, into a
+# folder that is kept; each is skipped where it cannot be had.
 # Argument: that folder.
 source "$(dirname "$0")/common.sh"
 python=$1/bin/python tests=$(dirname "$0") tools=$CARROM_SOURCE_DIR/docs/tools
@@ -39,6 +40,12 @@ for reader in 'h5py h5py' 'pyh5md h5py pyh5md' 'MDAnalysis h5py MDAnalysis' 'vtk
     fi
 done
 
+if has h5py h5py; then # the worked example of the method's page, against a run on three ranks
+    method=$CARROM_SOURCE_DIR/docs/understanding/method.md
+    cp "$method" method.md
+    MPIEXEC=$CARROM_MPIEXEC timeout 60 "$python" "$tools/three_strips.py" --program "$CARROM_PROGRAM" --page method.md || complain 'three_strips.py'
+    expect_same "$method" method.md 'three_strips.py writes another table than the page has'
+fi
 if has matplotlib matplotlib && has h5py h5py; then
     "$python" "$tools/plot_frame.py" run/checkpoints/checkpoint-000000000020.h5 -o speed.png || complain 'plot_frame.py of a checkpoint'
     "$python" "$tools/plot_frame.py" run/trajectory.h5 --step 10 --colour strip --ranks 3 -o strip.png || complain 'plot_frame.py of a trajectory'
@@ -52,6 +59,7 @@ if has matplotlib matplotlib && has h5py h5py; then
         expect_told 'ffmpeg has failed' 'plot_movie.py to nowhere'
     fi
     "$python" "$tools/plot_history.py" --trajectory run/trajectory.h5 --collisions run/collisions.h5 -o history.png || complain 'plot_history.py'
+    "$python" "$tools/method_figures.py" --output . || complain 'method_figures.py'
     "$python" "$tests/readers.py" pictures lines speed.png strip.png movie.gif history.png || complain 'pictures'
 else
     skip "matplotlib or h5py is not to be had: $(tail -n 1 "$test_folder/err")"
