@@ -149,7 +149,7 @@ memory() {
     try 'valgrind: a run of two ranks with a checkpoint' "$(mpi_launcher "$build")" -n 2 \
         valgrind --error-exitcode=9 --errors-for-leak-kinds=none "${words[@]}" \
         "$build/carrom" run "$top/inputs/dense.toml" --steps 4 --set discs.count=200 --threads 1 \
-        --check --quiet --set output.folder="$build/valgrind_checkpoints"
+        --check --quiet -o "$build/valgrind_run" --overwrite
 }
 
 for part in "${parts[@]}"; do $part; done
