@@ -1,0 +1,249 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Running: the program's bits and files, its errors by exit code, and runs that end early."""
+
+from __future__ import annotations
+
+import _thread
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import pytest
+from conftest import Scene, gas
+
+import carrom
+import carrom.process
+
+LONG = 50_000_000  # steps: no test waits for the end
+
+
+def program_alone(program: Path, scene: Scene, folder: Path) -> None:
+    path = folder.with_suffix(".toml")
+    path.write_text(carrom.to_toml(scene))
+    subprocess.run([program, "run", path, "-o", folder, "--quiet"], check=True)
+
+
+def test_a_run_writes_what_the_program_alone_writes(program: Path, tmp_path: Path) -> None:
+    scene = gas() | {
+        "output": {
+            "collisions": True,
+            "trajectory": {"every_steps": 4},
+            "measurements": {"quantities": ["radial_distribution"]},
+        }
+    }
+    program_alone(program, scene, tmp_path / "alone")
+    run = carrom.run(scene, folder=tmp_path / "run")
+
+    def files(folder: str) -> list[str]:
+        top = tmp_path / folder
+        return sorted(str(path.relative_to(top)) for path in top.rglob("*"))
+
+    assert files("run") == files("alone")
+    assert run.state_hash == carrom.open(tmp_path / "alone").state_hash
+    assert run.is_finished
+    table = "measurements/radial_distribution.csv"
+    ours, theirs = ((tmp_path / name / table).read_text() for name in ("run", "alone"))
+    assert ours.splitlines()[1:] == theirs.splitlines()[1:]  # the first line names the scene
+
+
+def test_two_ranks_give_the_same_bits(program: Path, tmp_path: Path) -> None:
+    one = carrom.run(gas(), folder=tmp_path / "one", threads=2)
+    two = carrom.run(gas(), ranks=2, threads=1, folder=tmp_path / "two")
+    assert (one.report["threads"], two.report["ranks"]) == (2, 2)
+    assert one.state_hash == two.state_hash
+
+
+def test_all_problems_of_a_scene_are_in_the_error(program: Path, tmp_path: Path) -> None:
+    scene = gas()
+    scene["box"] = {"size": -3, "sice": 4}
+    folder = tmp_path / "bad"
+    with pytest.raises(carrom.InputError) as caught:
+        carrom.run(scene, folder=folder)
+    error = caught.value
+    assert error.returncode == 2
+    assert len(error.lines) >= 2
+    assert "input.toml:2: 'box.size' must be" in error.lines[0]
+    assert "no such key 'box.sice'; did you mean 'box.size'?" in str(error)
+    assert "   2 size = -3" in error.__notes__[0]
+    assert not folder.exists()
+    assert isinstance(error, ValueError)
+    copy = pickle.loads(pickle.dumps(error))
+    assert (copy.lines, copy.returncode) == (error.lines, 2)
+
+
+def test_a_scene_that_is_not_there_is_an_input_error(program: Path, tmp_path: Path) -> None:
+    with pytest.raises(carrom.InputError, match=r"nowhere\.toml: cannot be opened"):
+        carrom.run(tmp_path / "nowhere.toml", folder=tmp_path / "run")
+
+
+def test_a_missing_launcher_is_named(program: Path, tmp_path: Path) -> None:
+    with pytest.raises(carrom.ProgramNotFoundError, match="no MPI launcher: /no/mpiexec"):
+        carrom.run(gas(), ranks=2, folder=tmp_path / "run", launcher="/no/mpiexec")
+    assert not (tmp_path / "run").exists()
+    with pytest.raises(ValueError, match="ranks must be at least 1, not 0"):
+        carrom.run(gas(), ranks=0, folder=tmp_path / "run")
+
+
+def test_a_run_is_not_written_over_unless_asked(program: Path, tmp_path: Path) -> None:
+    scene = gas(steps=2) | {"output": {"text": "ends"}}
+    first = carrom.run(scene, folder=tmp_path / "run")
+    lines = (tmp_path / "run/lines.txt").read_bytes()
+    with pytest.raises(carrom.InputError, match="--overwrite"):
+        carrom.run(scene, folder=tmp_path / "run", discs__seed=9)
+    assert first.report["steps"] == 2
+    assert (tmp_path / "run/lines.txt").read_bytes() == lines
+    second = carrom.run(scene, folder=tmp_path / "run", discs__seed=9, overwrite=True)
+    assert second.scene["discs"]["seed"] == 9
+    assert len(second.lines[2]) == 60
+    assert (tmp_path / "run/lines.txt").read_bytes() != lines
+
+
+def test_a_folder_that_cannot_be_is_an_output_error(program: Path, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("no folder")
+    with pytest.raises(carrom.OutputError, match="file/run: cannot be written to") as caught:
+        carrom.run(gas(), folder=tmp_path / "file" / "run")
+    assert caught.value.returncode == 4
+
+
+def test_without_a_folder_the_run_is_kept_in_a_new_one(program: Path) -> None:
+    run = carrom.run(gas(steps=1))
+    assert run.folder is not None
+    assert run.is_finished
+    for path in sorted(run.folder.rglob("*"), reverse=True):
+        path.rmdir() if path.is_dir() else path.unlink()
+    run.folder.rmdir()
+
+
+def test_the_folder_of_the_scene_counts(
+    program: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    run = carrom.run(gas(steps=1) | {"output": {"folder": "named"}})
+    assert run.folder == Path("named")
+
+
+def test_progress_calls_a_function(program: Path, tmp_path: Path) -> None:
+    seen: list[tuple[int, int]] = []
+    carrom.run(gas(steps=20_000), folder=tmp_path / "run", progress=lambda *at: seen.append(at))
+    assert seen
+    assert all(0 <= step <= last == 20_000 for step, last in seen)
+    assert [step for step, _ in seen] == sorted(step for step, _ in seen)
+
+
+def wait_for(path: Path, pattern: str, seconds: float = 60) -> None:
+    end = time.monotonic() + seconds
+    while not list(path.glob(pattern)):
+        assert time.monotonic() < end, f"no {pattern} in {path}"
+        time.sleep(0.02)
+
+
+def when_there(path: Path, pattern: str, act: object) -> threading.Thread:
+    """Do something once a file is there."""
+
+    def wait_and_act() -> None:
+        wait_for(path, pattern)
+        act()  # type: ignore[operator]
+
+    thread = threading.Thread(target=wait_and_act)
+    thread.start()
+    return thread
+
+
+@pytest.fixture
+def children(monkeypatch: pytest.MonkeyPatch) -> list[subprocess.Popen[bytes]]:
+    """The processes that runs start."""
+    found: list[subprocess.Popen[bytes]] = []
+
+    class Watched(subprocess.Popen):  # type: ignore[type-arg]
+        def __init__(self, *words: object, **options: object) -> None:
+            super().__init__(*words, **options)  # type: ignore[call-overload]
+            found.append(self)
+
+    monkeypatch.setattr(carrom.process.subprocess, "Popen", Watched)
+    return found
+
+
+CHECKPOINTS = {"output": {"checkpoint": {"every_steps": 500, "keep": 3}}}
+
+
+@pytest.mark.parametrize(
+    ("number", "kind"),
+    [(signal.SIGKILL, carrom.ProgramError), (signal.SIGUSR1, carrom.StoppedError)],
+)
+def test_a_run_that_ends_early_can_be_gone_on_with(
+    program: Path,
+    tmp_path: Path,
+    children: list[subprocess.Popen[bytes]],
+    number: signal.Signals,
+    kind: type[carrom.ProgramError],
+) -> None:
+    folder = tmp_path / "run"
+    thread = when_there(
+        folder, "checkpoints/checkpoint-*.h5", lambda: children[0].send_signal(number)
+    )
+    with pytest.raises(kind, match=r"goes on") as caught:
+        carrom.run(gas(steps=LONG) | CHECKPOINTS, threads=1, folder=folder)
+    thread.join()
+    assert caught.value.returncode == (75 if number == signal.SIGUSR1 else -9)
+    run = carrom.open(folder)
+    assert not run.is_finished
+    assert "not finished" in repr(run)
+    last = run.checkpoints[-1].step + 30
+    resumed = run.resume(steps=last)
+    assert resumed.is_finished
+    whole = carrom.run(gas(steps=last), folder=tmp_path / "whole")
+    assert resumed.state_hash == whole.state_hash
+
+
+def test_an_interrupt_stores_a_checkpoint(program: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    thread = when_there(folder, "scene.toml", lambda: (time.sleep(0.5), _thread.interrupt_main()))
+    with pytest.raises(KeyboardInterrupt, match="goes on"):
+        carrom.run(gas(steps=LONG), threads=1, folder=folder)
+    thread.join()
+    assert len(carrom.open(folder).checkpoints) == 1
+
+
+def test_going_on_with_nothing_is_an_error(program: Path, tmp_path: Path) -> None:
+    with pytest.raises(carrom.FileError, match="there is no such folder"):
+        carrom.resume(tmp_path / "nowhere")
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(carrom.InputError, match="no run has begun there"):
+        carrom.resume(tmp_path / "empty")
+    assert (tmp_path / "empty").is_dir()
+
+
+def test_legacy_text_runs(program: Path, tmp_path: Path) -> None:
+    path = tmp_path / "tiny.in"
+    path.write_text("2\n10\n1\n2\nprint\n0 2 2 1 0\n1 7 7 0 -1\n")
+    run = carrom.run(path, folder=tmp_path / "run")
+    assert sorted(run.lines) == [0, 1, 2]
+    assert run.lines[2].tolist() == [[4, 2, 1, 0], [7, 5, 0, -1]]
+    assert run.is_finished
+
+
+def test_the_program_goes_on_without_python(program: Path, tmp_path: Path) -> None:
+    """Python is killed in mid-run: the program finishes its run."""
+    code = (
+        "import carrom, sys\n"
+        f"carrom.run({gas(steps=30_000)!r}, threads=1, folder=sys.argv[1], progress=True)\n"
+    )
+    folder = tmp_path / "run"
+    child = subprocess.Popen([sys.executable, "-c", code, str(folder)], env=with_package())
+    try:
+        wait_for(folder, "scene.toml")
+        child.kill()
+    finally:
+        child.wait()
+    wait_for(folder, "report.json")
+    assert carrom.open(folder).is_finished
+
+
+def with_package() -> dict[str, str]:
+    path = str(Path(carrom.__file__).parents[1])
+    return os.environ | {"PYTHONPATH": path}
