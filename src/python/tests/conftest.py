@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -13,6 +14,10 @@ import numpy.typing as npt
 import pytest
 
 import carrom
+
+# Tests share the machine: threads that wait must not spin.
+os.environ.setdefault("OMP_WAIT_POLICY", "passive")
+os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 Lines = dict[int, npt.NDArray[np.float64]]
 Scene = dict[str, Any]

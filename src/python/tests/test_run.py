@@ -213,7 +213,7 @@ def test_going_on_with_nothing_is_an_error(program: Path, tmp_path: Path) -> Non
     with pytest.raises(carrom.FileError, match="there is no such folder"):
         carrom.resume(tmp_path / "nowhere")
     (tmp_path / "empty").mkdir()
-    with pytest.raises(carrom.InputError, match="no run has begun there"):
+    with pytest.raises(carrom.InputError, match="there is no checkpoint, and no scene"):
         carrom.resume(tmp_path / "empty")
     assert (tmp_path / "empty").is_dir()
 
