@@ -125,7 +125,7 @@ class Curves:
             return _curve(middles, rates, "the log of collisions")
         known = sorted((s, n) for s, (_, n) in self._of_frames.items() if n is not None)
         if len(known) < 2:
-            return _nothing(
+            return _of_report(run, "collision_frequency") or _nothing(
                 "needs output.collisions, or frames or checkpoints with counters of collisions"
             )
         steps, means = (np.array(column) for column in zip(*known, strict=True))
@@ -142,14 +142,19 @@ class Curves:
             is_wall = ~np.isnan(sides).all(axis=1)
             steps = (table["from_step"] + table["to_step"]) / 2
             return _curve(steps, sides[is_wall].mean(axis=0), "mean over the walls")
-        if run.has_report:
-            averages = run.report.get("averages", {})
-            pressure = (averages.get("virial_pressure") or {}).get("value")
-            if pressure is not None:
-                begin = averages["from_step"]
-                end = begin + averages["over_steps"]
-                return _curve((begin, end), (pressure, pressure), "the report's average")
-        return _nothing('needs "wall_pressure" among output.measurements.quantities')
+        return _of_report(run, "virial_pressure") or _nothing(
+            'needs "wall_pressure" among output.measurements.quantities'
+        )
+
+
+def _of_report(run: Run, name: str) -> Curve | None:
+    """The report's average as a level line, once the run has ended."""
+    averages = run.report.get("averages", {}) if run.has_report else {}
+    value = (averages.get(name) or {}).get("value")
+    if value is None:
+        return None
+    begin = averages["from_step"]
+    return _curve((begin, begin + averages["over_steps"]), (value, value), "the report's average")
 
 
 def _sums(frame: Frame) -> tuple[float, float | None]:

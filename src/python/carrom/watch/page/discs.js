@@ -128,9 +128,11 @@ const Discs = (() => {
     return drawn;
   }
 
-  function drawGradient(canvas, isSpecies) {
-    const context = canvas.getContext("2d"), list = isSpecies ? SPECIES : table;
-    const width = canvas.width / list.length;
+  // The scale of values, or the colours of so many species.
+  function drawGradient(canvas, nSpecies) {
+    const context = canvas.getContext("2d"), list = nSpecies ? SPECIES.slice(0, nSpecies) : table;
+    const width = nSpecies ? 14 : canvas.width / list.length;
+    context.clearRect(0, 0, canvas.width, canvas.height);
     list.forEach(([r, g, b], i) => {
       context.fillStyle = `rgb(${r},${g},${b})`;
       context.fillRect(i * width, 0, width + 1, canvas.height);

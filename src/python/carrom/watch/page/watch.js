@@ -76,7 +76,7 @@ function show() {
   element("note").textContent = about.note || (departed ? `${departed} have left the box` : "");
   element("low").textContent = about.colour === "species" ? `${about.species} species` : "0";
   element("high").textContent = about.colour === "species" ? "" : Curves.number(top);
-  Discs.drawGradient(element("gradient"), about.colour === "species");
+  Discs.drawGradient(element("gradient"), about.colour === "species" ? about.species : 0);
   Object.assign(document.body.dataset, { step: about.step, drawn, total: about.total, kind: about.kind });
   drawCurves();
 }
@@ -181,9 +181,18 @@ function drawCurves() {
 // Zoom ---------------------------------------------------------------------------------------
 
 let viewTimer = 0;
-function setView(view) {
-  const [, , w, h] = [0, 0, ...page.shown.about.box];
-  page.isViewWhole = view === null || view[2] - view[0] >= w && view[3] - view[1] >= h;
+
+// As wide and high as the picture, so that discs fill it.
+function widened([x0, y0, x1, y1]) {
+  const canvas = element("discs"), aspect = canvas.width / canvas.height;
+  const width = Math.max(x1 - x0, (y1 - y0) * aspect), height = width / aspect;
+  const x = (x0 + x1) / 2, y = (y0 + y1) / 2;
+  return [x - width / 2, y - height / 2, x + width / 2, y + height / 2];
+}
+
+function setView(wished) {
+  const [w, h] = page.shown.about.box, view = wished && widened(wished);
+  page.isViewWhole = view === null || view[3] - view[1] >= h && view[2] - view[0] >= w;
   page.view = page.isViewWhole ? [0, 0, w, h] : view;
   if (page.shown.about.total <= 150000) return show();
   clearTimeout(viewTimer);
