@@ -3,9 +3,9 @@
 // error.
 //
 // All follow from counts of collisions, which every disc carries, and from sums over speeds in
-// fixed point. So they are the same bits for any number of ranks and threads. docs/user.md
-// ("Averages") says what they mean. Sources of the pressures: Li, Nishikawa, Hoellmer, Carillo,
-// Maggs, Krauth, J. Chem. Phys. 157, 234111 (2022), equations (13c) and (19a).
+// fixed point. So they are the same bits for any number of ranks and threads.
+// docs/reference/report.md says what they mean. Sources of the pressures: Li, Nishikawa, Hoellmer,
+// Carillo, Maggs, Krauth, J. Chem. Phys. 157, 234111 (2022), equations (13c) and (19a).
 #pragma once
 
 #include <cstdint>

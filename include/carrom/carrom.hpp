@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The public API of Carrom: hard discs colliding in a box, the same bits on any number of MPI ranks
-// and OpenMP threads. Include this header alone. docs/library.md shows how to use and link it.
+// and OpenMP threads. Include this header alone. docs/reference/library.md shows how to use it.
 #pragma once
 
 #include <carrom/averages.hpp>

@@ -8,7 +8,7 @@
 namespace carrom {
 
 /// Shape: `rows` are all as long as `columns`. The tables, their columns and units are listed in
-/// docs/user.md ("Measurements").
+/// docs/reference/measurements.md.
 struct MeasuredTable {
     std::string name;                 ///< "radial_distribution", "speeds", ...
     std::vector<std::string> remarks; ///< what it shows, and units

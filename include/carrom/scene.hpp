@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is simulated: the keys of a scene (docs/user.md lists them), from a file, from TOML text, or
+// What is simulated: the keys of a scene (docs/reference/keys.md), from a file, from TOML text, or
 // set one by one. A Scene is a value: copying it costs as much as its text.
 #pragma once
 

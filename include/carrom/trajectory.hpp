@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files of discs: writing a trajectory as a simulation moves forward, and reading trajectories and
-// checkpoints frame by frame. The formats are in docs/user.md ("Files").
+// checkpoints frame by frame. docs/reference/formats.md has the formats.
 #pragma once
 
 #include <cstddef>

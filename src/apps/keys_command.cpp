@@ -13,10 +13,11 @@ Subcommand keys_subcommand() {
     return {"keys",
             "Print the reference of scene keys, docs/reference/keys.md",
             "",
-            {{"--conflicts", "", "Print only what does not go together", rules_alone.get()}},
+            {{"--conflicts", "", "Print what does not go together, docs/reference/conflicts.md",
+              rules_alone.get()}},
             [rules_alone](std::vector<Problem>&) -> Action {
                 return {[is_short = *rules_alone](const Communicator& ranks) {
-                    const std::string text = is_short ? rules_table() : key_page();
+                    const std::string text = is_short ? conflicts_page() : key_page();
                     if (ranks.is_root()) std::fputs(text.c_str(), stdout);
                     return ExitCode::success;
                 }};

@@ -8,7 +8,7 @@
 
 namespace carrom {
 
-/// A JSON object; keys are described in docs/user.md.
+/// A JSON object; keys are described in docs/reference/report.md.
 std::string report_text(const Scene& scene, const RunResult& result);
 
 } // namespace carrom

@@ -34,7 +34,7 @@ namespace carrom {
 namespace {
 
 constexpr const char* run_footer = R"(Input:
-  SCENE.toml   a scene; inputs/ has some, docs/user.md lists the keys
+  SCENE.toml   a scene; inputs/ has some, `carrom keys` lists the keys
   FILE.in      legacy text: N, L, r, S, print|perf, one per line, then nothing
                or N lines `id x y vx vy`
   -            legacy text on standard input (mpirun hands it to rank 0)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Start and end of a parallel run, so that no failure on any rank leaves the others waiting
-// (docs/architecture.md).
+// (docs/understanding/architecture.md).
 #pragma once
 
 #include <functional>

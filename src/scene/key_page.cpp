@@ -14,10 +14,17 @@ constexpr std::string_view opening = R"(# Keys of a scene
 
 `carrom keys` writes this page from the declarations that the program reads scenes with.
 
-A scene is a TOML file. An unknown key is an error, and so is a key that has no meaning in the scene.
-`--set key=value` sets any key on the command line and replaces what excludes it in the file.
+A scene is a TOML file. An unknown key is an error, and so is a key that has no meaning in the
+scene. `--set key=value` sets any key on the command line and replaces what excludes it in the file.
 Lengths are in any unit, times in steps, masses in units of the disc's mass. A unit of 1 is a pure
-number.
+number. [What goes with what](conflicts.md) lists what excludes each other.
+)";
+
+constexpr std::string_view opening_of_conflicts = R"(# What goes with what
+
+`carrom keys --conflicts` writes this page from the checks that the program makes. Effects and
+methods go together, but for these. Each of them is an error that names the key.
+
 )";
 
 std::string code(std::string_view text) { return fmt::format("`{}`", text); }
@@ -66,8 +73,9 @@ std::string row_of(const Key& key, const Scene& plain) {
 
 } // namespace
 
-std::string rules_table() {
-    std::string text = "| | not together with | because |\n|---|---|---|\n";
+std::string conflicts_page() {
+    std::string text{opening_of_conflicts};
+    text += "| | not together with | because |\n|---|---|---|\n";
     for (const Rule& rule : rules())
         text += fmt::format("| {} | {} | {} |\n", rule.one, rule.other, rule.why);
     return text;
@@ -86,10 +94,7 @@ std::string key_page() {
                             "|\n|---|---|---|---|---|\n{}",
                             table.name, table.help, rows);
     }
-    return text +
-           "\n## What does not go together\n\nEach of these is an error that names the "
-           "key.\n\n" +
-           rules_table();
+    return text;
 }
 
 } // namespace carrom

@@ -1,15 +1,22 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The committed reference of keys is what the program prints; what it prints names every key once.
+# The generated pages of the reference are what the program prints.
 source "$CARROM_SOURCE_DIR/tests/system/common.sh"
 
-page=$CARROM_SOURCE_DIR/docs/reference/keys.md
-run 1 keys
-expect_code 0 'carrom keys'
-diff "$page" "$test_folder/out" || complain "docs/reference/keys.md is not what 'carrom keys' prints: write it anew"
-run 3 keys --conflicts
-expect_code 0 'carrom keys --conflicts'
-while IFS= read -r line; do
-    grep -qxF -- "$line" "$page" || complain "a line of 'carrom keys --conflicts' is not in the page: $line"
-done <"$test_folder/out"
+reference=$CARROM_SOURCE_DIR/docs/reference
+# expect_page NAME RANKS WORD...
+expect_page() {
+    local name=$1 ranks=$2
+    shift 2
+    run "$ranks" "$@"
+    expect_code 0 "carrom $*"
+    diff "$reference/$name.md" "$test_folder/out" ||
+        complain "docs/reference/$name.md is not what 'carrom $*' prints: write it anew"
+}
+expect_page keys 1 keys
+expect_page conflicts 3 keys --conflicts
+
+bash "$CARROM_SOURCE_DIR/docs/tools/command_line.sh" "$CARROM_PROGRAM" >"$test_folder/out"
+diff "$reference/command-line.md" "$test_folder/out" ||
+    complain "docs/reference/command-line.md is not what docs/tools/command_line.sh prints"
 finish

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""docs/install/cluster.md lists what the build asks for, and every recipe follows that list.
+"""docs/how-to/cluster.md lists what the build asks for, and every recipe follows that list.
 
 The tables of that page are compared with the CMake files, with the packages that
 job_scripts/setup.sh and the container install, and with the recipes for Spack, EasyBuild and
@@ -16,7 +16,7 @@ import sys
 
 top = pathlib.Path(sys.argv[1])
 install = top / "docs" / "install"
-page = install / "cluster.md"
+page = top / "docs/how-to/cluster.md"
 recipes = {
     "Spack": install / "spack_repo/carrom/packages/carrom/package.py",
     "EasyBuild": next(install.glob("easybuild/*.eb")),
@@ -127,7 +127,8 @@ def cmake_text():
 
 def check_options():
     """Options that pages and recipes give to CMake exist."""
-    for path in sorted(install.rglob("*")):
+    pages = [page, top / "docs/start/install.md", top / "README.md"]
+    for path in [*sorted(install.rglob("*")), *pages]:
         if not path.is_file():
             continue
         for option in set(re.findall(r"(?:CARROM|RANDOM123)_[A-Z_]+", path.read_text())):
@@ -229,7 +230,7 @@ def check_project_version():
         "CHANGELOG.md": r"^## ([\d.]+)",
         "docs/install/conda/meta.yaml": r'set version = "(\S+)"',
         str(recipes["Spack"].relative_to(top)): r'version\("(\S+)"',
-        "docs/install/cluster.md": r"carrom@(\S+)",
+        "docs/how-to/cluster.md": r"carrom@(\S+)",
     }
     for place, pattern in places.items():
         found = re.search(pattern, (top / place).read_text(), re.M)

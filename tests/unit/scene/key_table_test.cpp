@@ -156,7 +156,7 @@ TEST_CASE("Every key says what it takes") {
         CHECK((!rule.keys.empty() || rule.boundary));
         for (const std::string_view key : rule.keys) CHECK(find_key(key) != nullptr);
         CHECK_FALSE(rule.is_broken(Scene{}));
-        CHECK(rules_table().find(rule.why) != std::string::npos);
+        CHECK(conflicts_page().find(rule.why) != std::string::npos);
     }
 }
 

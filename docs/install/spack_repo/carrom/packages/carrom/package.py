@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# A recipe for Spack 1.0 or newer. ../../../../cluster.md has the commands.
+# A recipe for Spack 1.0 or newer. docs/how-to/cluster.md has the commands.
 
 from spack_repo.builtin.build_systems.cmake import CMakePackage
 

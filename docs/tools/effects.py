@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Run the scenes of docs/lessons/effects.md and of README, and draw a picture of each.
+
+  build/pictures/bin/python docs/tools/effects.py build/carrom [NAME ...] [--output docs/pictures]
+
+It takes some minutes. A picture has as many colours as 60 kB allow.
+"""
+import argparse
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from PIL import Image
+
+MOST_BYTES = 60_000
+TOP = pathlib.Path(__file__).resolve().parents[2]
+
+# The step that is shown, and words for plot_frame.py.
+PICTURES = {
+    "atmosphere": (20_000, "--view 0 0 200 200"),
+    "conduction": (4_000, ""),
+    "cooling": (3_000, "--dpi 54"),
+    "crossing": (100, "--view 20 60 140 160"),
+    "drag": (200, ""),
+    "effusion": (150, "--scene --view 60 60 140 140"),
+    "galton": (400, "--scene"),
+    "hopper": (140, "--scene"),
+    "jet": (700, "--view 150 380 700 870 --dpi 52"),
+    "lorentz": (25, "--scene --colour vx"),
+    "mixture": (500, ""),
+    "piston": (60, ""),
+    "rain": (600, ""),
+    "rough": (40, "--colour spin --fastest 0.08"),
+    "shear": (600, "--colour vx --view 0 50 200 250"),
+}
+
+
+def draw(program, name, folder, target):
+    step, words = PICTURES[name]
+    scene = TOP / "inputs" / f"{name}.toml"
+    run = folder / name
+    subprocess.run([program, "run", scene, "--quiet", "--steps", str(step), "-o", run], check=True)
+    words = [str(word) for part in words.split() for word in with_scene(part, scene)]
+    checkpoint = run / "checkpoints" / f"checkpoint-{step:012}.h5"
+    tool = pathlib.Path(__file__).with_name("plot_frame.py")
+    picture = folder / f"{name}.png"
+    subprocess.run([sys.executable, tool, checkpoint, "--dpi", "60", *words, "-o", picture],
+                   check=True)
+    shrink(picture, target)
+
+
+def with_scene(word, scene):
+    return [word, scene] if word == "--scene" else [word]
+
+
+def shrink(picture, target):
+    """As many colours as the size allows."""
+    image = Image.open(picture).convert("RGB")
+    for colours in (128, 96, 64, 48, 32, 24, 16, 12, 8):
+        image.quantize(colours, dither=Image.Dither.NONE).save(target, optimize=True)
+        if target.stat().st_size < MOST_BYTES:
+            print(f"{target}: {colours} colours, {target.stat().st_size} bytes")
+            return
+    sys.exit(f"{target} has {target.stat().st_size} bytes")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=pathlib.Path)
+    parser.add_argument("names", nargs="*", metavar="NAME", help="default: all")
+    parser.add_argument("--output", type=pathlib.Path, default=TOP / "docs" / "pictures")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        for name in options.names or PICTURES:
+            draw(options.program.resolve(), name, pathlib.Path(folder),
+                 options.output / f"{name}.png")
+
+
+if __name__ == "__main__":
+    main()
