@@ -10,7 +10,7 @@ from pathlib import Path
 
 from carrom.errors import ProgramNotFoundError
 
-_ADVICE = "build it (see docs/user.md), put it on PATH, or set CARROM to its path"
+_ADVICE = "build it (see docs/start/install.md), put it on PATH, or set CARROM to its path"
 
 
 def find_program(program: str | os.PathLike[str] | None = None) -> Path:

@@ -79,7 +79,7 @@ class Run:
 
     @property
     def report(self) -> dict[str, Any]:
-        """The numbers of the summary; docs/user.md lists the keys.
+        """The numbers of the summary; docs/reference/report.md lists the keys.
 
         Raises:
             NoDataError: the run has not come to an end yet, or only a file was opened
