@@ -1,14 +1,18 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Repeats the study of docs/understanding/accuracy.md: tables of CSV in a folder, one for each gas, then the figures. Tables that are
-# there are kept, so a study that was stopped goes on with the same command.
+# Repeats the study of docs/understanding/accuracy.md: tables of CSV in a folder, one for each gas,
+# then the figures. Tables that are there are kept, so a study that was stopped goes on with the
+# same command.
 #
-#   job_scripts/accuracy_study.sh [FOLDER]           all of it on one core; default folder build/accuracy
-#   PYTHON=build/pictures/bin/python job_scripts/accuracy_study.sh   with the environment of docs/tools/README.md
-#   SHARE=2/8 job_scripts/accuracy_study.sh FOLDER   the second of eight shares, tables named after it, no figures
+#   job_scripts/accuracy_study.sh [FOLDER]           all of it on one core, into build/accuracy
+#   SHARE=2/8 job_scripts/accuracy_study.sh FOLDER   the second of eight shares: its own tables and
+#                                                    no figures
+#   PYTHON=build/pictures/bin/python job_scripts/accuracy_study.sh
+#                                        with the environment of docs/tools/README.md
 #
-# Lengths are in disc diameters. At K = 1 a disc collides with others once in four steps: the speed is set so, from
-# nu sigma = (4 / sqrt(pi)) (Z - 1) sqrt(kT) with the compressibility factor Z (the rates of the tables are measured ones).
+# Lengths are in disc diameters. At K = 1 a disc collides with others once in four steps: the speed
+# is set so, from nu sigma = (4 / sqrt(pi)) (Z - 1) sqrt(kT) with the compressibility factor Z (the
+# rates of the tables are measured ones).
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 carrom=${CARROM:-$here/build/carrom}
@@ -26,9 +30,11 @@ study() {
     rm -f "$table.unfinished"
     local box speed
     box=$(awk -v n="$n" -v p="$packing" 'BEGIN { printf "%.10g", sqrt(n * atan2(0, -1) / 4 / p) }')
-    speed=$(awk -v z="$z" 'BEGIN { printf "%.6g", sqrt(2) * 0.25 / (4 / sqrt(atan2(0, -1)) * (z - 1)) }')
+    speed=$(awk -v z="$z" \
+        'BEGIN { printf "%.6g", sqrt(2) * 0.25 / (4 / sqrt(atan2(0, -1)) * (z - 1)) }')
     echo "$(basename "$table"): $n discs, packing $packing" >&2
-    "$carrom" accuracy "$here/docs/accuracy/gas.toml" --set box.size="$box" --set discs.count="$n" --set discs.speed="$speed" \
+    "$carrom" accuracy "$here/docs/accuracy/gas.toml" --set box.size="$box" --set discs.count="$n" \
+        --set discs.speed="$speed" \
         --share "$share" --output "$table.unfinished" "$@"
     mv "$table.unfinished" "$table"
 }
@@ -54,13 +60,18 @@ study arithmetic 1024 0.7 10.31 --starts 4 --collisions 50 --repetitions 2
 for n in 256 1024 4096 16384 65536; do
     study size "$n" 0.3 2.063 --micro-steps 1 --starts 4 --collisions 20 --approach 10
 done
-# Few small discs and long flights, as in the course program's own scenes: here formulas lose collisions.
-study thin 1024 0.0000785 1.000157 --micro-steps 16 --starts 5 --collisions 15 --approach 10 --repetitions 2
+# Few small discs and long flights, as in the course program's own scenes: here formulas lose
+# collisions.
+study thin 1024 0.0000785 1.000157 --micro-steps 16 --starts 5 --collisions 15 --approach 10 \
+    --repetitions 2
 # Distances to the exact run along time.
 study distances 256 0.1 1.236 --distances --arithmetic stable --starts 4 --collisions 25
 study distances 256 0.3 2.063 --distances --arithmetic stable --starts 4 --collisions 45
 study distances 256 0.5 4.10 --distances --arithmetic stable --starts 4 --collisions 75
 
 [ "$share" = 1/1 ] || exit 0
-"${PYTHON:-python3}" "$here/docs/tools/plot_accuracy.py" "$folder"/error*.csv "$folder"/large*.csv "$folder"/long*.csv "$folder"/arithmetic*.csv "$folder"/size*.csv "$folder"/thin*.csv --output "$folder"
-"${PYTHON:-python3}" "$here/docs/tools/plot_distances.py" "$folder"/distances*.csv --output "$folder"
+"${PYTHON:-python3}" "$here/docs/tools/plot_accuracy.py" "$folder"/error*.csv "$folder"/large*.csv \
+    "$folder"/long*.csv "$folder"/arithmetic*.csv "$folder"/size*.csv "$folder"/thin*.csv \
+    --output "$folder"
+"${PYTHON:-python3}" "$here/docs/tools/plot_distances.py" "$folder"/distances*.csv \
+    --output "$folder"

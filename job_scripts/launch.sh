@@ -9,14 +9,16 @@
 say() { printf '%s\n' "$*" >&2; }
 die() { say "${SLURM_JOB_NAME:-job script}: $*"; exit 2; }
 
-[ -n "${SLURM_JOB_ID:-}" ] || die "submit this with sbatch; ./job_scripts/run_local.sh runs without Slurm"
+[ -n "${SLURM_JOB_ID:-}" ] || die \
+    "submit this with sbatch; ./job_scripts/run_local.sh runs without Slurm"
 if [ -n "$MODULES" ]; then
     set +u # module systems use variables that are not set
     module load $MODULES
     set -u
 fi
 source job_scripts/mpi.sh
-[ -x "$PROGRAM" ] || die "no program $PROGRAM; build it, submit from the top of the checkout, or set PROGRAM"
+[ -x "$PROGRAM" ] || die \
+    "no program $PROGRAM; build it, submit from the top of the checkout, or set PROGRAM"
 
 # launch_with RANKS THREADS: sets `launch`, the words that come before the program. Each rank is
 # bound to THREADS cores of its own, on which its threads may move; ranks fill one node after the
@@ -29,7 +31,8 @@ launch_with() {
         launch=(srun --mpi="${SRUN_MPI:-$(srun_plugin "$PROGRAM")}" --ntasks="$ranks"
                 --cpus-per-task="$threads" --cpu-bind=cores)
         ;;
-    *mpirun* | *mpiexec*) launch=("$LAUNCHER" -n "$ranks" $(bind_to_cores "$LAUNCHER" "$threads")) ;;
+    *mpirun* | *mpiexec*) launch=("$LAUNCHER" -n "$ranks" $(bind_to_cores "$LAUNCHER" "$threads")) \
+        ;;
     *) die "LAUNCHER is srun or mpirun, not $LAUNCHER" ;;
     esac
     launch+=($LAUNCHER_OPTIONS)
@@ -42,7 +45,8 @@ report_value() { sed -n "s/^ *\"$2\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}\$/\1
 # add_row TABLE REPORT: what a scaling study is about, as a line of CSV.
 add_row() {
     local row key
-    [ -s "$1" ] || echo 'ranks,threads,n_discs,steps,wall_seconds,ns_per_disc_step,state_hash' >>"$1"
+    [ -s "$1" ] || echo 'ranks,threads,n_discs,steps,wall_seconds,ns_per_disc_step,state_hash' \
+        >>"$1"
     for key in ranks threads n_discs steps wall_seconds ns_per_disc_step state_hash; do
         row=${row:+$row,}$(report_value "$2" "$key")
     done

@@ -24,7 +24,8 @@ is_short=no
 parts=("${all_parts[@]}")
 case ${1:-} in
     '') ;;
-    --short) is_short=yes parts=(address scenes checkpoints threads memory) ;; # tests damage files too
+    # tests damage files too
+    --short) is_short=yes parts=(address scenes checkpoints threads memory) ;;
     --only) parts=("${@:2}") ;;
     *) die "unknown option $1; see the head of this script" ;;
 esac
@@ -124,7 +125,8 @@ threads() {
     archer=$(find /usr/lib/llvm* /usr/lib/*-linux-gnu -name libarcher.so 2>/dev/null |
         sort -V | tail -n 1) || true
     [ -n "$archer" ] || { say "threads: left out, there is no libarcher.so; $remedy"; return; }
-    # Without archer the sanitizer does not know what OpenMP's barriers order. MPI is not instrumented.
+    # Without archer the sanitizer does not know what OpenMP's barriers order. MPI is not
+    # instrumented.
     settings=(env OMP_TOOL_LIBRARIES="$archer" OMP_NUM_THREADS=2 CARROM_TEST_SECONDS=3600
               TSAN_OPTIONS=ignore_noninstrumented_modules=1:halt_on_error=1)
     if [ $is_short = yes ]; then
@@ -140,7 +142,8 @@ threads() {
 
 memory() {
     local words=() file
-    command -v valgrind >/dev/null || { say "memory: left out, there is no valgrind; $remedy"; return; }
+    command -v valgrind >/dev/null ||
+        { say "memory: left out, there is no valgrind; $remedy"; return; }
     for file in /usr/{,local/}share/openmpi/openmpi-valgrind.supp "$top/tests/valgrind.supp"; do
         [ ! -r "$file" ] || words+=(--suppressions="$file")
     done

@@ -33,7 +33,8 @@ sanitizer_packages=(clang libclang-rt-dev libomp-dev valgrind)
 missing_packages() {
     local package
     for package in "$@"; do
-        dpkg-query -W -f '${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed || printf '%s\n' "$package"
+        dpkg-query -W -f '${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed ||
+            printf '%s\n' "$package"
     done
 }
 
@@ -54,7 +55,8 @@ mpi_packages() {
     local library=${MPI:-openmpi}
     if [ -z "${MPI:-}" ] && [ -z "$(missing_packages libhdf5-mpich-dev)" ] &&
         [ -n "$(missing_packages libhdf5-openmpi-dev)" ]; then library=mpich; fi
-    [ $library = mpich ] && printf '%s\n' "${mpich_packages[@]}" || printf '%s\n' "${openmpi_packages[@]}"
+    [ $library = mpich ] && printf '%s\n' "${mpich_packages[@]}" ||
+        printf '%s\n' "${openmpi_packages[@]}"
 }
 
 # install_packages [PACKAGE...]: what the program needs, and these
@@ -102,8 +104,8 @@ mpi_words() {
         "-DHDF5_C_COMPILER_EXECUTABLE=$(command -v "h5pcc.$MPI")"
 }
 
-# configure WORD...: makes the build, or changes it by cmake's words. Several sources are compiled as
-# one: for those who build all, once.
+# configure WORD...: makes the build, or changes it by cmake's words. Several sources are compiled
+# as one: for those who build all, once.
 configure() {
     local words=()
     export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}

@@ -21,7 +21,8 @@ if("${MPI_C_LIBRARIES}" MATCHES "mpich" AND NOT CARROM_SANITIZE)
   list(APPEND CARROM_TEST_ENVIRONMENT LD_PRELOAD=${CMAKE_BINARY_DIR}/tests/libgive_way.so)
 endif()
 
-# A test's time limit in arg_TIMEOUT, `default` if it says nothing: it is what a busy machine needs, sanitizers need more.
+# A test's time limit in arg_TIMEOUT, `default` if it says nothing: it is what a busy machine needs,
+# sanitizers need more.
 macro(carrom_time_limit default)
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT ${default})
@@ -31,7 +32,8 @@ macro(carrom_time_limit default)
   endif()
 endmacro()
 
-# What every test executable shares. Tests may include their module's private headers and those of tests/support.
+# What every test executable shares. Tests may include their module's private headers and those of
+# tests/support.
 function(carrom_test_executable target module)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
   if(TARGET carrom::${module})
@@ -42,11 +44,13 @@ function(carrom_test_executable target module)
 endfunction()
 
 # carrom_unit_test(module SOURCES a_test.cpp ... [LINKS target ...] [TIMEOUT seconds])
-# Builds <module>_unit_test without MPI; each Catch2 case is a ctest entry. Links carrom::<module> by itself.
+# Builds <module>_unit_test without MPI; each Catch2 case is a ctest entry. Links carrom::<module>
+# by itself.
 function(carrom_unit_test module)
   cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LINKS" ${ARGN})
   carrom_time_limit(120)
-  # CTest takes the names as a list: behind a bracket left open, the names that follow are one long name, and no test.
+  # CTest takes the names as a list: behind a bracket left open, the names that follow are one long
+  # name, and no test.
   foreach(source ${arg_SOURCES})
     file(STRINGS ${source} names REGEX "^TEST_CASE\\(\"[^\"]*[][;]")
     if(names)
@@ -56,18 +60,22 @@ function(carrom_unit_test module)
   set(target ${module}_unit_test)
   add_executable(${target} ${arg_SOURCES})
   carrom_test_executable(${target} ${module} carrom_unit_main ${arg_LINKS})
-  # Half the time to build; what is tested has its own options. g++ 12 warns of its own strings then.
+  # Half the time to build; what is tested has its own options. g++ 12 warns of its own strings
+  # then.
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1> -Wno-array-bounds)
   target_precompile_headers(${target} REUSE_FROM carrom_unit_main)
   catch_discover_tests(${target} TEST_PREFIX "${module}:"
-                       PROPERTIES LABELS unit TIMEOUT ${arg_TIMEOUT} ENVIRONMENT "OMP_NUM_THREADS=2")
+                       PROPERTIES LABELS unit TIMEOUT ${arg_TIMEOUT}
+                       ENVIRONMENT "OMP_NUM_THREADS=2")
 endfunction()
 
-# carrom_mpi_test(name RANKS 1 2 ... SOURCES a_test.cpp ... [LINKS target ...] [THREADS 1 2] [TIMEOUT seconds]
+# carrom_mpi_test(name RANKS 1 2 ... SOURCES a_test.cpp ... [LINKS target ...] [THREADS 1 2]
+# [TIMEOUT seconds]
 #                 [LABELS label ...] [IN_PARTS])
-# Builds <name>_mpi_test; one ctest entry per rank and thread count runs all its Catch2 cases on every rank.
-# Links carrom::<name>, if there is one, and carrom::parallel by itself. IN_PARTS: $CARROM_TEST_PART says "k/n" to the
-# k-th of n shapes, for tests that share their scenes out; `ctest -C long -L long` runs everything on every shape,
+# Builds <name>_mpi_test; one ctest entry per rank and thread count runs all its Catch2 cases on
+# every rank. Links carrom::<name>, if there is one, and carrom::parallel by itself. IN_PARTS:
+# $CARROM_TEST_PART says "k/n" to the k-th of n shapes, for tests that share their scenes out;
+# `ctest -C long -L long` runs everything on every shape,
 # hidden Catch2 cases with the tag [long] included.
 function(carrom_mpi_test name)
   cmake_parse_arguments(arg "IN_PARTS" "TIMEOUT" "RANKS;THREADS;SOURCES;LINKS;LABELS" ${ARGN})
@@ -92,28 +100,33 @@ function(carrom_mpi_test name)
       if(ranks EQUAL 1)
         set(cores 1) # threads of small scenes wait for each other asleep, most of the time
       endif()
-      set(command ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} ${MPIEXEC_PREFLAGS} $<TARGET_FILE:${target}>)
+      set(command ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} ${MPIEXEC_PREFLAGS}
+          $<TARGET_FILE:${target}>)
       set(environment "${CARROM_TEST_ENVIRONMENT};OMP_NUM_THREADS=${threads}")
       set(test "${name}: ${ranks} ranks x ${threads} threads")
       add_test(NAME ${test} COMMAND ${command} ${MPIEXEC_POSTFLAGS})
-      set_tests_properties(${test} PROPERTIES LABELS "${arg_LABELS}" PROCESSORS ${cores} TIMEOUT ${arg_TIMEOUT})
-      set_tests_properties(${test} PROPERTIES ENVIRONMENT "${environment};CARROM_TEST_SECONDS=${arg_TIMEOUT}")
+      set_tests_properties(${test} PROPERTIES LABELS "${arg_LABELS}" PROCESSORS ${cores}
+                           TIMEOUT ${arg_TIMEOUT})
+      set_tests_properties(${test} PROPERTIES ENVIRONMENT
+                           "${environment};CARROM_TEST_SECONDS=${arg_TIMEOUT}")
       if(arg_IN_PARTS)
         set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT CARROM_TEST_PART=${part}/${n_parts})
         set(long_test "${name}, all of it: ${ranks} ranks x ${threads} threads")
         add_test(NAME ${long_test} COMMAND ${command} "*" ${MPIEXEC_POSTFLAGS} CONFIGURATIONS long)
-        set_tests_properties(${long_test} PROPERTIES LABELS "${arg_LABELS};long" PROCESSORS ${cores} TIMEOUT 3600)
-        set_tests_properties(${long_test} PROPERTIES ENVIRONMENT "${environment};CARROM_TEST_SECONDS=3600")
+        set_tests_properties(${long_test} PROPERTIES LABELS "${arg_LABELS};long" PROCESSORS ${cores}
+                             TIMEOUT 3600)
+        set_tests_properties(${long_test} PROPERTIES ENVIRONMENT
+                             "${environment};CARROM_TEST_SECONDS=3600")
       endif()
       math(EXPR part "${part} + 1")
     endforeach()
   endforeach()
 endfunction()
 
-# carrom_system_test(name COMMAND program arg ... [LABELS label ...] [PROCESSORS n] [TIMEOUT seconds])
-# Runs a script or the real program in a folder of its own, so tests may run side by side. Scripts find the program
-# in $CARROM_PROGRAM, mpiexec in $CARROM_MPIEXEC and the source tree in $CARROM_SOURCE_DIR. Tests with the label `long`
-# are run by `ctest -C long -L long` only.
+# carrom_system_test(name COMMAND program arg ... [LABELS label ...] [PROCESSORS n] [TIMEOUT
+# seconds]) Runs a script or the real program in a folder of its own, so tests may run side by side.
+# Scripts find the program in $CARROM_PROGRAM, mpiexec in $CARROM_MPIEXEC and the source tree in
+# $CARROM_SOURCE_DIR. Tests with the label `long` are run by `ctest -C long -L long` only.
 function(carrom_system_test name)
   cmake_parse_arguments(arg "" "TIMEOUT;PROCESSORS" "COMMAND;LABELS" ${ARGN})
   carrom_time_limit(300)
@@ -130,6 +143,7 @@ function(carrom_system_test name)
     set(configurations CONFIGURATIONS long)
   endif()
   add_test(NAME ${name} COMMAND ${arg_COMMAND} WORKING_DIRECTORY ${folder} ${configurations})
-  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" PROCESSORS ${arg_PROCESSORS} TIMEOUT ${arg_TIMEOUT})
+  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" PROCESSORS ${arg_PROCESSORS}
+                       TIMEOUT ${arg_TIMEOUT})
   set_tests_properties(${name} PROPERTIES ENVIRONMENT "${CARROM_TEST_ENVIRONMENT}")
 endfunction()

@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# The steps of the container image. Dockerfile and carrom.def call them, each in an image of Debian 13.
+# The steps of the container image. Dockerfile and carrom.def call them, each in an image of Debian
+# 13.
 #
-#   container.sh build SOURCE    install compilers and libraries, build SOURCE, install to /opt/carrom
+#   container.sh build SOURCE    install compilers and libraries, build, install to /opt/carrom
 #   container.sh run             install what the program needs at run time
 #
 # Debian 13 names the libraries of `run` after their versions. Another base image needs other names.

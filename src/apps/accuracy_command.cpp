@@ -17,9 +17,10 @@ namespace {
 
 constexpr const char* accuracy_footer =
     R"(Every setting is run from the same starts: discs that the event-driven method has brought to
-equilibrium. Starts are made from different seeds; discs that are listed are run on for longer and longer.
-FILE is a new table; it gets a line for each trial as soon as it is done. To share the work out (a Slurm
-array), or to lose less when it is stopped: --share 1/8 ... --share 8/8, each with a FILE of its own.
+equilibrium. Starts are made from different seeds; discs that are listed are run on for longer and
+longer. FILE is a new table; it gets a line for each trial as soon as it is done. To share the work
+out (a Slurm array), or to lose less when it is stopped: --share 1/8 ... --share 8/8, each with a
+FILE of its own.
 
 Examples:
   carrom accuracy inputs/gas.toml --set discs.count=2000 --output gas.csv

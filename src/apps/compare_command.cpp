@@ -21,8 +21,8 @@ namespace carrom {
 namespace {
 
 constexpr const char* compare_footer =
-    R"(OUTPUT has the lines that a program for the same scene has written: `step id x y vx vy`, in the
-last step also `p_c w_c`. It is held to the time-stepped method. The first line that differs is
+    R"(OUTPUT has the lines that a program for the same scene has written: `step id x y vx vy`, in
+the last step also `p_c w_c`. It is held to the time-stepped method. The first line that differs is
 printed, with the rule that decides it and what the program may do instead: order, one collision
 a step, stop at a wall, overlap, corner, counters, lines.
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kinds of failure, told apart by who knows of them (docs/understanding/architecture.md): the input is wrong
-// and every rank knows; a collective operation fails on some rank and all agree on it; an
-// invariant is broken. The first two are exceptions of the public API.
+// The kinds of failure, told apart by who knows of them (docs/understanding/architecture.md): the
+// input is wrong and every rank knows; a collective operation fails on some rank and all agree on
+// it; an invariant is broken. The first two are exceptions of the public API.
 #pragma once
 
 #include <string_view>

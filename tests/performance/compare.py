@@ -1,14 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measure Carrom beside its peers: LAMMPS, and a plain stream of the same bytes. One CSV row per case.
+"""Measure Carrom beside its peers: LAMMPS, and a plain stream of the same bytes. One CSV row per
+case.
 
-  tests/performance/compare.py --build build --output docs/performance/rates.csv --minutes 7 [--only PATTERN] [--short]
+  tests/performance/compare.py --build build --output docs/performance/rates.csv --minutes 7 [--only
+  PATTERN] [--short]
 
-Every case of a round runs before the next round begins, each together with what it is compared with, so that a drift of the
-machine's speed falls on both; ratios are taken within a round, and the CSV has their medians. Rounds go on until the
-time is up, at least three. --short runs all cases once and for a fraction of their steps: to see that it works.
-LAMMPS (Debian: lammps) is left out, and named, where there is none.
+Every case of a round runs before the next round begins, each together with what it is compared
+with, so that a drift of the machine's speed falls on both; ratios are taken within a round, and the
+CSV has their medians. Rounds go on until the time is up, at least three. --short runs all cases
+once and for a fraction of their steps: to see that it works. LAMMPS (Debian: lammps) is left out,
+and named, where there is none.
 """
+
 import argparse
 import csv
 import fnmatch
@@ -30,36 +34,79 @@ FOLDER = os.path.dirname(os.path.abspath(__file__))
 
 
 def slow(n_discs, steps):
-    """Packing 0.2, Maxwell's speeds: 0.005 diameters per component and step (rms), as LAMMPS moves its discs."""
+    """Packing 0.2, Maxwell's speeds: 0.005 diameters per component and step (rms), as LAMMPS moves
+    its discs.
+    """
     size = math.sqrt(n_discs * math.pi / 4 / 0.2)
-    return (f"[box]\nsize = {size!r}\n[discs]\ncount = {n_discs}\nradius = 0.5\nvelocities = \"maxwell\"\n"
-            f"speed = {0.005 * math.sqrt(2)!r}\n[time]\nsteps = {steps}\nmethod = \"time-stepped\"\n", "toml")
+    return (
+        (
+            f"[box]\nsize = {size!r}\n[discs]\ncount = {n_discs}\nradius = 0.5\nvelocities ="
+            f" \"maxwell\"\nspeed = {0.005 * math.sqrt(2)!r}\n[time]\nsteps = {steps}\nmethod ="
+            " \"time-stepped\"\n"
+        ),
+        "toml",
+    )
 
 
 class Case:
-    """`unit`: what the rate counts. `whole`: the time of the whole program, start included, instead of stepping alone."""
+    """`unit`: what the rate counts. `whole`: the time of the whole program, start included, instead
+    of stepping alone.
+    """
 
-    def __init__(self, scene, ranks=1, threads=1, unit="disc-steps", peer=None, goal=None, whole=False, group=""):
-        self.scene, self.ranks, self.threads, self.unit, self.peer = scene, ranks, threads, unit, peer
+    def __init__(
+        self,
+        scene,
+        ranks=1,
+        threads=1,
+        unit="disc-steps",
+        peer=None,
+        goal=None,
+        whole=False,
+        group="",
+    ):
+        self.scene, self.ranks, self.threads, self.unit, self.peer = (
+            scene,
+            ranks,
+            threads,
+            unit,
+            peer,
+        )
         self.goal, self.whole, self.group = goal, whole, group
 
 
 def cases():
     found = {
-        "slow gas, 1e5": Case(lambda s: slow(100_000, s(2048)), peer=(316, 600), goal="2e8, 6 x LAMMPS"),
-        "slow gas, 1e6": Case(lambda s: slow(1_000_000, s(512)), peer=(1000, 60), goal="1.5e8, 10 x LAMMPS"),
+        "slow gas, 1e5": Case(
+            lambda s: slow(100_000, s(2048)), peer=(316, 600), goal="2e8, 6 x LAMMPS"
+        ),
+        "slow gas, 1e6": Case(
+            lambda s: slow(1_000_000, s(512)), peer=(1000, 60), goal="1.5e8, 10 x LAMMPS"
+        ),
         "slow gas, 1e6, 2 threads": Case(lambda s: slow(1_000_000, s(512)), threads=2),
         "slow gas, 1e6, 2 ranks": Case(lambda s: slow(1_000_000, s(512)), ranks=2),
         "gas, 1e6": Case(lambda s: gas(1_000_000, s(64)), goal="5e7"),
         "gas, 1e6, 2 threads": Case(lambda s: gas(1_000_000, s(64)), threads=2),
         "gas, 1e6, 2 ranks": Case(lambda s: gas(1_000_000, s(64)), ranks=2),
-        "all, packing 0.3, 1e6": Case(lambda s: exact(1_000_000, 0.3, s(4_000_000)), unit="collisions", goal="2.5e6"),
-        "all, packing 0.3, 1e6, 2 threads": Case(lambda s: exact(1_000_000, 0.3, s(4_000_000)), threads=2, unit="collisions"),
-        "all, packing 0.3, 1e6, 2 ranks": Case(lambda s: exact(1_000_000, 0.3, s(4_000_000)), ranks=2, unit="collisions"),
-        "all, packing 0.5, 1e5": Case(lambda s: exact(100_000, 0.5, s(4_000_000)), unit="collisions", goal="3.5e6"),
+        "all, packing 0.3, 1e6": Case(
+            lambda s: exact(1_000_000, 0.3, s(4_000_000)), unit="collisions", goal="2.5e6"
+        ),
+        "all, packing 0.3, 1e6, 2 threads": Case(
+            lambda s: exact(1_000_000, 0.3, s(4_000_000)), threads=2, unit="collisions"
+        ),
+        "all, packing 0.3, 1e6, 2 ranks": Case(
+            lambda s: exact(1_000_000, 0.3, s(4_000_000)), ranks=2, unit="collisions"
+        ),
+        "all, packing 0.5, 1e5": Case(
+            lambda s: exact(100_000, 0.5, s(4_000_000)), unit="collisions", goal="3.5e6"
+        ),
         "generated, 1e4, 500 steps": Case(lambda s: fast(10_000, s(500)), whole=True, goal="2 s"),
     }
-    for name, n_discs, steps in (("1e3", 1_000, 16_384), ("1e4", 10_000, 2048), ("1e5", 100_000, 256), ("1e7", 10_000_000, 8)):
+    for name, n_discs, steps in (
+        ("1e3", 1_000, 16_384),
+        ("1e4", 10_000, 2048),
+        ("1e5", 100_000, 256),
+        ("1e7", 10_000_000, 8),
+    ):
         found[f"gas, {name}"] = Case(lambda s, n=n_discs, k=steps: gas(n, s(k)))
     return found
 
@@ -87,7 +134,16 @@ class Machine:
         scene, report = os.path.join(folder, f"scene.{kind}"), os.path.join(folder, "report.json")
         with open(scene, "w", encoding="utf-8") as file:
             file.write(text)
-        command = [os.path.join(self.build, "carrom"), "run", scene, "--threads", str(case.threads), "--quiet", "--report", report]
+        command = [
+            os.path.join(self.build, "carrom"),
+            "run",
+            scene,
+            "--threads",
+            str(case.threads),
+            "--quiet",
+            "--report",
+            report,
+        ]
         if case.ranks > 1:
             command = ["mpirun", "-np", str(case.ranks)] + command
         seconds, _ = timed(command, self.environment)
@@ -95,7 +151,11 @@ class Machine:
             result = json.load(file)
         if not case.whole:
             seconds = result["wall_seconds"]
-        done = result["pair_collisions"] if case.unit == "collisions" else result["n_discs"] * result["steps"]
+        done = (
+            result["pair_collisions"]
+            if case.unit == "collisions"
+            else result["n_discs"] * result["steps"]
+        )
         return done / seconds, seconds, result
 
     def peer(self, case):
@@ -103,16 +163,44 @@ class Machine:
         if not case.peer or not self.lammps:
             return None
         side, steps = case.peer
-        command = [self.lammps, "-in", os.path.join(FOLDER, "lammps_gas.in"), "-log", "none", "-var", "side", str(side),
-                   "-var", "steps", str(self.steps(steps)), "-var", "first", str(self.steps(steps) // 3)]
+        command = [
+            self.lammps,
+            "-in",
+            os.path.join(FOLDER, "lammps_gas.in"),
+            "-log",
+            "none",
+            "-var",
+            "side",
+            str(side),
+            "-var",
+            "steps",
+            str(self.steps(steps)),
+            "-var",
+            "first",
+            str(self.steps(steps) // 3),
+        ]
         _, text = timed(command, {**self.environment, "OMP_NUM_THREADS": "1"})
-        seconds, done, discs = [match for match in re.findall(r"Loop time of (\S+) on .* for (\d+) steps with (\d+) atoms", text)][-1]
+        seconds, done, discs = [
+            match
+            for match in re.findall(
+                r"Loop time of (\S+) on .* for (\d+) steps with (\d+) atoms", text
+            )
+        ][-1]
         return int(discs) * int(done) / float(seconds)
 
     def stream(self, n_discs, threads):
         """Disc-steps per second of a program that only reads and writes every disc's 64 bytes."""
         passes = max(3, int(2e8 / n_discs / (16 if self.short else 1)))
-        _, text = timed([os.path.join(self.build, "tests", "machine_peaks"), "stream", str(n_discs), str(passes), str(threads)], self.environment)
+        _, text = timed(
+            [
+                os.path.join(self.build, "tests", "machine_peaks"),
+                "stream",
+                str(n_discs),
+                str(passes),
+                str(threads),
+            ],
+            self.environment,
+        )
         return 1e9 / float(text)
 
 
@@ -129,10 +217,17 @@ def version_of(build):
         cache = file.read()
     found = re.search(r"^CMAKE_CXX_COMPILER:\w+=(.*)$", cache, re.MULTILINE)
     if found:
-        compiler = subprocess.run([found.group(1), "--version"], capture_output=True, text=True, check=False).stdout.splitlines()[0]
+        compiler = subprocess.run(
+            [found.group(1), "--version"], capture_output=True, text=True, check=False
+        ).stdout.splitlines()[0]
     found = re.search(r"^CMAKE_BUILD_TYPE:\w+=(.*)$", cache, re.MULTILINE)
     kind = found.group(1) if found else ""
-    commit = subprocess.run(["git", "-C", FOLDER, "describe", "--always", "--dirty"], capture_output=True, text=True, check=False).stdout.strip()
+    commit = subprocess.run(
+        ["git", "-C", FOLDER, "describe", "--always", "--dirty"],
+        capture_output=True,
+        text=True,
+        check=False,
+    ).stdout.strip()
     return f"{compiler}, {kind}", commit
 
 
@@ -149,26 +244,74 @@ def write(path, chosen, rounds, machine):
     compiler, commit = version_of(machine.build)
     with open(path, "w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow(["case", "unit", "ranks", "threads", "n_discs", "steps", "rounds", "rate", "least", "most", "seconds", "ns_per_disc_step",
-                        "lammps_rate", "over_lammps", "stream_rate", "over_stream", "imbalance", "bytes_per_disc", "goal", "machine", "compiler", "version"])
+        table.writerow(
+            [
+                "case",
+                "unit",
+                "ranks",
+                "threads",
+                "n_discs",
+                "steps",
+                "rounds",
+                "rate",
+                "least",
+                "most",
+                "seconds",
+                "ns_per_disc_step",
+                "lammps_rate",
+                "over_lammps",
+                "stream_rate",
+                "over_stream",
+                "imbalance",
+                "bytes_per_disc",
+                "goal",
+                "machine",
+                "compiler",
+                "version",
+            ]
+        )
         for name, case in chosen.items():
             runs = rounds[name]
             if not runs:
                 continue
             rates = [run["rate"] for run in runs]
             result = runs[-1]["result"]
-            over = {key: median([run["rate"] / run[key] if run[key] else None for run in runs]) for key in ("lammps", "stream")}
-            table.writerow([name, case.unit, case.ranks, case.threads, result["n_discs"], result["steps"], len(runs), number(median(rates)),
-                            number(min(rates)), number(max(rates)), number(median([run["seconds"] for run in runs])),
-                            number(median([run["result"]["ns_per_disc_step"] for run in runs])),
-                            number(median([run["lammps"] for run in runs])), number(over["lammps"]),
-                            number(median([run["stream"] for run in runs])), number(over["stream"]),
-                            number(median([run["result"]["imbalance"] for run in runs])), number(result["peak_bytes_per_disc"]),
-                            case.goal or "", machine_text(), compiler, commit])
+            over = {
+                key: median([run["rate"] / run[key] if run[key] else None for run in runs])
+                for key in ("lammps", "stream")
+            }
+            table.writerow(
+                [
+                    name,
+                    case.unit,
+                    case.ranks,
+                    case.threads,
+                    result["n_discs"],
+                    result["steps"],
+                    len(runs),
+                    number(median(rates)),
+                    number(min(rates)),
+                    number(max(rates)),
+                    number(median([run["seconds"] for run in runs])),
+                    number(median([run["result"]["ns_per_disc_step"] for run in runs])),
+                    number(median([run["lammps"] for run in runs])),
+                    number(over["lammps"]),
+                    number(median([run["stream"] for run in runs])),
+                    number(over["stream"]),
+                    number(median([run["result"]["imbalance"] for run in runs])),
+                    number(result["peak_bytes_per_disc"]),
+                    case.goal or "",
+                    machine_text(),
+                    compiler,
+                    commit,
+                ]
+            )
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--build", default="build")
     parser.add_argument("--output", required=True)
     parser.add_argument("--minutes", type=float, default=7)
@@ -187,10 +330,26 @@ def main():
             for name, case in chosen.items():
                 rate, seconds, result = machine.carrom(case, folder)
                 lammps = machine.peer(case)
-                stream = machine.stream(result["n_discs"], case.ranks * case.threads) if case.unit == "disc-steps" and not case.whole else None
-                rounds[name].append({"rate": rate, "seconds": seconds, "result": result, "lammps": lammps, "stream": stream})
-                print(f"round {turn}  {name:34} {rate:10.4g} {case.unit}/s" + (f"  LAMMPS {lammps:.3g}" if lammps else "")
-                      + (f"  stream {stream:.3g}" if stream else ""), file=sys.stderr)
+                stream = (
+                    machine.stream(result["n_discs"], case.ranks * case.threads)
+                    if case.unit == "disc-steps" and not case.whole
+                    else None
+                )
+                rounds[name].append(
+                    {
+                        "rate": rate,
+                        "seconds": seconds,
+                        "result": result,
+                        "lammps": lammps,
+                        "stream": stream,
+                    }
+                )
+                print(
+                    f"round {turn}  {name:34} {rate:10.4g} {case.unit}/s"
+                    + (f"  LAMMPS {lammps:.3g}" if lammps else "")
+                    + (f"  stream {stream:.3g}" if stream else ""),
+                    file=sys.stderr,
+                )
             write(options.output, chosen, rounds, machine)
             longest = max(longest, time.monotonic() - start)
             turn += 1

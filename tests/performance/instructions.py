@@ -1,14 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Hold the number of instructions of fixed scenes to recorded values: what a step costs, whatever the machine's mood.
+"""Hold the number of instructions of fixed scenes to recorded values: what a step costs, whatever
+the machine's mood.
 
-  tests/performance/instructions.py STEP_SCENE BUILD             compare with instructions.csv; code 1 if one is off by 3 %
+  tests/performance/instructions.py STEP_SCENE BUILD    compare with instructions.csv;
+                                                        code 1 if one is off by 3 %
   tests/performance/instructions.py STEP_SCENE BUILD --record    write instructions.csv anew
 
-valgrind counts (callgrind, without its cache model) what happens below Simulation::advance_towards in the program
-step_scene, which is compiled with the tests; start and set-up, where MPI polls for as long as it has to wait, do not count. BUILD says how the program was compiled, as ctest passes it ("GNU 12.2.0 Release").
-Numbers hold for the build and the instruction set named in the file: elsewhere the test is left out, with code 77.
+valgrind counts (callgrind, without its cache model) what happens below Simulation::advance_towards
+in the program step_scene, which is compiled with the tests; start and set-up, where MPI polls for
+as long as it has to wait, do not count. BUILD says how the program was compiled, as ctest passes it
+("GNU 12.2.0 Release"). Numbers hold for the build and the instruction set named in the file:
+elsewhere the test
+is left out, with code 77.
 """
+
 import argparse
 import csv
 import os
@@ -20,7 +26,12 @@ import tempfile
 
 TOLERANCE = 0.03
 TABLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "instructions.csv")
-SETTINGS = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "GOMP_SPINCOUNT": "0"}
+SETTINGS = {
+    "OMP_NUM_THREADS": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "GOMP_SPINCOUNT": "0",
+}
 
 GAS = "[box]\nsize = 250.66\n[discs]\ncount = 4000\nradius = 1\nspeed = 0.3\n[time]\n"
 # name: (scene, kind, steps)
@@ -34,9 +45,23 @@ SCENES = {
 def counted(program, scene):
     """Instructions of a run's steps."""
     with tempfile.TemporaryDirectory() as folder:
-        command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/out", "--collect-atstart=no",
-                   "--toggle-collect=carrom::Simulation::advance_towards*", program, scene]
-        run = subprocess.run(command, env={**os.environ, **SETTINGS}, capture_output=True, text=True, timeout=600, check=False)
+        command = [
+            "valgrind",
+            "--tool=callgrind",
+            f"--callgrind-out-file={folder}/out",
+            "--collect-atstart=no",
+            "--toggle-collect=carrom::Simulation::advance_towards*",
+            program,
+            scene,
+        ]
+        run = subprocess.run(
+            command,
+            env={**os.environ, **SETTINGS},
+            capture_output=True,
+            text=True,
+            timeout=600,
+            check=False,
+        )
     found = re.search(r"Collected : (\d+)", run.stderr)
     if run.returncode != 0 or not found:
         sys.exit(f"{' '.join(command)} failed:\n{run.stderr}")
@@ -51,7 +76,11 @@ def measure(program):
             scene = os.path.join(folder, f"scene.{kind}")
             with open(scene, "w", encoding="utf-8") as file:
                 file.write(text)
-            discs = int(re.search(r"count = (\d+)", text).group(1)) if kind == "toml" else int(text.split()[0])
+            discs = (
+                int(re.search(r"count = (\d+)", text).group(1))
+                if kind == "toml"
+                else int(text.split()[0])
+            )
             rows[name] = counted(program, scene) / steps / discs
     return rows
 
@@ -77,7 +106,10 @@ def main():
         with open(TABLE, encoding="utf-8") as file:
             recorded = list(csv.DictReader(file))
         if (recorded[0]["build"], recorded[0]["instruction_set"]) != place:
-            print(f"left out: recorded for {recorded[0]['build']}, {recorded[0]['instruction_set']}; here {place[0]}, {place[1]}")
+            print(
+                f"left out: recorded for {recorded[0]['build']}, {recorded[0]['instruction_set']};"
+                f" here {place[0]}, {place[1]}"
+            )
             return 77
     now = measure(options.program)
     if options.record:
@@ -92,7 +124,10 @@ def main():
         change = after / before - 1
         print(f"{row['scene']}: {after:.1f} instructions per disc and step, {100 * change:+.2f} %")
         if abs(change) > TOLERANCE:
-            print(f"  was {before:.1f}: if that is meant, record it and say why (tests/performance/instructions.py STEP_SCENE BUILD --record)")
+            print(
+                f"  was {before:.1f}: if that is meant, record it and say why"
+                " (tests/performance/instructions.py STEP_SCENE BUILD --record)"
+            )
             code = 1
     return code
 

@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Measure everything that docs/understanding/performance.md shows, in about twelve minutes of an otherwise idle machine:
+# Measure everything that docs/understanding/performance.md shows, in about twelve minutes of an
+# otherwise idle machine:
 #
 #   tests/performance/measure_all.sh [BUILD [FOLDER]]       BUILD: build; FOLDER: docs/performance
 #   tests/performance/page.py                               then draws the page anew
 #
-# Builds what is missing. MINUTES (6.5) is for the comparison with peers, the rest takes five and more; MOST_RANKS=1024 takes
-# half an hour longer on the simulated cluster (256), and 13 GB for each of as many simulations as there are cores: see
-# `simulate.py --jobs`. SHORT=1 runs everything for a fraction of its time, to see that it works: the numbers mean nothing then. What needs SimGrid or Google Benchmark is left out,
-# and named, where they are missing.
+# Builds what is missing. MINUTES (6.5) is for the comparison with peers, the rest takes five and
+# more; MOST_RANKS=1024 takes half an hour longer on the simulated cluster (256), and 13 GB for each
+# of as many simulations as there are cores: see `simulate.py --jobs`. SHORT=1 runs everything for a
+# fraction of its time, to see that it works: the numbers mean nothing then. What needs SimGrid or
+# Google Benchmark is left out, and named, where they are missing.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 top=$(cd "$here/../.." && pwd)
@@ -21,13 +23,15 @@ targets=(carrom machine_peaks)
 known=$(cmake --build "$build" --target help)
 have() { grep -q "$1" <<<"$known"; }
 for target in simulated_cluster carrom_benchmarks; do
-    if have "$target"; then targets+=("$target"); else say "$target cannot be built here: its part is left out"; fi
+    if have "$target"; then targets+=("$target")
+    else say "$target cannot be built here: its part is left out"; fi
 done
 say "building ${targets[*]}"
 cmake --build "$build" --target "${targets[@]}" >&2
 
 say 'peaks of the machine'
-gbytes() { awk -v ns="$1" 'BEGIN { printf "%.2f", 128 / ns }'; } # 64 bytes read and 64 written in so many nanoseconds
+# 64 bytes read and 64 written in so many nanoseconds
+gbytes() { awk -v ns="$1" 'BEGIN { printf "%.2f", 128 / ns }'; }
 {
     "$build/tests/machine_peaks" arithmetic 2
     printf 'stream_cache %s\n' "$(gbytes "$("$build/tests/machine_peaks" stream 8000 20000 1)")"
@@ -37,13 +41,17 @@ gbytes() { awk -v ns="$1" 'BEGIN { printf "%.2f", 128 / ns }'; } # 64 bytes read
 if [ -x "$build/tests/carrom_benchmarks" ]; then
     say 'kernels'
     if [ -n "${SHORT:-}" ]; then least=0.01; else least=0.2; fi
-    "$build/tests/carrom_benchmarks" --benchmark_format=json --benchmark_min_time="$least" --benchmark_repetitions=3 \
-        --benchmark_report_aggregates_only=true ${SHORT:+--benchmark_filter=-.*00000} >"$folder/kernels.json"
+    "$build/tests/carrom_benchmarks" --benchmark_format=json --benchmark_min_time="$least" \
+        --benchmark_repetitions=3 \
+        --benchmark_report_aggregates_only=true ${SHORT:+--benchmark_filter=-.*00000} \
+            >"$folder/kernels.json"
 fi
 say 'beside peers'
-python3 "$here/compare.py" --build "$build" --output "$folder/rates.csv" --minutes "${MINUTES:-6.5}" ${SHORT:+--short}
+python3 "$here/compare.py" --build "$build" --output "$folder/rates.csv" \
+    --minutes "${MINUTES:-6.5}" ${SHORT:+--short}
 if [ -x "$build/tests/simulated_cluster" ]; then
     say 'simulated cluster'
-    python3 "$here/simulate.py" "$build/tests/simulated_cluster" --study "$folder/cluster.csv" --jobs "$(nproc)" --most-ranks "${MOST_RANKS:-256}" ${SHORT:+--largest 140000}
+    python3 "$here/simulate.py" "$build/tests/simulated_cluster" --study "$folder/cluster.csv" \
+        --jobs "$(nproc)" --most-ranks "${MOST_RANKS:-256}" ${SHORT:+--largest 140000}
 fi
 say 'done; tests/performance/page.py draws the page'

@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Put what has been measured into docs/understanding/performance.md: tables between its markers, pictures beside its CSV files.
+"""Put what has been measured into docs/understanding/performance.md: tables between its markers,
+pictures beside its CSV files.
 
   tests/performance/page.py [--folder docs/performance] [--page docs/understanding/performance.md]
 
-Reads rates.csv (compare.py), cluster.csv (simulate.py --study), kernels.json (carrom_benchmarks) and peaks.txt (machine_peaks);
-measure_all.sh writes all four. A part whose file is missing keeps what it says. Words around the markers are the page's
-own. Needs the Python environment of docs/tools/README.md.
+Reads rates.csv (compare.py), cluster.csv (simulate.py --study), kernels.json (carrom_benchmarks)
+and peaks.txt (machine_peaks); measure_all.sh writes all four. A part whose file is missing keeps
+what it says. Words around the markers are the page's own. Needs the Python environment of
+docs/tools/README.md.
 """
+
 import argparse
 import csv
 import json
@@ -20,7 +23,14 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-STYLES = [("o", "-", "#000000"), ("s", "--", "#666666"), ("^", "-.", "#000000"), ("D", ":", "#666666"), ("v", "-", "#999999"), ("x", "--", "#999999")]
+STYLES = [
+    ("o", "-", "#000000"),
+    ("s", "--", "#666666"),
+    ("^", "-.", "#000000"),
+    ("D", ":", "#666666"),
+    ("v", "-", "#999999"),
+    ("x", "--", "#999999"),
+]
 
 
 def read_csv(path):
@@ -29,7 +39,10 @@ def read_csv(path):
 
 
 def table(heading, rows):
-    return "\n".join(["| " + " | ".join(heading) + " |", "|" + "---|" * len(heading)] + ["| " + " | ".join(row) + " |" for row in rows])
+    return "\n".join(
+        ["| " + " | ".join(heading) + " |", "|" + "---|" * len(heading)]
+        + ["| " + " | ".join(row) + " |" for row in rows]
+    )
 
 
 def short(value, digits=3):
@@ -43,16 +56,44 @@ def rate_text(row):
 
 def rates_part(rows):
     first = rows[0]
-    lines = [f"{first['machine']}; {first['compiler']}; version {first['version']}. Medians of {min(int(r['rounds']) for r in rows)} rounds, with the least and "
-             "the most. Ratios to LAMMPS and to the stream are taken within a round.", ""]
-    body = [[r["case"].replace("all, ", "event-driven, "), f"{r['ranks']} x {r['threads']}", f"{rate_text(r)} ({short(float(r['least']) / 1e6)} to {short(float(r['most']) / 1e6)})",
-             r["unit"], short(r["over_lammps"]), short(r["over_stream"], 2)] for r in rows if "generated" not in r["case"]]
-    lines.append(table(["case", "ranks x threads", "million per second", "of", "x LAMMPS", "x stream"], body))
+    lines = [
+        (
+            f"{first['machine']}; {first['compiler']}; version {first['version']}. Medians of"
+            f" {min(int(r['rounds']) for r in rows)} rounds, with the least and the most. Ratios to"
+            " LAMMPS and to the stream are taken within a round."
+        ),
+        "",
+    ]
+    body = [
+        [
+            r["case"].replace("all, ", "event-driven, "),
+            f"{r['ranks']} x {r['threads']}",
+            f"{rate_text(r)} ({short(float(r['least']) / 1e6)} to {short(float(r['most']) / 1e6)})",
+            r["unit"],
+            short(r["over_lammps"]),
+            short(r["over_stream"], 2),
+        ]
+        for r in rows
+        if "generated" not in r["case"]
+    ]
+    lines.append(
+        table(["case", "ranks x threads", "million per second", "of", "x LAMMPS", "x stream"], body)
+    )
     by_name = {r["case"]: float(r["rate"]) for r in rows}
-    pairs = [(name, by_name[name + ", 2 threads"] / rate, by_name[name + ", 2 ranks"] / rate)
-             for name, rate in by_name.items() if name + ", 2 threads" in by_name and name + ", 2 ranks" in by_name]
-    lines += ["", "Two cores against one, as ratios of the medians above:", "",
-              table(["case", "2 threads", "2 ranks"], [[n.replace("all, ", "event-driven, "), f"{t:.2f}", f"{k:.2f}"] for n, t, k in pairs])]
+    pairs = [
+        (name, by_name[name + ", 2 threads"] / rate, by_name[name + ", 2 ranks"] / rate)
+        for name, rate in by_name.items()
+        if name + ", 2 threads" in by_name and name + ", 2 ranks" in by_name
+    ]
+    lines += [
+        "",
+        "Two cores against one, as ratios of the medians above:",
+        "",
+        table(
+            ["case", "2 threads", "2 ranks"],
+            [[n.replace("all, ", "event-driven, "), f"{t:.2f}", f"{k:.2f}"] for n, t, k in pairs],
+        ),
+    ]
     return "\n".join(lines)
 
 
@@ -62,7 +103,10 @@ def cluster_part(rows):
     cases = {}
     for r in rows:
         cases.setdefault(r["case"], {})[int(r["ranks"])] = f"{float(r['efficiency']):.3f}"
-    return table(["efficiency, by ranks", *map(str, ranks)], [[case, *(found.get(n, "") for n in ranks)] for case, found in cases.items()])
+    return table(
+        ["efficiency, by ranks", *map(str, ranks)],
+        [[case, *(found.get(n, "") for n in ranks)] for case, found in cases.items()],
+    )
 
 
 def new_axes(xlabel, ylabel):
@@ -75,7 +119,15 @@ def new_axes(xlabel, ylabel):
 def draw_series(axes, series):
     for index, (label, points) in enumerate(series.items()):
         marker, line, colour = STYLES[index % len(STYLES)]
-        axes.plot([x for x, _ in points], [y for _, y in points], marker=marker, linestyle=line, color=colour, markerfacecolor="white", label=label)
+        axes.plot(
+            [x for x, _ in points],
+            [y for _, y in points],
+            marker=marker,
+            linestyle=line,
+            color=colour,
+            markerfacecolor="white",
+            label=label,
+        )
     axes.legend(frameon=False)
 
 
@@ -84,11 +136,22 @@ def draw_cluster(rows, folder):
         series = {}
         for row in rows:
             if row["case"].startswith(kind):
-                series.setdefault(row["case"].split(", ", 1)[1], []).append((int(row["ranks"]), float(row["efficiency"])))
+                series.setdefault(row["case"].split(", ", 1)[1], []).append(
+                    (int(row["ranks"]), float(row["efficiency"]))
+                )
         if not series:
             continue
-        figure, axes = new_axes("ranks, one a node (simulated)", "time of own computing / time of a step")
-        draw_series(axes, {name.replace(" a rank", " discs a rank") + (" discs in all" if kind == "strong" else ""): sorted(points) for name, points in series.items()})
+        figure, axes = new_axes(
+            "ranks, one a node (simulated)", "time of own computing / time of a step"
+        )
+        draw_series(
+            axes,
+            {
+                name.replace(" a rank", " discs a rank")
+                + (" discs in all" if kind == "strong" else ""): sorted(points)
+                for name, points in series.items()
+            },
+        )
         axes.axhline(0.9, color="0.6", linewidth=1)
         axes.set_xscale("log", base=2)
         ticks = sorted({int(row["ranks"]) for row in rows})
@@ -99,12 +162,26 @@ def draw_cluster(rows, folder):
 
 
 def draw_sizes(rows, folder):
-    points = sorted((int(r["n_discs"]), float(r["ns_per_disc_step"])) for r in rows if re.fullmatch(r"gas, 1e\d", r["case"]))
+    points = sorted(
+        (int(r["n_discs"]), float(r["ns_per_disc_step"]))
+        for r in rows
+        if re.fullmatch(r"gas, 1e\d", r["case"])
+    )
     if len(points) < 2:
         return
-    streams = sorted((int(r["n_discs"]), 1e9 / float(r["stream_rate"])) for r in rows if re.fullmatch(r"gas, 1e\d", r["case"]) and r["stream_rate"])
+    streams = sorted(
+        (int(r["n_discs"]), 1e9 / float(r["stream_rate"]))
+        for r in rows
+        if re.fullmatch(r"gas, 1e\d", r["case"]) and r["stream_rate"]
+    )
     figure, axes = new_axes("number of discs N", "nanoseconds per disc and step")
-    draw_series(axes, {"gas of packing 0.2, time-stepped method, one core": points, "a plain stream of 64 bytes a disc": streams})
+    draw_series(
+        axes,
+        {
+            "gas of packing 0.2, time-stepped method, one core": points,
+            "a plain stream of 64 bytes a disc": streams,
+        },
+    )
     axes.set(xscale="log", yscale="log")
     figure.savefig(folder / "cost_against_size.png")
     plt.close(figure)
@@ -113,33 +190,67 @@ def draw_sizes(rows, folder):
 def read_kernels(path):
     with open(path, encoding="utf-8") as file:
         found = json.load(file)["benchmarks"]
-    return [b for b in found if b.get("run_type") != "aggregate" or b.get("aggregate_name") == "median"]
+    return [
+        b for b in found if b.get("run_type") != "aggregate" or b.get("aggregate_name") == "median"
+    ]
 
 
 def read_peaks(path):
-    return {name: float(value) for name, value in (line.split() for line in path.read_text(encoding="utf-8").splitlines())}
+    return {
+        name: float(value)
+        for name, value in (line.split() for line in path.read_text(encoding="utf-8").splitlines())
+    }
 
 
 def kernels_part(peaks):
-    return (f"The machine's peaks on one core are {peaks['double']:.3g} x 10^9 operations a second in double precision and {peaks['single']:.3g} x 10^9 in single. "
-            f"A stream in place moves {peaks['stream_memory']:.3g} GB/s from memory and {peaks['stream_cache']:.3g} GB/s in the second level of cache, read and written bytes.")
+    return (
+        f"The machine's peaks on one core are {peaks['double']:.3g} x 10^9 operations a second in"
+        f" double precision and {peaks['single']:.3g} x 10^9 in single. A stream in place moves"
+        f" {peaks['stream_memory']:.3g} GB/s from memory and {peaks['stream_cache']:.3g} GB/s in"
+        " the second level of cache, read and written bytes."
+    )
 
 
 def draw_roofline(kernels, peaks, folder):
     figure, axes = new_axes("operations per byte", "$10^9$ operations per second, one core")
     low, high = 0.02, 64.0
-    for name, gbytes, line in (("cache", peaks["stream_cache"], "--"), ("memory", peaks["stream_memory"], "-")):
+    for name, gbytes, line in (
+        ("cache", peaks["stream_cache"], "--"),
+        ("memory", peaks["stream_memory"], "-"),
+    ):
         knee = peaks["single"] / gbytes
-        axes.plot([low, knee, high], [low * gbytes, peaks["single"], peaks["single"]], color="black", linestyle=line, linewidth=1.2, label=f"{name}, {gbytes:.0f} GB/s, then single precision")
+        axes.plot(
+            [low, knee, high],
+            [low * gbytes, peaks["single"], peaks["single"]],
+            color="black",
+            linestyle=line,
+            linewidth=1.2,
+            label=f"{name}, {gbytes:.0f} GB/s, then single precision",
+        )
     axes.axhline(peaks["double"], color="0.5", linestyle=":", label="double precision")
     shown = [kernel for kernel in kernels if kernel["flops"] > 0]
     for index, kernel in enumerate(shown):
         x, y = kernel["flops"] / kernel["bytes"], kernel["items_per_second"] * kernel["flops"] / 1e9
         name = kernel.get("run_name", kernel["name"]).removesuffix("_median")
-        axes.plot([x], [y], marker=STYLES[index % len(STYLES)][0], color="black", linestyle="none", markersize=6, markerfacecolor="white")
+        axes.plot(
+            [x],
+            [y],
+            marker=STYLES[index % len(STYLES)][0],
+            color="black",
+            linestyle="none",
+            markersize=6,
+            markerfacecolor="white",
+        )
         is_right = x > 1
-        axes.annotate(name, (x, y), textcoords="offset points", xytext=(-7 if is_right else 7, 3 if index < 2 else -9), ha="right" if is_right else "left", fontsize=8,
-                      bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8})
+        axes.annotate(
+            name,
+            (x, y),
+            textcoords="offset points",
+            xytext=(-7 if is_right else 7, 3 if index < 2 else -9),
+            ha="right" if is_right else "left",
+            fontsize=8,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8},
+        )
     axes.set(xscale="log", yscale="log", xlim=(low, high))
     axes.legend(frameon=False, fontsize=8, loc="lower right")
     figure.savefig(folder / "roofline.png")
@@ -150,13 +261,17 @@ def replace_part(text, name, part):
     begin, end = f"<!-- {name} -->", f"<!-- end of {name} -->"
     if begin not in text or end not in text:
         sys.exit(f"the page has no markers '{begin}' and '{end}'")
-    return text[:text.index(begin) + len(begin)] + "\n" + part + "\n" + text[text.index(end):]
+    return text[: text.index(begin) + len(begin)] + "\n" + part + "\n" + text[text.index(end) :]
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path("docs/performance"))
-    parser.add_argument("--page", type=pathlib.Path, default=pathlib.Path("docs/understanding/performance.md"))
+    parser.add_argument(
+        "--page", type=pathlib.Path, default=pathlib.Path("docs/understanding/performance.md")
+    )
     options = parser.parse_args()
     folder, text = options.folder, options.page.read_text(encoding="utf-8")
     if (folder / "rates.csv").exists():

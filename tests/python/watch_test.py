@@ -26,7 +26,9 @@ from carrom.watch.order import hexatic_order
 from carrom.watch.picture import View, picture
 
 PROGRAM = os.environ["CARROM_PROGRAM"]
-BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+BROWSER = next(
+    filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
+)
 SCENE = """
 [box]
 size = 40
@@ -47,7 +49,10 @@ every_steps = {pressure}
 
 def start(folder, steps=60, every=5, text=None, options=()):
     """Start a run in the background."""
-    Path("scene.toml").write_text(text or SCENE.format(steps=steps, every=every, pressure=max(10, steps // 1000)), encoding="ascii")
+    Path("scene.toml").write_text(
+        text or SCENE.format(steps=steps, every=every, pressure=max(10, steps // 1000)),
+        encoding="ascii",
+    )
     command = [PROGRAM, "run", "scene.toml", "-o", folder, "--quiet", "--threads", "1", *options]
     return subprocess.Popen(command, stdin=subprocess.DEVNULL)
 
@@ -98,15 +103,23 @@ class ServerTest(unittest.TestCase):
         with Page("frames") as page:
             state = page.json("state?have=0&last=-1")
             self.assertEqual(state["steps"], list(steps))
-            self.assertEqual((state["status"], state["step"], state["wanted"]), ("finished", 60, 60))
+            self.assertEqual(
+                (state["status"], state["step"], state["wanted"]), ("finished", 60, 60)
+            )
             for index in (0, 7, 12):
                 about, numbers = page.frame(f"step={steps[index]}")
                 x, y, speed = numbers.reshape(3, 200)
-                self.assertEqual((about["step"], about["shown"], about["kind"]), (steps[index], 200, "discs"))
+                self.assertEqual(
+                    (about["step"], about["shown"], about["kind"]), (steps[index], 200, "discs")
+                )
                 np.testing.assert_array_equal(x, places[index, :, 0])
                 np.testing.assert_array_equal(y, places[index, :, 1])
-                np.testing.assert_allclose(speed, np.linalg.norm(velocities[index], axis=1), rtol=1e-6)
-                self.assertAlmostEqual(about["radius"], np.sqrt(0.3 * 40**2 / 200 / np.pi), places=5)
+                np.testing.assert_allclose(
+                    speed, np.linalg.norm(velocities[index], axis=1), rtol=1e-6
+                )
+                self.assertAlmostEqual(
+                    about["radius"], np.sqrt(0.3 * 40**2 / 200 / np.pi), places=5
+                )
 
     def test_curves_are_those_of_the_tables(self):
         run("curves", options=("--set", "output.collisions=true"))
@@ -118,8 +131,12 @@ class ServerTest(unittest.TestCase):
         np.testing.assert_allclose(curves["energy"]["values"], energies, rtol=1e-12)
         pairs = np.mean(curves["rate"]["values"]) * 60 * 200 / 2  # bins are of equal width here
         self.assertAlmostEqual(pairs, report["pair_collisions"], places=6)
-        table = np.loadtxt("curves/measurements/wall_pressure_history.csv", delimiter=",", skiprows=4)
-        np.testing.assert_allclose(curves["pressure"]["values"], table[:, 2:].mean(axis=1), rtol=1e-12)
+        table = np.loadtxt(
+            "curves/measurements/wall_pressure_history.csv", delimiter=",", skiprows=4
+        )
+        np.testing.assert_allclose(
+            curves["pressure"]["values"], table[:, 2:].mean(axis=1), rtol=1e-12
+        )
 
     def test_only_new_steps_are_sent(self):
         run("news")
@@ -130,7 +147,9 @@ class ServerTest(unittest.TestCase):
             self.assertEqual((state["first"], state["steps"][0]), (0, 0))
 
     def test_a_run_without_a_trajectory_shows_its_checkpoints(self):
-        text = SCENE.format(steps=40, every=5, pressure=10).replace("[output.trajectory]\nevery_steps = 5\n", "")
+        text = SCENE.format(steps=40, every=5, pressure=10).replace(
+            "[output.trajectory]\nevery_steps = 5\n", ""
+        )
         run("kept", text=text, options=("--set", "output.checkpoint.every_steps=20"))
         with Page("kept") as page:
             state = page.json("state?have=0&last=-1")
@@ -140,7 +159,9 @@ class ServerTest(unittest.TestCase):
             with h5py.File("kept/checkpoints/checkpoint-000000000040.h5", locking=False) as file:
                 expected = file["particles/discs/position/value"][()].reshape(200, -1)
             np.testing.assert_allclose(numbers.reshape(3, 200)[0], expected[:, 0], rtol=1e-6)
-            self.assertEqual(page.json("curves")["rate"]["source"], "counters of frames or checkpoints")
+            self.assertEqual(
+                page.json("curves")["rate"]["source"], "counters of frames or checkpoints"
+            )
 
     def test_a_run_that_has_not_begun_is_waited_for(self):
         os.mkdir("later")
@@ -166,8 +187,21 @@ class ServerTest(unittest.TestCase):
             at = state["step"]
             goal = at + 3000
             subprocess.run(
-                [PROGRAM, "run", "-o", "killed", "--resume", "--steps", str(goal), "--quiet", "--threads", "1"],
-                check=True, timeout=60, stdin=subprocess.DEVNULL,
+                [
+                    PROGRAM,
+                    "run",
+                    "-o",
+                    "killed",
+                    "--resume",
+                    "--steps",
+                    str(goal),
+                    "--quiet",
+                    "--threads",
+                    "1",
+                ],
+                check=True,
+                timeout=60,
+                stdin=subprocess.DEVNULL,
             )
             state = page.json("state?have=0&last=-1")
             self.assertEqual((state["status"], state["step"]), ("finished", goal))
@@ -177,8 +211,13 @@ class ServerTest(unittest.TestCase):
     def test_requests_that_are_wrong(self):
         run("wrong", steps=10)
         with Page("wrong") as page:
-            for words, code in (("frame?step=7", 404), ("frame?step=x", 400), ("frame?step=5&colour=red", 400),
-                                ("frame?step=5&view=1,2,0,4", 400), ("../../etc/passwd", 404)):
+            for words, code in (
+                ("frame?step=7", 404),
+                ("frame?step=x", 400),
+                ("frame?step=5&colour=red", 400),
+                ("frame?step=5&view=1,2,0,4", 400),
+                ("../../etc/passwd", 404),
+            ):
                 with self.assertRaises(urllib.error.HTTPError) as caught:
                     page.get(words)
                 self.assertEqual(caught.exception.code, code, words)
@@ -191,12 +230,19 @@ class ServerTest(unittest.TestCase):
         os.makedirs("other/things")
         with socket.create_server(("127.0.0.1", 0)) as taken:
             port = str(taken.getsockname()[1])
-            for words, text in ((["there", "--port", port], f"port {port} is in use"),
-                                (["nowhere"], "nowhere: there is no such folder; --wait waits for it"),
-                                (["other"], "other: is no run of carrom"),
-                                (["there", "--port", "99999"], "is no port")):
-                done = subprocess.run([sys.executable, "-m", "carrom.watch", *words], timeout=60,
-                                      capture_output=True, text=True, check=False)
+            for words, text in (
+                (["there", "--port", port], f"port {port} is in use"),
+                (["nowhere"], "nowhere: there is no such folder; --wait waits for it"),
+                (["other"], "other: is no run of carrom"),
+                (["there", "--port", "99999"], "is no port"),
+            ):
+                done = subprocess.run(
+                    [sys.executable, "-m", "carrom.watch", *words],
+                    timeout=60,
+                    capture_output=True,
+                    text=True,
+                    check=False,
+                )
                 self.assertEqual(done.returncode, 2, words)
                 self.assertIn(text, done.stderr)
                 self.assertNotIn("Traceback", done.stderr)
@@ -210,16 +256,21 @@ class ServerTest(unittest.TestCase):
             page.json("state?have=0&last=-1")
             page.json("curves")
             page.frame("step=60&colour=psi6")
-            files = [os.readlink(f"/proc/self/fd/{number}") for number in os.listdir("/proc/self/fd")
-                     if os.path.exists(f"/proc/self/fd/{number}")]
+            files = [
+                os.readlink(f"/proc/self/fd/{number}")
+                for number in os.listdir("/proc/self/fd")
+                if os.path.exists(f"/proc/self/fd/{number}")
+            ]
             held = {f":{os.stat(name).st_ino} " for name in files if "/quiet/" in name}
             locks = Path("/proc/locks").read_text(encoding="ascii")
             self.assertFalse(any(inode in locks for inode in held))
         os.chmod("quiet", 0o755)
         self.assertEqual(before, [(name, os.stat(name).st_mtime_ns) for name in names])
         run("unwatched")
-        hashes = [json.loads(Path(f"{name}/report.json").read_text(encoding="ascii"))["state_hash"]
-                  for name in ("quiet", "unwatched")]
+        hashes = [
+            json.loads(Path(f"{name}/report.json").read_text(encoding="ascii"))["state_hash"]
+            for name in ("quiet", "unwatched")
+        ]
         self.assertEqual(hashes[0], hashes[1])
 
 
@@ -236,11 +287,21 @@ class PictureTest(unittest.TestCase):
             squares = (apart**2).sum(axis=2) + np.diag(np.full(n, np.inf))
             nearest = np.argsort(squares, axis=1)[:, :6]
             vectors = np.take_along_axis(apart, nearest[..., None], axis=1)
-            expected = (((vectors[..., 0] + 1j * vectors[..., 1]) ** 6) / (vectors**2).sum(axis=2) ** 3).mean(axis=1)
-            np.testing.assert_allclose(hexatic_order(x, np.array(periods, dtype=float)), expected, atol=1e-9)
+            expected = (
+                ((vectors[..., 0] + 1j * vectors[..., 1]) ** 6) / (vectors**2).sum(axis=2) ** 3
+            ).mean(axis=1)
+            np.testing.assert_allclose(
+                hexatic_order(x, np.array(periods, dtype=float)), expected, atol=1e-9
+            )
         rows, columns = np.mgrid[:20, :20]
-        lattice = np.stack([columns + rows % 2 / 2, rows * np.sqrt(0.75)], axis=-1).reshape(-1, 2).astype(float)
-        np.testing.assert_allclose(np.abs(hexatic_order(lattice, np.array([20, 20 * np.sqrt(0.75)]))), 1)
+        lattice = (
+            np.stack([columns + rows % 2 / 2, rows * np.sqrt(0.75)], axis=-1)
+            .reshape(-1, 2)
+            .astype(float)
+        )
+        np.testing.assert_allclose(
+            np.abs(hexatic_order(lattice, np.array([20, 20 * np.sqrt(0.75)]))), 1
+        )
 
     def test_many_discs_are_a_density(self):
         run("many", steps=5)
@@ -250,9 +311,13 @@ class PictureTest(unittest.TestCase):
         fraction, mean = np.frombuffer(body, dtype="<f4").reshape(2, *about["grid"][::-1])
         self.assertEqual(about["kind"], "density")
         self.assertAlmostEqual(float(fraction.mean()), 0.3, places=5)  # the packing
-        self.assertAlmostEqual(float(mean.sum()), float(frame.speed.sum()), delta=0.05 * float(frame.speed.sum()))
+        self.assertAlmostEqual(
+            float(mean.sum()), float(frame.speed.sum()), delta=0.05 * float(frame.speed.sum())
+        )
         about, body = picture(frame, "speed", View(10, 10, 20, 25), most=100)
-        inside = (abs(frame.x - (15, 17.5)) < (5 + about["radius"], 7.5 + about["radius"])).all(axis=1)
+        inside = (abs(frame.x - (15, 17.5)) < (5 + about["radius"], 7.5 + about["radius"])).all(
+            axis=1
+        )
         self.assertEqual(about["shown"], inside.sum())
         x, y, _ = np.frombuffer(body, dtype="<f4").reshape(3, -1)
         np.testing.assert_allclose(x, frame.x[inside, 0] - 10, atol=1e-5)
@@ -272,11 +337,27 @@ class BrowserTest(unittest.TestCase):
         """Return what Chromium writes of a page after some seconds of its own clock."""
         with tempfile.TemporaryDirectory() as profile:
             done = subprocess.run(
-                [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-                 "--disable-background-networking", "--disable-component-update", "--disable-sync",
-                 f"--user-data-dir={profile}", f"--window-size={size}", "--hide-scrollbars",
-                 f"--virtual-time-budget={1000 * seconds}", *options, address],
-                capture_output=True, timeout=120, check=True, text=True,
+                [
+                    BROWSER,
+                    "--headless",
+                    "--no-sandbox",
+                    "--disable-gpu",
+                    "--disable-quic",
+                    "--no-first-run",
+                    "--disable-background-networking",
+                    "--disable-component-update",
+                    "--disable-sync",
+                    f"--user-data-dir={profile}",
+                    f"--window-size={size}",
+                    "--hide-scrollbars",
+                    f"--virtual-time-budget={1000 * seconds}",
+                    *options,
+                    address,
+                ],
+                capture_output=True,
+                timeout=120,
+                check=True,
+                text=True,
             )
         return done.stdout
 
@@ -291,7 +372,9 @@ class BrowserTest(unittest.TestCase):
         steps, _, _ = stored("done")
         with Page("done") as page:
             facts, text = self.shown(page)
-            self.assertEqual((facts["status"], facts["step"], facts["drawn"]), ("finished", "60", "200"))
+            self.assertEqual(
+                (facts["status"], facts["step"], facts["drawn"]), ("finished", "60", "200")
+            )
             self.assertEqual(facts["frames"], str(len(steps)))
             self.assertIn("step 60: 200 of 200 discs drawn", text)
             self.assertIn("step 60 of 60", text)
@@ -306,8 +389,11 @@ class BrowserTest(unittest.TestCase):
     def test_discs_have_their_size_on_the_screen(self):
         run("sizes")
         with Page("sizes") as page:
-            self.browse(page.server.address + "?theme=light&colour=species", "--screenshot=shot.png",
-                        size="800,500")
+            self.browse(
+                page.server.address + "?theme=light&colour=species",
+                "--screenshot=shot.png",
+                size="800,500",
+            )
         picture = pixels("shot.png")
         ground, colour = np.array([241, 242, 244]), np.array([44, 116, 188])
         away = picture[40:435, :440, :3] - ground.astype(float)  # the rest of the page is blue too
@@ -317,7 +403,9 @@ class BrowserTest(unittest.TestCase):
         rows, columns = np.nonzero(covered > 0.5)
         radius = np.sqrt(0.3 * 40**2 / 200 / np.pi)
         _, places, _ = stored("sizes")
-        width = np.ptp(places[-1, :, 0]) + 2 * radius  # from the first disc's edge to the last one's
+        width = (
+            np.ptp(places[-1, :, 0]) + 2 * radius
+        )  # from the first disc's edge to the last one's
         scale = (np.ptp(columns) + 1) / width
         height = np.ptp(places[-1, :, 1]) + 2 * radius
         self.assertAlmostEqual((np.ptp(rows) + 1) / height, scale, delta=0.02 * scale)
@@ -334,7 +422,9 @@ class BrowserTest(unittest.TestCase):
                 self.assertIn(int(facts["step"]), steps)
                 self.assertIn("of 10000000", text)
                 later, _ = self.shown(page)
-                wait_for(lambda: page.json("state?have=0&last=-1")["steps"][-1] > int(later["step"]))
+                wait_for(
+                    lambda: page.json("state?have=0&last=-1")["steps"][-1] > int(later["step"])
+                )
                 newest, _ = self.shown(page)
                 self.assertGreater(int(newest["step"]), int(facts["step"]))
         finally:
@@ -363,7 +453,9 @@ def pixels(path):
     lines, above = zlib.decompress(packed), bytes(width * channels)
     picture = []
     for begin in range(0, len(lines), 1 + width * channels):
-        above = unfiltered(lines[begin], lines[begin + 1 : begin + 1 + width * channels], above, channels)
+        above = unfiltered(
+            lines[begin], lines[begin + 1 : begin + 1 + width * channels], above, channels
+        )
         picture.append(above)
     return np.frombuffer(b"".join(picture), dtype=np.uint8).reshape(height, width, channels)
 

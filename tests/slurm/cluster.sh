@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# A Slurm of our own on this machine, for as long as a test lasts: munge, a controller and two emulated nodes of 4 cores
-# each, all in one folder and without a service manager. To be sourced after common.sh.
+# A Slurm of our own on this machine, for as long as a test lasts: munge, a controller and two
+# emulated nodes of 4 cores each, all in one folder and without a service manager. To be sourced
+# after common.sh.
 #
-# Nodes have more cores than the machine may have, since what is tested is who starts, stops and goes on, not speed.
+# Nodes have more cores than the machine may have, since what is tested is who starts, stops and
+# goes on, not speed.
 
 cluster_nodes=(n1 n2)
 
@@ -12,7 +14,8 @@ skip_test() {
     exit 77
 }
 
-# stop_process PID: TERM, then KILL after five seconds. For daemons, which are no children of this shell.
+# stop_process PID: TERM, then KILL after five seconds. For daemons, which are no children of this
+# shell.
 stop_process() {
     kill "$1" 2>/dev/null || return 0
     local i
@@ -48,7 +51,10 @@ free_ports() {
     local port i
     for ((i = 0; i < 50; ++i)); do
         port=$((10000 + RANDOM % 20000)) # below those that the system gives away
-        if ! (for k in 0 1 2; do exec 3<>"/dev/tcp/127.0.0.1/$((port + k))" && exit 0; done; exit 1) 2>/dev/null; then
+        if ! (
+            for k in 0 1 2; do exec 3<>"/dev/tcp/127.0.0.1/$((port + k))" && exit 0; done
+            exit 1
+        ) 2>/dev/null; then
             printf '%s\n' "$port"
             return
         fi
@@ -91,7 +97,8 @@ END
     for node in "${cluster_nodes[@]}"; do
         number=$((number + 1))
         mkdir -p "$cluster/spool.$node" "$cluster/tmp.$node"
-        echo "NodeName=$node NodeHostname=$host NodeAddr=127.0.0.1 Port=$((port + number)) CPUs=4 RealMemory=1000 State=UNKNOWN"
+        echo "NodeName=$node NodeHostname=$host NodeAddr=127.0.0.1" \
+            "Port=$((port + number)) CPUs=4 RealMemory=1000 State=UNKNOWN"
     done
 }
 
@@ -99,7 +106,8 @@ END
 write_cgroup_conf() {
     local version
     version=$(slurmd -V) version=${version#* }
-    if [ "${version%%.*}" -gt 22 ]; then echo 'CgroupPlugin=disabled'; else echo 'CgroupAutomount=no'; fi
+    if [ "${version%%.*}" -gt 22 ]; then echo 'CgroupPlugin=disabled'
+    else echo 'CgroupAutomount=no'; fi
 }
 
 start_node() { slurmd -N "$1" -f "$SLURM_CONF"; }
@@ -116,9 +124,12 @@ wait_until() {
 }
 
 no_jobs() { [ -z "$(squeue -h -o %A 2>/dev/null)" ]; }
-nodes_are_idle() { [ "$(sinfo -h -N -t idle -o %N 2>/dev/null | wc -l)" -eq ${#cluster_nodes[@]} ]; }
+nodes_are_idle() {
+    [ "$(sinfo -h -N -t idle -o %N 2>/dev/null | wc -l)" -eq ${#cluster_nodes[@]} ]
+}
 
-# Starts all of it, or ends the test as skipped. Whatever has been started is stopped when the test ends.
+# Starts all of it, or ends the test as skipped. Whatever has been started is stopped when the test
+# ends.
 start_cluster() {
     local program problem try
     PATH=$PATH:/usr/sbin:/sbin
@@ -132,8 +143,10 @@ start_cluster() {
     trap stop_cluster EXIT
     (umask 022 && mkdir "$cluster/run" "$cluster/state")
     (umask 077 && head -c 128 /dev/urandom >"$cluster/munge.key")
-    problem=$(munged --key-file="$cluster/munge.key" --socket="$cluster/run/munge.socket" --pid-file="$cluster/run/munge.pid" \
-        --log-file="$cluster/run/munge.log" --seed-file="$cluster/munge.seed" --num-threads=2 2>&1) || skip_test "munged does not start: $problem"
+    problem=$(munged --key-file="$cluster/munge.key" --socket="$cluster/run/munge.socket" \
+        --pid-file="$cluster/run/munge.pid" --log-file="$cluster/run/munge.log" \
+        --seed-file="$cluster/munge.seed" --num-threads=2 2>&1) ||
+        skip_test "munged does not start: $problem"
     write_cgroup_conf >"$cluster/cgroup.conf"
     for try in 1 2 3; do # somebody else may take our ports
         write_slurm_conf >"$SLURM_CONF"
@@ -149,16 +162,20 @@ start_daemons() {
     wait_until 10 nodes_are_idle
 }
 
-# submit SCRIPT WORD...: sets `job`. Scripts of job_scripts/ run at the checkout's top, as they are meant to; their logs
-# come here.
+# submit SCRIPT WORD...: sets `job`. Scripts of job_scripts/ run at the checkout's top, as they are
+# meant to; their logs come here.
 submit() {
     local script=$1
     shift
-    job=$(sbatch --parsable --chdir="$CARROM_SOURCE_DIR" --output="$PWD/%x-%j-%a.log" "$@" "$CARROM_SOURCE_DIR/job_scripts/$script" 2>"$test_folder/err")
+    job=$(sbatch --parsable --chdir="$CARROM_SOURCE_DIR" --output="$PWD/%x-%j-%a.log" "$@" \
+        "$CARROM_SOURCE_DIR/job_scripts/$script" 2>"$test_folder/err")
     [ -n "$job" ] || { complain "sbatch $script"; show; }
 }
 
-job_state() { scontrol show job -o "$1" 2>/dev/null | sed -n 's/.* JobState=\([A-Z_]*\).*/\1/p' | sort -u | tr '\n' ' '; }
+job_state() {
+    scontrol show job -o "$1" 2>/dev/null | sed -n 's/.* JobState=\([A-Z_]*\).*/\1/p' |
+        sort -u | tr '\n' ' '
+}
 has_state() { [ "$(job_state "$1")" = "$2 " ]; }
 is_over() { [ -z "$(squeue -h -j "$1" -o %A 2>/dev/null)" ]; }
 
@@ -170,10 +187,14 @@ ends_as() {
     tail -n 15 ./*-"$1"-*.log | sed 's/^/    /'
 }
 
-# restart JOB: lets a job that goes back into the queue start again at once, which Slurm would do after two minutes, and
-# anywhere. Not within two seconds: Slurm tells credentials of one job apart by the second. False if it does not come back.
+# restart JOB: lets a job that goes back into the queue start again at once, which Slurm would do
+# after two minutes, and anywhere. Not within two seconds: Slurm tells credentials of one job apart
+# by the second. False if it does not come back.
 is_requeued() { scontrol show job -o "$1" | grep -q ' Restarts=[1-9]' && has_state "$1" PENDING; }
-may_start() { scontrol update "JobId=$1" ReqNodeList= 2>/dev/null; scontrol update "JobId=$1" StartTime=now 2>/dev/null; }
+may_start() {
+    scontrol update "JobId=$1" ReqNodeList= 2>/dev/null
+    scontrol update "JobId=$1" StartTime=now 2>/dev/null
+}
 restart() {
     wait_until 30 is_requeued "$1" || return 1
     sleep 2.5
@@ -181,5 +202,6 @@ restart() {
     wait_until 30 has_state "$1" RUNNING || has_state "$1" COMPLETED
 }
 
-# What jobs inherit. Emulated nodes share one machine: messages go through its loopback, and no rank is bound to a core.
+# What jobs inherit. Emulated nodes share one machine: messages go through its loopback, and no rank
+# is bound to a core.
 export OMPI_MCA_btl=self,tcp OMPI_MCA_btl_tcp_if_include=lo PROGRAM=$CARROM_PROGRAM

@@ -1,24 +1,30 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# One fingerprint of some 1400 runs, whatever the compiler, the optimisation and the instruction set.
+# One fingerprint of some 1400 runs, whatever the compiler, the optimisation and the instruction
+# set.
 #
 #   tests/stability/compilers.sh FOLDER [PATTERN]
 #
-# Builds the engines once for each way below in FOLDER/<way>, runs them and compares. PATTERN (an extended regular
-# expression) picks ways by name: 'gcc_O3' or 'O0'. Ways that this machine cannot build or run are named and left out.
-# Some 6 minutes a way on one core; a run that takes an hour ($MINUTES says otherwise) has failed. Needs g++, clang++ and
-# clang's OpenMP (Debian: clang libomp-dev).
+# Builds the engines once for each way below in FOLDER/<way>, runs them and compares. PATTERN (an
+# extended regular expression) picks ways by name: 'gcc_O3' or 'O0'. Ways that this machine cannot
+# build or run are named and left out. Some 6 minutes a way on one core; a run that takes an hour
+# ($MINUTES says otherwise) has failed. Needs g++, clang++ and clang's OpenMP (Debian: clang
+# libomp-dev).
 set -euo pipefail
 source_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 folder=${1:?a folder to build in}
 pattern=${2:-.}
 mkdir -p "$folder"
-export OMP_NUM_THREADS=2 OMP_WAIT_POLICY=passive OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMP_NUM_THREADS=2 OMP_WAIT_POLICY=passive OMPI_ALLOW_RUN_AS_ROOT=1 \
+    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 
 # compiler KIND: the newest one there is.
 compiler() {
     local name
-    case $1 in gcc) set -- g++ ;; clang) set -- clang++ clang++-19 clang++-16 clang++-15 clang++-14 ;; esac
+    case $1 in
+        gcc) set -- g++ ;;
+        clang) set -- clang++ clang++-19 clang++-16 clang++-15 clang++-14 ;;
+    esac
     for name; do command -v "$name" && return; done
     return 1
 }
@@ -38,14 +44,22 @@ for kind in gcc clang; do
             way=${kind}_${level}_$set
             [[ $way =~ $pattern ]] || continue
             path=$(compiler $kind) || { echo "$way: left out, no such compiler"; continue; }
-            can_run $set || { echo "$way: left out, this machine has not got these instructions"; continue; }
+            can_run $set ||
+                { echo "$way: left out, this machine has not got these instructions"; continue; }
             flags="-$level -march=x86-64"
             [ $set = v1 ] || flags+="-$set"
-            cmake -S "$source_folder" -B "$folder/$way" -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_COMPILER="$path" \
+            cmake -S "$source_folder" -B "$folder/$way" -DCMAKE_BUILD_TYPE=None \
+                -DCMAKE_CXX_COMPILER="$path" \
                 -DCMAKE_CXX_FLAGS="$flags" >"$folder/$way.log" 2>&1 &&
-                cmake --build "$folder/$way" --parallel "${JOBS:-1}" --target stability_hashes >>"$folder/$way.log" 2>&1 ||
-                { echo "$way: does not build, see $folder/$way.log"; n_failed=$((n_failed + 1)); continue; }
-            hash=$(timeout "$((60 * ${MINUTES:-60}))" "$folder/$way/tests/stability_hashes" 2>>"$folder/$way.log") || hash='failed'
+                cmake --build "$folder/$way" --parallel "${JOBS:-1}" --target stability_hashes \
+                    >>"$folder/$way.log" 2>&1 ||
+                {
+                    echo "$way: does not build, see $folder/$way.log"
+                    n_failed=$((n_failed + 1))
+                    continue
+                }
+            hash=$(timeout "$((60 * ${MINUTES:-60}))" "$folder/$way/tests/stability_hashes" \
+                2>>"$folder/$way.log") || hash='failed'
             echo "$way: $hash"
             n_ways=$((n_ways + 1))
             [ -n "$expected" ] || [ "$hash" = failed ] || expected=$hash

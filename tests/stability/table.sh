@@ -4,23 +4,30 @@
 #
 #   tests/stability/table.sh [BUILD] [--long | --long=FAMILY]
 #
-# Runs the tests of BUILD (default: build), one rank with one thread: some 20 seconds. With --long also the long cases, each in a
-# process of its own, as many at a time as there are cores ($JOBS says otherwise); a line tells how long each took. With a
-# family its rows alone are made anew. Without --long their table stays as it is.
+# Runs the tests of BUILD (default: build), one rank with one thread: some 20 seconds. With --long
+# also the long cases, each in a process of its own, as many at a time as there are cores ($JOBS
+# says otherwise); a line tells how long each took. With a family its rows alone are made anew.
+# Without --long their table stays as it is.
 set -euo pipefail
 source_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 tables=$source_folder/docs/hard_cases
 build=$source_folder/build
 is_long=no family=
 for word; do
-    case $word in --long) is_long=yes ;; --long=*) is_long=yes family=${word#--long=} ;; *) build=$word ;; esac
+    case $word in
+        --long) is_long=yes ;;
+        --long=*) is_long=yes family=${word#--long=} ;;
+        *) build=$word ;;
+    esac
 done
-export OMP_NUM_THREADS=1 OMP_WAIT_POLICY=passive OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMP_NUM_THREADS=1 OMP_WAIT_POLICY=passive OMPI_ALLOW_RUN_AS_ROOT=1 \
+    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export CARROM_TEST_SECONDS=7200
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# table NAME [FAMILY]: writes the measured lines to NAME.csv, in the place of all that it has, or of the family's.
+# table NAME [FAMILY]: writes the measured lines to NAME.csv, in the place of all that it has, or of
+# the family's.
 table() {
     {
         echo 'family,case,method,bound,worst'
@@ -40,19 +47,23 @@ table cases
 long_case() {
     local number=$1 name=$2 start=$SECONDS code=0
     export CARROM_STABILITY_TABLE=$folder/long.$number
-    "$build/tests/stability_mpi_test" "${name//,/\\,}" >"$folder/said.$number" 2>&1 </dev/null || code=$?
+    "$build/tests/stability_mpi_test" "${name//,/\\,}" >"$folder/said.$number" 2>&1 </dev/null ||
+        code=$?
     echo "$name: exit code $code after $((SECONDS - start)) s" >&2
     [ $code -eq 0 ] || { cat "$folder/said.$number" >&2; touch "$folder/failed"; }
 }
-# Catch2 3 has another option for a list of names; the exit code of Catch2 2 says how many there are.
+# Catch2 3 has another option for a list of names; the exit code of Catch2 2 says how many there
+# are.
 list=(--list-tests --verbosity quiet)
 if "$build/tests/stability_mpi_test" --help | grep -- --list-test-names-only >/dev/null; then
     list=(--list-test-names-only)
 fi
-mapfile -t cases < <("$build/tests/stability_mpi_test" "${list[@]}" "[hours]${family:+[$family]}" || true)
+mapfile -t cases < <("$build/tests/stability_mpi_test" "${list[@]}" "[hours]${family:+[$family]}" \
+    || true)
 [ ${#cases[@]} -gt 0 ] || { echo "there are no long cases of the family $family" >&2; exit 2; }
 for number in "${!cases[@]}"; do
-    while [ "$(jobs -rp | wc -l)" -ge "${JOBS:-$(nproc)}" ]; do sleep 1; done # `wait -n` has been seen to miss an end
+    # `wait -n` has been seen to miss an end
+    while [ "$(jobs -rp | wc -l)" -ge "${JOBS:-$(nproc)}" ]; do sleep 1; done
     long_case "$number" "${cases[number]}" &
 done
 wait

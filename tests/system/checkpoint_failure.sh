@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Checkpoints that cannot be written: exit code 4 and a message within a minute on 1 and 3 ranks, and the last good
-# checkpoint stays. A full disk is a small tmpfs, failing disks are strace's: tried only where mounting and tracing work.
-# Argument: the library that makes writes short.
+# Checkpoints that cannot be written: exit code 4 and a message within a minute on 1 and 3 ranks,
+# and the last good checkpoint stays. A full disk is a small tmpfs, failing disks are strace's:
+# tried only where mounting and tracing work. Argument: the library that makes writes short.
 source "$(dirname "$0")/common.sh"
 short_writes=$1
-scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=20000 --set discs.speed=2 --steps 30 --quiet
+scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=20000 --set discs.speed=2 --steps 30 \
+    --quiet
        --set output.checkpoint.every_steps=10)
 
 failed() {
@@ -13,7 +14,8 @@ failed() {
     expect_told "$2" "$1"
 }
 goes_on_from() { # FOLDER STEP WHAT
-    [ "$(ls "$1/checkpoints")" = "$(printf 'checkpoint-%012d.h5' "$2")" ] || complain "not the last good checkpoint alone: $3: $(ls "$1/checkpoints")"
+    [ "$(ls "$1/checkpoints")" = "$(printf 'checkpoint-%012d.h5' "$2")" ] ||
+        complain "not the last good checkpoint alone: $3: $(ls "$1/checkpoints")"
     run 1 run --restart "$1" --steps "$2" --quiet
     expect_code 0 "going on after $3"
 }
@@ -24,7 +26,8 @@ if mount -t tmpfs -o size=4m tmpfs tiny 2>/dev/null; then
     for ranks in 1 3; do
         for transfers in independent collective; do
             rm -rf tiny/*
-            run "$ranks" run "${scene[@]}" --set output.folder=tiny/kept --set output.checkpoint.transfers="$transfers"
+            run "$ranks" run "${scene[@]}" --set output.folder=tiny/kept \
+                --set output.checkpoint.transfers="$transfers"
             failed 'a full disk' 'No space left on device'
             goes_on_from tiny/kept 10 'a full disk'
         done
@@ -44,13 +47,15 @@ rank=$1 injection=$2
 shift 2
 [ "${OMPI_COMM_WORLD_RANK:-${PMI_RANK:-0}}" = "$rank" ] || exec "$@"
 [ "$injection" = none ] && action=trace=pwrite64 || action=inject=$injection
-exec strace -f -o trace -P "$PWD/kept/checkpoints/checkpoint-000000000020.h5.partial" -e "$action" "$@"
+file=$PWD/kept/checkpoints/checkpoint-000000000020.h5.partial
+exec strace -f -o trace -P "$file" -e "$action" "$@"
 END
 chmod +x traced.sh
 # traced RANK INJECTION: three ranks, of which one is traced.
 traced() {
     rm -rf kept
-    timeout --kill-after=5 60 "$CARROM_MPIEXEC" -n 3 ./traced.sh "$1" "$2" "$CARROM_PROGRAM" run "${scene[@]}" "${transfers[@]}" \
+    timeout --kill-after=5 60 "$CARROM_MPIEXEC" -n 3 ./traced.sh "$1" "$2" "$CARROM_PROGRAM" run \
+        "${scene[@]}" "${transfers[@]}" \
         --set output.folder="$PWD/kept" >"$test_folder/out" 2>"$test_folder/err"
     code=$?
 }
@@ -71,7 +76,8 @@ if strace -o /dev/null true 2>/dev/null; then
     fault 0 pwrite64:error=EIO:when=$((n_writes / 2))        # its discs
     fault 0 pwrite64:error=EIO:when=$((n_writes / 2))+       # and all that follows
     for last in 0 1 2 3 5 7 8 9; do
-        fault 0 pwrite64:error=EIO:when=$((n_writes - last))+ # sums, checksums, HDF5's marks at opening and closing
+        # sums, checksums, HDF5's marks at opening and closing
+        fault 0 pwrite64:error=EIO:when=$((n_writes - last))+
     done
     fault 2 pwrite64:error=EIO:when=1+
     fault 1 pwrite64:error=ENOSPC:when=3
@@ -81,7 +87,8 @@ if strace -o /dev/null true 2>/dev/null; then
     fault 0 fallocate:error=ENOSPC:when=1
     fault 0 pread64:error=EIO:when=1+
     fault 0 rename:error=EIO:when=1
-    # In collective transfers the other ranks wait for the one that has failed, until it ends the run. The half file stays.
+    # In collective transfers the other ranks wait for the one that has failed, until it ends the
+    # run. The half file stays.
     leaves_partial=yes
     transfers=(--set output.checkpoint.transfers=collective)
     fault 0 pwrite64:error=EIO:when=$((n_writes / 2 - 5))+
@@ -92,10 +99,12 @@ fi
 
 # on_one_rank RANK SHELL_WORDS: three ranks, of which one begins with these words.
 on_one_rank() {
-    printf '#!/bin/sh\n[ "${OMPI_COMM_WORLD_RANK:-${PMI_RANK:-0}}" = %s ] && { %s; }\nexec "$@"\n' "$1" "$2" >one.sh
+    printf '#!/bin/sh\n[ "${OMPI_COMM_WORLD_RANK:-${PMI_RANK:-0}}" = %s ] && { %s; }\nexec "$@"\n' \
+        "$1" "$2" >one.sh
     chmod +x one.sh
     rm -rf kept
-    timeout --kill-after=5 60 "$CARROM_MPIEXEC" -n 3 ./one.sh "$CARROM_PROGRAM" run "${scene[@]}" --set output.folder=kept \
+    timeout --kill-after=5 60 "$CARROM_MPIEXEC" -n 3 ./one.sh "$CARROM_PROGRAM" run "${scene[@]}" \
+        --set output.folder=kept \
         >"$test_folder/out" 2>"$test_folder/err"
     code=$?
 }
@@ -107,10 +116,11 @@ for rank in 0 1; do
     run 2 verify kept/checkpoints/checkpoint-000000000030.h5
     expect_code 0 "after short writes on rank $rank"
 done
-# A rank that may not write as far as its share lies: a write that ends early, then errors. The limit of 8 MiB leaves room
-# for the files through which MPI shares memory; a checkpoint has 16 MiB.
+# A rank that may not write as far as its share lies: a write that ends early, then errors. The
+# limit of 8 MiB leaves room for the files through which MPI shares memory; a checkpoint has 16 MiB.
 scene+=(--set discs.count=200000 --set discs.speed=0.5)
 on_one_rank 1 "ulimit -f 16384"
 failed 'a limit to the size of files on rank 1' 'checkpoint-000000000010.h5'
-[ -z "$(ls kept/checkpoints)" ] || complain "a file is left though none was written whole: $(ls kept/checkpoints)"
+[ -z "$(ls kept/checkpoints)" ] || complain \
+    "a file is left though none was written whole: $(ls kept/checkpoints)"
 finish

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Help and version: on standard output, once for all ranks, exit code 0; and a help that names every exit code.
+# Help and version: on standard output, once for all ranks, exit code 0; and a help that names every
+# exit code.
 source "$(dirname "$0")/common.sh"
 
 for ranks in 1 3; do
@@ -11,12 +12,15 @@ for ranks in 1 3; do
         'HDF5      1\.[0-9]+\.[0-9]+' 'vectors   [A-Z0-9_]+'; do
         grep -qxE "$line" "$test_folder/out" || complain "the version lacks a line like: $line"
     done
-    [ "$(wc -l <"$test_folder/out")" -eq 6 ] || complain "the version is not told once on $ranks ranks"
+    [ "$(wc -l <"$test_folder/out")" -eq 6 ] ||
+        complain "the version is not told once on $ranks ranks"
     run "$ranks" --help
     expect_code 0 '--help'
-    [ "$(grep -c '^Usage:' "$test_folder/out")" -eq 1 ] || complain "the help is not told once on $ranks ranks"
+    [ "$(grep -c '^Usage:' "$test_folder/out")" -eq 1 ] ||
+        complain "the help is not told once on $ranks ranks"
     for exit_code in 0 1 2 3 4 70 75; do
-        grep -qE "^ +$exit_code " "$test_folder/out" || complain "the help does not explain exit code $exit_code"
+        grep -qE "^ +$exit_code " "$test_folder/out" ||
+            complain "the help does not explain exit code $exit_code"
     done
 done
 
@@ -29,8 +33,10 @@ expect_told 'say what to do, as in carrom run SCENE.toml' 'no words'
 
 run 1 run --help
 expect_code 0 'run --help'
-for option in --threads --steps --set --digits --output --report --quiet --window --cell-width --rebalance-every --rebalance-above; do
-    grep -q -- "^  $option" "$test_folder/out" || complain "the help of run does not explain $option"
+for option in --threads --steps --set --digits --output --report --quiet --window --cell-width \
+    --rebalance-every --rebalance-above; do
+    grep -q -- "^  $option" "$test_folder/out" ||
+        complain "the help of run does not explain $option"
 done
 
 # A number of threads that is none is not heeded silently.
@@ -39,13 +45,16 @@ for number in abc 0 -1 1000000; do
     export OMP_NUM_THREADS=$number
     run 3 run tiny.in --quiet
     expect_code 0 "OMP_NUM_THREADS=$number"
-    expect_told "warning: OMP_NUM_THREADS = '$number' is not a number of threads from 1 to 1024" "OMP_NUM_THREADS=$number"
-    [ "$(grep -c 'warning: OMP_NUM_THREADS' "$test_folder/err")" -eq 1 ] || complain "told on every rank: OMP_NUM_THREADS=$number"
+    expect_told "warning: OMP_NUM_THREADS = '$number' is not a number of threads from 1 to 1024" \
+        "OMP_NUM_THREADS=$number"
+    [ "$(grep -c 'warning: OMP_NUM_THREADS' "$test_folder/err")" -eq 1 ] ||
+        complain "told on every rank: OMP_NUM_THREADS=$number"
 done
 for number in 2 ' 2' 2,1 ''; do
     export OMP_NUM_THREADS=$number
     run 1 run tiny.in --quiet
-    if grep -q 'warning: OMP_NUM_THREADS' "$test_folder/err"; then complain "warned of OMP_NUM_THREADS='$number'"; fi
+    if grep -q 'warning: OMP_NUM_THREADS' "$test_folder/err"; then
+        complain "warned of OMP_NUM_THREADS='$number'"; fi
 done
 unset OMP_NUM_THREADS
 
@@ -57,26 +66,31 @@ expect_code 0 'ranks that share cores'
 expect_told "warning: 2 ranks of $cores threads share $cores cores" 'ranks that share cores'
 [ "$(grep -c 'share' "$test_folder/err")" -eq 1 ] || complain 'shared cores are told on every rank'
 run 1 run tiny.in --quiet --threads $((2 * cores)) # the OpenMP library sees that by itself
-[ ! -s "$test_folder/err" ] || { complain 'a lone rank with more threads than cores is warned of'; show; }
+[ ! -s "$test_folder/err" ] ||
+    { complain 'a lone rank with more threads than cores is warned of'; show; }
 export OMP_WAIT_POLICY=passive
 run 2 run tiny.in --quiet --threads "$cores"
 [ ! -s "$test_folder/err" ] || { complain 'warned of threads that wait asleep'; show; }
 
-# No MPI where none is needed, and no daemon of its own for a run without mpirun. MPI makes itself known by its libraries'
-# settings, a daemon by being another program.
+# No MPI where none is needed, and no daemon of its own for a run without mpirun. MPI makes itself
+# known by its libraries' settings, a daemon by being another program.
 run 1 run tiny.in --quiet -o kept --set output.trajectory.every_steps=1
 expect_code 0 'a run with files'
 file=kept/checkpoints/$(ls kept/checkpoints)
 if command -v strace >/dev/null; then
-    # opened WORD...: sets `n_mpi`, how many of MPI's settings are read, and `n_started`, how many programs are started.
+    # opened WORD...: sets `n_mpi`, how many of MPI's settings are read, and `n_started`, how many
+    # programs are started.
     opened() {
-        strace -f -qq -e trace=openat,execve -o "$test_folder/trace" "$CARROM_PROGRAM" "$@" >"$test_folder/out" 2>"$test_folder/err" </dev/null
-        n_mpi=$(grep -cE 'openmpi-mca-params|pmix-mca-params|/mpich|mca_[a-z]+_' "$test_folder/trace")
+        strace -f -qq -e trace=openat,execve -o "$test_folder/trace" "$CARROM_PROGRAM" "$@" \
+            >"$test_folder/out" 2>"$test_folder/err" </dev/null
+        n_mpi=$(grep -cE 'openmpi-mca-params|pmix-mca-params|/mpich|mca_[a-z]+_' \
+            "$test_folder/trace")
         n_started=$(grep -c 'execve(.*= 0$' "$test_folder/trace")
     }
     while read -r words; do
         opened $words
-        [ "$n_mpi $n_started" = '0 1' ] || complain "MPI was started by: carrom $words ($n_mpi, $n_started)"
+        [ "$n_mpi $n_started" = '0 1' ] || complain \
+            "MPI was started by: carrom $words ($n_mpi, $n_started)"
     done <<WORDS
 --help
 --version
@@ -91,14 +105,16 @@ convert $file --to csv
 WORDS
     opened run tiny.in --quiet
     [ "$n_mpi" -gt 0 ] || complain 'the test does not notice that MPI is started'
-    [ "$n_started" -eq 1 ] || complain "a run without mpirun starts another program: $(grep execve "$test_folder/trace")"
+    [ "$n_started" -eq 1 ] || complain \
+        "a run without mpirun starts another program: $(grep execve "$test_folder/trace")"
 else
     printf 'not looked at, for want of strace: what starts MPI\n'
 fi
 for command in info verify diff convert; do
     run 1 "$command" --help
     expect_code 0 "$command --help"
-    grep -q "^  carrom $command " "$test_folder/out" || complain "the help of $command has no example"
+    grep -q "^  carrom $command " "$test_folder/out" ||
+        complain "the help of $command has no example"
 done
 
 # Empty words come from variables that are not set.
@@ -139,7 +155,7 @@ if [ -n "$readonly_place" ]; then
     expect_code 2 'a wrong option beside an output that fails'
     expect_told 'locked/file' 'a wrong option beside an output that fails'
 else
-    printf 'not looked at, for want of a folder without rights: the code of --output and --report there\n'
+    printf 'skipped: --output and --report into a folder without rights, there is none\n'
 fi
 chattr -i locked 2>/dev/null
 chmod 755 locked

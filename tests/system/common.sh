@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # What system tests share: run the real program, note what is wrong, fail at the end. To be sourced.
 #
-# Each test runs in a folder of its own. `files` is what the program sees as its working folder; what it says is kept
-# beside it in `out` and `err`, so that anything it writes uninvited shows.
+# Each test runs in a folder of its own. `files` is what the program sees as its working folder;
+# what it says is kept beside it in `out` and `err`, so that anything it writes uninvited shows.
 set -u
 exec </dev/null
 
@@ -24,14 +24,16 @@ finish() {
     exit 0
 }
 
-# run RANKS WORD...: the program on that many ranks; sets `code`. Never waits longer than a minute, or `patience`
-# seconds. One rank needs no mpiexec, which takes two seconds to leave when its only rank has failed.
+# run RANKS WORD...: the program on that many ranks; sets `code`. Never waits longer than a minute,
+# or `patience` seconds. One rank needs no mpiexec, which takes two seconds to leave when its only
+# rank has failed.
 patience=60
 run() {
     local launch=("$CARROM_MPIEXEC" -n "$1")
     [ "$1" -gt 1 ] || launch=()
     shift
-    timeout --kill-after=5 "$patience" "${launch[@]}" "$CARROM_PROGRAM" "$@" >"$test_folder/out" 2>"$test_folder/err"
+    timeout --kill-after=5 "$patience" "${launch[@]}" "$CARROM_PROGRAM" "$@" >"$test_folder/out" \
+        2>"$test_folder/err"
     code=$?
     [ "$code" -ne 124 ] || complain "no end within $patience seconds: $*"
 }
@@ -39,11 +41,16 @@ show() { sed 's/^/    /' "$test_folder/err"; }
 
 expect_code() { [ "$code" -eq "$1" ] || { complain "exit code $code, not $1: $2"; show; }; }
 expect_silence() { [ ! -s "$test_folder/out" ] || complain "standard output is not empty: $1"; }
-expect_told() { grep -qF -- "$1" "$test_folder/err" || { complain "not told: \"$1\", in: $2"; show; }; }
+expect_told() {
+    grep -qF -- "$1" "$test_folder/err" || { complain "not printed: \"$1\", in: $2"; show; }
+}
 expect_same() { cmp "$1" "$2" || complain "$3"; }
 
 # gas_scene SIZE COUNT PACKING SPEED STEPS: a scene's text, discs at random.
-gas_scene() { printf '[box]\nsize = %s\n[discs]\ncount = %s\npacking = %s\nspeed = %s\n[time]\nmethod = "time-stepped"\nsteps = %s\n' "$@"; }
+gas_scene() {
+    local text='[box]\nsize = %s\n[discs]\ncount = %s\npacking = %s\nspeed = %s\n'
+    printf "$text[time]\nmethod = \"time-stepped\"\nsteps = %s\n" "$@"
+}
 
 # json_value FILE KEY: the value of a key that stands on a line of its own.
 json_value() { sed -n "s/^ *\"$2\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}\$/\1/p" "$1"; }

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# carrom compare: right outputs of other programs pass, and each mistake of student.py is named by its rule. Random
-# scenes show most mistakes; equal times and corners have a scene of their own.
+# carrom compare: right outputs of other programs pass, and each mistake of student.py is named by
+# its rule. Random scenes show most mistakes; equal times and corners have a scene of their own.
 source "$(dirname "$0")/common.sh"
 student() { python3 "$CARROM_SOURCE_DIR/tests/system/student.py" "$@"; }
 command -v python3 >/dev/null || { echo 'skipped: there is no python3'; exit 77; }
 
-# Discs 0 and 2 meet disc 1 at one time; disc 3 flies into a corner; discs 4 and 5 meet as both meet a wall.
+# Discs 0 and 2 meet disc 1 at one time; disc 3 flies into a corner; discs 4 and 5 meet as both meet
+# a wall.
 cat >ties.in <<'SCENE'
 6
 16
@@ -36,23 +37,27 @@ for scene in ties random_1 random_2 random_3; do
         grep -q '^same: ' "$test_folder/out" || complain "$scene: not said to be the same"
     done
 done
-grep -q 'only amplified roundings' <("$CARROM_PROGRAM" compare random_1.out random_1.in 2>/dev/null) ||
+grep -q 'only amplified roundings' <("$CARROM_PROGRAM" compare random_1.out random_1.in \
+    2>/dev/null) ||
     complain 'nothing is said of roundings'
 
 n_named=0
 while read -r mistake rule; do
     is_seen=no
     for scene in ties random_1 random_2 random_3; do
-        student $scene.in "$mistake" .8f >wrong.out 2>/dev/null || continue # some mistakes end in a division by 0
+        # some mistakes end in a division by 0
+        student $scene.in "$mistake" .8f >wrong.out 2>/dev/null || continue
         cmp -s $scene.out wrong.out && continue
         is_seen=yes
         compare 1 wrong.out $scene.in
         named=$(sed -n 's/^rule: //p' "$test_folder/out")
-        [ "$named" = "$rule" ] || complain "$mistake in $scene breaks the rule '$rule', not '$named': $(cat "$test_folder/out")"
+        [ "$named" = "$rule" ] || complain \
+            "$mistake in $scene breaks the rule '$rule', not '$named': $(cat "$test_folder/out")"
         n_named=$((n_named + 1))
         # The right program's output has other numbers in the line that is named.
         line=$(sed -n 's/^line \([0-9]*\):.*/\1/p' "$test_folder/out")
-        [ "$rule" = lines ] || [ "$(sed -n "${line}p" wrong.out)" != "$(sed -n "${line}p" $scene.out)" ] ||
+        [ "$rule" = lines ] || [ "$(sed -n "${line}p" wrong.out)" != \
+            "$(sed -n "${line}p" $scene.out)" ] ||
             complain "$mistake in $scene: line $line is right"
     done
     [ $is_seen = yes ] || complain "no scene shows the mistake $mistake"
@@ -62,10 +67,12 @@ done < <(student --mistakes)
 # The first line that differs is where one number was changed, and the tolerance is what decides.
 student ties.in '' .8f | sed '8s/ 8[.]00000000 0/ 8.00001000 0/' >moved.out
 compare 1 moved.out ties.in
-grep -q '^line 8: step 1, disc 1 differs' "$test_folder/out" || complain "another line than 8: $(cat "$test_folder/out")"
+grep -q '^line 8: step 1, disc 1 differs' "$test_folder/out" ||
+    complain "another line than 8: $(cat "$test_folder/out")"
 compare 0 moved.out ties.in --tolerance 1e-3
 
-# The program's own output, on ranks, with micro-steps, first and last steps only, and from standard input.
+# The program's own output, on ranks, with micro-steps, first and last steps only, and from standard
+# input.
 run 1 run random_1.in --set time.micro_steps=4 --output own.out --quiet
 run 3 compare own.out random_1.in --set time.micro_steps=4
 expect_code 0 'the own output on 3 ranks'

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Two small scenes against lines that were computed by hand (how is told in expected/README.md), byte for byte: all
-# numbers in them are exact in binary. From a file and from standard input, on one and on several ranks.
+# Two small scenes against lines that were computed by hand (how is told in expected/README.md),
+# byte for byte: all numbers in them are exact in binary. From a file and from standard input, on
+# one and on several ranks.
 source "$(dirname "$0")/common.sh"
 expected=$CARROM_SOURCE_DIR/tests/system/expected
 
@@ -17,7 +18,8 @@ compare() {
 for ranks in 1 2 5; do
     for scene in three_discs wall_stop; do
         compare "$ranks" "$scene.txt" "$scene" run "$expected/$scene.in"
-        compare "$ranks" "$scene.8.txt" "$scene with 8 decimals" run --digits 8 "$expected/$scene.in" --threads 2
+        compare "$ranks" "$scene.8.txt" "$scene with 8 decimals" run --digits 8 \
+            "$expected/$scene.in" --threads 2
     done
     compare "$ranks" three_discs.txt 'from standard input' run - --quiet <"$expected/three_discs.in"
     [ ! -s "$test_folder/err" ] || complain '--quiet is not quiet'
@@ -26,12 +28,14 @@ for ranks in 1 2 5; do
     grep -E '^(0|5) ' "$expected/three_discs.txt" >"$test_folder/ends"
     sed 's/print/perf/' "$expected/three_discs.in" >perf.in
     run "$ranks" run perf.in
-    expect_same "$test_folder/out" "$test_folder/ends" 'perf does not print the first and the last step'
+    expect_same "$test_folder/out" "$test_folder/ends" \
+        'perf does not print the first and the last step'
     grep -E '^0 ' "$expected/three_discs.txt" >"$test_folder/start"
     for input in perf.in "$expected/three_discs.in"; do
         run "$ranks" run "$input" --steps 0
         expect_code 0 'no steps'
-        expect_same "$test_folder/out" "$test_folder/start" 'no steps do not print the start, once and without counters'
+        expect_same "$test_folder/out" "$test_folder/start" \
+            'no steps do not print the start, once and without counters'
     done
 
     run "$ranks" run "$expected/three_discs.in" --output lines.txt

@@ -33,7 +33,8 @@ for header in "$prefix"/include/carrom/*.hpp; do
     step "header_$name" "$compiler" -std=c++20 -Wall -Wextra -Wpedantic -Werror -fsyntax-only \
         -I "$prefix/include" "$test_folder/logs/alone.cpp"
 done
-for file in share/carrom/inputs/gas.toml share/doc/carrom/LICENSE share/doc/carrom/docs/reference/keys.md; do
+for file in share/carrom/inputs/gas.toml share/doc/carrom/LICENSE \
+    share/doc/carrom/docs/reference/keys.md; do
     [ -s "$prefix/$file" ] || complain "not installed: $file"
 done
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# kill -9 of a random rank at random moments, again and again, also while a checkpoint is written; each time `--restart
-# latest` goes on. In the end the hash is that of the uninterrupted run. Argument: how many kills.
+# kill -9 of a random rank at random moments, again and again, also while a checkpoint is written;
+# each time `--restart latest` goes on. In the end the hash is that of the uninterrupted run.
+# Argument: how many kills.
 source "$(dirname "$0")/common.sh"
 n_kills=$1
 RANDOM=3210
@@ -13,7 +14,8 @@ endless=1000000000 # no run is over before it is killed, on whatever machine
 # kill_once RANKS MILLISECONDS: starts or goes on, and kills one rank that time after there are any.
 kill_once() {
     local launcher rank
-    "$CARROM_MPIEXEC" -n "$1" "$CARROM_PROGRAM" run "${scene[@]}" --steps "$endless" --restart latest \
+    "$CARROM_MPIEXEC" -n "$1" "$CARROM_PROGRAM" run "${scene[@]}" --steps "$endless" \
+        --restart latest \
         >"$test_folder/out" 2>"$test_folder/err" &
     launcher=$!
     while ! pgrep -P "$launcher" >/dev/null && kill -0 "$launcher" 2>/dev/null; do sleep 0.05; done
@@ -23,8 +25,9 @@ kill_once() {
     end_of "$launcher"
 }
 
-# end_of LAUNCHER: its exit code. All ranks must be gone half a minute after one was killed. Open MPI 4.1's launcher may
-# stay nevertheless, if the rank was killed just when it made itself known: that is told, and the launcher ended.
+# end_of LAUNCHER: its exit code. All ranks must be gone half a minute after one was killed. Open
+# MPI 4.1's launcher may stay nevertheless, if the rank was killed just when it made itself known:
+# that is told, and the launcher ended.
 end_of() {
     local i
     for ((i = 0; i < 300; ++i)); do
@@ -32,7 +35,8 @@ end_of() {
         sleep 0.1
     done
     if kill -0 "$1" 2>/dev/null; then
-        ps -o stat= --ppid "$1" | grep -qv '^Z' && complain 'ranks live on after one of them was killed'
+        ps -o stat= --ppid "$1" | grep -qv '^Z' &&
+            complain 'ranks live on after one of them was killed'
         echo 'the launcher did not come back though all its ranks were gone'
         kill -KILL "$1"
     fi
@@ -42,7 +46,8 @@ end_of() {
 # newest: the step of the newest checkpoint that was finished; 0 if there is none.
 newest() {
     local step
-    step=$(find kept/checkpoints -name 'checkpoint-*.h5' 2>/dev/null | sed 's/.*checkpoint-0*//; s/[.]h5$//' | sort -n | tail -1)
+    step=$(find kept/checkpoints -name 'checkpoint-*.h5' 2>/dev/null | sed \
+        's/.*checkpoint-0*//; s/[.]h5$//' | sort -n | tail -1)
     echo "${step:-0}"
 }
 
@@ -53,7 +58,8 @@ expect_code 0 'a first step'
 start_milliseconds=$((($(date +%s%N) - begin) / 1000000))
 
 for ((i = 0; i < n_kills; ++i)); do
-    kill_once $((RANDOM % 3 + 2)) $((RANDOM % (1500 + start_milliseconds) + 300)) && complain 'a run of endless steps ended well'
+    kill_once $((RANDOM % 3 + 2)) $((RANDOM % (1500 + start_milliseconds) + 300)) &&
+        complain 'a run of endless steps ended well'
     grep 'passing over' "$test_folder/err"
 done
 [ "$(newest)" -gt 0 ] || complain "no checkpoint was finished in $n_kills runs"
@@ -63,9 +69,11 @@ patience=300
 run 3 run "${scene[@]}" --steps "$steps" --restart latest --report report.json
 expect_code 0 'the last stretch'
 killed=$(json_value report.json state_hash)
-run 2 run "${scene[@]}" --steps "$steps" --set output.folder=whole --set output.checkpoint.every_steps="$endless" --report report.json
+run 2 run "${scene[@]}" --steps "$steps" --set output.folder=whole \
+    --set output.checkpoint.every_steps="$endless" --report report.json
 expect_code 0 'uninterrupted'
-[ "$(json_value report.json state_hash)" = "$killed" ] || complain "another state hash after $n_kills kills"
+[ "$(json_value report.json state_hash)" = "$killed" ] ||
+    complain "another state hash after $n_kills kills"
 [ "$(find kept/checkpoints -name '*.h5' | wc -l)" -ge 1 ] || complain 'no checkpoint is left'
 for file in trajectory.h5 collisions.h5; do # what was recorded between the kills
     run 1 verify "kept/$file"

@@ -1,38 +1,49 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Tables of measurements: the same bytes on other ranks and threads and after a restart between two samples; what is
-# wrong with their keys; and nothing of them in the checkpoint of a run that does not ask.
+# Tables of measurements: the same bytes on other ranks and threads and after a restart between two
+# samples; what is wrong with their keys; and nothing of them in the checkpoint of a run that does
+# not ask.
 source "$CARROM_SOURCE_DIR/tests/system/common.sh"
 
 gas_scene 40 400 0.3 1 90 >gas.toml
-asked=(--set 'output.measurements.quantities=["wall_pressure","radial_distribution","velocities","density","displacement"]'
+quantities='"wall_pressure","radial_distribution","velocities","density","displacement"'
+asked=(--set "output.measurements.quantities=[$quantities]"
        --set output.measurements.every_steps=7 --set output.measurements.from_step=10)
 for method in time-stepped event-driven; do
-    run 1 run gas.toml --quiet --set time.method=$method "${asked[@]}" -o whole_$method --report $method.json
+    run 1 run gas.toml --quiet --set time.method=$method "${asked[@]}" -o whole_$method \
+        --report $method.json
     expect_code 0 "$method, one rank"
-    [ "$(ls whole_$method/measurements | wc -l)" -eq 8 ] || complain "$method: $(ls whole_$method | tr '\n' ' ')"
+    [ "$(ls whole_$method/measurements | wc -l)" -eq 8 ] ||
+        complain "$method: $(ls whole_$method | tr '\n' ' ')"
     grep -q '"radial_distribution": {' $method.json || complain "$method: no tables in the report"
-    run 3 run gas.toml --quiet --threads 2 --steps 50 --set time.method=$method "${asked[@]}" -o kept_$method
+    run 3 run gas.toml --quiet --threads 2 --steps 50 --set time.method=$method "${asked[@]}" \
+        -o kept_$method
     expect_code 0 "$method, three ranks"
-    run 2 run gas.toml --quiet --set time.method=$method "${asked[@]}" -o kept_$method --restart latest
+    run 2 run gas.toml --quiet --set time.method=$method "${asked[@]}" -o kept_$method \
+        --restart latest
     expect_code 0 "$method, the second stretch"
-    diff -r whole_$method/measurements kept_$method/measurements >/dev/null || complain "$method: other tables: $(diff -rq whole_$method/measurements kept_$method/measurements)"
+    diff -r whole_$method/measurements kept_$method/measurements >/dev/null ||
+        complain "$method: other tables: $(diff -rq {whole,kept}_$method/measurements)"
 done
 run 1 verify kept_event-driven/checkpoints/checkpoint-000000000050.h5
 expect_code 0 'a checkpoint with measurements'
 
 run 1 run gas.toml --quiet --steps 50 --set time.method=event-driven -o plain
-grep -q measurements plain/checkpoints/checkpoint-000000000050.h5 && complain 'a checkpoint knows of measurements that nobody asked for'
+grep -q measurements plain/checkpoints/checkpoint-000000000050.h5 &&
+    complain 'a checkpoint knows of measurements that nobody asked for'
 
 run 3 run --restart kept_event-driven --set output.measurements.bins=10
 expect_code 2 'other bins'
 expect_told 'begin anew with output.measurements.from_step = 90' 'other bins'
-run 1 run gas.toml --set output.measurements.every_steps=5 --set 'output.measurements.quantities=["densty"]'
+run 1 run gas.toml --set output.measurements.every_steps=5 \
+    --set 'output.measurements.quantities=["densty"]'
 expect_code 2 'wrong keys'
 expect_told "'output.folder' is missing" 'wrong keys'
 expect_told 'did you mean "density"?' 'wrong keys'
-run 1 run gas.toml -o x --set 'output.measurements.quantities=["density"]' --set output.measurements.largest_distance=3
+run 1 run gas.toml -o x --set 'output.measurements.quantities=["density"]' \
+    --set output.measurements.largest_distance=3
 expect_code 2 'a key of what is not asked for'
-run 1 run gas.toml -o x --set 'output.measurements.quantities=["radial_distribution"]' --set output.measurements.largest_distance=30
+run 1 run gas.toml -o x --set 'output.measurements.quantities=["radial_distribution"]' \
+    --set output.measurements.largest_distance=30
 expect_code 2 'too far'
 expect_told 'cannot reach 30' 'too far'
 touch file

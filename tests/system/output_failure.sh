@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Output that cannot be written ends all ranks with exit code 4 and a message, and soon: a full disk, a closed pipe.
+# Output that cannot be written ends all ranks with exit code 4 and a message, and soon: a full
+# disk, a closed pipe.
 source "$(dirname "$0")/common.sh"
 expected=$CARROM_SOURCE_DIR/tests/system/expected
 [ -c /dev/full ] || exit 0
@@ -17,7 +18,8 @@ expect_told 'cannot write to standard output: No space left' 'standard output on
 
 mkfifo pipe
 exec 3<>pipe
-"$CARROM_PROGRAM" run "$expected/three_discs.in" --steps 100000 --quiet >pipe 2>"$test_folder/err" 3>&- &
+"$CARROM_PROGRAM" run "$expected/three_discs.in" --steps 100000 --quiet >pipe 2>"$test_folder/err" \
+    3>&- &
 program=$!
 exec 4<pipe
 exec 3>&-
@@ -34,7 +36,8 @@ for kind in full closed unread; do
     case $kind in
     full) "$CARROM_PROGRAM" run "$expected/three_discs.in" --output "$kind.txt" 2>/dev/full ;;
     closed) "$CARROM_PROGRAM" run "$expected/three_discs.in" --output "$kind.txt" <&- >&- 2>&- ;;
-    unread) "$CARROM_PROGRAM" run "$expected/three_discs.in" --output "$kind.txt" 2> >(exec <&-; exec sleep 0) ;;
+    unread) "$CARROM_PROGRAM" run "$expected/three_discs.in" --output "$kind.txt" 2> \
+        >(exec <&-; exec sleep 0) ;;
     esac
     code=$?
     expect_code 0 "standard error that is $kind"

@@ -16,6 +16,7 @@ TIMES any text will do: it depends on the machine. <!-- not run: REASON --> befo
 it, <!-- needs: MODULE ... --> names Python modules, which come from PyPI. What is left out is
 printed with its reason. --update writes what was printed into text blocks that have no `...`.
 """
+
 import argparse
 import fcntl
 import os
@@ -146,9 +147,16 @@ class Runner:
             return None
         command = ["bash", "-euo", "pipefail", "-c", block.text]
         try:
-            done = subprocess.run(command, cwd=self.folder, env=self.environment, text=True,
-                                  stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                  stderr=subprocess.STDOUT, timeout=SECONDS_PER_BLOCK)
+            done = subprocess.run(
+                command,
+                cwd=self.folder,
+                env=self.environment,
+                text=True,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                timeout=SECONDS_PER_BLOCK,
+            )
         except subprocess.TimeoutExpired:
             self.complain(block, f"no end within {SECONDS_PER_BLOCK} seconds")
             return None
@@ -171,7 +179,8 @@ class Runner:
         path.write_text(block.text)
 
     def check_names(self):
-        """Links and names of source files lead somewhere. The site's own test finds dead anchors."""
+        """Links and names of source files lead somewhere. The site's own test finds dead anchors.
+        """
         text = self.page.read_text()
         for link in re.findall(r"\]\(([^)#\s]+)[^)]*\)", text):
             if "://" not in link and not (self.page.parent / link).exists():
@@ -216,8 +225,9 @@ def quiet(command):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("page", type=pathlib.Path)
     parser.add_argument("--build", type=pathlib.Path, required=True)
     parser.add_argument("--python", type=pathlib.Path, help="folder of a virtual environment")

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Both precisions, both formulas, contracted and not, under both rules: each has bits of its own, and the same for
-# other ranks, threads and windows.
+# Both precisions, both formulas, contracted and not, under both rules: each has bits of its own,
+# and the same for other ranks, threads and windows.
 source "$(dirname "$0")/common.sh"
 
 # scene NAME DISCS PACKING SPEED
@@ -27,19 +27,23 @@ laws=("double naive" "double naive --set time.contraction=true"
 for name in dense fast; do
     for method in time-stepped event-driven; do
         for law in "${laws[@]}"; do
-            words=(run "$name.toml" --set "time.method=$method" --set "time.precision=${law%% *}" --set "time.arithmetic=${law#* }")
+            words=(run "$name.toml" --set "time.method=$method" --set "time.precision=${law%% *}" \
+                --set "time.arithmetic=${law#* }")
             read -r -a words <<<"${words[*]}"
             hash=
             for shape in '1 1' '2 2 --window 0.3 --rebalance-every 1 --rebalance-above 0'; do
                 read -r ranks threads options <<<"$shape"
-                run "$ranks" "${words[@]}" --threads "$threads" $options --report report.json --quiet
+                run "$ranks" "${words[@]}" --threads "$threads" $options --report report.json \
+                    --quiet
                 expect_code 0 "$name, $method, $law, $shape"
                 hash=${hash:-$(json_value report.json state_hash)}
-                [ "$(json_value report.json state_hash)" = "$hash" ] || complain "another state hash: $name, $method, $law, $shape"
+                [ "$(json_value report.json state_hash)" = "$hash" ] ||
+                    complain "another state hash: $name, $method, $law, $shape"
             done
             echo "$hash" >>hashes
         done
     done
 done
-[ "$(sort -u hashes | wc -l)" -eq 20 ] || complain "some settings have the same bits: $(sort hashes | uniq -d | wc -l)"
+[ "$(sort -u hashes | wc -l)" -eq 20 ] || complain \
+    "some settings have the same bits: $(sort hashes | uniq -d | wc -l)"
 finish

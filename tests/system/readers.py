@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""readers.py READER LINES TRAJECTORY CHECKPOINT: does READER see what the lines `step id x y vx vy` say?
+"""readers.py READER LINES TRAJECTORY CHECKPOINT: does READER see what the lines `step id x y vx vy`
+say?
 
-Both files hold single-precision numbers for other programs: the lines' numbers rounded to the nearest are asked for,
-to the bit. A checkpoint's own columns are in double precision. `readers.py pictures LINES PNG ... GIF PNG` looks at
-pictures instead.
+Both files hold single-precision numbers for other programs: the lines' numbers rounded to the
+nearest are asked for, to the bit. A checkpoint's own columns are in double precision. `readers.py
+pictures LINES PNG ... GIF PNG` looks at pictures instead.
 """
+
 import sys
 
 import numpy as np
@@ -35,7 +37,11 @@ def read_with_h5py(lines, trajectory, checkpoint):
             for element, columns in (("position", slice(0, 2)), ("velocity", slice(2, 4))):
                 assert list(discs[element]["step"]) == steps
                 for frame, step in enumerate(steps):
-                    expect_same(discs[element]["value"][frame, :, :2], lines[step][:, columns], f"{path} {element} {step}")
+                    expect_same(
+                        discs[element]["value"][frame, :, :2],
+                        lines[step][:, columns],
+                        f"{path} {element} {step}",
+                    )
                     assert not discs[element]["value"][frame, :, 2].any()
             assert list(discs["box"].attrs["boundary"]) == [b"none"] * 3
     with h5py.File(checkpoint) as file:
@@ -53,7 +59,11 @@ def read_with_pyh5md(lines, trajectory, checkpoint):
                 series = pyh5md.element(discs, element)
                 assert list(series.step) == steps and list(series.time) == steps
                 for frame, step in enumerate(steps):
-                    expect_same(series.value[frame][:, :2], lines[step][:, columns], f"{path} {element} {step}")
+                    expect_same(
+                        series.value[frame][:, :2],
+                        lines[step][:, columns],
+                        f"{path} {element} {step}",
+                    )
 
 
 def read_with_mdanalysis(lines, trajectory, checkpoint):
@@ -82,8 +92,14 @@ def read_with_vtk(lines, trajectory, _):
     for step in steps:
         reader.UpdateTimeStep(step)
         grid = reader.GetOutputDataObject(0)
-        expect_same(vtk_to_numpy(grid.GetPoints().GetData())[:, :2], lines[step][:, 0:2], f"points {step}")
-        expect_same(vtk_to_numpy(grid.GetPointData().GetArray("velocity"))[:, :2], lines[step][:, 2:4], f"velocity {step}")
+        expect_same(
+            vtk_to_numpy(grid.GetPoints().GetData())[:, :2], lines[step][:, 0:2], f"points {step}"
+        )
+        expect_same(
+            vtk_to_numpy(grid.GetPointData().GetArray("velocity"))[:, :2],
+            lines[step][:, 2:4],
+            f"velocity {step}",
+        )
 
 
 def look_at(*paths):
@@ -95,14 +111,21 @@ def look_at(*paths):
             pixels = np.asarray(picture.convert("RGB")).reshape(-1, 3)
         is_grey = (pixels.max(axis=1) - pixels.min(axis=1)) < 20
         # Discs cover 0.3 of the box; curves are thin.
-        assert np.count_nonzero(~is_grey) > (0.001 if "history" in path else 0.05) * len(pixels), f"{path}: hardly any colour"
+        assert np.count_nonzero(~is_grey) > (0.001 if "history" in path else 0.05) * len(
+            pixels
+        ), f"{path}: hardly any colour"
 
 
 def main():
     reader, lines, *paths = sys.argv[1:]
     if reader == "pictures":
         return look_at(*paths)
-    read = {"h5py": read_with_h5py, "pyh5md": read_with_pyh5md, "MDAnalysis": read_with_mdanalysis, "vtk": read_with_vtk}[reader]
+    read = {
+        "h5py": read_with_h5py,
+        "pyh5md": read_with_pyh5md,
+        "MDAnalysis": read_with_mdanalysis,
+        "vtk": read_with_vtk,
+    }[reader]
     read(read_lines(lines), *paths)
 
 

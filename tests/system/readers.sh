@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Other programs open our files and see what the run itself has written as text: h5py, pyh5md, MDAnalysis, VTK (through
-# XDMF), our own tools for pictures, and the worked example of docs/understanding/method.md. They come from PyPI, into a
-# folder that is kept; each is skipped where it cannot be had.
-# Argument: that folder.
+# Other programs open our files and see what the run itself has written as text: h5py, pyh5md,
+# MDAnalysis, VTK (through XDMF), our own tools for pictures, and the worked example of
+# docs/understanding/method.md. They come from PyPI, into a folder that is kept; each is skipped
+# where it cannot be had. Argument: that folder.
 source "$(dirname "$0")/common.sh"
 python=$1/bin/python tests=$(dirname "$0") tools=$CARROM_SOURCE_DIR/docs/tools
 n_skipped=0
@@ -12,7 +12,8 @@ skip() {
     n_skipped=$((n_skipped + 1))
 }
 
-[ -x "$python" ] && "$python" -m pip --version >/dev/null 2>&1 || python3 -m venv --clear "$1" >"$test_folder/err" 2>&1 || {
+[ -x "$python" ] && "$python" -m pip --version >/dev/null 2>&1 ||
+    python3 -m venv --clear "$1" >"$test_folder/err" 2>&1 || {
     printf 'skipped: no Python environment can be made: %s\n' "$(tail -n 1 "$test_folder/err")"
     exit 77
 }
@@ -22,19 +23,23 @@ has() {
     local module=$1
     shift
     "$python" -c "import $module" 2>/dev/null && return
-    timeout 200 "$python" -m pip install --quiet --disable-pip-version-check --only-binary :all: --retries 1 --timeout 10 "$@" \
+    timeout 200 "$python" -m pip install --quiet --disable-pip-version-check --only-binary :all: \
+        --retries 1 --timeout 10 "$@" \
         >"$test_folder/err" 2>&1 && "$python" -c "import $module" 2>/dev/null
 }
 
-scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=300 --set discs.speed=2 --quiet --steps 20)
-run 2 run "${scene[@]}" --set output.text=every_step --output lines -o run --set output.trajectory.every_steps=5 \
+scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=300 --set discs.speed=2 \
+    --quiet --steps 20)
+run 2 run "${scene[@]}" --set output.text=every_step --output lines -o run \
+    --set output.trajectory.every_steps=5 \
     --set output.collisions=true --report report.json
 expect_code 0 'a run'
 
 for reader in 'h5py h5py' 'pyh5md h5py pyh5md' 'MDAnalysis h5py MDAnalysis' 'vtk vtk'; do
     read -r module packages <<<"$reader"
     if has "$module" $packages; then
-        "$python" "$tests/readers.py" "$module" lines run/trajectory.h5 run/checkpoints/checkpoint-000000000020.h5 || complain "$module"
+        "$python" "$tests/readers.py" "$module" lines run/trajectory.h5 \
+            run/checkpoints/checkpoint-000000000020.h5 || complain "$module"
     else
         skip "$module is not to be had: $(tail -n 1 "$test_folder/err")"
     fi
@@ -43,24 +48,33 @@ done
 if has h5py h5py; then # the worked example of the method's page, against a run on three ranks
     method=$CARROM_SOURCE_DIR/docs/understanding/method.md
     cp "$method" method.md
-    MPIEXEC=$CARROM_MPIEXEC timeout 60 "$python" "$tools/three_strips.py" --program "$CARROM_PROGRAM" --page method.md || complain 'three_strips.py'
+    MPIEXEC=$CARROM_MPIEXEC timeout 60 "$python" "$tools/three_strips.py" \
+        --program "$CARROM_PROGRAM" --page method.md || complain 'three_strips.py'
     expect_same "$method" method.md 'three_strips.py writes another table than the page has'
 fi
 if has matplotlib matplotlib && has h5py h5py; then
-    "$python" "$tools/plot_frame.py" run/checkpoints/checkpoint-000000000020.h5 -o speed.png || complain 'plot_frame.py of a checkpoint'
-    "$python" "$tools/plot_frame.py" run/trajectory.h5 --step 10 --colour strip --ranks 3 -o strip.png || complain 'plot_frame.py of a trajectory'
-    "$python" "$tools/plot_frame.py" run/trajectory.h5 --step 11 -o no.png 2>"$test_folder/err" && complain 'plot_frame.py of no frame'
+    "$python" "$tools/plot_frame.py" run/checkpoints/checkpoint-000000000020.h5 -o speed.png ||
+        complain 'plot_frame.py of a checkpoint'
+    "$python" "$tools/plot_frame.py" run/trajectory.h5 --step 10 --colour strip --ranks 3 \
+        -o strip.png || complain 'plot_frame.py of a trajectory'
+    "$python" "$tools/plot_frame.py" run/trajectory.h5 --step 11 -o no.png 2>"$test_folder/err" &&
+        complain 'plot_frame.py of no frame'
     expect_told 'no frame of step 11; there are 5, of steps 0 to 20' 'plot_frame.py'
-    "$python" "$tools/plot_movie.py" run/trajectory.h5 --dpi 40 -o movie.gif || complain 'plot_movie.py'
+    "$python" "$tools/plot_movie.py" run/trajectory.h5 --dpi 40 -o movie.gif ||
+        complain 'plot_movie.py'
     if command -v ffmpeg >/dev/null || "$python" -c 'import imageio_ffmpeg' 2>/dev/null; then
-        "$python" "$tools/plot_movie.py" run/trajectory.h5 --dpi 41 -o movie.mp4 || complain 'plot_movie.py to MP4'
+        "$python" "$tools/plot_movie.py" run/trajectory.h5 --dpi 41 -o movie.mp4 ||
+            complain 'plot_movie.py to MP4'
         head -c 12 movie.mp4 | grep -q ftyp || complain 'no MP4'
-        "$python" "$tools/plot_movie.py" run/trajectory.h5 -o none/movie.mp4 2>"$test_folder/err" && complain 'plot_movie.py to nowhere'
+        "$python" "$tools/plot_movie.py" run/trajectory.h5 -o none/movie.mp4 2>"$test_folder/err" &&
+            complain 'plot_movie.py to nowhere'
         expect_told 'ffmpeg has failed' 'plot_movie.py to nowhere'
     fi
-    "$python" "$tools/plot_history.py" --trajectory run/trajectory.h5 --collisions run/collisions.h5 -o history.png || complain 'plot_history.py'
+    "$python" "$tools/plot_history.py" --trajectory run/trajectory.h5 \
+        --collisions run/collisions.h5 -o history.png || complain 'plot_history.py'
     "$python" "$tools/method_figures.py" --output . || complain 'method_figures.py'
-    "$python" "$tests/readers.py" pictures lines speed.png strip.png movie.gif history.png || complain 'pictures'
+    "$python" "$tests/readers.py" pictures lines speed.png strip.png movie.gif history.png ||
+        complain 'pictures'
 else
     skip "matplotlib or h5py is not to be had: $(tail -n 1 "$test_folder/err")"
 fi

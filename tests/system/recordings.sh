@@ -1,18 +1,21 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Trajectory and collisions: the same numbers for every machine shape, and for a run that was stopped, killed far beyond
-# its last checkpoint and gone on with. Arguments: the input and options; it must run 90 steps.
+# Trajectory and collisions: the same numbers for every machine shape, and for a run that was
+# stopped, killed far beyond its last checkpoint and gone on with. Arguments: the input and options;
+# it must run 90 steps.
 source "$(dirname "$0")/common.sh"
 input=$CARROM_SOURCE_DIR/$1
 shift
 small=("$@" --quiet)
-record=(--set output.collisions=true --set output.trajectory.every_steps=4 --set output.trajectory.precision=double
+record=(--set output.collisions=true --set output.trajectory.every_steps=4 \
+    --set output.trajectory.precision=double
         --set 'output.trajectory.fields=["position", "velocity", "collisions"]'
         --set output.checkpoint.every_steps=25 --set output.checkpoint.keep=1000000)
 same() { # FOLDER WHAT
     for file in trajectory.h5 collisions.h5; do
         run 1 diff "whole/$file" "$1/$file"
-        [ "$code" -eq 0 ] || { complain "$file differs: $2"; sed 's/^/    /' "$test_folder/out"; show; }
+        [ "$code" -eq 0 ] ||
+            { complain "$file differs: $2"; sed 's/^/    /' "$test_folder/out"; show; }
         run 2 verify "$1/$file"
         expect_code 0 "verify $1/$file: $2"
     done
@@ -21,13 +24,16 @@ same() { # FOLDER WHAT
 run 2 run "$input" "${small[@]}" "${record[@]}" -o whole
 expect_code 0 'uninterrupted'
 run 1 info whole/trajectory.h5
-grep -q 'frames *23, of steps 0 to 88' "$test_folder/out" || complain "not the frames of steps 0 to 88: $(cat "$test_folder/out")"
+grep -q 'frames *23, of steps 0 to 88' "$test_folder/out" ||
+    complain "not the frames of steps 0 to 88: $(cat "$test_folder/out")"
 run 1 info whole/collisions.h5
 n_logged=$(sed -n 's/^collisions *//p' "$test_folder/out")
-n_made=$(($(json_value whole/report.json wall_collisions) + $(json_value whole/report.json pair_collisions)))
+n_made=$(($(json_value whole/report.json wall_collisions) + \
+    $(json_value whole/report.json pair_collisions)))
 [ "$n_logged" = "$n_made" ] || complain "$n_logged collisions in the log, $n_made made"
 [ "$n_made" -gt 100 ] || complain 'hardly any collisions'
-[ "$(find whole -name '.carrom*' | wc -l)" -eq 0 ] || complain "something is left: $(find whole -name '.carrom*')"
+[ "$(find whole -name '.carrom*' | wc -l)" -eq 0 ] ||
+    complain "something is left: $(find whole -name '.carrom*')"
 
 for shape in '1 3' '3 1' '7 1'; do
     read -r ranks threads <<<"$shape"
@@ -74,7 +80,8 @@ for file in whole/trajectory.h5 whole/collisions.h5 whole/trajectory/0001.h5; do
         place=$(((RANDOM * 32768 + RANDOM) % size))
         cp --sparse=always "$file" kept_file
         byte=$(od -An -tu1 -j "$place" -N 1 "$file")
-        printf "\\x$(printf %02x $((byte ^ (1 << RANDOM % 8))))" | dd of="$file" bs=1 seek="$place" conv=notrunc status=none
+        printf "\\x$(printf %02x $((byte ^ (1 << RANDOM % 8))))" |
+            dd of="$file" bs=1 seek="$place" conv=notrunc status=none
         run 1 verify "$joined"
         expect_code 2 "a flipped bit at byte $place of $file"
         mv kept_file "$file"
@@ -88,13 +95,15 @@ printf x | dd of="parts/trajectory/$last" bs=1 seek=9000 conv=notrunc status=non
 for ranks in 1 3; do
     run "$ranks" run --restart parts/checkpoints/checkpoint-000000000090.h5 --quiet --steps 95
     expect_code 2 "going on with a damaged trajectory on $ranks ranks"
-    expect_told "parts/trajectory.h5: its part trajectory/$last: its numbers are damaged" 'a damaged trajectory'
+    expect_told "parts/trajectory.h5: its part trajectory/$last: its numbers are damaged" \
+        'a damaged trajectory'
 done
 
 # What is missing is told.
 rm -r parts/trajectory* parts/collisions*
 run 2 run --restart parts/checkpoints/checkpoint-000000000025.h5 --quiet
 expect_code 0 'a restart without the recordings of before'
-expect_told 'parts/trajectory.h5: has no frames of steps 0 to 24, and goes on with step 28' 'a restart without its trajectory'
+expect_told 'parts/trajectory.h5: has no frames of steps 0 to 24, and goes on with step 28' \
+    'a restart without its trajectory'
 expect_told 'parts/collisions.h5: begins with step 26' 'a restart without its log'
 finish

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The report has every key that is promised, with the numbers that the hand-computed scene is known to have.
+# The report has every key that is promised, with the numbers that the hand-computed scene is known
+# to have.
 source "$(dirname "$0")/common.sh"
 expected=$CARROM_SOURCE_DIR/tests/system/expected
 
@@ -14,8 +15,10 @@ expect_value() {
 printf 'old\n' >report.json
 run 2 run "$expected/three_discs.in" --threads 2 --report report.json
 expect_code 0 'a run with a report'
-for key in version state_hash n_discs steps wall_collisions pair_collisions rejected_candidates overlapping_pairs \
-    averages kinetic_energy momentum wall_seconds ns_per_disc_step ranks threads phase_seconds phase_imbalance imbalance peak_bytes_per_disc; do
+for key in version state_hash n_discs steps wall_collisions pair_collisions rejected_candidates \
+    overlapping_pairs \
+    averages kinetic_energy momentum wall_seconds ns_per_disc_step ranks threads phase_seconds \
+        phase_imbalance imbalance peak_bytes_per_disc; do
     grep -q "\"$key\": " report.json || complain "the report has no $key"
 done
 expect_value n_discs 3
@@ -27,7 +30,8 @@ expect_value overlapping_pairs 0
 expect_value kinetic_energy 1.125
 expect_value ranks 2
 expect_value threads 2
-[[ $(json_value report.json state_hash) =~ ^[0-9a-f]{32}$ ]] || complain 'the state hash is not 32 hexadecimal digits'
+[[ $(json_value report.json state_hash) =~ ^[0-9a-f]{32}$ ]] ||
+    complain 'the state hash is not 32 hexadecimal digits'
 expect_told "$(json_value report.json state_hash)" 'the summary'
 [ "$(ls -A)" = report.json ] || complain "more than the report was written: $(ls -A)"
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# A run that is stopped, killed in between and gone on with on other numbers of ranks and threads has the bits of the
-# uninterrupted one. Arguments: the input and options that make it small; it must run 90 steps.
+# A run that is stopped, killed in between and gone on with on other numbers of ranks and threads
+# has the bits of the uninterrupted one. Arguments: the input and options that make it small; it
+# must run 90 steps.
 source "$(dirname "$0")/common.sh"
 input=$CARROM_SOURCE_DIR/$1
 shift
@@ -25,15 +26,20 @@ run 1 run "$input" "${small[@]}" "${store[@]}" --steps 30 --threads 2
 expect_code 0 'the first stretch'
 run 4 run "$input" "${small[@]}" "${store[@]}" --restart latest --steps 60
 expect_code 0 'the second stretch'
-run 3 run "$input" "${small[@]}" "${store[@]}" --restart latest --report report.json --threads 2 --set output.text=ends
+run 3 run "$input" "${small[@]}" "${store[@]}" --restart latest --report report.json --threads 2 \
+    --set output.text=ends
 has_hash '1 rank, then 4, then 3'
 tail -n 20 "$test_folder/out" | cmp - "$test_folder/end" || complain 'other lines at the end'
-[ "$(json_value report.json first_step)" = 60 ] || complain 'the third stretch did not begin at step 60'
-[ "$(ls kept/checkpoints)" = "$(printf 'checkpoint-%012d.h5\n' 85 90)" ] || complain "not the last two checkpoints: $(ls kept/checkpoints)"
+[ "$(json_value report.json first_step)" = 60 ] ||
+    complain 'the third stretch did not begin at step 60'
+[ "$(ls kept/checkpoints)" = "$(printf 'checkpoint-%012d.h5\n' 85 90)" ] ||
+    complain "not the last two checkpoints: $(ls kept/checkpoints)"
 
-# From a checkpoint in the middle of a sync interval, without naming the scene again, and on more ranks.
+# From a checkpoint in the middle of a sync interval, without naming the scene again, and on more
+# ranks.
 for ranks in 1 7; do
-    run "$ranks" run --restart kept/checkpoints/checkpoint-000000000085.h5 --report report.json --quiet --set output.folder=other
+    run "$ranks" run --restart kept/checkpoints/checkpoint-000000000085.h5 --report report.json \
+        --quiet --set output.folder=other
     has_hash "from step 85 on $ranks ranks"
 done
 
@@ -57,12 +63,15 @@ refused() {
     [ ! -e refused.json ] || complain "a report of a run that was refused: $*"
 }
 refused "'box.size' is" "$input" "${small[@]}" --set box.size=3333 --restart kept
-refused "'time.sync_every' is" --restart kept/checkpoints/checkpoint-000000000097.h5 --set time.sync_every=3
-refused 'the run is to end at step 50' --restart kept/checkpoints/checkpoint-000000000097.h5 --steps 50
+refused "'time.sync_every' is" --restart kept/checkpoints/checkpoint-000000000097.h5 \
+    --set time.sync_every=3
+refused 'the run is to end at step 50' --restart kept/checkpoints/checkpoint-000000000097.h5 \
+    --steps 50
 refused 'No such file' --restart kept/none.h5
 refused 'name the folder of the run with -o' --restart latest
 refused 'name output.folder or -o' "$input" "${small[@]}" --restart latest
-refused 'no checkpoint there can be gone on from' "$input" "${small[@]}" --set time.sync_every=3 --restart kept
+refused 'no checkpoint there can be gone on from' "$input" "${small[@]}" --set time.sync_every=3 \
+    --restart kept
 mkdir empty
 refused 'there is no checkpoint' --restart empty
 
@@ -72,13 +81,15 @@ has_hash 'from an empty folder'
 expect_told 'no checkpoint in empty/checkpoints: beginning at step 0' 'from an empty folder'
 newest=kept/checkpoints/checkpoint-000000000097.h5
 printf 'X' | dd of="$newest" bs=1 seek=9000 conv=notrunc status=none
-head -c 5000 kept/checkpoints/checkpoint-000000000090.h5 >kept/checkpoints/checkpoint-000000000098.h5
+head -c 5000 kept/checkpoints/checkpoint-000000000090.h5 \
+    >kept/checkpoints/checkpoint-000000000098.h5
 echo 'no checkpoint' >kept/checkpoints/checkpoint-000000000099.h5
 : >kept/checkpoints/checkpoint-000000000100.h5.partial
 run 3 run "$input" "${small[@]}" --steps 97 --restart kept --report report.json
 has_hash 'from the newest whole one'
 [ "$(json_value report.json first_step)" = 90 ] || complain 'not from step 90'
-for reason in '000000000097.h5: is damaged' '000000000098.h5: is cut short' '000000000099.h5: is no HDF5 file' 'it was never finished'; do
+for reason in '000000000097.h5: is damaged' '000000000098.h5: is cut short' \
+    '000000000099.h5: is no HDF5 file' 'it was never finished'; do
     expect_told "$reason" 'damaged files'
 done
 finish

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# One scene, many machine shapes, one set of bits: the state hash and the lines of the last step must not change with
-# ranks, threads, windows, cell widths and rebalancing; nor must the averages of the report. Arguments: the input and options that make it small.
+# One scene, many machine shapes, one set of bits: the state hash and the lines of the last step
+# must not change with ranks, threads, windows, cell widths and rebalancing; nor must the averages
+# of the report. Arguments: the input and options that make it small.
 source "$(dirname "$0")/common.sh"
 input=$CARROM_SOURCE_DIR/$1
 shift
@@ -14,7 +15,8 @@ averages() { sed -n '/^  "averages"/,/^  }/p' report.json; }
 shape() {
     local ranks=$1 threads=$2
     shift 2
-    run "$ranks" run "$input" "${small[@]}" --set output.text=ends --threads "$threads" "$@" --report report.json --quiet
+    run "$ranks" run "$input" "${small[@]}" --set output.text=ends --threads "$threads" "$@" \
+        --report report.json --quiet
     expect_code 0 "$ranks ranks x $threads threads $*"
     if [ -z "${hash:-}" ]; then
         hash=$(json_value report.json state_hash)
@@ -23,13 +25,17 @@ shape() {
         first_averages=$(averages)
         [ "$(wc -l <<<"$first_averages")" -gt 25 ] || complain "no averages in the report"
     fi
-    [ "$(json_value report.json state_hash)" = "$hash" ] || complain "another state hash: $ranks ranks x $threads threads $*"
-    [ "$(averages)" = "$first_averages" ] || complain "other averages: $ranks ranks x $threads threads $*"
-    expect_same "$test_folder/out" "$test_folder/first" "other lines: $ranks ranks x $threads threads $*"
+    [ "$(json_value report.json state_hash)" = "$hash" ] ||
+        complain "another state hash: $ranks ranks x $threads threads $*"
+    [ "$(averages)" = "$first_averages" ] || complain \
+        "other averages: $ranks ranks x $threads threads $*"
+    expect_same "$test_folder/out" "$test_folder/first" \
+        "other lines: $ranks ranks x $threads threads $*"
 }
 
 shape 1 1
-[ "$(json_value report.json pair_collisions)" -gt 0 ] || complain 'a scene without collisions shows nothing'
+[ "$(json_value report.json pair_collisions)" -gt 0 ] ||
+    complain 'a scene without collisions shows nothing'
 for ranks in 1 2 3 4 7; do
     for threads in 1 2 3; do
         [ "$ranks$threads" = 11 ] || shape "$ranks" "$threads"

@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# One folder, one run: a second run that would write where another is writing is an error, whatever became of that one's
-# predecessors. A run does not write over another, nor over files that are no run's, nor through symbolic links.
+# One folder, one run: a second run that would write where another is writing is an error, whatever
+# became of that one's predecessors. A run does not write over another, nor over files that are no
+# run's, nor through symbolic links.
 source "$(dirname "$0")/common.sh"
 scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=500 --set discs.speed=2 --quiet)
 
-"$CARROM_PROGRAM" run "${scene[@]}" -o kept --set output.trajectory.every_steps=1000 --steps 100000000 >"$test_folder/first" 2>&1 &
+"$CARROM_PROGRAM" run "${scene[@]}" -o kept --set output.trajectory.every_steps=1000 \
+    --steps 100000000 >"$test_folder/first" 2>&1 &
 program=$!
 for ((i = 0; i < 200; ++i)); do
     [ ! -e kept/scene.toml ] || break
@@ -15,7 +17,8 @@ for ranks in 1 3; do
     for how in --overwrite --resume; do
         run "$ranks" run "${scene[@]}" -o ./kept/../kept "$how" --steps 5
         expect_code 2 "a second run $how on $ranks ranks"
-        expect_told 'output.folder ./kept/../kept: another run is writing there (process' "a second run $how on $ranks ranks"
+        expect_told 'output.folder ./kept/../kept: another run is writing there (process' \
+            "a second run $how on $ranks ranks"
     done
 done
 kill -KILL "$program"
@@ -29,15 +32,18 @@ expect_told 'beginning at step 0' 'a run after a killed one'
 [ -z "$(find kept -name '.carrom*')" ] || complain "locks are left: $(find kept -name '.carrom*')"
 hash=$(json_value kept/report.json state_hash)
 run 1 run "${scene[@]}" -o other --steps 5
-[ "$(json_value other/report.json state_hash)" = "$hash" ] || complain 'the copy of the scene is another scene'
+[ "$(json_value other/report.json state_hash)" = "$hash" ] ||
+    complain 'the copy of the scene is another scene'
 
 # A folder with a run, and one with a file of that name.
 before=$(find kept -type f -exec md5sum {} +)
 for ranks in 1 3; do
     run "$ranks" run "${scene[@]}" -o kept --steps 7 --report report.json
     expect_code 2 "a fresh run into a folder with a run on $ranks ranks"
-    expect_told 'output.folder kept: has scene.toml of a run: go on with it by --resume' 'a folder with a run'
-    run "$ranks" run "${scene[@]}" -o kept --steps 7 --set discs.seed=7 --resume --report report.json
+    expect_told 'output.folder kept: has scene.toml of a run: go on with it by --resume' \
+        'a folder with a run'
+    run "$ranks" run "${scene[@]}" -o kept --steps 7 --set discs.seed=7 \
+        --resume --report report.json
     expect_code 2 "going on with another scene on $ranks ranks"
     expect_told "'discs.seed' is" 'going on with another scene'
     [ ! -e report.json ] || complain 'a run with an error has written'
@@ -61,7 +67,8 @@ expect_told 'taken/trajectory.xdmf is not a plain file' 'a folder in the place o
 echo notes >kept/notes.txt
 run 2 run "${scene[@]}" -o kept --overwrite --steps 3
 expect_code 0 '--overwrite'
-[ "$(ls kept/checkpoints)" = checkpoint-000000000003.h5 ] || complain "older checkpoints: $(ls kept/checkpoints)"
+[ "$(ls kept/checkpoints)" = checkpoint-000000000003.h5 ] ||
+    complain "older checkpoints: $(ls kept/checkpoints)"
 [ -e kept/notes.txt ] || complain 'a foreign file is gone'
 
 # Symbolic links: the lock must hold, and no victim is written.
@@ -70,7 +77,8 @@ echo victim >victim
 ln -s ../victim linked/.carrom.lock
 run 1 run "${scene[@]}" -o linked --steps 1
 expect_code 2 'a link in the place of the lock'
-expect_told '.carrom.lock cannot be opened: Too many levels of symbolic links' 'a link in the place of the lock'
+expect_told '.carrom.lock cannot be opened: Too many levels of symbolic links' \
+    'a link in the place of the lock'
 rm linked/.carrom.lock
 ln -s ../victim linked/report.json
 run 1 run "${scene[@]}" -o linked --steps 1

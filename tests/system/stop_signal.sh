@@ -1,17 +1,20 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# USR1, TERM and INT: every rank stops at the same step, a checkpoint is there, the exit code is 75, and going on gives the
-# bits of the uninterrupted run.
+# USR1, TERM and INT: every rank stops at the same step, a checkpoint is there, the exit code is 75,
+# and going on gives the bits of the uninterrupted run.
 source "$(dirname "$0")/common.sh"
 scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=2000 --set discs.speed=2 --quiet)
 store=(--set output.folder=kept)
 
-# stopped RANKS SIGNAL: begins an endless run and sends the signal, to mpiexec where there are several ranks.
+# stopped RANKS SIGNAL: begins an endless run and sends the signal, to mpiexec where there are
+# several ranks.
 stopped() {
     local launch=("$CARROM_MPIEXEC" -n "$1") program
-    [ "$1" -gt 1 ] || launch=(env --default-signal=INT) # the shell has what runs in the background ignore it
+    # the shell has what runs in the background ignore it
+    [ "$1" -gt 1 ] || launch=(env --default-signal=INT)
     rm -rf kept
-    "${launch[@]}" "$CARROM_PROGRAM" run "${scene[@]}" "${store[@]}" --steps 100000000 >"$test_folder/out" 2>"$test_folder/err" &
+    "${launch[@]}" "$CARROM_PROGRAM" run "${scene[@]}" "${store[@]}" --steps 100000000 \
+        >"$test_folder/out" 2>"$test_folder/err" &
     program=$!
     sleep 3
     kill -"$2" "$program"
@@ -20,7 +23,8 @@ stopped() {
     expect_code 75 "$2 on $1 ranks"
     expect_told 'told to stop: the steps under way' "$2 on $1 ranks"
     expect_told 'stopped on request at step' "$2 on $1 ranks"
-    [ "$(ls kept/checkpoints | wc -l)" -eq 1 ] || complain "$2 on $1 ranks did not leave one checkpoint: $(ls kept/checkpoints)"
+    [ "$(ls kept/checkpoints | wc -l)" -eq 1 ] ||
+        complain "$2 on $1 ranks did not leave one checkpoint: $(ls kept/checkpoints)"
 }
 
 goes_on() {
@@ -31,7 +35,8 @@ goes_on() {
     local hash
     hash=$(json_value report.json state_hash)
     run 3 run "${scene[@]}" --steps "$step" --report report.json
-    [ "$(json_value report.json state_hash)" = "$hash" ] || complain 'another state hash after a stop'
+    [ "$(json_value report.json state_hash)" = "$hash" ] ||
+        complain 'another state hash after a stop'
 }
 
 stopped 1 USR1
@@ -41,9 +46,11 @@ expect_told 'once more ends the run at once' 'INT'
 stopped 3 USR1
 goes_on
 
-# A signal that comes while the discs are still being made is heeded too: once this rank catches USR1 (bit 9).
+# A signal that comes while the discs are still being made is heeded too: once this rank catches
+# USR1 (bit 9).
 rm -rf kept
-"$CARROM_PROGRAM" run "${scene[@]}" "${store[@]}" --set discs.count=1000000 --steps 100000000 >"$test_folder/out" 2>"$test_folder/err" &
+"$CARROM_PROGRAM" run "${scene[@]}" "${store[@]}" --set discs.count=1000000 --steps 100000000 \
+    >"$test_folder/out" 2>"$test_folder/err" &
 program=$!
 for ((i = 0; i < 300; ++i)); do
     caught=$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$program/status")
@@ -54,10 +61,11 @@ kill -USR1 "$program"
 wait "$program"
 code=$?
 expect_code 75 'USR1 while discs are made'
-[ "$(ls kept/checkpoints)" = checkpoint-000000000000.h5 ] || complain "USR1 while discs are made did not leave the start: $(ls kept/checkpoints)"
+[ "$(ls kept/checkpoints)" = checkpoint-000000000000.h5 ] ||
+    complain "USR1 while discs are made did not leave the start: $(ls kept/checkpoints)"
 
-# A signal at any moment, from MPI's start to its end, does not make a failure of a short run: it is complete, or has
-# stopped with a checkpoint.
+# A signal at any moment, from MPI's start to its end, does not make a failure of a short run: it is
+# complete, or has stopped with a checkpoint.
 printf '2\n10\n1\n100\nperf\n' >short.in
 n_complete=0
 for ((k = 0; k < 24; ++k)); do
@@ -73,12 +81,15 @@ for ((k = 0; k < 24; ++k)); do
     wait "$program"
     code=$?
     [ "$code" -eq 0 ] && n_complete=$((n_complete + 1))
-    [ "$code" -eq 0 ] || [ "$code" -eq 75 ] || { complain "code $code after a signal at moment $k"; show; }
-    [ "$(ls kept/checkpoints | wc -l)" -ge 1 ] || complain "no checkpoint after a signal at moment $k"
+    [ "$code" -eq 0 ] || [ "$code" -eq 75 ] ||
+        { complain "code $code after a signal at moment $k"; show; }
+    [ "$(ls kept/checkpoints | wc -l)" -ge 1 ] ||
+        complain "no checkpoint after a signal at moment $k"
 done
 [ "$n_complete" -lt 24 ] || complain 'no signal came early enough to stop a short run'
 
-# Without a folder for checkpoints the run ends in order too: its recordings are whole, and it says that nothing else is.
+# Without a folder for checkpoints the run ends in order too: its recordings are whole, and it says
+# that nothing else is.
 for signal in TERM USR1; do
     folder=(-o "recorded_$signal" --set output.trajectory.every_steps=1000)
     [ "$signal" = TERM ] || folder=()

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A student's program for the time-stepped method: `student.py SCENE.in [MISTAKE]` writes lines of discs.
+"""A student's program for the time-stepped method: `student.py SCENE.in [MISTAKE]` writes lines of
+discs.
 
-It shares nothing with the program that it is graded by: no stored times, the quadratic formula from the positions at
-the start of each step, normal and tangential parts. MISTAKE turns one rule into what students write by mistake.
+It shares nothing with the program that it is graded by: no stored times, the quadratic formula from
+the positions at the start of each step, normal and tangential parts. MISTAKE turns one rule into
+what students write by mistake.
 """
+
 import math
 import random
 import sys
@@ -116,7 +119,9 @@ class Box:
                 disc.x, disc.y = disc.x + disc.vx, disc.y + disc.vy
 
     def happen(self, t, p, q, moved):
-        """Discs that have moved are at the end of the step: taken back to the time of the collision."""
+        """Discs that have moved are at the end of the step: taken back to the time of the
+        collision.
+        """
         discs = [self.discs[p]] if q < 0 else [self.discs[p], self.discs[q]]
         for disc in discs:
             elapsed = t - 1 if disc.id in moved else t
@@ -135,7 +140,11 @@ class Box:
         while True:
             rest = 1 - now
             due = [(self.wall_time(p, rest), p.id, -1) for p in self.discs]
-            due += [(self.pair_time(p, q, rest), p.id, q.id) for p in self.discs for q in self.discs[p.id + 1 :]]
+            due += [
+                (self.pair_time(p, q, rest), p.id, q.id)
+                for p in self.discs
+                for q in self.discs[p.id + 1 :]
+            ]
             t, p, q = min(due)
             t = min(t, rest)
             for disc in self.discs:
@@ -154,8 +163,12 @@ class Box:
 
         is_x, is_y = touches(disc.x, disc.vx), touches(disc.y, disc.vy)
         if not is_x and not is_y:  # within rounding of the wall that is nearer
-            gap_x = (disc.x - self.low if disc.vx < 0 else self.high - disc.x) if disc.vx else math.inf
-            gap_y = (disc.y - self.low if disc.vy < 0 else self.high - disc.y) if disc.vy else math.inf
+            gap_x = (
+                (disc.x - self.low if disc.vx < 0 else self.high - disc.x) if disc.vx else math.inf
+            )
+            gap_y = (
+                (disc.y - self.low if disc.vy < 0 else self.high - disc.y) if disc.vy else math.inf
+            )
             is_x, is_y = gap_x <= gap_y, gap_y < gap_x
         if self.mistake == "corner" and is_x:
             is_y = False
@@ -193,7 +206,9 @@ class Box:
         if self.mistake == "count-stops":
             disc.walls += 1
         if self.mistake in ("turn", "bounce"):
-            disc.vx, disc.vy = -disc.vx if sx == first else disc.vx, -disc.vy if sy == first else disc.vy
+            disc.vx, disc.vy = -disc.vx if sx == first else disc.vx, (
+                -disc.vy if sy == first else disc.vy
+            )
         if self.mistake == "bounce":
             disc.x, disc.y = disc.x + disc.vx * (rest - first), disc.y + disc.vy * (rest - first)
 
@@ -204,7 +219,8 @@ def read(path):
     length, radius, steps, wanted = float(words[1]), float(words[2]), int(words[3]), words[4]
     numbers = words[5:]
     discs = [
-        Disc(int(numbers[i]), *(float(word) for word in numbers[i + 1 : i + 5])) for i in range(0, len(numbers), 5)
+        Disc(int(numbers[i]), *(float(word) for word in numbers[i + 1 : i + 5]))
+        for i in range(0, len(numbers), 5)
     ]
     return length, radius, steps, wanted, sorted(discs, key=lambda disc: disc.id)
 
@@ -224,7 +240,11 @@ def main():
             order = order[:-1]
         for disc in order:
             numbers = (format(number, digits) for number in (disc.x, disc.y, disc.vx, disc.vy))
-            counters = f" {disc.pairs} {disc.walls}" if step == steps > 0 and mistake != "no-counters" else ""
+            counters = (
+                f" {disc.pairs} {disc.walls}"
+                if step == steps > 0 and mistake != "no-counters"
+                else ""
+            )
             print(step, disc.id, *numbers, sep=" ", end=counters + "\n")
 
 
@@ -233,7 +253,12 @@ if __name__ == "__main__":
         for name, rule in MISTAKES.items():
             print(name, rule)
     elif sys.argv[1] == "--scene":  # N SPEED STEPS SEED: discs at random that may overlap
-        n_discs, speed, n_steps, seed = int(sys.argv[2]), float(sys.argv[3]), int(sys.argv[4]), int(sys.argv[5])
+        n_discs, speed, n_steps, seed = (
+            int(sys.argv[2]),
+            float(sys.argv[3]),
+            int(sys.argv[4]),
+            int(sys.argv[5]),
+        )
         chance = random.Random(seed)
         print(n_discs, 16, 0.5, n_steps, "print", sep="\n")
         for number in range(n_discs):

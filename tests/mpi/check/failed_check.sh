@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# failed_check.sh MISSED_CONTACT RANKS: a run that misses a contact ends with code 70 on every rank, names step, disc and
-# rank, and leaves a scene in which the contact is not missed. In the event-driven method discs are rough and of two classes.
+# failed_check.sh MISSED_CONTACT RANKS: a run that misses a contact ends with code 70 on every rank,
+# names step, disc and rank, and leaves a scene in which the contact is not missed. In the
+# event-driven method discs are rough and of two classes.
 source "$CARROM_SOURCE_DIR/tests/system/common.sh"
 missed_contact=$1
 n_ranks=$2
@@ -12,15 +13,20 @@ for method in time-stepped event-driven; do
     expect_code 70 "a missed contact under $method"
     expect_told 'check failed at step 2: disc 5 on rank' "the failure under $method"
     expect_told 'overlaps disc 9 by 2' "the failure under $method"
-    expect_told '12 discs around it, from the step before, are in check_step_2_disc_5.toml' "the failure under $method"
+    expect_told '12 discs around it, from the step before, are in check_step_2_disc_5.toml' \
+        "the failure under $method"
     CARROM_PROGRAM=$program
     run "$n_ranks" run check_step_2_disc_5.toml --check --report report.json
     expect_code 0 "the neighbourhood again under $method"
-    [ "$(json_value report.json pair_collisions)" = 1 ] || complain "the contact is missed again under $method"
-    [ $method = time-stepped ] || grep -qx '4 31 15 4 0 1 2.5 0.625' check_step_2_disc_5.discs || complain 'no radius, mass and spin of disc 5'
+    [ "$(json_value report.json pair_collisions)" = 1 ] ||
+        complain "the contact is missed again under $method"
+    [ $method = time-stepped ] || grep -qx '4 31 15 4 0 1 2.5 0.625' check_step_2_disc_5.discs ||
+        complain 'no radius, mass and spin of disc 5'
     for line in 'seed = 77' 'contact_time = 0.002' 'friction = 0.25'; do
-        [ $method = time-stepped ] || grep -qx "$line" check_step_2_disc_5.toml || complain "no '$line' in the scene of the neighbourhood"
+        [ $method = time-stepped ] || grep -qx "$line" check_step_2_disc_5.toml ||
+            complain "no '$line' in the scene of the neighbourhood"
     done
-    [ "$(json_value report.json method)" = $method ] || complain "the neighbourhood is run by another method than $method"
+    [ "$(json_value report.json method)" = $method ] ||
+        complain "the neighbourhood is run by another method than $method"
 done
 finish
