@@ -52,6 +52,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     explicit Scratch(const Dynamics& of_scene) : dynamics(of_scene) {}
 
     void gather(const BlockGround& of_rank, const CellBlock& own, int halo);
+    void list_discs(const CellBlock& own, int halo);
+    void set_scales();
     void mark_own(const CellBlock& own);
     /// Takes over a disc's flight: where it would have been at the window's start, in cells.
     [[gnu::always_inline]] void place(std::uint32_t slot, double start) {

@@ -16,6 +16,27 @@ template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::gather(const BlockGround& of_rank, const CellBlock& own,
                                          int halo) {
     ground = of_rank;
+    list_discs(own, halo);
+    const std::size_t n = indices.size();
+    runs.resize(static_cast<std::size_t>(cells.end_column - cells.first_column) + 1);
+    discs.resize(n);
+    past_events_of.assign(n, EventHistory{});
+    if (ground.columns) columns.gather(*ground.columns, indices);
+    for (std::vector<float>* lane : {&x, &y, &vx, &vy}) {
+        if (lane->size() < n + filter_padding) lane->resize(2 * n + filter_padding);
+    }
+    lanes = {x.data(), y.data(), vx.data(), vy.data()};
+    set_scales();
+    for (std::size_t slot = 0; slot < n; ++slot) {
+        if (slot + 16 < n) __builtin_prefetch(&ground.discs[indices[slot + 16]]);
+        discs[slot] = ground.discs[indices[slot]];
+        place(static_cast<std::uint32_t>(slot), ground.window.begin);
+    }
+}
+
+/// The cells that the run sees, and the rank's discs in them.
+template <class Dynamics>
+void BlockRun<Dynamics>::Scratch::list_discs(const CellBlock& own, int halo) {
     const CellGrid& grid = *ground.grid;
     const GridGeometry& geometry = grid.geometry();
     cells.first_column = std::max(0, own.first_column - halo);
@@ -41,18 +62,14 @@ void BlockRun<Dynamics>::Scratch::gather(const BlockGround& of_rank, const CellB
             cell_starts.push_back(static_cast<std::uint32_t>(indices.size()));
         }
     }
-    const std::size_t n = indices.size();
-    runs.resize(static_cast<std::size_t>(cells.end_column - cells.first_column) + 1);
+}
+
+/// What the filter's single-precision lanes measure in: cells from a corner, windows, and their
+/// margins.
+template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales() {
+    const GridGeometry& geometry = ground.grid->geometry();
     column_limit = static_cast<float>(cells.end_column - cells.first_column - 1);
     row_limit = static_cast<float>(cells.end_row - cells.first_row - 1);
-    discs.resize(n);
-    past_events_of.assign(n, EventHistory{});
-    if (ground.columns) columns.gather(*ground.columns, indices);
-    for (std::vector<float>* lane : {&x, &y, &vx, &vy}) {
-        if (lane->size() < n + filter_padding) lane->resize(2 * n + filter_padding);
-    }
-    lanes = {x.data(), y.data(), vx.data(), vy.data()};
-
     const BlockWindow& window = ground.window;
     x_corner = geometry.x_low + cells.first_column * geometry.cell_width;
     y_corner = geometry.y_low + cells.first_row * geometry.cell_width;
@@ -80,11 +97,6 @@ void BlockRun<Dynamics>::Scratch::gather(const BlockGround& of_rank, const CellB
     y_inner_low = static_cast<float>((walls.y_low + inner - y_corner) * cells_per_length);
     x_inner_high = static_cast<float>((walls.x_high - inner - x_corner) * cells_per_length);
     y_inner_high = static_cast<float>((walls.y_high - inner - y_corner) * cells_per_length);
-    for (std::size_t slot = 0; slot < n; ++slot) {
-        if (slot + 16 < n) __builtin_prefetch(&ground.discs[indices[slot + 16]]);
-        discs[slot] = ground.discs[indices[slot]];
-        place(static_cast<std::uint32_t>(slot), window.begin);
-    }
 }
 
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own(const CellBlock& own) {

@@ -77,6 +77,62 @@ constexpr std::array<Element, 4> elements = {
 
 constexpr const char* discs_path = "/particles/discs/";
 
+FileSummary summary_of_checkpoint(hid_t file, CheckpointHeader& header) {
+    const h5::Group run(
+        h5::checked(H5Gopen2(file, "/carrom/run", H5P_DEFAULT), "has no /carrom/run"));
+    header = read_header(run.id());
+    header.has_spins = has_spins(file);
+    return {FileKind::checkpoint,
+            header.program_version,
+            header.n_discs,
+            header.box_size,
+            header.radius,
+            8,
+            true,
+            true,
+            true,
+            header.has_spins,
+            {header.step},
+            0,
+            header.state_hash};
+}
+
+FileSummary summary_of_trajectory(hid_t file) {
+    const std::string discs = discs_path;
+    FileSummary summary;
+    summary.kind = FileKind::trajectory;
+    summary.has_position = h5::has(file, "/particles/discs/position");
+    summary.has_velocity = h5::has(file, "/particles/discs/velocity");
+    summary.has_collisions = h5::has(file, "/particles/discs/collisions");
+    summary.has_angular_velocity = h5::has(file, "/particles/discs/angular_velocity");
+    summary.steps = read_numbers(file, "/particles/discs/box/edges/step");
+    for (const Element& element : elements) {
+        if (!h5::has(file, discs + element.name)) continue;
+        h5::Shape shape = {std::nullopt, std::nullopt};
+        if (element.width > 1) shape.push_back(element.width);
+        const h5::Dataset values = h5::open_checked(file, discs + element.name + "/value", shape);
+        const h5::Type type(h5::checked(H5Dget_type(values.id()), element.name));
+        summary.n_discs = h5::dimensions_of(values.id())[1];
+        if (element.width != 2) summary.bytes_per_number = H5Tget_size(type.id());
+    }
+    h5::read_scalar(file, "/parameters/radius", summary.radius);
+    const std::string boundary = letters_of(file, "/particles/discs/box", "boundary", 3),
+                      periodic = "periodic";
+    summary.is_periodic_x = boundary.compare(0, periodic.size(), periodic) == 0;
+    summary.is_periodic_y = boundary.compare(boundary.size() / 3, periodic.size(), periodic) == 0;
+    std::array<std::int32_t, 4> open_boundaries{};
+    if (h5::has(file, "/parameters/open_sides"))
+        read_block(file, "/parameters/open_sides", 0, 0, 4, 1, H5T_NATIVE_INT32,
+                   open_boundaries.data());
+    for (std::size_t side = 0; side < open_boundaries.size(); ++side)
+        summary.open_boundaries[side] = open_boundaries[side] != 0;
+    std::array<double, 3> edges = {};
+    if (!summary.steps.empty())
+        read_block(file, discs + "box/edges/value", 0, 0, 3, 1, H5T_NATIVE_DOUBLE, edges.data());
+    summary.box_size = edges[0];
+    return summary;
+}
+
 } // namespace
 
 struct FrameFile::State {
@@ -94,63 +150,13 @@ FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_un
         if (!has_segments && h5::has(file, "/carrom/recording"))
             throw FileError(
                 "is damaged: it does not end with a checksum, as this program writes it");
-        const std::string discs = discs_path;
         if (h5::has(file, "/carrom/run")) {
-            const h5::Group run(
-                h5::checked(H5Gopen2(file, "/carrom/run", H5P_DEFAULT), "has no /carrom/run"));
-            state_->header = read_header(run.id());
-            state_->header.has_spins = has_spins(file);
-            const CheckpointHeader& header = state_->header;
-            summary_ = {FileKind::checkpoint,
-                        header.program_version,
-                        header.n_discs,
-                        header.box_size,
-                        header.radius,
-                        8,
-                        true,
-                        true,
-                        true,
-                        header.has_spins,
-                        {header.step},
-                        0,
-                        header.state_hash};
+            summary_ = summary_of_checkpoint(file, state_->header);
         } else if (h5::has(file, "/carrom/collisions")) {
             summary_.kind = FileKind::collisions;
             summary_.n_logged = length_of(file, "/carrom/collisions/step");
         } else if (h5::has(file, "/particles/discs")) {
-            summary_.kind = FileKind::trajectory;
-            summary_.has_position = h5::has(file, "/particles/discs/position");
-            summary_.has_velocity = h5::has(file, "/particles/discs/velocity");
-            summary_.has_collisions = h5::has(file, "/particles/discs/collisions");
-            summary_.has_angular_velocity = h5::has(file, "/particles/discs/angular_velocity");
-            summary_.steps = read_numbers(file, "/particles/discs/box/edges/step");
-            for (const Element& element : elements) {
-                if (!h5::has(file, discs + element.name)) continue;
-                h5::Shape shape = {std::nullopt, std::nullopt};
-                if (element.width > 1) shape.push_back(element.width);
-                const h5::Dataset values = h5::open_checked(file, discs + element.name + "/value",
-                                                            shape);
-                const h5::Type type(h5::checked(H5Dget_type(values.id()), element.name));
-                summary_.n_discs = h5::dimensions_of(values.id())[1];
-                if (element.width != 2) summary_.bytes_per_number = H5Tget_size(type.id());
-            }
-            h5::read_scalar(file, "/parameters/radius", summary_.radius);
-            const std::string boundary = letters_of(file, "/particles/discs/box", "boundary", 3),
-                              periodic = "periodic";
-            summary_.is_periodic_x = boundary.compare(0, periodic.size(), periodic) == 0;
-            summary_.is_periodic_y = boundary.compare(boundary.size() / 3, periodic.size(),
-                                                      periodic) == 0;
-            std::array<std::int32_t, 4> open_boundaries{};
-            if (h5::has(file, "/parameters/open_sides"))
-                read_block(file, "/parameters/open_sides", 0, 0, 4, 1, H5T_NATIVE_INT32,
-                           open_boundaries.data());
-            for (std::size_t side = 0; side < open_boundaries.size(); ++side)
-                summary_.open_boundaries[side] = open_boundaries[side] != 0;
-            std::array<double, 3> edges = {};
-            if (!summary_.steps.empty())
-                read_block(file, discs + "box/edges/value", 0, 0, 3, 1, H5T_NATIVE_DOUBLE,
-                           edges.data());
-            summary_.box_size = edges[0];
+            summary_ = summary_of_trajectory(file);
         } else {
             throw FileError("holds nothing that carrom writes");
         }

@@ -226,8 +226,7 @@ Group create_group(hid_t parent, const char* name) {
     checked(H5Pset_create_intermediate_group(links.id(), 1), name);
     const Properties creation = properties(H5P_GROUP_CREATE);
     as_checked_group(creation);
-    return Group(
-        checked(H5Gcreate2(parent, name, links.id(), creation.id(), H5P_DEFAULT), name));
+    return Group(checked(H5Gcreate2(parent, name, links.id(), creation.id(), H5P_DEFAULT), name));
 }
 
 Dataset open_dataset(hid_t parent, const char* name) {

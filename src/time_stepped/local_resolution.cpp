@@ -124,10 +124,8 @@ std::size_t LocalResolution::round_together(const Population& population,
     const auto n_live = static_cast<std::int64_t>(live.size());
 #pragma omp parallel num_threads(n_threads_)
     {
-        std::vector<Candidate>& kept =
-            kept_by_thread_[static_cast<std::size_t>(omp_get_thread_num())];
-        std::vector<Candidate>& rest =
-            live_by_thread_[static_cast<std::size_t>(omp_get_thread_num())];
+        const auto thread = static_cast<std::size_t>(omp_get_thread_num());
+        std::vector<Candidate>&kept = kept_by_thread_[thread], &rest = live_by_thread_[thread];
         kept.clear();
         rest.clear();
 #pragma omp for schedule(static)
@@ -172,11 +170,9 @@ std::size_t LocalResolution::round_together(const Population& population,
         }
 #pragma omp single
         join_lists(live, verdicts);
-        const auto [kept_place,
-                    rest_place] = places_[static_cast<std::size_t>(omp_get_thread_num())];
-        std::copy(kept.begin(), kept.end(),
-                  verdicts.kept.begin() + static_cast<std::ptrdiff_t>(kept_place));
-        std::copy(rest.begin(), rest.end(), live.begin() + static_cast<std::ptrdiff_t>(rest_place));
+        const auto [kept_place, rest_place] = places_[thread];
+        std::ranges::copy(kept, verdicts.kept.data() + kept_place);
+        std::ranges::copy(rest, live.data() + rest_place);
     }
     return verdicts.kept.size() - old_kept;
 }

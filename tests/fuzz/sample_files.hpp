@@ -23,8 +23,7 @@ void write_sample_checkpoint(const std::string& path, const Communicator& world)
 /// Three frames of twelve discs with their counters; compressed, and with angular velocities, or
 /// not. **Collective.**
 TrajectoryLayout sample_layout(bool is_double);
-void write_sample_trajectory(const std::string& path, bool is_double,
-                             const Communicator& world);
+void write_sample_trajectory(const std::string& path, bool is_double, const Communicator& world);
 
 /// Twenty collisions. **Collective.**
 void write_sample_log(const std::string& path, const Communicator& world);

@@ -51,8 +51,7 @@ def fast(n_discs, steps):
 
 
 def exact(n_discs, packing, n_collisions):
-    """A gas in the event-driven method, run for about so many collisions of pairs (Enskog's rate).
-    """
+    """A gas in the event-driven method, for about so many collisions of pairs (Enskog's rate)."""
     size = math.sqrt(n_discs * math.pi / packing)
     contact = (1 - 7 * packing / 16) / (1 - packing) ** 2
     per_step = n_discs * math.sqrt(2 / math.pi) * packing * contact

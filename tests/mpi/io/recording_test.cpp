@@ -214,14 +214,19 @@ TEST_CASE("going on to another last step gives all frames the box of that step")
     CHECK(holds(path, 40, {}, world));
 }
 
+namespace {
+
+LoggedCollision collision(std::int64_t k) {
+    return {k / 10 + 1, 0.5 * static_cast<double>(k), k, k % 3 == 0 ? -1 : k + 1,
+            0.1 * static_cast<double>(k)};
+}
+
+} // namespace
+
 TEST_CASE("a log of collisions keeps the order of the ranks and is cut back") {
     const Communicator world = Communicator::world();
     const TestFolder folder(world);
     const std::string path = folder.file("c.h5");
-    const auto collision = [](std::int64_t k) {
-        return LoggedCollision{k / 10 + 1, 0.5 * static_cast<double>(k), k, k % 3 == 0 ? -1 : k + 1,
-                               0.1 * static_cast<double>(k)};
-    };
     const auto append = [&](CollisionLog& log, std::int64_t begin, std::int64_t end) {
         std::vector<LoggedCollision> mine; // a slice of them
         const std::int64_t n = end - begin, p = world.size(), r = world.rank();

@@ -87,7 +87,69 @@ double to_nearest_image(double d, double period) {
 
 } // namespace
 
-// By hand: the run is looked at every step, in which no disc gets as far as half the box.
+namespace {
+
+/// By hand: the run is looked at every step, in which no disc gets as far as half the box.
+struct ByHand {
+    double period_x, period_y, largest_distance;
+    std::vector<Seen> before{};
+    std::vector<std::array<double, 2>> flown{};
+    std::vector<double> pairs = std::vector<double>(20, 0), squares{};
+    std::map<std::string, std::vector<double>> pairs_of{}; ///< of two species, by the column's name
+    double farthest = 0;
+
+    static int species_of(DiscId id) { return id < 40 ? 1 : id < 100 ? 2 : 3; }
+
+    void look(const std::vector<Seen>& now, bool is_sample) {
+        flown.resize(now.size());
+        double sum = 0;
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            if (!before.empty()) {
+                flown[i][0] += to_nearest_image(now[i].x - before[i].x, period_x);
+                flown[i][1] += to_nearest_image(now[i].y - before[i].y, period_y);
+            }
+            sum += flown[i][0] * flown[i][0] + flown[i][1] * flown[i][1];
+            farthest = std::max(farthest, std::fabs(flown[i][0]));
+            for (std::size_t j = 0; is_sample && j < i; ++j) count(now[i], now[j]);
+        }
+        if (is_sample) squares.push_back(sum / static_cast<double>(now.size()));
+        before = now;
+    }
+    void count(const Seen& one, const Seen& other) {
+        const double distance = std::hypot(to_nearest_image(one.x - other.x, period_x),
+                                           to_nearest_image(one.y - other.y, period_y));
+        const double bin = distance / largest_distance * 20;
+        if (!(bin < 20)) return;
+        pairs[static_cast<std::size_t>(bin)] += 1;
+        std::vector<double>& of_species = pairs_of[std::to_string(species_of(other.id)) + "_" +
+                                                   std::to_string(species_of(one.id))];
+        of_species.resize(20, 0);
+        of_species[static_cast<std::size_t>(bin)] += 1;
+    }
+};
+
+/// g of two species, as in "1_2": pairs over those of points, a ring's area over the box's, for
+/// each sample.
+void check_g(const Scene& scene, const std::vector<MeasuredTable>& tables,
+             const std::string& species, const std::vector<double>& counted,
+             std::size_t n_samples) {
+    const auto count_of = [](char name) { return name == '1' ? 40.0 : name == '2' ? 60.0 : 50.0; };
+    const double n_a = count_of(species[0]), n_b = count_of(species[2]),
+                 n_pairs = species[0] == species[2] ? n_a * (n_a - 1) / 2 : n_a * n_b,
+                 width = scene.measurements->largest_distance / 20,
+                 area = scene.box_size * scene.box_size;
+    const std::vector<double> g = column_of(tables, "radial_distribution", "g_" + species);
+    for (std::size_t k = 0; k < 20; ++k) {
+        const double ring = std::numbers::pi * width * width * static_cast<double>(2 * k + 1) /
+                            area;
+        CHECK(
+            g[k] ==
+            Approx(counted[k] / (n_pairs * ring * static_cast<double>(n_samples))).epsilon(1e-12));
+    }
+}
+
+} // namespace
+
 TEST_CASE("measurements: in periodic boxes, distances of nearest images and displacements through "
           "the seams") {
     const Communicator world = Communicator::world();
@@ -95,69 +157,25 @@ TEST_CASE("measurements: in periodic boxes, distances of nearest images and disp
         INFO(each.name);
         const TestScene test = fast_gas(each.effects);
         const Scene scene = measured_around(test, each.method, 9, 5);
-        const double period_x = scene.box_size,
-                     period_y = scene.effects.is_periodic_y() ? scene.box_size : 0;
+        const double period_y = scene.effects.is_periodic_y() ? scene.box_size : 0;
+        ByHand by_hand{scene.box_size, period_y, scene.measurements->largest_distance};
         Simulation simulation = simulation_of(scene, test, world);
         Sampler sampler(scene, simulation, world);
-        std::vector<Seen> before;
-        std::vector<std::array<double, 2>> flown(test.discs.size());
-        std::vector<double> pairs(20, 0), squares;
-        std::map<std::string, std::vector<double>> pairs_of; // of two classes, by the column's name
-        const auto species_of = [&](DiscId id) { return id < 40 ? 1 : id < 100 ? 2 : 3; };
-        double farthest = 0;
         for (std::int64_t step = 5; step <= 64; ++step) {
             advance_to(simulation, sampler, step);
-            const std::vector<Seen> now = all_of(simulation, world);
-            double sum = 0;
-            for (std::size_t i = 0; i < now.size(); ++i) {
-                if (!before.empty()) {
-                    flown[i][0] += to_nearest_image(now[i].x - before[i].x, period_x);
-                    flown[i][1] += to_nearest_image(now[i].y - before[i].y, period_y);
-                }
-                sum += flown[i][0] * flown[i][0] + flown[i][1] * flown[i][1];
-                farthest = std::max(farthest, std::fabs(flown[i][0]));
-                for (std::size_t j = 0; j < i && (step - 5) % 9 == 0; ++j) {
-                    const double distance = std::hypot(
-                        to_nearest_image(now[i].x - now[j].x, period_x),
-                        to_nearest_image(now[i].y - now[j].y, period_y));
-                    const double bin = distance / scene.measurements->largest_distance * 20;
-                    if (!(bin < 20)) continue;
-                    pairs[static_cast<std::size_t>(bin)] += 1;
-                    std::vector<double>& of_species =
-                        pairs_of[std::to_string(species_of(now[j].id)) + "_" +
-                                 std::to_string(species_of(now[i].id))];
-                    of_species.resize(20, 0);
-                    of_species[static_cast<std::size_t>(bin)] += 1;
-                }
-            }
-            if ((step - 5) % 9 == 0) squares.push_back(sum / static_cast<double>(now.size()));
-            before = now;
+            by_hand.look(all_of(simulation, world), (step - 5) % 9 == 0);
         }
-        CHECK(farthest > scene.box_size);
+        const std::vector<double>& squares = by_hand.squares;
+        CHECK(by_hand.farthest > scene.box_size);
         const std::vector<MeasuredTable> tables = sampler.tables();
-        CHECK(column_of(tables, "radial_distribution", "pairs") == pairs);
+        CHECK(column_of(tables, "radial_distribution", "pairs") == by_hand.pairs);
         const bool are_distinguished = scene.effects.species.size() == 3;
         CHECK(table_of(tables, "radial_distribution").columns.size() ==
               (are_distinguished ? 16 : 4));
-        for (const auto& [species, counted] : pairs_of) {
+        for (const auto& [species, counted] : by_hand.pairs_of) {
             if (!are_distinguished) continue;
             CHECK(column_of(tables, "radial_distribution", "pairs_" + species) == counted);
-            const double n_a = species[0] == '1'   ? 40
-                               : species[0] == '2' ? 60
-                                                   : 50,
-                         n_b = species[2] == '1'   ? 40
-                               : species[2] == '2' ? 60
-                                                   : 50;
-            const double n_pairs = species[0] == species[2] ? n_a * (n_a - 1) / 2 : n_a * n_b,
-                         width = scene.measurements->largest_distance / 20;
-            const std::vector<double> g = column_of(tables, "radial_distribution", "g_" + species);
-            for (std::size_t k = 0; k < 20; ++k) { // a ring's area over the box's, for each sample
-                const double ring = std::numbers::pi * width * width *
-                                    static_cast<double>(2 * k + 1) / (period_x * period_y);
-                CHECK(g[k] ==
-                      Approx(counted[k] / (n_pairs * ring * static_cast<double>(squares.size())))
-                          .epsilon(1e-12));
-            }
+            check_g(scene, tables, species, counted, squares.size());
         }
         const std::vector<double> displacement = column_of(tables, "displacement", "sum");
         REQUIRE(displacement.size() == squares.size());

@@ -62,6 +62,28 @@ TEST_CASE("averages: the ratio of gamma functions") {
     CHECK(gamma_ratio(1e8) == Approx(std::sqrt(1e8) * (1 - 1 / 8e8)).epsilon(1e-15));
 }
 
+namespace {
+
+/// Equations (13c) and (19a) of Li et al. 2022 for a box of side L, with kT = R^2 / (2 N): 100
+/// discs, 41 steps.
+void check_pressures(const Averages& averages, const test::TestScene& test, const PlainSums& first,
+                     const PlainSums& now) {
+    const double size = test.setting.box_size, radius = test.setting.radius,
+                 r = std::sqrt(now.square);
+    const double g = std::exp(std::lgamma(100.5) - std::lgamma(100.0)),
+                 per_time = std::sqrt(std::numbers::pi) / r * g / 41;
+    const double walls = now.walls - first.walls, pairs = now.pairs - first.pairs,
+                 temperature = now.square / 200;
+    CHECK(averages.wall_pressure.value ==
+          Approx(temperature * per_time * walls / (2 * size)).epsilon(1e-10));
+    CHECK(averages.virial_pressure.value ==
+          Approx(temperature * (100 + radius * per_time * (walls + std::sqrt(2.0) * pairs)) /
+                 (size * size))
+              .epsilon(1e-10));
+}
+
+} // namespace
+
 TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sums") {
     const Communicator world = Communicator::world();
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
@@ -112,20 +134,7 @@ TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sum
         CHECK(averages.mean_speed.value == Approx(over_blocks(speeds).mean).epsilon(1e-11));
         CHECK(averages.mean_speed.error >= over_blocks(speeds).error * (1 - 1e-6));
         CHECK(averages.speed_kurtosis.value == Approx(over_blocks(kurtoses).mean).epsilon(1e-11));
-
-        // Equations (13c) and (19a) of Li et al. 2022 for a box of side L, with kT = R^2 / (2 N).
-        const double size = test.setting.box_size, radius = test.setting.radius,
-                     r = std::sqrt(now.square);
-        const double g = std::exp(std::lgamma(100.5) - std::lgamma(100.0)),
-                     per_time = std::sqrt(std::numbers::pi) / r * g / 41;
-        const double walls = now.walls - first.walls, pairs = now.pairs - first.pairs,
-                     temperature = now.square / 200;
-        CHECK(averages.wall_pressure.value ==
-              Approx(temperature * per_time * walls / (2 * size)).epsilon(1e-10));
-        CHECK(averages.virial_pressure.value ==
-              Approx(temperature * (100 + radius * per_time * (walls + std::sqrt(2.0) * pairs)) /
-                     (size * size))
-                  .epsilon(1e-10));
+        check_pressures(averages, test, first, now);
     }
 }
 

@@ -283,6 +283,11 @@ TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
                 "effects.contact.tangential_restitution=0.5"})
               .empty());
     CHECK_FALSE(has(with({"effects.drag.rate=0.02", "time.method=event-driven"}), "drag"));
+    CHECK(has(with({"discs.radius=26", "discs.count=1"}), "too small to be periodic"));
+}
+
+TEST_CASE("Periodic sides bound what can be measured, and the sizes of discs") {
+    const Texts along_y{"box.bottom.kind=periodic", "box.top.kind=periodic"};
     const auto measuring = [&](const char* quantities, bool is_around) {
         Texts texts = is_around ? Texts{"box.left.kind=periodic", "box.right.kind=periodic"}
                                 : Texts{};
@@ -319,7 +324,6 @@ TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
     CHECK(std::any_of(small.begin(), small.end(), [](const Problem& problem) {
         return problem.text.find("too small to be periodic") != std::string::npos;
     }));
-    CHECK(has(with({"discs.radius=26", "discs.count=1"}), "too small to be periodic"));
 }
 
 TEST_CASE("A restart cannot change effects") {

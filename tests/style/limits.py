@@ -17,7 +17,7 @@ FUNCTION_LINES = 60
 FILE_LINES = 400
 PROGRAM_LINES = 31600  # all of src and include
 
-FOLDERS = [".ci", "docs", "include", "job_scripts", "src", "tests"]
+FOLDERS = [".ci", "include", "job_scripts", "src", "tests"]
 CPP, CMAKE, SHELL, PYTHON = "C++", "CMake", "shell", "Python"
 LANGUAGES = {".hpp": CPP, ".cpp": CPP, ".h": CPP, ".c": CPP, ".cmake": CMAKE, ".py": PYTHON,
              ".sh": SHELL, ".sbatch": SHELL}
@@ -53,14 +53,15 @@ def cpp_functions(text):
         mark, end = match.group(), match.end()
         if depth_inside:
             depth_inside += {"{": 1, "}": -1, ";": 0}[mark]
-            if depth_inside == 0:
+            if depth_inside == 0 and name:
                 yield name, first, code.count("\n", 0, end) + 1
         elif mark == "{":
             head = code[start:end - 1]
             words = " ".join(re.sub(r"(public|private|protected):", "", head).split())
-            if "(" in words and not HOLDS_FUNCTIONS.search(words) or words.endswith(("=", ",")):
+            is_data = words.endswith(("=", ",")) or "concept " in words
+            if is_data or ("(" in words and not HOLDS_FUNCTIONS.search(words)):
                 depth_inside = 1
-                name = words.split("(")[0].split()[-1] if words.split("(")[0] else words
+                name = "" if is_data else (words.split("(")[0].split() or [words])[-1]
                 first = code.count("\n", 0, start + len(head) - len(head.lstrip())) + 1
         if not depth_inside:
             start = end

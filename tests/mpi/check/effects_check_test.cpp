@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The self-check makes allowance for effects, and still finds what is wrong.
+#include "check_runs.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+TEST_CASE("check: nothing is wrong in scenes with effects") {
+    const Communicator world = Communicator::world();
+    std::size_t number = 0;
+    for (const NamedEffects& named : all_effects()) {
+        ++number;
+        for (const Method method : both) {
+            if (is_left_to_others(number + (method == Method::time_stepped))) continue;
+            if (method == Method::time_stepped && !named.is_for_one) continue;
+            TestScene scene = gas_of(named.effects);
+            scene.steps = 60;
+            scene.setting.sync_every = 7;
+            scene.setting.micro_steps = 2;
+            Scene checked = checked_scene(scene, method);
+            std::vector<InputDisc> mine;
+            for (const InputDisc& disc : scene.discs)
+                if (static_cast<int>(disc.id % static_cast<DiscId>(world.size())) == world.rank())
+                    mine.push_back(disc);
+            Simulation simulation(checked, std::move(mine), world, {});
+            simulation.check_every_step(checked);
+            INFO(named.name << (method == Method::time_stepped ? ", one" : ", all"));
+            CHECK_NOTHROW([&] {
+                while (simulation.step() < scene.steps) simulation.advance_towards(scene.steps);
+            }());
+        }
+    }
+}
+
+namespace {
+
+/// The invariant that a check of a step with effects finds broken once `spoil` has had its way;
+/// none if it finds nothing.
+std::optional<Invariant> found_in(const Effects& effects,
+                                  const std::function<void(OneStep&)>& spoil) {
+    OneStep step(Method::event_driven, effects);
+    spoil(step);
+    const auto failure = step.look();
+    return failure ? std::optional(failure->invariant) : std::nullopt;
+}
+
+} // namespace
+
+TEST_CASE("check: with effects, what is wrong is found all the same") {
+    const auto faster = [](DiscId id, double factor) {
+        return [=](OneStep& step) {
+            Disc* const disc = step.own(id);
+            if (!disc) return;
+            disc->x += disc->vx * (1 - factor) * (step.local_view.time - disc->tau); // where it was
+            disc->vx *= factor;
+        };
+    };
+    const auto free_disc_faster = [&](double factor) {
+        return [=](OneStep& step) { faster(step.free_disc(), factor)(step); };
+    };
+    const auto collided_disc_faster = [&](double factor) {
+        return [=](OneStep& step) { faster(step.first_pair().p, factor)(step); };
+    };
+    for (const NamedEffects& named : all_effects()) {
+        INFO(named.name);
+        CHECK(found_in(named.effects, [](OneStep&) {}) == std::nullopt);
+        CHECK(found_in(named.effects, free_disc_faster(1 + 1e-9)) == Invariant::motion);
+        CHECK(found_in(named.effects, [](OneStep& step) {
+                  if (step.own(7)) ++step.own(7)->wall_collisions;
+              }) == Invariant::counters);
+        if (named.effects.contact.kind == ContactKind::none) continue;
+        CHECK(found_in(named.effects, collided_disc_faster(3)) == Invariant::energy);
+    }
+    const auto turns_faster = [](OneStep& step, DiscId id) {
+        if (const Disc* const disc = step.own(id))
+            step.spins[static_cast<std::size_t>(disc - step.local_view.discs.data())] += 0.2;
+    };
+    for (const NamedEffects& named : all_effects()) {
+        if (named.effects.contact.kind != ContactKind::rough) continue;
+        CHECK(found_in(named.effects, [&](OneStep& step) {
+                  turns_faster(step, step.free_disc());
+              }) == Invariant::motion);
+        CHECK(found_in(named.effects,
+                       [&](OneStep& step) { turns_faster(step, step.first_pair().p); }) ==
+              (named.effects.contact.restitution == 1
+                   ? std::optional(Invariant::energy)
+                   : std::nullopt)); // else it might be what is lost
+    }
+    Effects piston;
+    piston.boundaries[1] = {BoundaryKind::moving, 1, 0, -0.5};
+    CHECK(found_in(piston, [](OneStep& step) { // inside the box as it was, outside as it is
+              if (Disc* const disc = step.own(7))
+                  disc->x += step.scene().box_size - step.scene().radius - 0.2 -
+                             disc->x_at(step.local_view.time);
+          }) == Invariant::in_box);
+    Effects falling;
+    falling.gravity.y = -0.03;
+    CHECK(found_in(falling, collided_disc_faster(1 + 1e-9)) == Invariant::energy);
+}

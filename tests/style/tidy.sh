@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# clang-tidy finds none of the faults that .clang-tidy lists.
+#
+#   bash tests/style/tidy.sh ENVIRONMENT BUILD                 all sources: some minutes
+#   bash tests/style/tidy.sh ENVIRONMENT BUILD MODULE ...      those of some modules
+#
+# ENVIRONMENT is a folder for a Python environment, where clang-tidy comes from PyPI and is kept.
+# BUILD holds compile_commands.json. The exit code is 77 where clang-tidy cannot be had.
+set -euo pipefail
+source "$(dirname "$0")/python_tools.sh"
+top=$(cd "$(dirname "$0")/../.." && pwd)
+environment=$1 build=$2
+shift 2
+version=$(sed -n 's/.*clang-tidy==\([0-9.]*\).*/\1/p' "$top/.clang-tidy")
+[ -r "$build/compile_commands.json" ] ||
+    { echo "skipped: no compile_commands.json in $build"; exit 77; }
+get_tool "$environment" clang-tidy "$version"
+
+modules=("$@")
+[ $# -gt 0 ] || modules=(.)
+mapfile -t files < <(cd "$top/src" && find "${modules[@]}" -name '*.cpp' | sort)
+[ ${#files[@]} -ge 10 ] || { echo "only ${#files[@]} files found: a wrong folder?"; exit 1; }
+cd "$top/src"
+# Warnings are errors there: xargs fails if one run does. What is off by default is only counted.
+printf '%s\0' "${files[@]}" |
+    xargs -0 -P "${JOBS:-$(nproc)}" -n 4 "$tool" -p "$build" --quiet 2> >(grep -v 'warnings* gen' >&2) ||
+    { echo "clang-tidy $version: see above"; exit 1; }
+echo "${#files[@]} files, clang-tidy $version"
