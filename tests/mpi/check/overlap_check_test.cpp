@@ -50,7 +50,7 @@ struct Passing {
     /// it.
     bool is_right(std::uint64_t walls = 0) {
         std::vector<Collision> log;
-        discs[0].wall_collisions = (discs[0].wall_collisions + walls) & columns::all_of_counter;
+        discs[0].wall_collisions = (discs[0].wall_collisions + walls) & 0x7fffffffffff;
         if (world.is_root()) log.assign(walls, {step, 0.5, 0, 0, Collision::wall, 0});
         ++step;
         try {
