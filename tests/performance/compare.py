@@ -240,36 +240,18 @@ def number(value):
     return f"{value:.5g}" if value != "" else ""
 
 
+COLUMNS = """
+    case unit ranks threads n_discs steps rounds rate least most seconds ns_per_disc_step
+    lammps_rate over_lammps stream_rate over_stream imbalance bytes_per_disc goal machine
+    compiler version
+""".split()
+
+
 def write(path, chosen, rounds, machine):
     compiler, commit = version_of(machine.build)
     with open(path, "w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow(
-            [
-                "case",
-                "unit",
-                "ranks",
-                "threads",
-                "n_discs",
-                "steps",
-                "rounds",
-                "rate",
-                "least",
-                "most",
-                "seconds",
-                "ns_per_disc_step",
-                "lammps_rate",
-                "over_lammps",
-                "stream_rate",
-                "over_stream",
-                "imbalance",
-                "bytes_per_disc",
-                "goal",
-                "machine",
-                "compiler",
-                "version",
-            ]
-        )
+        table.writerow(COLUMNS)
         for name, case in chosen.items():
             runs = rounds[name]
             if not runs:

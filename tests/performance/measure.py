@@ -104,6 +104,12 @@ def run(program, case, folder):
         return json.load(file)
 
 
+RESULTS = """
+    ranks threads n_discs steps ns_per_disc_step pair_collisions wall_seconds
+    peak_bytes_per_disc
+""".split()
+
+
 def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
@@ -118,40 +124,12 @@ def main():
     collisions = {name: [] for name in options.only}
     with open(options.output, "w", newline="") as file, tempfile.TemporaryDirectory() as folder:
         table = csv.writer(file)
-        table.writerow(
-            [
-                "round",
-                "case",
-                "ranks",
-                "threads",
-                "n_discs",
-                "steps",
-                "ns_per_disc_step",
-                "pair_collisions",
-                "wall_seconds",
-                "peak_bytes_per_disc",
-            ]
-        )
+        table.writerow(["round", "case"] + RESULTS)
         for turn in range(options.rounds):
             for name in options.only:
                 result = run(options.program, CASES[name], folder)
                 rates[name].append(result["ns_per_disc_step"])
-                table.writerow(
-                    [turn, name]
-                    + [
-                        result[key]
-                        for key in (
-                            "ranks",
-                            "threads",
-                            "n_discs",
-                            "steps",
-                            "ns_per_disc_step",
-                            "pair_collisions",
-                            "wall_seconds",
-                            "peak_bytes_per_disc",
-                        )
-                    ]
-                )
+                table.writerow([turn, name] + [result[key] for key in RESULTS])
                 file.flush()
                 collisions[name].append(result["pair_collisions"] / result["wall_seconds"] / 1e6)
                 print(

@@ -5,7 +5,8 @@
     limits.py SOURCE_FOLDER
 
 prints each place beyond a limit, and exits with 1 if there is one. It knows a C++ function by its
-braces, a shell function by its head and a `}` in the first column, and Python by its parser.
+braces, a shell function by its head and a `}` in the first column, and Python by its parser,
+without the text that documents it.
 """
 import ast
 import re
@@ -15,7 +16,7 @@ from pathlib import Path
 LINE_WIDTH = 100
 FUNCTION_LINES = 60
 FILE_LINES = 400
-PROGRAM_LINES = 31600  # all of src and include
+PROGRAM_LINES = 33500  # all of src and include
 
 FOLDERS = [".ci", "include", "job_scripts", "src", "tests"]
 CPP, CMAKE, SHELL, PYTHON = "C++", "CMake", "shell", "Python"
@@ -70,7 +71,9 @@ def cpp_functions(text):
 def python_functions(text):
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
-            yield node.name, node.lineno, node.end_lineno
+            has_text = ast.get_docstring(node) is not None  # what users read is no code
+            text = node.body[0].end_lineno - node.body[0].lineno + 1 if has_text else 0
+            yield node.name, node.lineno + text, node.end_lineno
 
 
 def shell_functions(text):

@@ -6,22 +6,27 @@
 #   bash tests/style/tidy.sh ENVIRONMENT BUILD MODULE ...      those of some modules
 #
 # ENVIRONMENT is a folder for a Python environment, where clang-tidy comes from PyPI and is kept.
-# BUILD holds compile_commands.json. The exit code is 77 where clang-tidy cannot be had.
+# BUILD is a build that is configured: its libraries are taken, in a build of one command a source.
+# The exit code is 77 where clang-tidy cannot be had.
 set -euo pipefail
 source "$(dirname "$0")/python_tools.sh"
 top=$(cd "$(dirname "$0")/../.." && pwd)
 environment=$1 build=$2
 shift 2
 version=$(sed -n 's/.*clang-tidy==\([0-9.]*\).*/\1/p' "$top/.clang-tidy")
-[ -r "$build/compile_commands.json" ] ||
-    { echo "skipped: no compile_commands.json in $build"; exit 77; }
 get_tool "$environment" clang-tidy "$version"
+
+libraries='MPI_C_COMPILER|HDF5_C_COMPILER_EXECUTABLE|RANDOM123_INCLUDE_DIR'
+mapfile -t choices < <(grep -E "^($libraries):" "$build/CMakeCache.txt")
+commands=$environment/commands
+cmake -S "$top" -B "$commands" "${choices[@]/#/-D}" -DCARROM_TESTS=OFF -DCMAKE_UNITY_BUILD=OFF \
+    -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >cmake.log 2>&1 || { cat cmake.log; exit 1; }
 
 [ $# -gt 0 ] || set -- .
 mapfile -t files < <(find "${@/#/$top/src/}" -name '*.cpp' | sort)
 [ ${#files[@]} -ge 10 ] || { echo "only ${#files[@]} files found: a wrong folder?"; exit 1; }
 # A finding is an error: xargs fails if one run does.
 printf '%s\0' "${files[@]}" |
-    xargs -0 -P "${JOBS:-$(nproc)}" -n 4 "$tool" -p "$build" --quiet 2>tidy.log ||
+    xargs -0 -P "${JOBS:-$(nproc)}" -n 4 "$tool" -p "$commands" --quiet 2>tidy.log ||
     { cat tidy.log; echo "clang-tidy $version: see above"; exit 1; }
 echo "${#files[@]} files, clang-tidy $version"
