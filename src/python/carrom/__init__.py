@@ -21,6 +21,7 @@ from carrom.errors import (
 )
 from carrom.frame import Frame
 from carrom.frames import Frames
+from carrom.gsd_file import to_gsd
 from carrom.physics import Measured, average, compressibility, henderson, virial_series
 from carrom.program import find_program, program_version
 from carrom.running import CarromWarning, resume, run
@@ -70,6 +71,7 @@ __all__ = [
     "resume",
     "run",
     "sweep",
+    "to_gsd",
     "to_toml",
     "virial_series",
 ]

@@ -42,8 +42,8 @@ def velocities_of(frame: Frame) -> Array | None:
 def to_freud(frame: Frame) -> Any:
     """See `Frame.to_freud`."""
     freud = package("freud", "to_freud", "freud-analysis")
-    box = freud.box.Box(Lx=frame.box[0], Ly=frame.box[1], is2D=True)
-    box.periodic = (*frame.periodic, False)
+    room = np.where(frame.periodic, 1.0, 2.0) * frame.box
+    box = freud.box.Box(Lx=room[0], Ly=room[1], is2D=True)
     points = in_three_dimensions(frame.x[frame.present] - frame.box / 2, np.float32)
     return box, points
 

@@ -40,7 +40,7 @@ class Checkpoint(Frame):
                 raise FileError(f"{path}: is no checkpoint of carrom")
             try:
                 self._read_header(file)
-            except (KeyError, TypeError, AttributeError) as error:
+            except (LookupError, TypeError, ValueError, AttributeError) as error:
                 raise FileError(f"{path}: is no checkpoint of carrom ({error})") from None
 
     def _read_header(self, file: Any) -> None:

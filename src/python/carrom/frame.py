@@ -122,8 +122,9 @@ class Frame(ABC):
     def to_freud(self) -> tuple[freud.box.Box, npt.NDArray[np.float32]]:
         """Return (box, points) for freud's `compute`. Its boxes are centred on the origin.
 
-        Points (n, 3) are those of discs in the box. Between walls the freud box has no periodic
-        sides. freud shrinks no distance: keep `r_max` below half the box.
+        Points (n, 3) are those of discs in the box. freud finds neighbours in periodic boxes alone.
+        So between walls its box is twice as long: no disc has neighbours across a wall. Numbers
+        that freud divides by the area of the box are then too small by that.
         """
         from carrom import adapters
 

@@ -53,7 +53,7 @@ class Frames(Sequence[Frame]):
             self.all_steps = h5.read(edges["step"]).astype(np.int64)
             self.all_boxes = h5.read(edges["value"])
             self.system = System(self._file)
-        except (KeyError, TypeError, IndexError, AttributeError) as error:
+        except (LookupError, TypeError, ValueError, AttributeError) as error:
             raise FileError(f"{self.path}: is no trajectory of carrom ({error})") from None
 
     @property

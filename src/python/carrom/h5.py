@@ -13,7 +13,7 @@ from carrom.errors import FileError
 
 
 def open_file(path: str | os.PathLike[str]) -> h5py.File:
-    """Open a file to read, without a lock: the program may be writing its next state.
+    """Open a file to read. The program takes no HDF5 locks, so runs that go on are no matter.
 
     Raises:
         FileError: it is absent, damaged, or joins files that are not beside it
@@ -22,7 +22,7 @@ def open_file(path: str | os.PathLike[str]) -> h5py.File:
     if not path.is_file():
         raise FileError(f"{path}: there is no such file")
     try:
-        file = h5py.File(path, "r", locking=False)
+        file = _opened(path)
     except OSError as error:
         raise FileError(f"{path}: is no HDF5 file, or is damaged: {error}") from None
     try:
@@ -31,6 +31,14 @@ def open_file(path: str | os.PathLike[str]) -> h5py.File:
         file.close()
         raise
     return file
+
+
+def _opened(path: Path) -> h5py.File:
+    """Open as everybody does, so that the same file can be open elsewhere in this process."""
+    try:
+        return h5py.File(path, "r")
+    except OSError:  # perhaps a file system without locks, or the file is open without them
+        return h5py.File(path, "r", locking=False)
 
 
 def _check_sources(file: h5py.File, path: Path) -> None:

@@ -81,7 +81,7 @@ def compressibility(run: Run) -> Measured:
     energy = float(report["kinetic_energy"])
     if set(kinds) == {"wall"}:
         pressure = average(run, "virial_pressure")
-        area = float(scene["box"]["size"]) ** 2 if scene else _area(run)
+        area = float(scene["box"]["size"]) ** 2 if "box" in scene else _area(run)
         return Measured(pressure.value * area / energy, pressure.error * area / energy)
     if set(kinds) != {"periodic"}:
         raise NoDataError(f"{run.name}: compressibility needs four walls or four periodic sides")

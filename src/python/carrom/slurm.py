@@ -101,7 +101,8 @@ def _command(
     start = [*launch, str(program), "run"]
     common = ["-o", str(run_folder), "--threads", str(threads)]
     begin = shlex.join(["exec", *start, *words, *common])
-    resume = shlex.join(["exec", *start, "--resume", *common])
+    steps = [] if point.steps is None else ["--steps", str(point.steps)]
+    resume = shlex.join(["exec", *start, "--resume", *common, *steps])
     begun = shlex.join(["ls", *(str(run_folder / name) for name in ("scene.toml", "scene.in"))])
     return f"{{ if {begun} 2>/dev/null | grep -q .; then {resume}; else {begin}; fi; }}"
 

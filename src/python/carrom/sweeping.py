@@ -120,6 +120,6 @@ def _run_point(point: Point, jobs: dict[str, Any], stop: threading.Event) -> Non
             words = jobs | {"options": options, "progress": False}
             run(point.scene, folder=point.folder, **words, **point.overrides)
         elif point.has_begun:
-            resume(point.folder, progress=False, **jobs)
+            resume(point.folder, steps=point.steps, progress=False, **jobs)
         else:
             run(point.scene, folder=point.folder, progress=False, **jobs)

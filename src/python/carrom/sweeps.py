@@ -11,7 +11,7 @@ import zlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -33,6 +33,7 @@ AVERAGES = (
 )
 _PLAIN = re.compile(r"[A-Za-z0-9_.+-]{1,40}")
 _DEFAULT_SEED = 3210
+_NOT_COMPARED = ("output.folder", "time.steps")
 
 
 class SweepError(CarromError):
@@ -78,13 +79,27 @@ class Point:
         """Return the run if it is finished.
 
         Raises:
-            FileError: the folder has a run of another scene
+            FileError: the folder has a run of another scene, or a longer one
         """
         if not self.has_begun:
             return None
         run = Run(self.folder)
         self._check(run)
-        return run if run.is_finished else None
+        if not run.has_report:
+            return None
+        if self.steps is None:
+            return run if run.is_finished else None
+        done = int(run.report["first_step"]) + int(run.report["steps"])
+        if done > self.steps:
+            self._refuse(f"of {done} steps")
+        return run if done == self.steps else None
+
+    @property
+    def steps(self) -> int | None:
+        """The last step; None where legacy text says it."""
+        known = self.scene if isinstance(self.scene, dict) else merged({}, self.overrides)
+        steps = known.get("time", {}).get("steps")
+        return None if steps is None else int(steps)
 
     @property
     def has_begun(self) -> bool:
@@ -94,17 +109,17 @@ class Point:
     def _check(self, run: Run) -> None:
         wanted = self.scene if isinstance(self.scene, dict) else merged({}, self.overrides)
         here, there = (_comparable(scene) for scene in (wanted, run.scene))
-        if here != there:
-            different = sorted(key for key in here | there if here.get(key) != there.get(key))
-            raise FileError(
-                f"{self.folder}: holds a run of another scene ({', '.join(different)}); "
-                "name another folder for the sweep"
-            )
+        different = sorted(key for key in here | there if here.get(key) != there.get(key))
+        if different:
+            self._refuse(f"of another scene ({', '.join(different)})")
+
+    def _refuse(self, what: str) -> NoReturn:
+        raise FileError(f"{self.folder}: holds a run {what}; name another folder for the sweep")
 
 
 def _comparable(scene: Mapping[str, Any]) -> dict[str, str]:
     flat = {key: toml_value(value) for key, value in flattened(scene).items()}
-    return {key: value for key, value in flat.items() if key != "output.folder"}
+    return {key: value for key, value in flat.items() if key not in _NOT_COMPARED}
 
 
 @dataclass

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Equations of state: theory against theory, and Z against the virial of the log."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import PERIODIC, gas
+
+import carrom
+
+
+def test_theories_agree_where_both_hold() -> None:
+    packings = np.array([0.0, 0.1, 0.2, 0.3, 0.4])
+    assert carrom.henderson(packings) == pytest.approx(carrom.virial_series(packings), rel=3e-3)
+    assert carrom.henderson(0.0) == carrom.virial_series(0.0) == 1
+    slope = (carrom.virial_series(1e-6) - 1) / 1e-6
+    assert slope == pytest.approx(2, rel=1e-5)  # the second virial coefficient of discs
+
+
+def test_compressibility_is_that_of_the_virial(program: Path, tmp_path: Path) -> None:
+    """Z from the frequency of collisions against the sum of impulses, which needs no theory."""
+    scene = gas(count=400, steps=300, **PERIODIC) | {"output": {"collisions": True}}
+    run = carrom.run(scene, folder=tmp_path / "run", discs__speed=1)
+    z, error = carrom.compressibility(run)
+    frame = run.checkpoints[-1]
+    energy = frame.kinetic_energy - np.sum(frame.v.sum(axis=0) ** 2) / (2 * frame.n_discs)
+    impulses = float(np.sum(run.collisions["impulse"]))
+    virial = 1 + 2 * frame.radius[0] * impulses / (2 * energy * 300)
+    assert z == pytest.approx(virial, rel=0.01)
+    assert 0 < error < 0.02
+    assert abs(z - carrom.henderson(0.3)) < 4 * error + 0.01
+
+
+def test_walls_raise_z_by_their_layers(program: Path, tmp_path: Path) -> None:
+    run = carrom.run(gas(count=400, steps=200), folder=tmp_path / "run")
+    z, _ = carrom.compressibility(run)
+    radius = run.checkpoints[-1].radius[0]
+    assert carrom.henderson(0.3) < z < carrom.henderson(0.3) / (1 - 2 * radius / 20) ** 2
+
+
+def test_scenes_without_an_equation_of_state_are_errors(program: Path, tmp_path: Path) -> None:
+    run = carrom.run(gas(steps=2, right={"kind": "open"}), folder=tmp_path / "open")
+    with pytest.raises(carrom.NoDataError, match="of equal discs without effects alone"):
+        carrom.compressibility(run)
+    half = {side: PERIODIC[side] for side in ("left", "right")}
+    run = carrom.run(gas(steps=2, **half), folder=tmp_path / "half")
+    with pytest.raises(carrom.NoDataError, match="four walls or four periodic sides"):
+        carrom.compressibility(run)
+    with pytest.raises(carrom.NoDataError, match="the report has no virial_pressure"):
+        carrom.average(run, "virial_pressure")

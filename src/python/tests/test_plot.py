@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures show what is in the files; movies are whole or not there."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import gas
+
+import carrom
+
+matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is not installed")
+Image = pytest.importorskip("PIL.Image", reason="pillow is not installed")
+matplotlib.use("Agg")
+
+from carrom import plot  # noqa: E402
+from carrom.plot.commands import main  # noqa: E402
+
+
+def coloured(path: Path) -> float:
+    """The share of pixels that are not grey."""
+    with Image.open(path) as picture:
+        pixels = np.asarray(picture.convert("RGB")).reshape(-1, 3).astype(int)
+    return float(np.mean(pixels.max(axis=1) - pixels.min(axis=1) > 20))
+
+
+def test_discs_cover_as_much_as_they_should(run: carrom.Run, tmp_path: Path) -> None:
+    """Red discs on white, without frame: the share of red is the packing fraction."""
+    ax = plot.frame(
+        run, colour=np.ones(60), cmap=matplotlib.colors.ListedColormap(["red"]), bar=False
+    )
+    ax.set_axis_off()
+    ax.set_title("")
+    ax.figure.set_layout_engine("none")
+    ax.figure.set_size_inches(6, 6)
+    ax.set_position((0, 0, 1, 1))
+    ax.figure.savefig(tmp_path / "red.png", dpi=100)
+    assert coloured(tmp_path / "red.png") == pytest.approx(0.3, abs=0.01)
+
+
+@pytest.mark.parametrize("colour", ["speed", "vx", "vy", "strip", "species"])
+def test_each_colour_is_drawn(run: carrom.Run, colour: str) -> None:
+    ax = plot.frame(run, 10, colour=colour)
+    discs = ax.collections[-1]
+    frame = run.frames.at(10)
+    wanted = {
+        "speed": np.hypot(*frame.v.T),
+        "vx": frame.v[:, 0],
+        "vy": frame.v[:, 1],
+        "strip": frame.strips(4),
+        "species": np.zeros(60),
+    }[colour]
+    assert np.array_equal(discs.get_array(), wanted)
+    assert np.array_equal(discs.get_offsets(), frame.x)
+    assert ax.get_title() == "step 10"
+
+
+def test_wrong_wishes_are_errors(run: carrom.Run) -> None:
+    with pytest.raises(ValueError, match="no colour 'pink'; there are speed"):
+        plot.frame(run, colour="pink")
+    with pytest.raises(ValueError, match=r"not \(60,\): one number a disc"):
+        plot.frame(run, colour=[1, 2])
+    with pytest.raises(carrom.NoDataError, match="no frame of step 11; there are 5"):
+        plot.frame(run, 11)
+
+
+def test_obstacles_are_drawn_with_their_images(program: Path, tmp_path: Path) -> None:
+    sides = {side: {"kind": "periodic"} for side in ("left", "right", "bottom", "top")}
+    scene = gas(count=5, steps=0, **sides)
+    scene["discs"] = {"count": 5, "radius": 0.3}
+    scene["effects"] = {"obstacles": {"discs": [[0, 0, 2]], "segments": [[5, 5, 9, 9]]}}
+    ax = plot.frame(carrom.run(scene, folder=tmp_path / "run"))
+    circles, lines = ax.collections[0], ax.collections[1]
+    assert len(circles.get_paths()) == 9
+    assert len(lines.get_segments()) == 9
+
+
+def test_a_movie_has_all_frames(run: carrom.Run, tmp_path: Path) -> None:
+    path = plot.movie(run, tmp_path / "m.gif", dpi=40, rate=10)
+    with Image.open(path) as movie:
+        assert movie.n_frames == 5
+        assert movie.info["duration"] == 100
+    assert coloured(path) > 0.1
+    with Image.open(plot.movie(run.frames[::2], tmp_path / "n.gif", dpi=40)) as movie:
+        assert movie.n_frames == 3
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["m.gif", "n.gif"]
+
+
+def test_a_movie_of_other_kinds_is_for_ffmpeg(run: carrom.Run, tmp_path: Path) -> None:
+    try:
+        plot.movies.find_ffmpeg()
+    except carrom.MissingPackageError as error:
+        pytest.skip(str(error))
+    path = plot.movie(run, tmp_path / "m.mp4", dpi=41)
+    assert path.read_bytes()[4:8] == b"ftyp"
+    with pytest.raises(carrom.FileError, match=r"ffmpeg cannot write m\.unknown"):
+        plot.movie(run, tmp_path / "m.unknown", dpi=40)
+    assert [p.name for p in tmp_path.iterdir()] == ["m.mp4"]
+
+
+def test_a_movie_to_nowhere_is_an_error(run: carrom.Run, tmp_path: Path) -> None:
+    with pytest.raises(carrom.FileError, match="there is no folder"):
+        plot.movie(run, tmp_path / "nowhere/m.gif")
+
+
+def test_curves_show_the_tables(run: carrom.Run) -> None:
+    line = plot.radial_distribution(run).lines[0]
+    table = run.tables["radial_distribution"]
+    assert np.array_equal(line.get_ydata(), table["g"])
+    scaled = plot.radial_distribution(run, in_diameters=True).lines[0]
+    diameter = 2 * run.frames[0].radius[0]
+    assert scaled.get_xdata() == pytest.approx(line.get_xdata() / diameter)
+    energy, collisions = plot.history(run)
+    assert np.abs(energy.lines[0].get_ydata()).max() < 1e-6
+    drawn = sum(float(np.sum(patch.get_data().values)) for patch in collisions.patches)
+    assert drawn == len(run.collisions)
+    assert len(plot.measurements(run)) == 4
+
+
+def test_equation_of_state_shows_z(program: Path, tmp_path: Path) -> None:
+    sweep = carrom.sweep(gas(steps=20), {"discs.packing": [0.2, 0.1]}, folder=tmp_path)
+    ax = plot.equation_of_state(sweep)
+    points = ax.containers[0].lines[0]
+    assert points.get_xdata() == pytest.approx([0.1, 0.2])
+    assert sorted(points.get_ydata()) == sorted(sweep.table["Z"])
+
+
+COMMANDS = {
+    "frame": ["--colour", "strip", "--ranks", "3", "--view", "0", "0", "10", "10", "--step", "10"],
+    "movie": ["--every", "2", "--dpi", "40"],
+    "history": [],
+    "measurements": [],
+    "gr": ["--in-diameters"],
+    "eos": [],
+}
+
+
+@pytest.mark.parametrize("command", list(COMMANDS))
+def test_commands_draw(run: carrom.Run, tmp_path: Path, command: str) -> None:
+    path = tmp_path / ("p.gif" if command == "movie" else "p.png")
+    assert main([command, str(run.folder), "-o", str(path), *COMMANDS[command]]) == 0
+    assert coloured(path) > 0.0003
+
+
+def test_commands_report_what_is_wrong(
+    run: carrom.Run, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["frame", str(run.folder), "--step", "11", "-o", "p.png"]) == 2
+    assert "carrom-plot: no frame of step 11" in capsys.readouterr().err
+    assert main(["gr", str(tmp_path), "-o", "p.png"]) == 2
+    assert "is no run of carrom" in capsys.readouterr().err
+    assert main(["history", str(run.folder), "-o", str(tmp_path / "no/p.png")]) == 2
+    assert "No such file or directory" in capsys.readouterr().err
+    with pytest.raises(SystemExit) as caught:
+        main(["frame"])
+    assert caught.value.code == 2
+
+
+def test_without_matplotlib_the_command_says_so(
+    run: carrom.Run, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    assert main(["frame", str(run.folder), "-o", "p.png"]) == 2
+    assert "pip install carrom[plot]" in capsys.readouterr().err

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sweeps: grids, tables with errors, and calls that go on where others ended."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import PERIODIC, gas
+
+import carrom
+
+
+def test_a_grid_becomes_one_table(program: Path, tmp_path: Path) -> None:
+    grid = {"discs.packing": [0.1, 0.2], "time__micro_steps": [1, 4]}
+    sweep = carrom.sweep(gas(steps=600), grid, folder=tmp_path, workers=2)
+    table = sweep.table
+    assert table["discs.packing"].tolist() == [0.1, 0.1, 0.2, 0.2]
+    assert table["time.micro_steps"].tolist() == [1, 4, 1, 4]
+    assert table["runs"].tolist() == [1] * 4
+    for run, row in zip(sweep.runs, table, strict=True):
+        averages = run.report["averages"]
+        assert row["virial_pressure"] == averages["virial_pressure"]["value"]
+        error = averages["collision_frequency"]["error"]
+        assert row["collision_frequency_error"] == (np.nan if error is None else error)
+        assert (row["Z"], row["Z_error"]) == carrom.compressibility(run)
+    alone = carrom.run(gas(steps=600), folder=tmp_path / "alone", discs__packing=0.2)
+    assert sweep.runs[2].state_hash == alone.state_hash
+    assert "4 of 4 done" in repr(sweep)
+
+
+def test_errors_are_over_repeats(program: Path, tmp_path: Path) -> None:
+    sweep = carrom.sweep(
+        gas(steps=30, **PERIODIC),
+        {"discs.packing": [0.2]},
+        folder=tmp_path,
+        repeats=4,
+        quantities={"pairs": lambda run: float(run.report["pair_collisions"])},
+    )
+    pairs = [run.report["pair_collisions"] for run in sweep.runs]
+    assert [run.scene["discs"]["seed"] for run in sweep.runs] == [3210, 3211, 3212, 3213]
+    assert len(set(pairs)) == 4
+    (row,) = sweep.table
+    assert row["pairs"] == np.mean(pairs)
+    assert row["pairs_error"] == pytest.approx(np.std(pairs, ddof=1) / 2)
+    assert np.isnan(row["virial_pressure"])
+
+
+def test_a_second_call_runs_what_is_missing(program: Path, tmp_path: Path) -> None:
+    scene = gas(steps=30)
+    carrom.sweep(scene, {"discs.seed": [1, 2]}, folder=tmp_path)
+    times = [path.stat().st_mtime_ns for path in sorted(tmp_path.glob("*/report.json"))]
+    stopped = carrom.run(scene, folder=tmp_path / "discs.seed=3", discs__seed=3, steps=10)
+    assert stopped.report["steps"] == 10
+    sweep = carrom.sweep(scene, {"discs.seed": [1, 2, 3, 4]}, folder=tmp_path)
+    assert sweep.table["discs.seed"].tolist() == [1, 2, 3, 4]
+    after = [path.stat().st_mtime_ns for path in sorted(tmp_path.glob("*/report.json"))]
+    assert after[:2] == times
+    assert sweep.runs[2].report["first_step"] == 10
+    whole = carrom.run(scene, folder=tmp_path / "whole", discs__seed=3)
+    assert sweep.runs[2].state_hash == whole.state_hash
+
+
+def test_another_scene_in_the_folder_is_an_error(program: Path, tmp_path: Path) -> None:
+    carrom.sweep(gas(steps=3), {"discs.seed": [1]}, folder=tmp_path)
+    with pytest.raises(carrom.FileError, match=r"another scene \(box\.size\); name another folder"):
+        carrom.sweep(gas(steps=3, size=30), {"discs.seed": [1]}, folder=tmp_path)
+
+
+def test_what_fails_leaves_the_rest(program: Path, tmp_path: Path) -> None:
+    with pytest.raises(carrom.SweepError, match="1 of 3 runs failed") as caught:
+        carrom.sweep(gas(steps=3), {"discs.packing": [0.1, 5, 0.2]}, folder=tmp_path)
+    assert "discs.packing=5: " in str(caught.value)
+    assert caught.value.sweep.table["discs.packing"].tolist() == [0.1, 0.2]
+    ((point, error),) = caught.value.sweep.failures
+    assert point.values == {"discs.packing": 5}
+    assert isinstance(error, carrom.InputError)
+
+
+def test_grids_without_values_are_errors(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="no key"):
+        carrom.sweep(gas(), {}, folder=tmp_path)
+    with pytest.raises(ValueError, match=r"discs\.seed"):
+        carrom.sweep(gas(), {"discs.seed": []}, folder=tmp_path)
+
+
+def test_legacy_text_is_swept_too(program: Path, tmp_path: Path) -> None:
+    path = tmp_path / "gas.in"
+    path.write_text("20\n30\n1\n5\nperf\n")
+    sweep = carrom.sweep(path, {"time.micro_steps": [1, 2]}, folder=tmp_path / "sweep")
+    assert sweep.table["time.micro_steps"].tolist() == [1, 2]
+    assert carrom.sweep(path, {"time.micro_steps": [1, 2]}, folder=tmp_path / "sweep").missing == []
