@@ -66,7 +66,7 @@ class Curves:
         return {
             "energy": self._energy(),
             "pressure": self._pressure(run),
-            "rate": self._rate(n_discs),
+            "rate": self._rate(run, n_discs),
         }
 
     def _read_frames(self, frames: Frames | Checkpoints, until: float) -> None:
@@ -87,7 +87,8 @@ class Curves:
         known = sorted((step, e) for step, (e, _) in self._of_frames.items() if e == e)
         if not known:
             return _nothing("no frames with velocities yet")
-        return _curve(*zip(*known, strict=True), "kinetic energy of frames")
+        steps, energies = zip(*known, strict=True)
+        return _curve(steps, energies, "kinetic energy of frames")
 
     def _read_log(self, run: Run, until: float) -> None:
         """Counts of pairs by step, from where the last look ended."""
@@ -102,16 +103,14 @@ class Curves:
             while self._log_rows < rows and time.monotonic() < until:
                 part = slice(self._log_rows, min(rows, self._log_rows + _ROWS_AT_A_TIME))
                 is_pair = h5.read(columns["q"], part) >= 0
-                steps, counts = np.unique(h5.read(columns["step"], part), return_counts=True)
-                pairs = np.bincount(
-                    np.searchsorted(steps, h5.read(columns["step"], part)), weights=is_pair
-                )
+                steps, places = np.unique(h5.read(columns["step"], part), return_inverse=True)
+                pairs = np.bincount(places, weights=is_pair)
                 for step, count in zip(steps, pairs, strict=True):
                     known = self._log_counts.get(int(step), 0)
                     self._log_counts[int(step)] = known + int(count)
                 self._log_rows = part.stop
 
-    def _rate(self, n_discs: int) -> Curve:
+    def _rate(self, run: Run, n_discs: int) -> Curve:
         """Collisions with others per disc and step."""
         if self._log_counts and n_discs:
             last = max(self._log_counts)

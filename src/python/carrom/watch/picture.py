@@ -81,7 +81,7 @@ def _places_in(frame: Frame, view: View) -> Array:
 def _values(frame: Frame, places: Array, colour: str, about: dict[str, Any]) -> Array:
     if colour == "species":
         about["species"] = int(frame.species.max()) + 1 if frame.n_discs else 1
-        return frame.species[places].astype(np.float32)
+        return np.asarray(frame.species[places], dtype=np.float32)
     if colour == "psi6":
         edges = np.where(frame.periodic, frame.box, 0.0)
         return np.abs(hexatic_order(frame.x[places].astype(float), edges)).astype(np.float32)
@@ -95,12 +95,10 @@ def _values(frame: Frame, places: Array, colour: str, about: dict[str, Any]) -> 
     if len(speeds):
         rank = min(len(speeds) - 1, int(_FASTEST * len(speeds)))
         about["top"] = float(np.partition(speeds, rank)[rank]) or float(speeds.max())
-    return speeds
+    return np.asarray(speeds)
 
 
-def _discs(
-    frame: Frame, places: Array, values: Array, view: View, about: dict[str, Any]
-) -> bytes:
+def _discs(frame: Frame, places: Array, values: Array, view: View, about: dict[str, Any]) -> bytes:
     columns = [frame.x[places, 0] - view.x_low, frame.x[places, 1] - view.y_low, values]
     radii = frame.radius[places]
     if len(radii) and radii.min() != radii.max():

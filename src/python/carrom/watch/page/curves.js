@@ -12,6 +12,7 @@ const Curves = (() => {
   function range(values) {
     let low = Infinity, high = -Infinity;
     for (const v of values) { low = Math.min(low, v); high = Math.max(high, v); }
+    if (low === 0 && high === 0) return [0, 1];
     const room = Math.max((high - low) * 0.08, Math.abs(high) * 1e-3, 1e-300);
     return [low >= 0 && low - room < 0 ? 0 : low - room, high + room];
   }
