@@ -190,9 +190,9 @@ Subcommand run_subcommand() {
                 },
                 true, !reads_input};
     };
-    return {"run",    "Run a scene",
+    return {"run",      "Run a scene",
             run_footer, run_options(*words),
-            action,   "one input is enough; carrom run takes one at a time"};
+            action,     "one input is enough; carrom run takes one at a time"};
 }
 
 } // namespace carrom

@@ -18,12 +18,12 @@ constexpr std::array<std::string_view, 5> size_keys = {
     "discs.radius", "discs.packing", "discs.species", "discs.list", "discs.columns"};
 
 std::string body_problem(double radius, double mass) {
-    const std::string text = column_problem(DiscColumn::radius, radius);
+    std::string text = column_problem(DiscColumn::radius, radius);
     return text.empty() ? column_problem(DiscColumn::mass, mass) : text;
 }
 
 std::string spin_problem(const Scene& scene, double spin) {
-    const std::string text = column_problem(DiscColumn::spin, spin);
+    std::string text = column_problem(DiscColumn::spin, spin);
     if (!text.empty() || scene.effects.contact.kind == ContactKind::rough) return text;
     return "a spin has no meaning without effects.contact.kind = \"rough\"";
 }

@@ -81,7 +81,7 @@ class Checkpoint(Frame):
         return parsed(self.scene_text, self.scene_name, self._overrides.splitlines())
 
     def column(self, name: str) -> Array:
-        """Return a column of /carrom/discs as it is stored (docs/reference/formats.md says in which frame)."""
+        """Return a column of /carrom/discs as it is stored; see docs/reference/formats.md."""
         with h5.open_file(self.path) as file:
             if f"carrom/discs/{name}" not in file:
                 raise NoDataError(f"{self.path}: discs have no {name}")
