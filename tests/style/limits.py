@@ -48,6 +48,7 @@ HOLDS_FUNCTIONS = re.compile(r"\b(namespace|class|struct|union|enum|extern)\b[^(
 def cpp_functions(text):
     """(name, first line, last line) of each function that is in no other one."""
     code = NO_CODE.sub(blank, text)
+    name, first = "", 0
     depth_inside = 0  # open braces inside a function
     start = 0  # where the words before the next brace begin
     for match in re.finditer(r"[{};]", code):
