@@ -38,9 +38,14 @@ def launcher():
 def carrom(*words, ranks=1):
     """Run the program and return what it prints."""
     command = [*([launcher(), "-n", str(ranks)] if ranks > 1 else []), program(), *map(str, words)]
-    shown = [os.path.relpath(word) if word.startswith("/") and os.path.exists(word) else word for word in command]
+    shown = [
+        os.path.relpath(word) if word.startswith("/") and os.path.exists(word) else word
+        for word in command
+    ]
     print("+", shlex.join(shown), flush=True)
-    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, stdin=subprocess.DEVNULL).stdout
+    return subprocess.run(
+        command, check=True, stdout=subprocess.PIPE, text=True, stdin=subprocess.DEVNULL
+    ).stdout
 
 
 def report(*words, ranks=1):
@@ -60,13 +65,20 @@ def lines(text):
 def lost_collisions(is_short):
     """1: the share of collisions that the time-stepped method loses, against the step."""
     gas, steps = SCENES / "gas.toml", ("--steps", 100 if is_short else 400)
-    exact = report(gas, *steps, "--set", "time.method=event-driven")["averages"]["collision_frequency"]["value"]
+    exact = report(gas, *steps, "--set", "time.method=event-driven")["averages"][
+        "collision_frequency"
+    ]["value"]
     print(f"event-driven: {exact:.4f} collisions per disc and step")
     lost = {}
     for k in (1, 2, 4, 8, 16, 32):
-        found = report(gas, *steps, "--set", f"time.micro_steps={k}")["averages"]["collision_frequency"]["value"]
+        found = report(gas, *steps, "--set", f"time.micro_steps={k}")["averages"][
+            "collision_frequency"
+        ]["value"]
         lost[k] = 1 - found / exact
-        print(f"K = {k:2}: {exact / k:.4f} collisions per disc and micro-step, {100 * lost[k]:5.1f} % lost")
+        print(
+            f"K = {k:2}: {exact / k:.4f} collisions per disc and micro-step, "
+            f"{100 * lost[k]:5.1f} % lost"
+        )
     halvings = [lost[2 * k] / lost[k] for k in (1, 2, 4, 8)]
     return all(0.4 < ratio < 0.9 for ratio in halvings) and 0.2 < lost[1] < 0.45 and lost[16] < 0.07
 
@@ -76,55 +88,97 @@ def slow_factor(_):
     slow = lines(carrom("run", SCENES / "slow.in", "--quiet"))[32]
     parts = lines(carrom("run", SCENES / "fast.in", "--quiet", "--set", "time.micro_steps=4"))[8]
     whole = lines(carrom("run", SCENES / "fast.in", "--quiet"))[8]
+
     def same(a, b):
         return sum(p[:2] == q[:2] for p, q in zip(a, b, strict=True))
 
-    print(f"velocities / 4 and 32 steps: {same(slow, parts)} of 60 discs are where K = 4 has them after 8 steps")
+    print(
+        f"velocities / 4 and 32 steps: {same(slow, parts)} of 60 discs "
+        "are where K = 4 has them after 8 steps"
+    )
     print(f"                             {same(slow, whole)} of 60 discs are where K = 1 has them")
     return same(slow, parts) == 60 and same(slow, whole) < 20
 
 
 def float_and_double(is_short):
-    """3: how fast roundings grow: runs that differ in precision, or in the places of syncs, only."""
-    words = (SCENES / "gas.toml", "--quiet", "--steps", 40 if is_short else 120, "--set", "output.text=every_step",
-             "--set", "time.method=event-driven", "--set", "discs.speed=1.4")
+    """3: how fast roundings grow: runs that differ in precision, or in syncs, only."""
+    words = (
+        SCENES / "gas.toml",
+        "--quiet",
+        "--steps",
+        40 if is_short else 120,
+        "--set",
+        "output.text=every_step",
+        "--set",
+        "time.method=event-driven",
+        "--set",
+        "discs.speed=1.4",
+    )
     double = lines(carrom("run", *words))
     single = lines(carrom("run", *words, "--set", "time.precision=single"))
     other = lines(carrom("run", *words, "--set", "time.micro_steps=16"))
 
     def distances(run):
-        return [math.sqrt(sum((p[0] - q[0]) ** 2 + (p[1] - q[1]) ** 2 for p, q in zip(run[s], double[s], strict=True))
-                          / 1000) / (2 * RADIUS) for s in sorted(double)]
+        return [
+            math.sqrt(
+                sum(
+                    (p[0] - q[0]) ** 2 + (p[1] - q[1]) ** 2
+                    for p, q in zip(run[s], double[s], strict=True)
+                )
+                / 1000
+            )
+            / (2 * RADIUS)
+            for s in sorted(double)
+        ]
 
     apart = {"float and double": distances(single), "double, other syncs": distances(other)}
     reached = {}
     for name, distance in apart.items():
         reached[name] = next((s for s, d in enumerate(distance) if d > 0.1), None)
         shown = ", ".join(f"{distance[s]:.0e}" for s in range(0, len(distance), 5)[:9])
-        print(f"{name}: {shown} diameters after 0, 5, 10, ... steps; above 0.1 from step {reached[name]}")
+        print(
+            f"{name}: {shown} diameters after 0, 5, 10, ... steps; "
+            f"above 0.1 from step {reached[name]}"
+        )
     first, second = reached.values()
     return first is not None and first < 20 and second is not None and 1.5 * first < second < 40
 
 
 def strips_and_halo(is_short):
-    """4: what strips would lose without a halo, and that with one the bits do not depend on them."""
+    """4: what strips would lose without a halo; with one the bits do not depend on them."""
     steps = 100 if is_short else 400
     words = (SCENES / "gas.toml", "--steps", steps, "--set", "time.method=event-driven")
     hashes = {ranks: report(*words, ranks=ranks)["state_hash"] for ranks in (1, 2, 3)}
     for ranks, state in hashes.items():
         print(f"{ranks} ranks: state hash {state}")
     shutil.rmtree("halo", ignore_errors=True)
-    carrom("run", *words, "-o", "halo", "--quiet", "--set", "output.collisions=true",
-           "--set", "output.trajectory.every_steps=1")
+    carrom(
+        "run",
+        *words,
+        "-o",
+        "halo",
+        "--quiet",
+        "--set",
+        "output.collisions=true",
+        "--set",
+        "output.trajectory.every_steps=1",
+    )
     frames = lines(carrom("convert", "halo/trajectory.h5", "--to", "text"))
-    pairs = [row for row in csv.DictReader(carrom("convert", "halo/collisions.h5", "--to", "csv").splitlines())
-             if int(row["q"]) >= 0]
+    pairs = [
+        row
+        for row in csv.DictReader(
+            carrom("convert", "halo/collisions.h5", "--to", "csv").splitlines()
+        )
+        if int(row["q"]) >= 0
+    ]
     is_good = len(set(hashes.values())) == 1
     for strips in (2, 4, 8):
         cut = sum(is_cut(frames, row, strips) for row in pairs)
         expected = (strips - 1) * 4 * RADIUS / math.pi / 100
-        print(f"{strips} strips: {100 * cut / len(pairs):.2f} % of {len(pairs)} pairs are in two strips; "
-              f"2 (strips - 1) sigma / (pi L) = {100 * expected:.2f} %")
+        print(
+            f"{strips} strips: {100 * cut / len(pairs):.2f} % of {len(pairs)} pairs are in two; "
+            f"2 (strips - 1) sigma / (pi L) = {100 * expected:.2f} %"
+        )
         is_good &= abs(cut / len(pairs) / expected - 1) < (0.3 if is_short else 0.15)
     return is_good
 
@@ -145,16 +199,35 @@ def conflicts_across_a_boundary(_):
     for name in ("chain", "chain_cut"):
         for ranks in (1, 3):
             shutil.rmtree("chain", ignore_errors=True)
-            carrom("run", SCENES / f"{name}.in", "-o", "chain", "--set", "output.collisions=true", "--quiet",
-                   "--output", "lines", ranks=ranks)
-            rows = csv.DictReader(carrom("convert", "chain/collisions.h5", "--to", "csv").splitlines())
+            carrom(
+                "run",
+                SCENES / f"{name}.in",
+                "-o",
+                "chain",
+                "--set",
+                "output.collisions=true",
+                "--quiet",
+                "--output",
+                "lines",
+                ranks=ranks,
+            )
+            rows = csv.DictReader(
+                carrom("convert", "chain/collisions.h5", "--to", "csv").splitlines()
+            )
             kept[name, ranks] = [(int(row["p"]), int(row["q"])) for row in rows]
         print(f"{name}: on 1 and on 3 ranks these collide: {kept[name, 1]}")
-    return (kept["chain", 1] == kept["chain", 3] == [(i, i + 1) for i in range(0, 12, 2)]
-            and kept["chain_cut", 1] == kept["chain_cut", 3] == [(i, i + 1) for i in range(1, 11, 2)])
+    return kept["chain", 1] == kept["chain", 3] == [(i, i + 1) for i in range(0, 12, 2)] and kept[
+        "chain_cut", 1
+    ] == kept["chain_cut", 3] == [(i, i + 1) for i in range(1, 11, 2)]
 
 
-EXERCISES = (lost_collisions, slow_factor, float_and_double, strips_and_halo, conflicts_across_a_boundary)
+EXERCISES = (
+    lost_collisions,
+    slow_factor,
+    float_and_double,
+    strips_and_halo,
+    conflicts_across_a_boundary,
+)
 
 
 def main():

@@ -1,31 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page of a run, held to the run's files as h5py reads them."""
+"""What the server of the page answers, held to the run's files as h5py reads them."""
 
 import json
 import os
-import re
-import shutil
 import signal
 import socket
 import subprocess
 import sys
-import tempfile
-import time
 import unittest
 import urllib.error
 from pathlib import Path
 
 import h5py
 import numpy as np
-
 from carrom.watch.order import hexatic_order
 from carrom.watch.picture import View, picture
-
-from watch_tools import PROGRAM, Page, SCENE, pixels, run, start, stored
-
-BROWSER = next(
-    filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
-)
+from watch_support import PROGRAM, SCENE, Page, run, start, stored, wait_for
 
 
 class ServerTest(unittest.TestCase):
@@ -254,122 +244,6 @@ class PictureTest(unittest.TestCase):
         self.assertEqual(about["shown"], inside.sum())
         x, y, _ = np.frombuffer(body, dtype="<f4").reshape(3, -1)
         np.testing.assert_allclose(x, frame.x[inside, 0] - 10, atol=1e-5)
-
-
-def wait_for(claim, seconds=60):
-    end = time.monotonic() + seconds
-    while not claim():
-        if time.monotonic() > end:
-            raise AssertionError("it takes too long")
-        time.sleep(0.2)
-
-
-@unittest.skipUnless(BROWSER, "there is no chromium")
-class BrowserTest(unittest.TestCase):
-    def browse(self, address, *options, seconds=6, size="1200,900"):
-        """Return what Chromium writes of a page after some seconds of its own clock."""
-        with tempfile.TemporaryDirectory() as profile:
-            done = subprocess.run(
-                [
-                    BROWSER,
-                    "--headless",
-                    "--no-sandbox",
-                    "--disable-gpu",
-                    "--disable-quic",
-                    "--no-first-run",
-                    "--disable-background-networking",
-                    "--disable-component-update",
-                    "--disable-sync",
-                    f"--user-data-dir={profile}",
-                    f"--window-size={size}",
-                    "--hide-scrollbars",
-                    f"--virtual-time-budget={1000 * seconds}",
-                    *options,
-                    address,
-                ],
-                capture_output=True,
-                timeout=120,
-                check=True,
-                text=True,
-            )
-        return done.stdout
-
-    def shown(self, page, words="", seconds=6):
-        text = self.browse(page.server.address + words, "--dump-dom", seconds=seconds)
-        body = re.search("<body[^>]*>", text)[0]
-        facts = dict(re.findall('data-([a-z]+)="([^"]*)"', body))
-        return facts, text
-
-    def test_a_finished_run(self):
-        run("done")
-        steps, _, _ = stored("done")
-        with Page("done") as page:
-            facts, text = self.shown(page)
-            self.assertEqual(
-                (facts["status"], facts["step"], facts["drawn"]), ("finished", "60", "200")
-            )
-            self.assertEqual(facts["frames"], str(len(steps)))
-            self.assertIn("step 60: 200 of 200 discs drawn", text)
-            self.assertIn("step 60 of 60", text)
-            for step in (0, 25):
-                facts, _ = self.shown(page, f"?step={step}&colour=psi6")
-                self.assertEqual((facts["step"], facts["drawn"]), (str(step), "200"))
-            facts, _ = self.shown(page, "?step=20&play=-1")  # back to the start
-            self.assertEqual(facts["step"], "0")
-            facts, _ = self.shown(page, "?step=20&play=1")
-            self.assertEqual(facts["step"], "60")
-
-    def test_discs_have_their_size_on_the_screen(self):
-        run("sizes")
-        with Page("sizes") as page:
-            self.browse(
-                page.server.address + "?theme=light&colour=species",
-                "--screenshot=shot.png",
-                size="800,500",
-            )
-        picture = pixels("shot.png")
-        ground, colour = np.array([241, 242, 244]), np.array([44, 116, 188])
-        away = picture[40:435, :440, :3] - ground.astype(float)  # the rest of the page is blue too
-        covered = away @ (colour - ground) / ((colour - ground) ** 2).sum()
-        is_mixed = np.linalg.norm(away - covered[..., None] * (colour - ground), axis=2) < 8
-        covered = np.where(is_mixed & (covered > 0.05), np.minimum(covered, 1), 0)
-        rows, columns = np.nonzero(covered > 0.5)
-        radius = np.sqrt(0.3 * 40**2 / 200 / np.pi)
-        _, places, _ = stored("sizes")
-        width = (
-            np.ptp(places[-1, :, 0]) + 2 * radius
-        )  # from the first disc's edge to the last one's
-        scale = (np.ptp(columns) + 1) / width
-        height = np.ptp(places[-1, :, 1]) + 2 * radius
-        self.assertAlmostEqual((np.ptp(rows) + 1) / height, scale, delta=0.02 * scale)
-        self.assertAlmostEqual(covered.sum() / scale**2, 200 * np.pi * radius**2, delta=0.03 * 480)
-
-    def test_a_run_that_goes_on(self):
-        process = start("going", steps=10**7, every=200)
-        try:
-            with Page("going", may_wait=True) as page:
-                wait_for(lambda: len(page.json("state?have=0&last=-1")["steps"]) > 3)
-                facts, text = self.shown(page)
-                steps, _, _ = stored("going")
-                self.assertEqual((facts["status"], facts["drawn"]), ("running", "200"))
-                self.assertIn(int(facts["step"]), steps)
-                self.assertIn("of 10000000", text)
-                later, _ = self.shown(page)
-                wait_for(
-                    lambda: page.json("state?have=0&last=-1")["steps"][-1] > int(later["step"])
-                )
-                newest, _ = self.shown(page)
-                self.assertGreater(int(newest["step"]), int(facts["step"]))
-        finally:
-            process.kill()
-            process.wait()
-
-    def test_a_page_without_a_run(self):
-        os.mkdir("nothing")
-        with Page("nothing") as page:
-            facts, text = self.shown(page, seconds=3)
-        self.assertEqual(facts["status"], "waiting")
-        self.assertIn("No run has begun here yet", text)
 
 
 if __name__ == "__main__":

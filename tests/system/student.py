@@ -206,8 +206,9 @@ class Box:
         if self.mistake == "count-stops":
             disc.walls += 1
         if self.mistake in ("turn", "bounce"):
-            disc.vx, disc.vy = -disc.vx if sx == first else disc.vx, (
-                -disc.vy if sy == first else disc.vy
+            disc.vx, disc.vy = (
+                -disc.vx if sx == first else disc.vx,
+                (-disc.vy if sy == first else disc.vy),
             )
         if self.mistake == "bounce":
             disc.x, disc.y = disc.x + disc.vx * (rest - first), disc.y + disc.vy * (rest - first)

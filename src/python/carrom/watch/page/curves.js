@@ -42,9 +42,11 @@ const Curves = (() => {
       words(context, curve ? curve.source : "", width - 16, 8, 18, 15);
       return;
     }
-    const [low, high] = range(curve.values), left = 8, right = width - 8, top = 18, bottom = height - 20;
+    const [low, high] = range(curve.values);
+    const left = 8, right = width - 8, top = 18, bottom = height - 20;
     const end = Math.max(lastStep, curve.steps[curve.steps.length - 1], 1);
-    const x = (s) => left + (s / end) * (right - left), y = (v) => bottom - ((v - low) / (high - low)) * (bottom - top);
+    const x = (s) => left + (s / end) * (right - left);
+    const y = (v) => bottom - ((v - low) / (high - low)) * (bottom - top);
     context.fillText(number(high), left, 13);
     context.textAlign = "right";
     context.fillText(curve.source, right, 13);
@@ -69,7 +71,9 @@ const Curves = (() => {
     curve.steps.forEach((s, i) => context.lineTo(x(s), y(curve.values[i])));
     context.stroke();
     if (curve.steps.length < 40) {
-      curve.steps.forEach((s, i) => { context.fillRect(x(s) - 1.5, y(curve.values[i]) - 1.5, 3, 3); });
+      curve.steps.forEach((s, i) => {
+        context.fillRect(x(s) - 1.5, y(curve.values[i]) - 1.5, 3, 3);
+      });
     }
   }
 

@@ -28,14 +28,16 @@ const Discs = (() => {
                of: (v) => v % SPECIES.length };
     }
     const scale = top > 0 ? 255.99 / top : 0;
-    return { colours: table, packed: packedTable, of: (v) => Math.min(255, Math.max(0, v * scale)) | 0 };
+    return { colours: table, packed: packedTable,
+             of: (v) => Math.min(255, Math.max(0, v * scale)) | 0 };
   }
 
   // Pixels from lengths: x and y of the page's picture for a place in the box.
   function mapping(canvas, view) {
     const [x0, y0, x1, y1] = view;
     const scale = Math.min(canvas.width / (x1 - x0), canvas.height / (y1 - y0));
-    const left = (canvas.width - scale * (x1 - x0)) / 2, top = (canvas.height - scale * (y1 - y0)) / 2;
+    const left = (canvas.width - scale * (x1 - x0)) / 2;
+    const top = (canvas.height - scale * (y1 - y0)) / 2;
     return { scale, x: (x) => left + (x - x0) * scale, y: (y) => top + (y1 - y) * scale,
              toX: (px) => x0 + (px - left) / scale, toY: (py) => y1 - (py - top) / scale };
   }
@@ -49,11 +51,12 @@ const Discs = (() => {
 
   function drawSmooth(context, frame, map, colours) {
     const { x, y, value, about } = frame, [vx, vy] = about.view;
+    const { width, height } = context.canvas;
     let drawn = 0;
     for (let i = 0; i < x.length; i++) {
       const r = Math.max(0.5, (frame.radii ? frame.radii[i] : about.radius) * map.scale);
       const px = map.x(x[i] + vx), py = map.y(y[i] + vy);
-      if (px + r < 0 || py + r < 0 || px - r > context.canvas.width || py - r > context.canvas.height) continue;
+      if (px + r < 0 || py + r < 0 || px - r > width || py - r > height) continue;
       const [red, green, blue] = colours.colours[colours.of(value[i])];
       context.fillStyle = `rgb(${red},${green},${blue})`;
       context.beginPath();
@@ -66,7 +69,8 @@ const Discs = (() => {
 
   function drawRows(context, frame, map, colours) {
     const { width, height } = context.canvas;
-    const image = context.createImageData(width, height), pixels = new Uint32Array(image.data.buffer);
+    const image = context.createImageData(width, height);
+    const pixels = new Uint32Array(image.data.buffer);
     const { x, y, value, about } = frame, [vx, vy] = about.view;
     const x0 = map.x(vx), y0 = map.y(vy), scale = map.scale;
     let drawn = 0;
@@ -115,8 +119,10 @@ const Discs = (() => {
   // Draws a frame in the view and returns how many discs are in the picture.
   function draw(canvas, frame, view, top) {
     const ratio = window.devicePixelRatio || 1;
-    const width = Math.round(canvas.clientWidth * ratio), height = Math.round(canvas.clientHeight * ratio);
-    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    const width = Math.round(canvas.clientWidth * ratio);
+    const height = Math.round(canvas.clientHeight * ratio);
+    if (canvas.width !== width || canvas.height !== height)
+      Object.assign(canvas, { width, height });
     const context = canvas.getContext("2d"), map = mapping(canvas, view);
     context.clearRect(0, 0, width, height);
     const colours = palette(frame, top);
@@ -149,7 +155,9 @@ const Discs = (() => {
       return frame;
     }
     const n = about.shown;
-    ["x", "y", "value"].forEach((name, i) => { frame[name] = numbers.subarray(i * n, (i + 1) * n); });
+    ["x", "y", "value"].forEach((name, i) => {
+      frame[name] = numbers.subarray(i * n, (i + 1) * n);
+    });
     if (about.has_radii) frame.radii = numbers.subarray(3 * n, 4 * n);
     return frame;
   }

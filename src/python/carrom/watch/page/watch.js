@@ -45,7 +45,8 @@ async function load(index) {
   try {
     const view = isWholeKept() ? "" : `&view=${page.view.join()}`;
     const follow = page.direction === 0 && element("follow").checked ? "&follow=1" : "";
-    const answer = await fetch(`frame?step=${step}&colour=${element("colour").value}${view}${follow}`);
+    const colour = element("colour").value;
+    const answer = await fetch(`frame?step=${step}&colour=${colour}${view}${follow}`);
     if (!answer.ok) throw new Error(await answer.text());
     const about = JSON.parse(answer.headers.get("X-Frame"));
     const frame = Discs.parse(about, new Float32Array(await answer.arrayBuffer()));
@@ -77,7 +78,8 @@ function show() {
   element("low").textContent = about.colour === "species" ? `${about.species} species` : "0";
   element("high").textContent = about.colour === "species" ? "" : Curves.number(top);
   Discs.drawGradient(element("gradient"), about.colour === "species" ? about.species : 0);
-  Object.assign(document.body.dataset, { step: about.step, drawn, total: about.total, kind: about.kind });
+  const { total, kind } = about;
+  Object.assign(document.body.dataset, { step, drawn, total, kind });
   drawCurves();
 }
 
@@ -97,6 +99,13 @@ function play(direction) {
   if (direction > 0 && page.index === page.steps.length - 1) goTo(0);
   if (direction < 0 && page.index === 0) goTo(page.steps.length - 1);
   page.due = performance.now();
+}
+
+// A frame on or back.
+function turn(by) {
+  play(0);
+  element("follow").checked = false;
+  goTo(page.index + by);
 }
 
 function tick(now) {
@@ -134,7 +143,8 @@ function showState(state) {
 function takeSteps(state) {
   if (state.run !== page.run) {
     forgetFrames();
-    Object.assign(page, { run: state.run, steps: [], index: -1, top: 0, isViewWhole: true, view: null, curves: {} });
+    Object.assign(page, { run: state.run, steps: [], index: -1, curves: {} });
+    Object.assign(page, { top: 0, isViewWhole: true, view: null });
   }
   const before = page.steps[page.index];
   if (state.first < page.steps.length) forgetFrames(); // cut back by a restart
@@ -204,7 +214,8 @@ function zoomAt(event) {
   event.preventDefault();
   const canvas = element("discs"), ratio = window.devicePixelRatio || 1;
   const map = Discs.mapping(canvas, page.view), box = canvas.getBoundingClientRect();
-  const x = map.toX((event.clientX - box.left) * ratio), y = map.toY((event.clientY - box.top) * ratio);
+  const x = map.toX((event.clientX - box.left) * ratio);
+  const y = map.toY((event.clientY - box.top) * ratio);
   const factor = event.deltaY > 0 ? 1.25 : 0.8;
   setView(page.view.map((edge, i) => (i % 2 ? y : x) + (edge - (i % 2 ? y : x)) * factor));
 }
@@ -218,7 +229,8 @@ function dragFrom(event) {
     if (!page.isViewWhole) setView([from[0] + dx, from[1] + dy, from[2] + dx, from[3] + dy]);
   };
   canvas.addEventListener("pointermove", move);
-  window.addEventListener("pointerup", () => canvas.removeEventListener("pointermove", move), { once: true });
+  const end = () => canvas.removeEventListener("pointermove", move);
+  window.addEventListener("pointerup", end, { once: true });
 }
 
 // --------------------------------------------------------------------------------------------
@@ -256,8 +268,8 @@ function start() {
     if (["INPUT", "SELECT", "BUTTON"].includes(event.target.tagName)) return;
     if (event.key === " ") { event.preventDefault(); play(page.direction ? 0 : 1); }
     if (event.key === "b") play(-1);
-    if (event.key === "ArrowRight") { play(0); element("follow").checked = false; goTo(page.index + 1); }
-    if (event.key === "ArrowLeft") { play(0); element("follow").checked = false; goTo(page.index - 1); }
+    if (event.key === "ArrowRight") turn(1);
+    if (event.key === "ArrowLeft") turn(-1);
   });
   takeWishes(asked);
   requestAnimationFrame(tick);
@@ -266,7 +278,8 @@ function start() {
 
 // The address may ask for a colour, a step and a direction: ?colour=psi6&step=120&play=-1
 function takeWishes(asked) {
-  if (["speed", "psi6", "species"].includes(asked.get("colour"))) element("colour").value = asked.get("colour");
+  const colour = asked.get("colour");
+  if (["speed", "psi6", "species"].includes(colour)) element("colour").value = colour;
   if (asked.has("step")) {
     element("follow").checked = false;
     page.wish = Number(asked.get("step"));

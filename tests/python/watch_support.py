@@ -1,20 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs, pages and pixels for watch_test.py."""
+"""What the tests of the page share: runs, a server, and pictures of it."""
 
 import json
 import os
+import shutil
 import subprocess
 import threading
+import time
 import urllib.request
 import zlib
 from pathlib import Path
 
 import h5py
 import numpy as np
-
 from carrom.watch import Follower, serve
 
 PROGRAM = os.environ["CARROM_PROGRAM"]
+BROWSER = next(
+    filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
+)
 SCENE = """
 [box]
 size = 40
@@ -79,6 +83,14 @@ def stored(folder):
     with h5py.File(f"{folder}/trajectory.h5", locking=False) as file:
         discs = file["particles/discs"]
         return discs["position/step"][()], discs["position/value"][()], discs["velocity/value"][()]
+
+
+def wait_for(claim, seconds=60):
+    end = time.monotonic() + seconds
+    while not claim():
+        if time.monotonic() > end:
+            raise AssertionError("it takes too long")
+        time.sleep(0.2)
 
 
 def pixels(path):
