@@ -21,7 +21,7 @@ print
 4 14 4 1 0
 5 14 8 1 -2
 SCENE
-for seed in 1 2 3; do student --scene 40 1.5 30 "$seed" >"random_$seed.in"; done
+for seed in 1 2; do student --scene 40 1.5 30 "$seed" >"random_$seed.in"; done
 
 compare() { # CODE OUTPUT SCENE OPTION...
     local wanted=$1
@@ -30,7 +30,7 @@ compare() { # CODE OUTPUT SCENE OPTION...
     expect_code "$wanted" "compare $*"
 }
 
-for scene in ties random_1 random_2 random_3; do
+for scene in ties random_1 random_2; do
     for digits in .17g .8f; do
         student $scene.in '' $digits >$scene.out
         compare 0 $scene.out $scene.in
@@ -44,7 +44,7 @@ grep -q 'only amplified roundings' <("$CARROM_PROGRAM" compare random_1.out rand
 n_named=0
 while read -r mistake rule; do
     is_seen=no
-    for scene in ties random_1 random_2 random_3; do
+    for scene in ties random_1 random_2; do
         # some mistakes end in a division by 0
         student $scene.in "$mistake" .8f >wrong.out 2>/dev/null || continue
         cmp -s $scene.out wrong.out && continue
@@ -62,7 +62,7 @@ while read -r mistake rule; do
     done
     [ $is_seen = yes ] || complain "no scene shows the mistake $mistake"
 done < <(student --mistakes)
-[ "$n_named" -ge 40 ] || complain "only $n_named wrong outputs were tried"
+[ "$n_named" -ge 35 ] || complain "only $n_named wrong outputs were tried"
 
 # The first line that differs is where one number was changed, and the tolerance is what decides.
 student ties.in '' .8f | sed '8s/ 8[.]00000000 0/ 8.00001000 0/' >moved.out
