@@ -80,7 +80,7 @@ class Page:
 
 def stored(folder):
     """Steps, positions and velocities of the trajectory, by h5py alone."""
-    with h5py.File(f"{folder}/trajectory.h5", locking=False) as file:
+    with h5py.File(f"{folder}/trajectory.h5") as file:
         discs = file["particles/discs"]
         return discs["position/step"][()], discs["position/value"][()], discs["velocity/value"][()]
 

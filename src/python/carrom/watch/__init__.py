@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Watch a run in a browser: `python -m carrom.watch FOLDER`. `docs/watch.md` says how.
 
-A small server on the loopback interface reads the files that the run writes anyway. It takes no
-lock and writes nothing, so the run and its bits stay as they are.
+A small server on the loopback interface reads the files that the run writes anyway. It leaves
+the run's lock alone and writes nothing, so the run and its bits stay as they are.
 """
 
 from carrom.watch.follower import Follower

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One run as the page sees it: its state, its frames, its curves.
 
-A follower opens files when they have changed, to read, and keeps no lock. It measures the time of
-the processor that looks take, and asks the page to look again so late that they take less than a
-hundredth of one core.
+A follower opens files when they have changed, to read. Runs take no HDF5 locks, so they never wait
+for it. It measures the processor's time that looks take, and asks the page to look again so late
+that they take less than a hundredth of one core.
 """
 
 from __future__ import annotations
