@@ -79,8 +79,8 @@ def lost_collisions(is_short):
             f"K = {k:2}: {exact / k:.4f} collisions per disc and micro-step, "
             f"{100 * lost[k]:5.1f} % lost"
         )
-    halvings = [lost[2 * k] / lost[k] for k in (1, 2, 4, 8)]
-    return all(0.4 < ratio < 0.9 for ratio in halvings) and 0.2 < lost[1] < 0.45 and lost[16] < 0.07
+    is_halved = all(0.4 * lost[k] < lost[2 * k] < 0.9 * lost[k] for k in (1, 2, 4, 8))
+    return is_halved and 0.2 < lost[1] < 0.45 and lost[16] < 0.07
 
 
 def slow_factor(_):

@@ -49,7 +49,7 @@ std::vector<Problem> obstacles(const Scene& scene) {
     if (scene.text_output == TextOutput::none)
         add("writes no lines of discs; try: --set output.text=every_step");
     if (scene.method != Method::time_stepped || scene.accuracy)
-        add("is not of the time-stepped method, which outputs are held to");
+        add("is not of the time-stepped method; try: --set time.method=time-stepped");
     if (scene.effects.are_any()) add("has effects; outputs are compared without");
     if (scene.precision != Precision::double_ || scene.arithmetic != Arithmetic::stable)
         add("has another precision or arithmetic; outputs are compared to the default");
