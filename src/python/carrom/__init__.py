@@ -22,7 +22,7 @@ from carrom.errors import (
 from carrom.frame import Frame
 from carrom.frames import Frames
 from carrom.gsd_file import to_gsd
-from carrom.physics import Measured, average, compressibility, henderson, virial_series
+from carrom.physics import Measured, average, compressibility, henderson, virial_equation
 from carrom.program import find_program, program_version
 from carrom.running import CarromWarning, resume, run
 from carrom.runs import Checkpoints, Run, read_lines
@@ -73,5 +73,5 @@ __all__ = [
     "sweep",
     "to_gsd",
     "to_toml",
-    "virial_series",
+    "virial_equation",
 ]

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
@@ -13,7 +14,9 @@ from carrom.runs import Run
 
 Number = TypeVar("Number", float, np.ndarray[Any, np.dtype[np.float64]])
 
-# B_n / B_2^(n-1), n = 2 to 10: Clisby and McCoy, J. Stat. Phys. 122, 15 (2006).
+# Padé approximant [5/4] in the packing fraction of the virial series with the coefficients B_n /
+# B_2^(n-1), n = 2 to 10: 1, 0.78200442, 0.53223180, 0.33355604, 0.1988425, 0.114868, 0.0649930,
+# 0.0362193, 0.0199537 (Clisby and McCoy, J. Stat. Phys. 122, 15 (2006)).
 _VIRIAL = (
     1,
     0.78200442,
@@ -40,12 +43,29 @@ def henderson(packing: Number) -> Number:
     return (1 + packing * packing / 8) / (1 - packing) ** 2
 
 
-def virial_series(packing: Number) -> Number:
-    """Return Z = p A / (N kT) of hard discs by ten virial coefficients, for packings up to 0.6."""
-    z = 1 + 0 * packing
-    for power, coefficient in enumerate(_VIRIAL, 1):
-        z = z + coefficient * (2 * packing) ** power
-    return z
+def virial_equation(packing: Number) -> Number:
+    """Return Z = p A / (N kT) of hard discs from ten virial coefficients, in a Padé approximant.
+
+    Simulations of Erpenbeck and Luban, Phys. Rev. A 32, 2920 (1985), agree to 0.01 % up to a
+    packing of 0.57 and to 0.05 % at 0.60.
+    """
+    above, below = _pade()
+    return sum(c * packing**k for k, c in enumerate(above)) / sum(  # type: ignore[return-value]
+        c * packing**k for k, c in enumerate(below)
+    )
+
+
+@cache
+def _pade(n: int = 4) -> tuple[list[float], list[float]]:
+    """Coefficients above and below the line, of the powers of the packing fraction."""
+    series = np.array([1.0, *(b * 2.0**k for k, b in enumerate(_VIRIAL, 1))])
+    m = len(series) - 1 - n
+    rows = [[series[m + i - j] for j in range(1, n + 1)] for i in range(1, n + 1)]
+    below = np.array([1.0, *np.linalg.solve(rows, -series[m + 1 :])])
+    above = [
+        float(np.dot(series[max(i - n, 0) : i + 1], below[min(i, n) :: -1])) for i in range(m + 1)
+    ]
+    return above, below.tolist()
 
 
 def average(run: Run, name: str) -> Measured:

@@ -14,10 +14,18 @@ import carrom
 
 def test_theories_agree_where_both_hold() -> None:
     packings = np.array([0.0, 0.1, 0.2, 0.3, 0.4])
-    assert carrom.henderson(packings) == pytest.approx(carrom.virial_series(packings), rel=3e-3)
-    assert carrom.henderson(0.0) == carrom.virial_series(0.0) == 1
-    slope = (carrom.virial_series(1e-6) - 1) / 1e-6
+    assert carrom.henderson(packings) == pytest.approx(carrom.virial_equation(packings), rel=3e-3)
+    assert carrom.henderson(0.0) == carrom.virial_equation(0.0) == 1
+    slope = (carrom.virial_equation(1e-6) - 1) / 1e-6
     assert slope == pytest.approx(2, rel=1e-5)  # the second virial coefficient of discs
+
+
+def test_virial_equation_is_that_of_known_simulations() -> None:
+    """Erpenbeck and Luban (1985), by area over that of close packing."""
+    known = {3.0: 2.0772, 2.0: 3.4243, 1.8: 4.1715, 1.6: 5.4963, 1.5: 6.6074}
+    for area, z in known.items():
+        packing = np.pi / (2 * np.sqrt(3)) / area
+        assert carrom.virial_equation(packing) == pytest.approx(z, rel=6e-4)
 
 
 def test_compressibility_is_that_of_the_virial(program: Path, tmp_path: Path) -> None:

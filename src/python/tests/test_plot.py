@@ -17,7 +17,7 @@ Image = pytest.importorskip("PIL.Image", reason="pillow is not installed")
 matplotlib.use("Agg")
 
 from carrom import plot  # noqa: E402
-from carrom.plot.commands import main  # noqa: E402
+from carrom.plot_command import main  # noqa: E402
 
 
 def coloured(path: Path) -> float:

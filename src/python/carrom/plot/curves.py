@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 
 from carrom.errors import NoDataError
 from carrom.frame import Array
-from carrom.physics import compressibility, henderson, virial_series
+from carrom.physics import compressibility, henderson, virial_equation
 from carrom.plot.sources import as_run
 from carrom.runs import Run
 from carrom.sweeps import Sweep
@@ -131,7 +131,7 @@ def equation_of_state(
 
     Args:
         source: a sweep, or runs
-        theory: draw Henderson's equation and the virial series too
+        theory: draw Henderson's equation and the virial equation too
         ax: where to draw; a new figure if None
     """
     ax = _new_axes(ax)
@@ -141,7 +141,7 @@ def equation_of_state(
     if theory:
         line = np.linspace(0, max(packings.max(), 0.05), 200)
         ax.plot(line, henderson(line), color="0.6", label="Henderson (1975)")
-        ax.plot(line, virial_series(line), "k--", linewidth=0.8, label="ten virial coefficients")
+        ax.plot(line, virial_equation(line), "k--", linewidth=0.8, label="virial equation")
     ax.errorbar(packings, values, yerr=errors, fmt="o", markersize=4, capsize=2, label="measured")
     ax.set(xlabel="packing fraction", ylabel="Z = p A / (N kT)")
     ax.legend()

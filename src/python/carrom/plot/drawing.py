@@ -43,6 +43,7 @@ class Look:
         label: what the bar of colours says
         cmap: a colour map of matplotlib, instead of the usual one
         bar: whether there is a bar of colours
+        limits: the numbers of the first and the last colour, instead of `fastest`
     """
 
     colour: str | npt.ArrayLike = "speed"
@@ -52,6 +53,7 @@ class Look:
     label: str | None = None
     cmap: str | Colormap | None = None
     bar: bool = True
+    limits: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.colour, str) and self.colour not in COLOURS:
@@ -70,6 +72,7 @@ def frame(
     label: str | None = None,
     cmap: str | Colormap | None = None,
     bar: bool = True,
+    limits: tuple[float, float] | None = None,
     scene: Mapping[str, Any] | None = None,
     ax: Axes | None = None,
 ) -> Axes:
@@ -85,11 +88,12 @@ def frame(
         label: what the bar of colours says
         cmap: a colour map of matplotlib
         bar: whether there is a bar of colours
+        limits: the numbers of the first and the last colour, instead of `fastest`
         scene: where obstacles stand, if the source does not know
         ax: where to draw; a new figure if None
     """
     shown = frame_of(source, step)
-    look = Look(colour, view, fastest, ranks, label, cmap, bar)
+    look = Look(colour, view, fastest, ranks, label, cmap, bar, limits)
     picture = Picture(shown, look, scene_of(source) if scene is None else scene, ax)
     picture.show(shown)
     return picture.axes
@@ -172,6 +176,8 @@ class Picture:
         return "coolwarm" if self._is(_TWO_SIDED) else "viridis"
 
     def _limits(self, first: Frame) -> tuple[float, float]:
+        if self.look.limits is not None:
+            return self.look.limits
         if self._is(_NUMBERED):
             return -0.5, self._n_numbers(first) - 0.5
         values = self._values(first)[first.present]

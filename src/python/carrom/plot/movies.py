@@ -41,6 +41,7 @@ def movie(
     label: str | None = None,
     cmap: str | Colormap | None = None,
     bar: bool = True,
+    limits: tuple[float, float] | None = None,
     scene: Mapping[str, Any] | None = None,
     dpi: int = 110,
 ) -> Path:
@@ -61,6 +62,7 @@ def movie(
         label: what the bar of colours says
         cmap: a colour map of matplotlib
         bar: whether there is a bar of colours
+        limits: the numbers of the first and the last colour, instead of `fastest`
         scene: where obstacles stand, if the source does not know
         dpi: dots per inch; the figure is 7.2 x 6.2 inches
     """
@@ -71,7 +73,7 @@ def movie(
         raise FileError(f"{path}: there is no folder {path.parent}")
     ffmpeg = "" if path.suffix == ".gif" else find_ffmpeg()
     frames = frames_of(source)[::every]
-    look = Look(colour, view, fastest, ranks, label, cmap, bar)
+    look = Look(colour, view, fastest, ranks, label, cmap, bar, limits)
     film = _Film(frames[0], look, scene_of(source) if scene is None else scene, dpi)
     with tempfile.TemporaryDirectory(prefix=".carrom-", dir=path.parent) as folder:
         part = Path(folder, path.name)

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Python environments of tests, from PyPI, kept in a folder. To be sourced after common.sh, which
+# has set CARROM_SOURCE_DIR. Tests that run at once wait for each other while they install.
+
+skip_test() {
+    printf 'skipped: %s\n' "$*"
+    exit 77
+}
+
+# The package takes the program and the launcher from these.
+export CARROM=$CARROM_PROGRAM CARROM_MPIEXEC OMP_NUM_THREADS=1 MPLBACKEND=Agg
+package=$CARROM_SOURCE_DIR/src/python
+
+# copy_package FOLDER: pip writes beside the sources, so it gets a copy
+copy_package() {
+    rm -rf "$1"
+    mkdir -p "$1"
+    tar -C "$package" --exclude=__pycache__ --exclude=build --exclude='*.egg-info' -cf - . |
+        tar -C "$1" -xf -
+}
+
+# use_environment FOLDER: sets `python`; the environment lasts
+use_environment() {
+    mkdir -p "$1"
+    exec 9>"$1.lock"
+    flock 9
+    python=$1/bin/python
+    [ -x "$python" ] && "$python" -m pip --version >/dev/null 2>&1 ||
+        python3 -m venv --clear "$1" >"$test_folder/err" 2>&1 ||
+        skip_test "no Python environment can be made: $(tail -n 1 "$test_folder/err")"
+    "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' ||
+        skip_test 'the package needs Python 3.11'
+}
+release_environment() { flock -u 9; }
+
+install() {
+    timeout 400 "$python" -m pip install --quiet --disable-pip-version-check --retries 1 \
+        --timeout 10 "$@" >"$test_folder/err" 2>&1
+}
+
+# has MODULE PACKAGE...: whether Python has the module, if need be from PyPI
+has() {
+    local module=$1
+    shift
+    "$python" -c "import $module" 2>/dev/null && return
+    install --only-binary :all: "$@" && "$python" -c "import $module" 2>/dev/null
+}
+
+# install_package: the package itself, without what it needs, as it is now
+install_package() {
+    copy_package "$test_folder/package"
+    has setuptools setuptools wheel || skip_test "no setuptools: $(tail -n 1 "$test_folder/err")"
+    has wheel wheel || skip_test "no wheel: $(tail -n 1 "$test_folder/err")"
+    install --no-deps --no-build-isolation --force-reinstall "$test_folder/package" ||
+        { complain "pip cannot install the package: $(tail -n 3 "$test_folder/err")"; finish; }
+}

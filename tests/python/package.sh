@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# The package's own tests, with the real freud, MDAnalysis, ASE, OVITO and gsd where PyPI has them;
+# then types and style. Argument: the folder of environments.
+source "$(dirname "$0")/../system/common.sh"
+source "$(dirname "$0")/environment.sh"
+
+use_environment "$1/package"
+for needed in 'h5py h5py' 'numpy numpy' 'pytest pytest'; do
+    read -r module name <<<"$needed"
+    has "$module" "$name" || skip_test "$name is not to be had: $(tail -n 1 "$test_folder/err")"
+done
+for wanted in 'matplotlib matplotlib' 'PIL pillow' 'imageio_ffmpeg imageio-ffmpeg' 'pandas pandas' \
+    'freud freud-analysis' 'MDAnalysis MDAnalysis' 'ase ase' 'ovito ovito' 'gsd.hoomd gsd'; do
+    read -r module name <<<"$wanted"
+    has "$module" "$name" ||
+        printf 'skipped: %s is not to be had: %s\n' "$name" "$(tail -n 1 "$test_folder/err")"
+done
+install_package
+release_environment
+
+# Not from the checkout: what is tested is what pip has installed.
+cp -r "$package/tests" "$package/pyproject.toml" .
+"$python" -m pytest -q -rs -p no:cacheprovider tests || complain 'pytest'
+
+for tool in mypy ruff; do
+    has "$tool" "$tool" ||
+        { printf 'skipped: %s is not to be had\n' "$tool"; continue; }
+    cp -r "$package" "$tool-sources"
+    case $tool in
+    mypy) (cd mypy-sources && "$python" -m mypy --cache-dir=/dev/null) || complain 'mypy' ;;
+    ruff)
+        (cd ruff-sources && "$python" -m ruff check --no-cache .) || complain 'ruff check'
+        (cd ruff-sources && "$python" -m ruff format --no-cache --check .) || complain 'ruff format'
+        ;;
+    esac
+done
+finish
