@@ -17,7 +17,8 @@ Image = pytest.importorskip("PIL.Image", reason="pillow is not installed")
 matplotlib.use("Agg")
 
 from carrom import plot  # noqa: E402
-from carrom.plot_command import main  # noqa: E402
+from carrom.plot.commands import main  # noqa: E402
+from carrom.plot.movies import find_ffmpeg  # noqa: E402
 
 
 def coloured(path: Path) -> float:
@@ -91,7 +92,7 @@ def test_a_movie_has_all_frames(run: carrom.Run, tmp_path: Path) -> None:
 
 def test_a_movie_of_other_kinds_is_for_ffmpeg(run: carrom.Run, tmp_path: Path) -> None:
     try:
-        plot.movies.find_ffmpeg()
+        find_ffmpeg()
     except carrom.MissingPackageError as error:
         pytest.skip(str(error))
     path = plot.movie(run, tmp_path / "m.mp4", dpi=41)

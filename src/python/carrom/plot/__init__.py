@@ -5,14 +5,22 @@ Functions take a `Run`, `Frames`, a `Frame` or the path of any of these, draw in
 figure, and return matplotlib Axes. `carrom-plot` has the same as commands.
 """
 
-from carrom.plot.curves import (
-    equation_of_state,
-    history,
-    measurements,
-    radial_distribution,
-)
-from carrom.plot.drawing import frame
-from carrom.plot.movies import movie
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+from carrom.errors import MissingPackageError
+
+if TYPE_CHECKING:
+    from carrom.plot.curves import (
+        equation_of_state,
+        history,
+        measurements,
+        radial_distribution,
+    )
+    from carrom.plot.drawing import frame
+    from carrom.plot.movies import movie
 
 __all__ = [
     "equation_of_state",
@@ -22,3 +30,24 @@ __all__ = [
     "movie",
     "radial_distribution",
 ]
+
+_MODULES = {
+    "equation_of_state": "curves",
+    "frame": "drawing",
+    "history": "curves",
+    "measurements": "curves",
+    "movie": "movies",
+    "radial_distribution": "curves",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import matplotlib once something is drawn."""
+    if name not in _MODULES:
+        raise AttributeError(f"module {__name__} has no attribute {name}")
+    try:
+        return getattr(importlib.import_module(f"carrom.plot.{_MODULES[name]}"), name)
+    except ModuleNotFoundError as error:
+        raise MissingPackageError(
+            f"carrom.plot needs {error.name}: pip install carrom[plot]"
+        ) from None

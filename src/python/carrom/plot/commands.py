@@ -23,11 +23,11 @@ def main(words: Sequence[str] | None = None) -> int:
 
         mpl.use("Agg")
         options.act(options)
-    except ImportError as error:
-        print(f"carrom-plot: {error}: pip install carrom[plot]", file=sys.stderr)
-        return 2
     except (CarromError, ValueError, OSError) as error:
         print(f"carrom-plot: {error}", file=sys.stderr)
+        return 2
+    except ImportError as error:
+        print(f"carrom-plot: {error}: pip install carrom[plot]", file=sys.stderr)
         return 2
     return 0
 

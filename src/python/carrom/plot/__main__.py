@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`python -m carrom.plot` is `carrom-plot`."""
+
+import sys
+
+from carrom.plot.commands import main
+
+sys.exit(main())
