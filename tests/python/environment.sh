@@ -11,6 +11,9 @@ skip_test() {
 export CARROM=$CARROM_PROGRAM CARROM_MPIEXEC OMP_NUM_THREADS=1 MPLBACKEND=Agg
 package=$CARROM_SOURCE_DIR/src/python
 
+# said: the last line of what a command has said
+said() { tail -n "${1:-1}" "$test_folder/err"; }
+
 # copy_package FOLDER: pip writes beside the sources, so it gets a copy
 copy_package() {
     rm -rf "$1"
@@ -27,7 +30,7 @@ use_environment() {
     python=$1/bin/python
     [ -x "$python" ] && "$python" -m pip --version >/dev/null 2>&1 ||
         python3 -m venv --clear "$1" >"$test_folder/err" 2>&1 ||
-        skip_test "no Python environment can be made: $(tail -n 1 "$test_folder/err")"
+        skip_test "no Python environment can be made: $(said)"
     "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' ||
         skip_test 'the package needs Python 3.11'
 }
@@ -49,8 +52,8 @@ has() {
 # install_package: the package itself, without what it needs, as it is now
 install_package() {
     copy_package "$test_folder/package"
-    has setuptools setuptools wheel || skip_test "no setuptools: $(tail -n 1 "$test_folder/err")"
-    has wheel wheel || skip_test "no wheel: $(tail -n 1 "$test_folder/err")"
+    has setuptools setuptools wheel || skip_test "no setuptools: $(said)"
+    has wheel wheel || skip_test "no wheel: $(said)"
     install --no-deps --no-build-isolation --force-reinstall "$test_folder/package" ||
-        { complain "pip cannot install the package: $(tail -n 3 "$test_folder/err")"; finish; }
+        { complain "pip cannot install the package: $(said 3)"; finish; }
 }

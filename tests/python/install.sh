@@ -8,7 +8,7 @@ source "$(dirname "$0")/environment.sh"
 rm -rf "$1/clean"
 use_environment "$1/clean"
 copy_package "$test_folder/package"
-install "$test_folder/package" || skip_test "PyPI is not to be had: $(tail -n 1 "$test_folder/err")"
+install "$test_folder/package" || skip_test "PyPI is not to be had: $(said)"
 
 "$python" -m pip list --format=freeze 2>/dev/null | sed 's/==.*//' | sort >installed
 printf '%s\n' carrom h5py numpy pip setuptools | sort >wanted
@@ -34,6 +34,8 @@ except carrom.NoDataError as error:
 END
 "$python" scene.py >out 2>err || complain "the scene: $(tail -n 3 err)"
 grep -q 'has no table' out || complain 'an absent table is no error'
-"$1/clean/bin/carrom-plot" frame run -o p.png 2>err && complain 'carrom-plot draws without matplotlib'
-grep -qF 'pip install carrom[plot]' err || complain "carrom-plot does not name the extra: $(cat err)"
+"$1/clean/bin/carrom-plot" frame run -o p.png 2>err &&
+    complain 'carrom-plot draws without matplotlib'
+grep -qF 'pip install carrom[plot]' err ||
+    complain "carrom-plot does not name the extra: $(cat err)"
 finish

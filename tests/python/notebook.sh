@@ -6,13 +6,15 @@ source "$(dirname "$0")/../system/common.sh"
 source "$(dirname "$0")/environment.sh"
 
 use_environment "$1/package"
-for needed in 'h5py h5py' 'numpy numpy' 'matplotlib matplotlib' 'PIL pillow' 'freud freud-analysis' \
+for needed in 'h5py h5py' 'numpy numpy' 'matplotlib matplotlib' 'PIL pillow' \
+    'freud freud-analysis' \
     'nbformat nbformat' 'nbclient nbclient' 'ipykernel ipykernel' 'pandas pandas'; do
     read -r module name <<<"$needed"
-    has "$module" "$name" || skip_test "$name is not to be had: $(tail -n 1 "$test_folder/err")"
+    has "$module" "$name" || skip_test "$name is not to be had: $(said)"
 done
 install_package
 release_environment
 unset MPLBACKEND # the notebook's own, which stores pictures
-"$python" "$(dirname "$0")/notebook.py" "$CARROM_SOURCE_DIR/docs/tutorials/$2.ipynb" || complain "$2"
+"$python" "$(dirname "$0")/notebook.py" "$CARROM_SOURCE_DIR/docs/tutorials/$2.ipynb" ||
+    complain "$2"
 finish

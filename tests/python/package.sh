@@ -8,13 +8,13 @@ source "$(dirname "$0")/environment.sh"
 use_environment "$1/package"
 for needed in 'h5py h5py' 'numpy numpy' 'pytest pytest'; do
     read -r module name <<<"$needed"
-    has "$module" "$name" || skip_test "$name is not to be had: $(tail -n 1 "$test_folder/err")"
+    has "$module" "$name" || skip_test "$name is not to be had: $(said)"
 done
 for wanted in 'matplotlib matplotlib' 'PIL pillow' 'imageio_ffmpeg imageio-ffmpeg' 'pandas pandas' \
     'freud freud-analysis' 'MDAnalysis MDAnalysis' 'ase ase' 'ovito ovito' 'gsd.hoomd gsd'; do
     read -r module name <<<"$wanted"
     has "$module" "$name" ||
-        printf 'skipped: %s is not to be had: %s\n' "$name" "$(tail -n 1 "$test_folder/err")"
+        printf 'skipped: %s is not to be had: %s\n' "$name" "$(said)"
 done
 install_package
 release_environment

@@ -6,7 +6,7 @@ source "$(dirname "$0")/../system/common.sh"
 source "$(dirname "$0")/environment.sh"
 
 use_environment "$1/package"
-has h5py h5py && has numpy numpy || skip_test "h5py is not to be had: $(tail -n 1 "$test_folder/err")"
+has h5py h5py && has numpy numpy || skip_test "h5py is not to be had: $(said)"
 install_package
 release_environment
 source "$(dirname "$0")/../slurm/cluster.sh"
@@ -51,6 +51,7 @@ read -r _ there <<<"$(ask submit 0.1 0.2 0.3)"
 scontrol update NodeName=n[1-2] State=DRAIN Reason=test
 read -r job _ <<<"$(ask submit 0.1 0.2 0.3 0.4)"
 "$python" sweep.py submit 0.1 0.2 0.3 0.4 >out 2>err && complain 'submitted twice'
-grep -q "job $job still works at this sweep" err || complain "not told of job $job: $(tail -n 1 err)"
+grep -q "job $job still works at this sweep" err ||
+    complain "not told of job $job: $(tail -n 1 err)"
 scancel "$job"
 finish
