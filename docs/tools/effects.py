@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Run the scenes of docs/lessons/effects.md and of README, and draw a picture of each.
 
-  build/pictures/bin/python docs/tools/effects.py build/carrom [NAME ...] [--output docs/pictures]
+  build/python/bin/python docs/tools/effects.py build/carrom [NAME ...] [--output docs/pictures]
 
 It takes some minutes. A picture has as many colours as 60 kB allow.
 """
 import argparse
+import os
 import pathlib
 import subprocess
 import sys
@@ -17,7 +18,7 @@ from PIL import Image
 MOST_BYTES = 60_000
 TOP = pathlib.Path(__file__).resolve().parents[2]
 
-# The step that is shown, and words for plot_frame.py.
+# The step that is shown, and words for `carrom-plot frame`.
 PICTURES = {
     "atmosphere": (20_000, "--view 0 0 200 200"),
     "conduction": (4_000, ""),
@@ -44,10 +45,10 @@ def draw(program, name, folder, target):
     subprocess.run([program, "run", scene, "--quiet", "--steps", str(step), "-o", run], check=True)
     words = [str(word) for part in words.split() for word in with_scene(part, scene)]
     checkpoint = run / "checkpoints" / f"checkpoint-{step:012}.h5"
-    tool = pathlib.Path(__file__).with_name("plot_frame.py")
+    tool = [sys.executable, "-m", "carrom.plot.commands", "frame"]
     picture = folder / f"{name}.png"
-    subprocess.run([sys.executable, tool, checkpoint, "--dpi", "60", *words, "-o", picture],
-                   check=True)
+    subprocess.run([*tool, checkpoint, "--dpi", "60", *words, "-o", picture], check=True,
+                   env=dict(os.environ, PYTHONPATH=TOP / "src/python"))
     shrink(picture, target)
 
 

@@ -64,11 +64,12 @@ std::string default_text(const Key& key, const Scene& plain) {
 }
 
 std::string row_of(const Key& key, const Scene& plain) {
-    std::string meaning{key.help};
-    if (key.need) meaning += fmt::format(" No meaning {}.", key.need->text);
-    meaning += joined(key.or_from, "Not required with") + joined(key.instead_of, "Not with");
-    return fmt::format("| {} | {} | {} | {} | {} |\n", code(key.name), type_text(key),
-                       key.unit.empty() ? "-" : key.unit, default_text(key, plain), meaning);
+    std::string condition;
+    if (key.need) condition += fmt::format(" No meaning {}.", key.need->text);
+    condition += joined(key.or_from, "Not required with") + joined(key.instead_of, "Not with");
+    return fmt::format("| {} | {} | {} | {} | {} |{} |\n", code(key.name), type_text(key),
+                       key.unit.empty() ? "-" : key.unit, default_text(key, plain), key.help,
+                       condition);
 }
 
 } // namespace
@@ -91,7 +92,7 @@ std::string key_page() {
             if (key.table() == table.name) rows += row_of(key, plain);
         if (rows.empty() || table.is_like_another) continue;
         text += fmt::format("\n## [{}]\n\n{}\n\n| key | type and range | unit | default | meaning "
-                            "|\n|---|---|---|---|---|\n{}",
+                            "| condition |\n|---|---|---|---|---|---|\n{}",
                             table.name, table.help, rows);
     }
     return text;

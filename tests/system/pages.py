@@ -5,7 +5,8 @@
   pages.py PAGE --build FOLDER [--python FOLDER] [--update]
 
 The blocks run in the folder `files` below the working folder. It has links to inputs, docs, src and
-job_scripts of the checkout and to its build folder. `carrom` and `mpirun` are on PATH.
+job_scripts of the checkout and to its build folder. `carrom`, `mpirun` and `carrom-plot` are on
+PATH, and Python finds the package carrom.
 
   ```sh     runs in bash. It must end with code 0, or with N after <!-- exit code N -->.
   ```text   is what the sh block before it prints, standard error included.
@@ -105,10 +106,16 @@ class Runner:
         shutil.rmtree(programs, ignore_errors=True)
         programs.mkdir()
         (programs / "carrom").symlink_to(os.environ.get("CARROM_PROGRAM", self.build / "carrom"))
-        launcher = programs / "mpirun"
-        launcher.write_text(f'#!/bin/sh\nexec {os.environ.get("CARROM_MPIEXEC", "mpiexec")} "$@"\n')
-        launcher.chmod(0o755)
-        self.environment = dict(os.environ, OMP_WAIT_POLICY="passive", COLUMNS="80")
+        commands = {
+            "mpirun": os.environ.get("CARROM_MPIEXEC", "mpiexec"),
+            "carrom-plot": "python3 -m carrom.plot.commands",  # as pip would install it
+        }
+        for name, command in commands.items():
+            (programs / name).write_text(f'#!/bin/sh\nexec {command} "$@"\n')
+            (programs / name).chmod(0o755)
+        self.environment = dict(os.environ, OMP_WAIT_POLICY="passive", COLUMNS="80",
+                                PYTHONPATH=str(self.top / "src/python"),
+                                PYTHONDONTWRITEBYTECODE="1")
         self.environment["PATH"] = f"{programs}:{os.environ['PATH']}"
 
     def has_modules(self, names):
@@ -163,6 +170,7 @@ class Runner:
         wanted = int(block.notes.get("exit code", 0))
         if done.returncode != wanted:
             self.complain(block, f"exit code {done.returncode}, not {wanted}\n{done.stdout}")
+            return None
         return PROGRESS.sub("", done.stdout)
 
     def compare(self, block, printed):
