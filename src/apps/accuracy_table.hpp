@@ -9,7 +9,7 @@
 
 namespace carrom {
 
-/// What tells a line from others; it begins with it.
+/// What a line begins with, unlike all others.
 struct TrialKey {
     int start = 0; ///< number of the start, from 0
     RunSetting setting;

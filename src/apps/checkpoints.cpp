@@ -42,7 +42,7 @@ std::int64_t Checkpoints::next_look(std::int64_t step) const {
 
 bool Checkpoints::look_up(const Simulation& simulation, Recordings& recordings) {
     const std::int64_t step = simulation.step();
-    const News now = updates(step);
+    const Updates now = updates(step);
     const bool is_end = step >= scene_.steps;
     if (!scene_.checkpoint) return now.must_stop && !is_end;
     const CheckpointOutput& wanted = *scene_.checkpoint;
@@ -54,7 +54,7 @@ bool Checkpoints::look_up(const Simulation& simulation, Recordings& recordings) 
 }
 
 /// What all ranks agree on: whether any has a signal, and what rank 0's clock says. **Collective.**
-Checkpoints::News Checkpoints::updates(std::int64_t step) {
+Checkpoints::Updates Checkpoints::updates(std::int64_t step) {
     std::array<std::uint64_t, 3> sums = {signals_.has_come() ? 1u : 0u, 0, 0};
     if (ranks_.is_root()) {
         const double seconds = stretch_watch_.lap();

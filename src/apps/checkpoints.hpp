@@ -43,10 +43,10 @@ public:
     bool look_up(const Simulation& simulation, Recordings& recordings);
 
 private:
-    struct News {
+    struct Updates {
         bool must_stop = false, is_time = false;
     };
-    News updates(std::int64_t step);
+    Updates updates(std::int64_t step);
     void write(const Simulation& simulation, Recordings& recordings);
     void remove_oldest();
 

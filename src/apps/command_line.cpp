@@ -144,11 +144,9 @@ Action parse_command_line(int argc, char** argv) {
     for (const Subcommand& subcommand : subcommands) declare(app, subcommand);
     try {
         app.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-        return printed(app.help());
-    } catch (const CLI::CallForVersion&) {
-        return printed(version_text());
     } catch (const CLI::ParseError& error) {
+        if (error.get_name() == "CallForHelp") return printed(app.help());
+        if (error.get_name() == "CallForVersion") return printed(version_text());
         if (argc < 2) return refused("say what to do, as in carrom run SCENE.toml");
         if (app.get_subcommands().empty())
             return refused('\'' + std::string(argv[1]) + "' is no subcommand");

@@ -3,7 +3,7 @@
 // remembered instead of ending the process.
 //
 // Works on a file descriptor: a closed pipe or a full disk is then an errno at a known place. The
-// caller tells the other ranks of a failure. Under mpirun standard output is a pipe to mpirun,
+// caller reports a failure to the other ranks. Under mpirun standard output is a pipe to mpirun,
 // which keeps a full disk to itself; a file is written by the program.
 #pragma once
 
@@ -31,7 +31,7 @@ public:
     void flush_if_full();
     void flush();
 
-    /// Some file systems tell of a full disk only when a file is closed. Nothing may be written
+    /// Some file systems report a full disk only when a file is closed. Nothing may be written
     /// after this.
     void close();
 

@@ -22,7 +22,7 @@ std::string write_failure_scene(const std::string& folder, const Scene& scene,
 CollectiveError reported(const CheckFailure& failure, const Scene& scene,
                          const Communicator& ranks);
 
-/// Simulation::advance_towards; a failed check is told. **Collective.**
+/// Simulation::advance_towards; a failed check is printed. **Collective.**
 void advance_or_report(Simulation& simulation, std::int64_t last_step, const Scene& scene,
                        const Communicator& ranks);
 

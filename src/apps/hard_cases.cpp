@@ -44,7 +44,7 @@ double blurred_flight(const Scene& scene, double speed) {
     return speed * static_cast<double>(scene.sync_every) * 0x1p-53;
 }
 
-/// Beyond a radius no contact can be told from any other place.
+/// Beyond a radius no contact differs from any other place.
 void refuse_blurred_places(const Scene& scene, double speed) {
     const double radii = blurred_flight(scene, speed) / scene.radius;
     if (radii <= 1) return;

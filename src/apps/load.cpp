@@ -92,8 +92,8 @@ void agree_on_both(const Communicator& ranks, Problems problems, const Problems&
     agree(ranks, failures.empty(), InputError(failures).what(), ExitCode::output_failure);
 }
 
-/// What is wrong with the lines of discs of a run that will not begin, so that all is told at once.
-/// They follow a header in `stream`, or have a file of their own.
+/// What is wrong with the lines of discs of a run that will not begin, so that all is printed at
+/// once. They follow a header in `stream`, or have a file of their own.
 Problems problems_of_disc_lines(const Scene& scene, std::istream& stream) {
     Problems problems;
     collect(problems, [&] {

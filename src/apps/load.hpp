@@ -2,7 +2,7 @@
 // From the options of a run to its scene and first discs: the part that can find an input wrong.
 //
 // Rank 0 opens files and reads; the others get its bytes and come to the same scene or the same
-// problems. Nothing of the run has been written when a problem is told.
+// problems. Nothing of the run has been written when a problem is printed.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@
 
 namespace carrom {
 
-/// Discs are spread over the ranks in any way.
+/// Discs are in any distribution over the ranks.
 struct Loaded {
     Scene scene;
     std::vector<InputDisc> discs;      ///< of a run from its start

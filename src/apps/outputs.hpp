@@ -22,7 +22,7 @@ std::vector<WriteLock> claim_outputs(const RunOptions& options, const Scene& sce
                                      const std::vector<NamedFile>& others,
                                      const Communicator& ranks);
 
-/// The same for a run that will not begin, so that all is told at once: makes nothing, locks
+/// The same for a run that will not begin, so that all is printed at once: makes nothing, locks
 /// nothing.
 std::vector<Problem> problems_of_outputs(const RunOptions& options, const Scene& scene,
                                          const std::vector<NamedFile>& sources);

@@ -70,7 +70,7 @@ void print_result(const RunOptions& options, const Scene& scene, const RunResult
     agree(ranks, failure.empty(), failure, ExitCode::output_failure);
 }
 
-/// Steps to the end of the scene, writing on the way what it asks for, or to where the run is told
+/// Steps to the end of the scene, writing on the way what it asks for, or to where the run is asked
 /// to stop: false then. A restart does not write the lines of its first step again. **Collective.**
 bool step_to_end(Simulation& simulation, RunResult& result, double& output_seconds,
                  const RunOptions& options, const Scene& scene, bool is_restart,

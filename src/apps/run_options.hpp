@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options of `carrom run`, checked one by one so that all wrong ones can be told at once.
+// The options of `carrom run`, checked one by one so that all wrong ones are printed at once.
 #pragma once
 
 #include <optional>

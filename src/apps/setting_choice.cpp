@@ -19,7 +19,7 @@ constexpr double approach = 10;         ///< collisions of a disc before anythin
 constexpr double certainty = 2;         ///< standard errors that are added to a measured error
 constexpr double most_collisions = 4e6; ///< of pairs, per trial
 constexpr double least_accuracy = 4 * certainty /
-                                  2000; ///< what so many can tell, four times: 2000^2 = 4e6
+                                  2000; ///< what so many can show, four times: 2000^2 = 4e6
 constexpr double per_disc = 100; ///< collisions of a disc per trial, at least: dense gases take as
                                  ///< long to show their errors
 constexpr double fewest_collisions = 2e4; ///< of pairs: less is too short to be timed ...
@@ -29,7 +29,7 @@ constexpr double long_enough_steps = 1e3;
 constexpr double long_look =
     0.02; ///< seconds after which a setting may be dropped before its trial's end ...
 constexpr double timed_enough =
-    0.2; ///< ... and after which it may then be called dear: starting takes its time
+    0.2; ///< ... and after which it may be called expensive: starting takes its time
 constexpr double steady =
     1.2; ///< overlaps that grow by more from a stretch to the next have not come to an end
 constexpr std::array<int, 5> stretches = {1, 1, 2, 4,
@@ -131,21 +131,22 @@ Choice choose(const Pilot& pilot, double accuracy) {
     const std::vector<Trial> exact = run_event_driven(pilot);
     double steps = 0;
     for (const Trial& trial : exact) steps += static_cast<double>(trial.steps);
-    bool was_dearer = false; // a number of micro-steps may be dearer than twice as many are
+    bool was_slower = false; // a number of micro-steps may be slower than twice as many are
     for (std::int64_t k = 1; k <= most_micro_steps; k *= 2) {
         const RunSetting setting{Method::time_stepped, k};
         const Experience found = try_setting(pilot, setting, exact, accuracy);
-        const bool is_dearer = found.seconds >= found.reference_seconds &&
+        const bool is_slower = found.seconds >= found.reference_seconds &&
                                (found.is_whole || found.seconds > timed_enough);
-        if (is_dearer && was_dearer)
-            return {all,
-                    fmt::format("method = \"event-driven\": exact, and no dearer than \"one\" with "
-                                "micro_steps = {} ({:.2g} times its cost), which would make "
-                                "errors of {}{}",
-                                k, found.seconds / found.reference_seconds,
-                                shares_text(found.error), found.grows ? " and growing" : "")};
-        was_dearer = is_dearer;
-        if (!is_dearer && found.is_whole && !found.grows &&
+        if (is_slower && was_slower)
+            return {
+                all,
+                fmt::format("method = \"event-driven\": exact, and no slower than \"time-stepped\" "
+                            "with micro_steps = {} ({:.2g} times its cost), which would make "
+                            "errors of {}{}",
+                            k, found.seconds / found.reference_seconds, shares_text(found.error),
+                            found.grows ? " and growing" : "")};
+        was_slower = is_slower;
+        if (!is_slower && found.is_whole && !found.grows &&
             found.error.largest() + certainty * found.error.error <= accuracy)
             return {setting, fmt::format("method = \"time-stepped\", micro_steps = {}: expect {}; "
                                          "{:.3g} s per step, the event-driven method {:.3g}",

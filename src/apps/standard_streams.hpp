@@ -15,7 +15,7 @@ namespace carrom {
 void keep_standard_streams();
 
 /// Prints to standard error; control characters but ends of lines are escaped. What cannot be
-/// written there is dropped: there is nobody left to tell.
+/// written there is dropped: nobody is left to read it.
 void print_text(std::string_view text);
 
 template <class... Values>

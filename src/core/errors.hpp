@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kinds of failure, told apart by who knows of them (docs/understanding/architecture.md): the
+// The kinds of failure, parted by who knows of them (docs/understanding/architecture.md): the
 // input is wrong and every rank knows; a collective operation fails on some rank and all agree on
 // it; an invariant is broken. The first two are exceptions of the public API.
 #pragma once

@@ -61,7 +61,7 @@ std::string description(const std::vector<Species>& species) {
             least = {0, std::min(least.radius, one.radius), std::min(least.mass, one.mass)};
             most = {0, std::max(most.radius, one.radius), std::max(most.mass, one.mass)};
         }
-        return fmt::format("discs of {} classes, radii {:g} to {:g}, masses {:g} to {:g}",
+        return fmt::format("discs of {} species, radii {:g} to {:g}, masses {:g} to {:g}",
                            species.size(), least.radius, most.radius, least.mass, most.mass);
     }
     std::string text;

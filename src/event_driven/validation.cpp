@@ -211,7 +211,11 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::fail_on_cascade() co
     agree(communicator_, text.empty(), text);
 }
 
-#define CARROM_DEFINE(Dynamics) template class EventDrivenEngine<Dynamics>;
+// What the engine's own file calls. The class itself is compiled there.
+#define CARROM_DEFINE(Dynamics)                                                                    \
+    template EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::validate();         \
+    template bool EventDrivenEngine<Dynamics>::widen_marked();                                     \
+    template bool EventDrivenEngine<Dynamics>::sees_all(const Block&) const;
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
 #undef CARROM_DEFINE
 

@@ -69,7 +69,7 @@ std::vector<InputDisc> listed_discs(const Scene& scene, const Communicator& comm
     return {begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last)};
 }
 
-/// Coprime to n and near its golden section: sites taken in such strides mix classes, which come in
+/// Coprime to n and near its golden section: sites taken in such strides mix species, which come in
 /// the order of ids.
 std::uint64_t mixing_stride(std::uint64_t n) {
     auto stride = static_cast<std::uint64_t>(0.6180339887498949 * static_cast<double>(n)) | 1;

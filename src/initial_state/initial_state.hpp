@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discs a scene starts with, spread over the ranks: generated where it asks for that, read
-// where it lists them.
+// The discs that a scene begins with, in any distribution over the ranks: generated where it asks
+// for that, read where it lists them.
 #pragma once
 
 #include <istream>

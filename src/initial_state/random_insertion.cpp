@@ -26,7 +26,7 @@ constexpr std::uint64_t most_starts = 10;
 constexpr DiscId copy_mark = DiscId{1}
                              << 63; ///< on the id of a neighbour's disc among the placed ones
 
-/// A proposal, or the news of a place taken near a strip's edge.
+/// A proposal, or the update of a place taken near a strip's edge.
 struct Notice {
     double x = 0, y = 0;
     std::uint32_t id = 0;
@@ -125,7 +125,7 @@ private:
     }
     std::size_t n_ranks() const { return static_cast<std::size_t>(communicator_.size()); }
 
-    /// Brings the round's proposals to whom they concern, together with the last round's news.
+    /// Brings the round's proposals to whom they concern, together with the last round's updates.
     /// **Collective.**
     void exchange(std::uint64_t round) {
         std::vector<std::vector<Notice>> out(static_cast<std::size_t>(communicator_.size()));
@@ -230,7 +230,7 @@ private:
     PointGrid placed_grid_, proposal_grid_;
     std::vector<InputDisc>
         placed_; ///< own discs and, with the mark, those within a diameter of the strip
-    std::vector<std::uint32_t> unplaced_; ///< discs whose last proposal was refused here
+    std::vector<std::uint32_t> unplaced_; ///< discs whose last proposal was rejected here
     std::vector<Notice> proposals_, updates_;
 };
 

@@ -2,7 +2,7 @@
 // Random positions without overlaps, found by all ranks together, the same for any number of them.
 //
 // In round k every disc without a place proposes one, a pure function of (seed, id, k), uniform in
-// [r, L-r]^2. It is refused if it overlaps a disc that has its place, or a proposal of the same
+// [r, L-r]^2. It is rejected if it overlaps a disc that has its place, or a proposal of the same
 // round with a lower id; otherwise it is the disc's place. Proposals are judged by the rank whose
 // strip of x holds them, which also hears of everything within a diameter of its strip: one
 // exchange a round. At a packing of 0.3 some 150 rounds and 3 proposals a disc; the cost explodes

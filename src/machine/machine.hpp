@@ -23,7 +23,7 @@ BuildFacts build_facts();
 /// The vector instructions that this processor runs, "AVX2": the best that was compiled.
 std::string vector_target();
 
-/// The processor's name; empty where the system does not tell.
+/// The processor's name; empty where the system does not report it.
 std::string processor_name();
 
 /// Threads for this rank when nobody chose: OMP_NUM_THREADS, else the cores it may use, shared out
@@ -45,7 +45,8 @@ std::string warning_of_shared_cores(int threads, const Communicator& ranks);
 /// tell. **Collective.**
 std::uint64_t memory_per_rank(const Communicator& ranks);
 
-/// The most memory this process has held at any time, in bytes; 0 where the system does not tell.
+/// The most memory this process has held at any time, in bytes; 0 where the system does not report
+/// it.
 std::uint64_t peak_resident_bytes();
 
 } // namespace carrom

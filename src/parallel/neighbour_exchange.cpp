@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// What opens a first message. The number of the exchange tells when two ranks disagree on being
+/// What opens a first message. The number of the exchange shows when two ranks disagree on being
 /// neighbours.
 struct Header {
     std::uint64_t n_bytes = 0;

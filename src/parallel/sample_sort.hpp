@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distributed sort of records that are spread over the ranks in any way.
+// Distributed sort of records in any distribution over the ranks.
 //
 // Each rank sorts its own, every so-many-th record of all becomes a sample, rank 0 sorts the
 // samples and cuts them into slices (Shi and Schaeffer 1992, with the samples shared out by count,

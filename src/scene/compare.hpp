@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether two scenes are the same run: everything that has a say in the bits, and nothing else.
+// Whether two scenes are the same run: everything that affects the bits, and nothing else.
 #pragma once
 
 #include <string>

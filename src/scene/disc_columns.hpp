@@ -2,9 +2,9 @@
 // What a file of discs says of each disc beyond its place and velocity: `discs.columns` names it.
 //
 // Radii and masses are known before anything else is made of a scene, for its checks need them, and
-// by every rank, for a law asks for those of any disc. So rank 0 reads the file twice: for these
-// columns, then for the discs. Discs that follow each other and are alike are one class; at worst
-// each is a class of its own.
+// by every rank, since a dynamics asks for those of any disc. So rank 0 reads the file twice: for
+// these columns, then for the discs. Discs that follow each other and are alike are one class; at
+// worst each is a class of its own.
 #pragma once
 
 #include <istream>
@@ -15,7 +15,7 @@
 namespace carrom {
 
 /// By id. Without `is_whole` the file has lines that are wrong, or not the right ones: DiscReader
-/// tells which.
+/// says which.
 struct DiscColumns {
     std::vector<Species> species; ///< empty where radii are no column
     std::vector<SpinRun> spins;   ///< likewise

@@ -105,7 +105,7 @@ struct Scene {
     std::vector<std::string> overrides; ///< `key=value`, what was set on top of the text
 
     double box_size = 0; ///< L
-    double radius = 0;   ///< r; the largest one where there are classes
+    double radius = 0;   ///< r; the largest one where there are several species
     std::uint64_t n_discs = 0;
 
     Generator generator = Generator::random;

@@ -20,8 +20,8 @@ namespace {
 /// Lists of no more than this are given back to the system one by one.
 constexpr std::size_t discs_in_part = 1 << 16;
 
-/// The same in many lists. What was one is gone then, though a parameter may live as long as the
-/// expression that the call is in.
+/// The same in many lists. What was one no longer exists then, though a parameter may live as long
+/// as the expression that the call is in.
 std::vector<std::vector<InputDisc>> in_parts(std::vector<InputDisc> discs) {
     std::vector<std::vector<InputDisc>> parts;
     parts.reserve(discs.size() / discs_in_part + 1); // below them on the heap

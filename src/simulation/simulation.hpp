@@ -31,8 +31,8 @@ struct WallImpulses;
 
 class Simulation {
 public:
-    /// Takes over `discs` as the scene has them (velocities per step, tau 0), spread over the ranks
-    /// in any way.
+    /// Takes over `discs` as the scene has them (velocities per step, tau 0), in any distribution
+    /// over the ranks in any way.
     /// **Collective.**
     Simulation(const Scene& scene, std::vector<InputDisc> discs, const Communicator& communicator,
                const Tuning& tuning);

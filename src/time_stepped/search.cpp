@@ -205,7 +205,7 @@ void Search<Dynamics>::look_around(const CellGrid& grid, const Bounds& bounds, f
                                    SearchLists& lists) const {
     lists.n_pairs = 0;
     for (std::size_t k = 0; k < hit.size() && dynamics_.has_pairs(); ++k) {
-        // What a disc needs is spread over a dozen cache lines: ask for the cells first, then for
+        // What a disc needs lies in a dozen cache lines: ask for the cells first, then for
         // the flights in them.
         if (k + 2 * around_ahead < hit.size()) grid.prefetch_cells(hit[k + 2 * around_ahead]);
         if (k + around_ahead < hit.size()) grid.prefetch_flights(hit[k + around_ahead]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints one fingerprint of many runs of both rules: what every compiler and instruction set must
+// Prints one fingerprint of many runs of both methods: what every compiler and instruction set must
 // agree on.
 //
 // With an argument, only for scenes whose name contains it, and one line per run: to find the first

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Properties that hold for every scene, on random ones drawn for trouble (troubled_scenes.hpp), for
-// both rules: the reference's bits; no disc lost; energy to 1e-12; nothing outside the box;
+// both methods: the reference's bits; no disc lost; energy to 1e-12; nothing outside the box;
 // counters that agree with the log; the log in order; transposed scenes have transposed bits;
 // another storage order has the same bits. With effects drawn as well (troubled_effects.hpp): the
 // reference's bits, no disc lost, a log that agrees, another storage order. With discs that differ,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs of both rules, and how their worst values are held to their bounds and written down.
+// Runs of both methods, and how their worst values are held to their bounds and written down.
 #pragma once
 
 #include <string>

@@ -25,7 +25,7 @@ namespace {
 
 constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 
-/// Scenes that both rules can end within a second or so.
+/// Scenes that both methods can end within a second or so.
 std::vector<TestScene> scenes_for(Method method) {
     std::vector<TestScene> chosen;
     std::size_t number = 0;

@@ -26,7 +26,7 @@ expect_unchanged 'a gas' "$inputs/gas.toml" --set time.method=time-stepped --ste
 expect_unchanged 'micro-steps' "$inputs/gas.toml" --set time.method=time-stepped --steps 20 \
     --set discs.count=500 --set discs.speed=20 \
     --set time.micro_steps=4 --set time.sync_every=6
-expect_unchanged 'the rule all' "$inputs/dense.toml" --steps 20 --set discs.count=600 \
+expect_unchanged 'the event-driven method' "$inputs/dense.toml" --steps 20 --set discs.count=600 \
     --set discs.speed=0.5 --set time.method=event-driven
 
 run 3 run "$inputs/gas.toml" --steps 1 --set discs.count=100 --check --set time.precision=single

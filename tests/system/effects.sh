@@ -51,7 +51,7 @@ expect_code 0 'the second stretch'
     complain 'another state hash after a restart'
 tail -n 400 "$test_folder/out" | cmp - "$test_folder/end" || complain 'other lines after a restart'
 
-# Rough discs of two classes leave.
+# Rough discs of two species leave.
 sed 's/^left = .*/left = { kind = "open" }/; s/^right = .*/right = { kind = "open" }/
     /^count =/d; /^packing =/d; s/^kind = "restitution"/kind = "rough"\
 tangential_restitution = 0.3/' fall.toml >leak.toml
@@ -149,7 +149,7 @@ expect_told 'with open sides velocities and densities alone are measured' \
 run 1 run fall.toml --restart kept --set effects.gravity.y=-0.01
 expect_code 2 'another gravity'
 expect_told "'effects.gravity.y' is -0.005 there and -0.01 here" 'another gravity'
-# Discs of several classes: no legacy text, no lattice of one size; their radii and masses go into
+# Discs of several species: no legacy text, no lattice of one size; their radii and masses go into
 # recordings, and come back with a restart.
 cat >mixture.toml <<'SCENE'
 [box]
@@ -176,7 +176,7 @@ run 1 verify mixed/trajectory.h5
 expect_code 0 "the mixture's trajectory"
 run 1 info mixed/checkpoints/checkpoint-000000000060.h5
 grep -q '5 discs of radius 4 and mass 20, 300 discs of radius 0.5 and mass 1' "$test_folder/out" ||
-    complain 'no classes in info'
+    complain 'no species in info'
 run 1 run --restart mixed --steps 90 --set time.method=event-driven
 expect_code 2 'another rule'
 run 2 run --restart mixed --steps 90 --quiet --report mixed_rest.json

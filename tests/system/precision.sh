@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Both precisions, both formulas, contracted and not, under both rules: each has bits of its own,
+# Both precisions, both formulas, contracted and not, under both methods: each has bits of its own,
 # and the same for other ranks, threads and windows.
 source "$(dirname "$0")/common.sh"
 
@@ -21,24 +21,25 @@ END
 scene dense 500 0.7 0.3
 scene fast 300 0.02 40
 
-laws=("double naive" "double naive --set time.contraction=true"
+arithmetics=("double naive" "double naive --set time.contraction=true"
     "single stable" "single naive" "single naive --set time.contraction=true")
 : >hashes
 for name in dense fast; do
     for method in time-stepped event-driven; do
-        for law in "${laws[@]}"; do
-            words=(run "$name.toml" --set "time.method=$method" --set "time.precision=${law%% *}" \
-                --set "time.arithmetic=${law#* }")
+        for arithmetic in "${arithmetics[@]}"; do
+            words=(run "$name.toml" --set "time.method=$method" \
+                --set "time.precision=${arithmetic%% *}" \
+                --set "time.arithmetic=${arithmetic#* }")
             read -r -a words <<<"${words[*]}"
             hash=
             for shape in '1 1' '2 2 --window 0.3 --rebalance-every 1 --rebalance-above 0'; do
                 read -r ranks threads options <<<"$shape"
                 run "$ranks" "${words[@]}" --threads "$threads" $options --report report.json \
                     --quiet
-                expect_code 0 "$name, $method, $law, $shape"
+                expect_code 0 "$name, $method, $arithmetic, $shape"
                 hash=${hash:-$(json_value report.json state_hash)}
                 [ "$(json_value report.json state_hash)" = "$hash" ] ||
-                    complain "another state hash: $name, $method, $law, $shape"
+                    complain "another state hash: $name, $method, $arithmetic, $shape"
             done
             echo "$hash" >>hashes
         done

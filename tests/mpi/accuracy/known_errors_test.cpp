@@ -100,7 +100,8 @@ const std::array<Column, 3> table = {{
 
 } // namespace
 
-TEST_CASE("The rule one loses as many collisions, and leaves as many overlaps, as is known") {
+TEST_CASE(
+    "The time-stepped method loses as many collisions, and leaves as many overlaps, as is known") {
     const Communicator world = Communicator::world();
     for (const Column& column : table) {
         for (std::size_t i = 0; i < column.losses.size(); ++i) {
@@ -158,7 +159,8 @@ TEST_CASE("Precision and formula change no rate where discs are near to each oth
     }
 }
 
-TEST_CASE("Under the rule all no precision and no formula changes the rate, and the stable one "
+TEST_CASE("Under the event-driven method no precision and no formula changes the rate, and the "
+          "stable one "
           "leaves no overlaps") {
     const Communicator world = Communicator::world();
     for (const Column& column : table) {

@@ -119,10 +119,10 @@ inline std::vector<NamedEffects> all_effects() {
             {"a pile", pile, false},
             {"drag", slowed, false},
             {"gravity and drag", sinking, false},
-            {"several classes", mixed, true},
-            {"a pile of several classes", heaps, false},
+            {"several species", mixed, true},
+            {"a pile of several species", heaps, false},
             {"rough discs", rubbing, true},
-            {"perfectly rough discs of several classes", rolling, true}};
+            {"perfectly rough discs of several species", rolling, true}};
 }
 
 /// What the check sees after the first step of a gas, and what it says when that has been spoilt.
@@ -200,7 +200,7 @@ private:
     StateCheck check_;
 };
 
-/// Spoils a step under both rules and checks what is said of it: the invariant, the step, and the
+/// Spoils a step under both methods and checks what is said of it: the invariant, the step, and the
 /// disc if `disc` is given.
 inline void expect(Invariant invariant,
                    const std::function<std::optional<DiscId>(OneStep&)>& spoil) {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # failed_check.sh MISSED_CONTACT RANKS: a run that misses a contact ends with code 70 on every rank,
 # names step, disc and rank, and leaves a scene in which the contact is not missed. In the
-# event-driven method discs are rough and of two classes.
+# event-driven method discs are rough and of two species.
 source "$CARROM_SOURCE_DIR/tests/system/common.sh"
 missed_contact=$1
 n_ranks=$2

@@ -93,7 +93,8 @@ TEST_CASE("check: discs so slow that an overlap deepens by less than its bound a
     CHECK(!is_right);
 }
 
-TEST_CASE("check: the rule one explains overlaps with a disc that has had its collision, the rule "
+TEST_CASE("check: the time-stepped method explains overlaps with a disc that has had its "
+          "collision, the rule "
           "all none") {
     Passing one(Method::time_stepped, 6.7, 1);
     CHECK(one.is_right(1));
@@ -109,7 +110,7 @@ TEST_CASE("check: a collision in an earlier step explains nothing") {
     CHECK(!passing.is_right());
 }
 
-TEST_CASE("check: discs that overlap from the start may, under the rule one") {
+TEST_CASE("check: discs that overlap from the start may, under the time-stepped method") {
     Passing passing(Method::time_stepped, 8, 0.25);
     for (int k = 0; k < 5; ++k) CHECK(passing.is_right());
 }

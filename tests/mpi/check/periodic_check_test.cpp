@@ -110,7 +110,7 @@ TEST_CASE("check: runs in periodic boxes break no invariant, and have their bits
             }
             test.setting.sync_every = 12;
             test.steps = 30;
-            INFO((method == Method::time_stepped ? "rule one" : "rule all")
+            INFO((method == Method::time_stepped ? "time-stepped" : "event-driven")
                  << (is_along_x ? ", along x" : ", all round") << (are_rough ? ", rough" : ""));
             CHECK(to_string(hash_after(test, method, true, world)) ==
                   to_string(hash_after(test, method, false, world)));

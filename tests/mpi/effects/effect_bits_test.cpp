@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes with effects have the bits of the plain statements of both rules, for windows and strips
-// of several kinds, and the plain law's bits where an effect's parameters make it none.
+// Scenes with effects have the bits of the plain statements of both methods, for windows and strips
+// of several kinds, and the plain dynamics' bits where an effect's parameters make it none.
 #include <array>
 #include <cmath>
 #include <optional>
@@ -168,8 +168,8 @@ TEST_CASE("effects: thermal walls have the references' bits") {
     }
 }
 
-TEST_CASE(
-    "effects: walls that are elastic and at rest, and no gravity, are the plain law to the bit") {
+TEST_CASE("effects: walls that are elastic and at rest, and no gravity, are the plain dynamics to "
+          "the bit") {
     const Communicator world = Communicator::world();
     std::vector<TestScene> scenes = base_scenes();
     for (const TestScene& scene : wall_scenes()) {
@@ -186,7 +186,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("effects: a restitution of 1 is the plain law to the bit") {
+TEST_CASE("effects: a restitution of 1 is the plain dynamics to the bit") {
     const Communicator world = Communicator::world();
     for (TestScene scene : base_scenes()) {
         for (const Method method : {Method::time_stepped, Method::event_driven}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs of several radii and masses: the references' bits, the plain law's where they are equal,
-// and what is known of mixtures.
+// Discs of several radii and masses: the references' bits, the plain dynamics' where they are
+// equal, and what is known of mixtures.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -15,7 +15,7 @@ using namespace carrom::test;
 
 namespace {
 
-/// Discs of these classes at random without overlaps, the largest class first; speeds in largest
+/// Discs of these species at random without overlaps, the largest species first; speeds in largest
 /// diameters per step.
 TestScene mixture(const std::vector<Species>& species, double box_size, double speed,
                   std::uint64_t seed) {
@@ -139,7 +139,7 @@ TEST_CASE("effects: mixtures leave through open sides, each disc a radius of its
     }
 }
 
-TEST_CASE("effects: classes of one radius and one mass are the plain law to the bit") {
+TEST_CASE("effects: species of one radius and one mass are the plain dynamics to the bit") {
     const Communicator world = Communicator::world();
     for (TestScene scene : base_scenes()) {
         for (const Method method : {Method::time_stepped, Method::event_driven}) {

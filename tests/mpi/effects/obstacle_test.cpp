@@ -79,7 +79,8 @@ std::vector<Disc> all_discs(const Simulation& simulation, const Communicator& wo
 
 // The mean free path of a billiard is pi (free area) / (perimeter): N. Chernov, J. Stat. Phys. 88,
 // 1 (1997). Here centres move: bodies are larger by a radius, the box is smaller.
-TEST_CASE("effects: the mean free path in a Lorentz gas is what geometry says, under both rules") {
+TEST_CASE(
+    "effects: the mean free path in a Lorentz gas is what geometry says, under both methods") {
     const Communicator world = Communicator::world();
     for (const bool is_periodic : {false, true}) {
         for (const Method method : {Method::time_stepped, Method::event_driven}) {
@@ -124,7 +125,7 @@ TEST_CASE("effects: Sinai's billiard runs back to where it began, between walls 
     }
 }
 
-TEST_CASE("effects: where the seams are in a periodic box is of no account, under both rules") {
+TEST_CASE("effects: where the seams are in a periodic box is of no account, under both methods") {
     const Communicator world = Communicator::world();
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         Simulation first = simulation_of(sinai_billiard(true, 0), method, world),
@@ -230,7 +231,7 @@ TEST_CASE("effects: discs that fall through elastic pins keep their energy, and 
     CHECK(rest.overlapping_pairs == 0);
 }
 
-TEST_CASE("effects: discs of several classes meet obstacles where their own radii say, under both "
+TEST_CASE("effects: discs of several species meet obstacles where their own radii say, under both "
           "rules") {
     const Communicator world = Communicator::world();
     TestScene scene = empty_scene("two sizes", 100, 1, 20);

@@ -34,7 +34,7 @@ void check_bits(const TestScene& scene, Method method) {
     const StateHash expected = method == Method::time_stepped
                                    ? reference_hash<reference::TimeSteppedReference>(scene, world)
                                    : reference_hash<reference::EventDrivenReference>(scene, world);
-    INFO(scene.name << (method == Method::time_stepped ? ", rule one" : ", rule all"));
+    INFO(scene.name << (method == Method::time_stepped ? ", time-stepped" : ", event-driven"));
     for (const std::optional<double>& window : {std::optional<double>{}, {0.3}, {2.7}}) {
         Tuning tuning;
         tuning.window = window;

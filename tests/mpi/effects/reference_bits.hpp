@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes held to the plain statements of both rules, bit for bit.
+// Scenes held to the plain statements of both methods, bit for bit.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rough discs: the references' bits, the plain law's where they are smooth, and what mechanics says
-// of a collision.
+// Rough discs: the references' bits, the plain dynamics' where they are smooth, and what mechanics
+// says of a collision.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -131,7 +131,7 @@ TEST_CASE("effects: rough discs have the references' bits, alone and with other 
     }
 }
 
-TEST_CASE("effects: smooth discs are the plain law to the bit, whatever their spins") {
+TEST_CASE("effects: smooth discs are the plain dynamics to the bit, whatever their spins") {
     const Communicator world = Communicator::world();
     for (TestScene scene : base_scenes()) {
         for (const Method method : {Method::time_stepped, Method::event_driven}) {

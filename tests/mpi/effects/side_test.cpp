@@ -27,7 +27,7 @@ double mean_energy(Simulation& simulation, int n_looks, std::int64_t apart) {
 
 } // namespace
 
-TEST_CASE("effects: walls of one temperature give it to a gas, under both rules") {
+TEST_CASE("effects: walls of one temperature give it to a gas, under both methods") {
     const Communicator world = Communicator::world();
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         TestScene scene = gas(400, 0.1, 0.2, 605);

@@ -84,8 +84,8 @@ std::vector<Case> cases() {
     sinking.gravity = {0.001, -0.003};
     sinking.drag = 0.02;
     piston.boundaries[1] = {BoundaryKind::moving, 1, 0, -0.05};
-    return {{"rule one", Method::time_stepped, none},
-            {"rule all", Method::event_driven, none},
+    return {{"time-stepped", Method::time_stepped, none},
+            {"event-driven", Method::event_driven, none},
             {"gravity and a thermal floor", Method::event_driven, falling},
             {"drag", Method::event_driven, slowed},
             {"gravity and drag", Method::event_driven, sinking},

@@ -39,13 +39,13 @@ std::vector<Case> cases() {
     each_its_own.contact = {ContactKind::rough, 1, 0.001, 1, 1, 0.5};
     Effects falling = along_x;
     falling.gravity = {0, -0.003};
-    return {{"rule one, all round", Method::time_stepped, around},
-            {"rule one, along x", Method::time_stepped, along_x},
-            {"rule all, all round", Method::event_driven, around},
-            {"rule all, along x, with gravity", Method::event_driven, falling},
+    return {{"time-stepped, all round", Method::time_stepped, around},
+            {"time-stepped, along x", Method::time_stepped, along_x},
+            {"event-driven, all round", Method::event_driven, around},
+            {"event-driven, along x, with gravity", Method::event_driven, falling},
             {"no contact", Method::event_driven, apart},
-            {"several classes, rule one", Method::time_stepped, mixed},
-            {"several classes", Method::event_driven, mixed},
+            {"several species, time-stepped", Method::time_stepped, mixed},
+            {"several species", Method::event_driven, mixed},
             {"rough discs, each its own class", Method::event_driven, each_its_own}};
 }
 

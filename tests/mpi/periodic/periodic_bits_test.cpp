@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes with periodic sides have the bits of the plain statements of the rules, which look at all
+// Boxes with periodic sides have the bits of the plain statements of the methods, which look at all
 // pairs of all images.
 #include <array>
 #include <cmath>
@@ -55,7 +55,7 @@ void check_bits(const TestScene& scene, Method method) {
     static std::size_t n_runs = 0;
     if (is_left_to_others(n_runs++, n_sharing(world.size() * omp_get_max_threads()))) return;
     const Expected expected = expected_of(scene, method, world);
-    INFO(scene.name << (method == Method::time_stepped ? ", rule one" : ", rule all"));
+    INFO(scene.name << (method == Method::time_stepped ? ", time-stepped" : ", event-driven"));
     for (const std::optional<double>& window : {std::optional<double>{}, {0.3}, {2.7}}) {
         Tuning tuning;
         tuning.window = window;
@@ -80,13 +80,13 @@ void check_bits(const TestScene& scene, Method method) {
 
 } // namespace
 
-TEST_CASE("periodic: the rule one has the reference's bits") {
+TEST_CASE("periodic: the time-stepped method has the reference's bits") {
     for (const TestScene& scene : base_scenes())
         for (const auto& boundaries : {both, along_x, along_y})
             check_bits(moved_along(scene, boundaries), Method::time_stepped);
 }
 
-TEST_CASE("periodic: beside other effects, the rule one has the reference's bits") {
+TEST_CASE("periodic: beside other effects, the time-stepped method has the reference's bits") {
     for (const TestScene& base : base_scenes()) {
         TestScene scene = moved_along(base, both);
         scene.setting.effects.contact = {ContactKind::restitution, 0.8, 0.001};
@@ -100,7 +100,7 @@ TEST_CASE("periodic: beside other effects, the rule one has the reference's bits
     }
 }
 
-TEST_CASE("periodic: beside warm walls, both rules have the reference's bits") {
+TEST_CASE("periodic: beside warm walls, both methods have the reference's bits") {
     for (const TestScene& base : {gas(120, 0.05, 0.8, 801), gas(100, 0.6, 0.3, 802)}) {
         TestScene scene = between_warm_walls(base);
         scene.steps = 24;
@@ -111,13 +111,13 @@ TEST_CASE("periodic: beside warm walls, both rules have the reference's bits") {
     }
 }
 
-TEST_CASE("periodic: the rule all has the reference's bits") {
+TEST_CASE("periodic: the event-driven method has the reference's bits") {
     for (const TestScene& scene : base_scenes())
         for (const auto& boundaries : {both, along_x, along_y})
             check_bits(moved_along(scene, boundaries), Method::event_driven);
 }
 
-TEST_CASE("periodic: beside other effects, the rule all has the reference's bits") {
+TEST_CASE("periodic: beside other effects, the event-driven method has the reference's bits") {
     for (const TestScene& base : base_scenes()) {
         TestScene scene = moved_along(base, both);
         scene.setting.effects.contact = {ContactKind::restitution, 0.8, 0.002};
@@ -135,7 +135,7 @@ TEST_CASE("periodic: beside other effects, the rule all has the reference's bits
     }
 }
 
-TEST_CASE("periodic: among fixed bodies, both rules have the reference's bits") {
+TEST_CASE("periodic: among fixed bodies, both methods have the reference's bits") {
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         for (const TestScene& scene : scenes_of_one_disc()) check_bits(scene, method);
         for (const auto& boundaries : {both, along_x, along_y}) {
@@ -191,12 +191,13 @@ TEST_CASE("periodic: rough discs have the references' bits") {
     }
 }
 
-TEST_CASE("periodic: discs of equal classes, and smooth ones, are equal discs to the bit") {
+TEST_CASE("periodic: discs of equal species, and smooth ones, are equal discs to the bit") {
     const Communicator world = Communicator::world();
     for (TestScene scene : base_scenes()) {
         scene.setting.effects.boundaries = both;
         for (const Method method : {Method::time_stepped, Method::event_driven}) {
-            INFO(scene.name << (method == Method::time_stepped ? ", rule one" : ", rule all"));
+            INFO(scene.name << (method == Method::time_stepped ? ", time-stepped"
+                                                               : ", event-driven"));
             scene.setting.effects.contact = {};
             scene.setting.effects.species = {};
             const Totals equal = run(scene, method, world);

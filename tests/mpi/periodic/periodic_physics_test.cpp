@@ -55,7 +55,7 @@ double compressibility(std::size_t n, double packing, double n_collisions,
 
 } // namespace
 
-TEST_CASE("periodic: momentum and energy are conserved to rounding under both rules") {
+TEST_CASE("periodic: momentum and energy are conserved to rounding under both methods") {
     const Communicator world = Communicator::world();
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         TestScene scene = periodic_gas(200, 0.4, 0.5, 901);
@@ -97,7 +97,7 @@ TEST_CASE("periodic: a mixture of perfectly rough discs keeps momentum and energ
     const Totals start = simulation.totals();
     advance_to(simulation, 120);
     constexpr int n_looks = 20;
-    std::array<double, 3> energies{}; // of the classes' flight, of spins
+    std::array<double, 3> energies{}; // of the species' flight, of spins
     for (int look = 0; look < n_looks; ++look) {
         advance_to(simulation, simulation.step() + 20);
         for (const Disc& disc : simulation.discs())

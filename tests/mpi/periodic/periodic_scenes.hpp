@@ -190,7 +190,7 @@ inline TestScene mixture(const std::vector<Species>& species, double box_size, d
     return scene;
 }
 
-/// Masses that are no function of radii; sizes 1 : 50 apart; more classes than are searched one by
+/// Masses that are no function of radii; sizes 1 : 50 apart; more species than are searched one by
 /// one; few discs with many images.
 inline std::vector<TestScene> mixtures() {
     std::vector<Species> many;

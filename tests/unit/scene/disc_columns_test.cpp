@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Radii, masses and spins of each disc: from the file of discs, from rows of the list, from
-// classes.
+// species.
 #include "catch.hpp"
 
 #include <optional>
@@ -54,7 +54,7 @@ const std::string four_lines =
 } // namespace
 
 TEST_CASE(
-    "Columns of a file of discs are classes in the order of ids, whatever the order of lines") {
+    "Columns of a file of discs are species in the order of ids, whatever the order of lines") {
     const Scene scene = scene_with(from_file("[\"radius\", \"mass\"]"), four_lines);
     CHECK(scene.effects.species == std::vector<Species>{{2, 2, 5}, {1, 3, 7}, {1, 1, 1}});
     CHECK(scene.radius == 3);
@@ -75,7 +75,7 @@ TEST_CASE(
     CHECK(physical_differences(scene, other).size() == 2); // species, columns
 }
 
-TEST_CASE("Spins at the start come from a file, a list or classes") {
+TEST_CASE("Spins at the start come from a file, a list or species") {
     const Scene file = scene_with(from_file("[\"spin\"]", 3) + "radius = 1\n" + rough,
                                   "0 10 10 1 0 0.5\n2 30 30 0 0 -2\n1 20 20 0 0 0.5\n");
     CHECK(file.effects.species.empty());

@@ -233,7 +233,7 @@ TEST_CASE("Classes of discs are read, by table and by list") {
               "cannot have several species together with effects.contact.kind = \"none\""));
     CHECK(has(problems(two, {"time.precision=single"}), "together with effects"));
     CHECK(has(problems(two, {"discs.generator=legacy"}), "has no meaning") ==
-          false); // the override takes the classes away
+          false); // the override takes the species away
     CHECK(has(problems("[[discs.species]]\ncount = 3\nradius = -2\n"),
               "row 1 of 'discs.species': the radius must be"));
     CHECK(has(problems("[[discs.species]]\ncount = 3.5\nradius = 2\n"),

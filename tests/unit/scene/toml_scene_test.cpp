@@ -64,7 +64,7 @@ TEST_CASE("An accuracy stands in for the settings that it chooses, and the comma
     CHECK_THROWS_AS(read_scene(asks + "micro_steps = 2\n", "s.toml"), InputError);
 }
 
-TEST_CASE("Precision and arithmetic are knobs of both rules") {
+TEST_CASE("Precision and arithmetic are knobs of both methods") {
     const Scene plain = read_scene(good, "s.toml");
     CHECK((plain.precision == Precision::double_ && plain.arithmetic == Arithmetic::stable &&
            !plain.contraction));
