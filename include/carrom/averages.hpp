@@ -2,9 +2,10 @@
 // Averages over a run: how often discs collide, the pressure, the speeds, each with a standard
 // error.
 //
-// All follow from counts of collisions, which every disc carries, and from sums over speeds in
-// fixed point. So they are the same bits for any number of ranks and threads.
-// docs/reference/report.md says what they mean. Sources of the pressures: Li, Nishikawa, Hoellmer,
+// All follow from counts of collisions, which every disc carries, and from sums over velocities
+// and impulses in fixed point. So they are the same bits for any number of ranks and threads.
+// docs/reference/report.md says what they mean, docs/understanding/pressure.md what the pressure
+// is. Sources of wall and virial pressure, which follow from counts: Li, Nishikawa, Hoellmer,
 // Carillo, Maggs, Krauth, J. Chem. Phys. 157, 234111 (2022), equations (13c) and (19a).
 #pragma once
 
@@ -20,6 +21,11 @@ struct Estimate {
     double error = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// The same both ways along x and y.
+struct TensorEstimate {
+    Estimate xx, xy, yy;
+};
+
 /// Lengths in the scene's unit, times in steps, masses 1.
 struct Averages {
     std::int64_t first_step = 0, steps = 0; ///< what they are averages over
@@ -29,7 +35,11 @@ struct Averages {
     Estimate wall_pressure;   ///< from collisions with walls, (13c)
     Estimate virial_pressure; ///< from collisions with walls and of pairs, (19a)
     Estimate mean_speed;
-    Estimate speed_kurtosis; ///< <v^4> / <v^2>^2; 2 N / (N + 1) in equilibrium
+    Estimate speed_kurtosis;        ///< <v^4> / <v^2>^2; 2 N / (N + 1) in equilibrium
+    Estimate temperature;           ///< kT of translation, without a drift along periodic sides
+    TensorEstimate pressure_tensor; ///< kinetic part, and impulse times distance of pairs
+    Estimate pressure;              ///< half its trace
+    Estimate compressibility;       ///< P A / (N kT)
 };
 
 } // namespace carrom

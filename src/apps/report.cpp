@@ -18,11 +18,18 @@ nlohmann::ordered_json number_or_null(double value) {
     return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
-nlohmann::ordered_json estimate_json(const Estimate& estimate) {
-    return {{"value", number_or_null(estimate.value)}, {"error", number_or_null(estimate.error)}};
+nlohmann::ordered_json estimate_json(const Estimate& estimate, const Averages& averages) {
+    nlohmann::ordered_json json = {{"value", number_or_null(estimate.value)},
+                                   {"error", number_or_null(estimate.error)}};
+    const std::string reason = reason_without_error(estimate, averages);
+    if (!reason.empty()) json["without_error"] = reason;
+    return json;
 }
 
 nlohmann::ordered_json averages_json(const Averages& averages) {
+    const auto estimate_json = [&averages](const Estimate& estimate) {
+        return carrom::estimate_json(estimate, averages);
+    };
     return {{"from_step", averages.first_step},
             {"over_steps", averages.steps},
             {"blocks", averages.n_blocks},
@@ -32,6 +39,23 @@ nlohmann::ordered_json averages_json(const Averages& averages) {
             {"virial_pressure", estimate_json(averages.virial_pressure)},
             {"mean_speed", estimate_json(averages.mean_speed)},
             {"speed_kurtosis", estimate_json(averages.speed_kurtosis)}};
+}
+
+/// Thermodynamics stands at the top of the report: what most readers look for.
+void add_thermodynamics(nlohmann::ordered_json& report, const Scene& scene,
+                        const Averages& averages) {
+    const auto estimate = [&averages](const Estimate& one) { return estimate_json(one, averages); };
+    const bool has_any = averages.steps > 0;
+    report["radius"] = scene.radius;
+    report["box"] = {scene.box_size, scene.box_size};
+    report["eta"] = scene.packing();
+    report["kT"] = has_any ? number_or_null(averages.temperature.value) : nullptr;
+    report["temperature"] = estimate(averages.temperature);
+    report["pressure"] = estimate(averages.pressure);
+    report["compressibility"] = estimate(averages.compressibility);
+    report["pressure_tensor"] = {{"xx", estimate(averages.pressure_tensor.xx)},
+                                 {"xy", estimate(averages.pressure_tensor.xy)},
+                                 {"yy", estimate(averages.pressure_tensor.yy)}};
 }
 
 /// Columns of numbers; null where there is none.
@@ -98,6 +122,12 @@ std::string report_text(const Scene& scene, const RunResult& result) {
         {"imbalance", result.imbalance},
         {"peak_bytes_per_disc", result.peak_bytes_per_disc},
     };
+    add_thermodynamics(report, scene, result.averages);
+    if (scene.method == Method::time_stepped) {
+        const LostCollisions lost = lost_collisions(scene, result);
+        report["lost_collisions"] = {{"share", lost.share},
+                                     {"pressure_error", lost.pressure_error}};
+    }
     if (scene.effects.contact.kind == ContactKind::rough)
         report["rotational_energy"] = result.end.rotational_energy;
     if (scene.effects.gravity.is_any()) report["potential_energy"] = result.end.potential_energy;

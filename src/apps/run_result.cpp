@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
 
 #include "core/errors.hpp"
 #include "machine/machine.hpp"
+#include "statistics/block_averages.hpp"
 
 namespace carrom {
 
@@ -87,6 +92,61 @@ double collisions_per_disc(const Scene& scene, const RunResult& result) {
                                           result.start.pair_collisions);
     return ratio(static_cast<double>(taken_part),
                  disc_steps(result) * static_cast<double>(scene.micro_steps));
+}
+
+std::string reason_without_error(const Estimate& estimate, const Averages& averages) {
+    if (std::isfinite(estimate.error)) return {};
+    if (averages.steps == 0) return "nothing is averaged: no step came after the first one";
+    if (std::isnan(estimate.value)) return "the scene's effects leave it without a meaning";
+    if (std::isinf(estimate.value)) return "no disc met another one";
+    return fmt::format("the {} averaged steps make {} blocks, and an error takes {}",
+                       averages.steps, averages.n_blocks, fewest_blocks);
+}
+
+namespace {
+
+/// How many others the centre of a disc would have within their common diameter if discs did not
+/// collide.
+double ideal_overlaps(const Scene& scene) {
+    const std::vector<Species> alike = {{scene.n_discs, scene.radius, 1}};
+    const std::vector<Species>& species = scene.effects.species.empty() ? alike
+                                                                        : scene.effects.species;
+    double areas = 0;
+    for (const Species& a : species)
+        for (const Species& b : species)
+            areas += static_cast<double>(a.count) * static_cast<double>(b.count) *
+                     std::numbers::pi * std::pow(a.radius + b.radius, 2);
+    return areas / (static_cast<double>(scene.n_discs) * scene.box_size * scene.box_size);
+}
+
+} // namespace
+
+/// Discs that overlap pass through each other. So the share of overlaps that an ideal gas would
+/// have tells how much of the hardness is lost. The factor is fitted to runs of gases.
+LostCollisions lost_collisions(const Scene& scene, const RunResult& result) {
+    const double ideal = ideal_overlaps(scene);
+    if (scene.method != Method::time_stepped || !(ideal > 0) ||
+        scene.effects.contact.kind == ContactKind::none)
+        return {};
+    const double overlaps = overlapping_pairs_per_disc(result) / ideal;
+    LostCollisions lost;
+    lost.share = std::max(1 - std::exp(-overlaps * (0.8 + 3.2 * scene.packing())),
+                          rejected_share(result)); // those are lost in any case
+    const double z = result.averages.compressibility.value, kept = 1 - lost.share;
+    if (kept > 0 && z > 1) {
+        const double exact = 1 + (z - 1) / kept;
+        lost.pressure_error = z / exact - 1;
+    }
+    return lost;
+}
+
+std::string warning_of_lost_collisions(const Scene& scene, const RunResult& result) {
+    const LostCollisions lost = lost_collisions(scene, result);
+    if (!(lost.share > 0.01)) return {};
+    return fmt::format("the time-stepped method loses about {:.2g} % of the collisions of pairs, "
+                       "and the pressure is about {:.2g} % too low; try: time.method = "
+                       "\"event-driven\", or more time.micro_steps",
+                       100 * lost.share, -100 * lost.pressure_error);
 }
 
 double rejected_share(const RunResult& result) {

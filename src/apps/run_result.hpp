@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -55,6 +56,18 @@ double collisions_per_disc(const Scene& scene, const RunResult& result);
 
 /// Candidates that were not carried out, of all candidates since this process began.
 double rejected_share(const RunResult& result);
+
+/// Why an average has no error; empty where it has one.
+std::string reason_without_error(const Estimate& estimate, const Averages& averages);
+
+/// What a time-stepped run is estimated to miss; docs/understanding/pressure.md has the formula.
+struct LostCollisions {
+    double share = 0;          ///< of the collisions of pairs that the event-driven method finds
+    double pressure_error = 0; ///< relative, negative where the pressure is too low
+};
+LostCollisions lost_collisions(const Scene& scene, const RunResult& result);
+/// One line where more than a hundredth is lost, else empty.
+std::string warning_of_lost_collisions(const Scene& scene, const RunResult& result);
 
 /// Pairs at the end that a disc takes part in, on average.
 double overlapping_pairs_per_disc(const RunResult& result);

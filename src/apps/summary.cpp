@@ -81,7 +81,15 @@ std::string collision_rate_text(const Averages& averages) {
 }
 
 std::string pressure_text(const Averages& averages) {
-    return fmt::format("{} from collisions with walls, {} with those of pairs",
+    const TensorEstimate& tensor = averages.pressure_tensor;
+    return fmt::format("{}; xx {}, xy {}, yy {}", estimate_text(averages.pressure),
+                       estimate_text(tensor.xx), estimate_text(tensor.xy),
+                       estimate_text(tensor.yy));
+}
+
+std::string counted_pressure_text(const Averages& averages) {
+    return fmt::format("pressure {} from the number of collisions with walls, {} with those of "
+                       "pairs",
                        estimate_text(averages.wall_pressure),
                        estimate_text(averages.virial_pressure));
 }
@@ -156,8 +164,16 @@ std::string average_lines(const Scene& scene, const Averages& averages) {
     if (averages.steps == 0) return text;
     if (!std::isnan(averages.collision_frequency.value))
         text += labelled_line("frequency", collision_rate_text(averages));
-    if (!scene.effects.are_any()) text += labelled_line("pressure", pressure_text(averages));
-    return text + labelled_line("speeds", speeds_text(scene, averages));
+    text += labelled_line("temperature",
+                          fmt::format("kT = {}", estimate_text(averages.temperature)));
+    text += labelled_line("pressure", pressure_text(averages));
+    if (!std::isnan(averages.compressibility.value))
+        text += labelled_line(
+            "state", fmt::format("Z = P A / (N kT) = {}", estimate_text(averages.compressibility)));
+    if (!scene.effects.are_any()) text += labelled_line("counts", counted_pressure_text(averages));
+    text += labelled_line("speeds", speeds_text(scene, averages));
+    const std::string reason = reason_without_error(averages.temperature, averages);
+    return reason.empty() ? text : text + labelled_line("errors", "none: " + reason);
 }
 
 /// What the method made of the collisions.

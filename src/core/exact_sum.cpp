@@ -9,12 +9,18 @@ ExactSum::ExactSum(double bound) {
     int bound_exponent = 0;
     std::frexp(bound, &bound_exponent); // |bound| < 2^bound_exponent
     exponent_ = 125 - bound_exponent;
+    scale_ = std::ldexp(1.0, exponent_);
 }
 
-void ExactSum::add(double term) { sum_ += static_cast<Wide>(std::ldexp(term, exponent_)); }
+void ExactSum::add_large(double term) { sum_ += static_cast<Wide>(std::ldexp(term, exponent_)); }
 
 ExactSum& ExactSum::operator+=(const ExactSum& other) {
     sum_ += other.sum_;
+    return *this;
+}
+
+ExactSum& ExactSum::operator-=(const ExactSum& other) {
+    sum_ -= other.sum_;
     return *this;
 }
 

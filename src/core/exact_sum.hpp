@@ -6,6 +6,7 @@
 // gives the same bits.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 namespace carrom {
@@ -16,8 +17,17 @@ public:
     /// together.
     explicit ExactSum(double bound);
 
-    void add(double term);
+    void add(double term) {
+        const double scaled = term * scale_; // exact: the scale is a power of two
+        if (std::fabs(scaled) < 0x1p62) [[likely]]
+            sum_ += static_cast<std::int64_t>(scaled);
+        else
+            add_large(term);
+    }
+    /// Of sums with the same bound.
     ExactSum& operator+=(const ExactSum& other);
+    ExactSum& operator-=(const ExactSum& other);
+    void clear() { sum_ = 0; }
     double value() const;
 
     /// The raw sum, to be added across ranks word by word with carries (see `add_words`).
@@ -27,8 +37,12 @@ public:
 
 private:
     __extension__ using Wide = __int128;
+
+    void add_large(double term);
+
     Wide sum_ = 0;
     int exponent_ = 0; ///< the unit is 2^-exponent_
+    double scale_ = 1; ///< 2^exponent_, or infinite
 };
 
 } // namespace carrom

@@ -43,11 +43,16 @@ public:
     bool has_obstacles() const { return obstacles_ != nullptr; }
     bool has_open_sides() const { return boundaries_.are_any_open(); }
     const SpeciesTable& species_table() const { return species_; }
+    double mass_of(const Disc& disc) const {
+        if constexpr (is_mixed) return species_.of(disc.id).mass;
+        return 1;
+    }
 
     void begin_interval(std::int64_t n) { boundaries_.begin_interval(n); }
     double clock_at(double micro_steps) const { return fall_.clock_at(micro_steps); }
     double micro_steps_at(double clock) const { return fall_.micro_steps_at(clock); }
     Frame frame_at(double time) const { return fall_.at(time); }
+    double slowing_at(double time) const { return fall_.slowing_at(time); }
     void restart_frame(Disc& disc, double time) const { fall_.restart(disc, time); }
     double jump_at(double time) const { return fall_.jump_at(time); }
     double speed_gained_at(double time) const { return fall_.speed_gained_at(time); }

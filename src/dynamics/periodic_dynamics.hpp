@@ -27,6 +27,11 @@ public:
     double slack() const { return 0x1p-36 * this->box_size(); }
     double search_diameter() const { return this->diameter() + 2 * slack(); }
 
+    Separation separation_at(const Disc& p, const Disc& q, double time) const {
+        const Separation stored = Walled::separation_at(p, q, time);
+        return {stored.x + periods_.x_between(p, q), stored.y + periods_.y_between(p, q)};
+    }
+
     PairContact<double> contact(const Disc& p, const Disc& q) const {
         return contact(p, q, this->tolerance());
     }

@@ -24,6 +24,11 @@ struct MetWalls {
     bool at_x = false, at_y = false;
 };
 
+/// From one disc's centre to another one's.
+struct Separation {
+    double x = 0, y = 0;
+};
+
 class PlainDynamics {
 public:
     static constexpr double never = std::numeric_limits<double>::infinity();
@@ -58,6 +63,7 @@ public:
     static constexpr double clock_at(double micro_steps) { return micro_steps; }
     static constexpr double micro_steps_at(double clock) { return clock; }
     static Frame frame_at(double /*time*/) { return {}; }
+    static constexpr double slowing_at(double /*time*/) { return 1; }
     static void restart_frame(Disc& /*disc*/, double /*time*/) {}
     static constexpr double jump_at(double /*time*/) { return 0; }
     static constexpr double speed_gained_at(double /*time*/) { return 0; }
@@ -69,6 +75,12 @@ public:
         disc.y = y;
         disc.tau = time;
     }
+
+    /// From p to q. Both are at `time`, or fly there.
+    static Separation separation_at(const Disc& p, const Disc& q, double time) {
+        return {q.x_at(time) - p.x_at(time), q.y_at(time) - p.y_at(time)};
+    }
+    static constexpr double mass_of(const Disc& /*disc*/) { return 1; }
 
     // The time-stepped method.
 

@@ -14,6 +14,7 @@
 #include "domain/strips.hpp"
 #include "dynamics/species.hpp"
 #include "engine/collision.hpp"
+#include "engine/pair_virial.hpp"
 #include "engine/stored_state.hpp"
 #include "engine/totals.hpp"
 #include "engine/tuning.hpp"
@@ -72,6 +73,14 @@ public:
     void log_to(std::vector<Collision>* log) { log_ = log; }
     /// See Simulation::add_impulses_to.
     void add_impulses_to(WallImpulses* impulses) { impulses_ = impulses; }
+    /// From now on what own discs exchange is added to `virial` of one rank; null ends that. A
+    /// pair's collision is added by the rank that owns its first disc.
+    void add_virial_to(PairVirial* virial) {
+        virial_ = virial;
+        if (!virial) return;
+        no_virial_ = *virial;
+        no_virial_.clear();
+    }
     /// See Simulation::note_crossings_in.
     void note_crossings_in(std::vector<Crossing>* crossings) { crossings_ = crossings; }
 
@@ -82,6 +91,8 @@ protected:
 
     std::vector<Collision>* log_ = nullptr;
     WallImpulses* impulses_ = nullptr;
+    PairVirial* virial_ = nullptr;
+    PairVirial no_virial_{1}; ///< where parts of it begin
     std::vector<Crossing>* crossings_ = nullptr;
 };
 

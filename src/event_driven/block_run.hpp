@@ -19,6 +19,7 @@
 #include "core/disc.hpp"
 #include "core/side_columns.hpp"
 #include "dynamics/all_dynamics.hpp"
+#include "engine/pair_virial.hpp"
 
 namespace carrom {
 
@@ -53,7 +54,8 @@ struct BlockGround {
     CellBlock own_cells; ///< own discs that rounding puts outside belong to the nearest of them
     BlockWindow window;
     bool is_logged = false;
-    const SideColumns* columns = nullptr; ///< by disc
+    const SideColumns* columns = nullptr;  ///< by disc
+    const PairVirial* no_virial = nullptr; ///< where to begin; null where none is summed
 };
 
 /// The event history of a disc of a block's ring: 0 for no event, else a hash of times, partners
@@ -112,6 +114,7 @@ struct BlockOutcome {
     std::vector<HaloRecord> ring;
     std::vector<LoggedEvent> log;
     std::uint64_t n_events = 0; ///< whose first disc is own
+    PairVirial virial{1};       ///< of these
     double too_fast = 0;        ///< the largest speed of an own disc that got too far, else 0
     double far_partner = 0; ///< the largest speed of a disc from beyond the ring that an own disc
                             ///< has met, else 0

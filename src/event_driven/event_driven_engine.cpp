@@ -270,8 +270,10 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::share_marked() con
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
     const PhaseClock::Scope scope(phases_, Phase::search);
-    const BlockGround ground{discs_.all(), discs_.n_own(),      &discs_.grid(),   own_cells_,
-                             window_,      this->is_followed(), &discs_.columns()};
+    const BlockGround ground{discs_.all(),      discs_.n_own(),
+                             &discs_.grid(),    own_cells_,
+                             window_,           this->is_followed(),
+                             &discs_.columns(), this->virial_ ? &this->no_virial_ : nullptr};
     const int n_reach = discs_.grid().geometry().n_reach;
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
     for (Block& block : blocks_) {
@@ -307,6 +309,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
     for (const Block& block : blocks_) {
         n_events_ += block.outcome.n_events;
         largest_speed_ = std::max(largest_speed_, block.outcome.largest_speed_at_end);
+        if (this->virial_) *this->virial_ += block.outcome.virial;
         if (this->is_followed()) log_events(block.outcome);
     }
     for (Block& block : blocks_) block.has_run = false;

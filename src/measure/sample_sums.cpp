@@ -8,7 +8,7 @@ namespace carrom {
 
 namespace {
 
-constexpr std::int64_t format = 1;
+constexpr std::int64_t format = 2;
 
 /// Everything that is kept, in one order for writing and reading.
 template <class Sums, class Visit> void visit_all(Sums& s, const Visit& visit) {
@@ -18,7 +18,10 @@ template <class Sums, class Visit> void visit_all(Sums& s, const Visit& visit) {
         visit(s.n_discs), visit(s.area);
     for (auto* counts : {&s.pairs, &s.vx, &s.vy, &s.speeds, &s.x, &s.y, &s.pending}) visit(*counts);
     for (auto& count : s.wall_collisions) visit(count);
-    for (auto* numbers : {&s.ideal_pairs, &s.impulses, &s.displacements}) visit(*numbers);
+    for (auto* numbers :
+         {&s.ideal_pairs, &s.impulses, &s.displacements, &s.pressures, &s.last_motion})
+        visit(*numbers);
+    visit(s.virial_bound), visit(s.pending_virial);
 }
 
 } // namespace

@@ -25,9 +25,13 @@ struct SampleSums {
     std::vector<double> ideal_pairs; ///< likewise, what discs without size would have
     double area = 0;                 ///< of the box, over all samples
     std::array<std::uint64_t, 4> wall_collisions{};
-    std::vector<double> impulses;       ///< of each interval: of the four sides
-    std::vector<double> displacements;  ///< of each sample: its mean square along x, along y
-    std::vector<std::uint64_t> pending; ///< impulses and collisions since the last sample
+    std::vector<double> impulses;              ///< of each interval: of the four sides
+    std::vector<double> displacements;         ///< of each sample: its mean square along x, along y
+    std::vector<std::uint64_t> pending;        ///< impulses and collisions since the last sample
+    double virial_bound = 0;                   ///< the unit of the virial
+    std::vector<double> pressures;             ///< of each interval: xx, xy, yy, kT and N kT / A
+    std::vector<std::uint64_t> pending_virial; ///< since the last sample
+    std::vector<double> last_motion;           ///< at the last sample: the sum of m v v, N and A
 };
 
 std::vector<std::int64_t> packed(const SampleSums& sums);

@@ -17,7 +17,7 @@ namespace {
 std::uint64_t quantities_of(const MeasurementOutput& output) {
     return (output.wall_pressure ? 1u : 0u) | (output.radial_distribution ? 2u : 0u) |
            (output.velocities ? 4u : 0u) | (output.density ? 8u : 0u) |
-           (output.displacement ? 16u : 0u);
+           (output.displacement ? 16u : 0u) | (output.pressure ? 32u : 0u);
 }
 
 /// A component's root mean square, as the discs and the thermal walls have it; 0 where all is at
@@ -110,6 +110,7 @@ void Sampler::begin() {
     has_begun_ = true;
     follow_walls();
     follow_crossings();
+    if (output_.pressure) pressure_.emplace(simulation_, ranks_, sums_);
 }
 
 void Sampler::follow_walls() {
@@ -168,6 +169,7 @@ void Sampler::go_on(StoredSamples stored) {
         }
     }
     sums_.pending.clear();
+    if (output_.pressure) pressure_ = PressureSampler::going_on(simulation_, ranks_, sums_);
     if (output_.displacement) place_first(stored.first_places);
 }
 
@@ -203,6 +205,8 @@ void Sampler::sample(std::int64_t step) {
             scene_.effects.are_periodic() ? std::span<const Disc>(flown_on(simulation_)) : discs,
             n_discs, is_first);
     if (output_.wall_pressure && !is_first) sample_impulses(step);
+    if (output_.pressure && !is_first)
+        pressure_->sample(sums_, static_cast<double>(output_.every_steps));
     if (output_.radial_distribution) sample_distances(box); // moves discs in memory: last
     ++sums_.n_samples;
     sums_.last_step = step;
@@ -373,6 +377,7 @@ StoredSamples Sampler::stored() const {
                 sums.pending.push_back(word);
         }
     }
+    if (pressure_) pressure_->store(sums);
     stored.sums = packed(sums);
     stored.have_first_places = output_.displacement;
     stored.have_lengths = output_.displacement && scene_.effects.are_periodic();

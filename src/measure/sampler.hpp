@@ -25,6 +25,7 @@
 #include "core/disc.hpp"
 #include "core/stored_samples.hpp"
 #include "engine/wall_impulses.hpp"
+#include "measure/pressure_sampler.hpp"
 #include "measure/sample_sums.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
@@ -78,6 +79,7 @@ private:
     SampleSums sums_;
     bool has_begun_ = false;
     std::optional<WallImpulses> impulses_; ///< of this rank since the last sample
+    std::optional<PressureSampler> pressure_;
     std::uint64_t first_id_ = 0;
     std::vector<std::array<double, 2>> first_places_; ///< of this rank's run of ids, see pieces.hpp
     mutable std::vector<Crossing> crossings_; ///< of a periodic box's own discs, not yet reported

@@ -174,6 +174,52 @@ MeasuredTable wall_pressure(const SampleSums& s, const MeasuredTable& history) {
     return table;
 }
 
+MeasuredTable pressure_tensor_history(const SampleSums& s) {
+    MeasuredTable table{
+        "pressure_history",
+        {"pressure tensor between two steps: impulse times distance of pairs, and "
+         "the kinetic part at both; docs/understanding/pressure.md",
+         "pressure: half the trace; compressibility: P A / (N kT); kT of "
+         "translation; times in steps"},
+        {"from_step", "to_step", "xx", "xy", "yy", "pressure", "kT", "compressibility"},
+        {}};
+    for (std::size_t k = 0; k < s.pressures.size() / 5; ++k) {
+        const double* const one = s.pressures.data() + 5 * k;
+        const double from = static_cast<double>(s.first_step +
+                                                static_cast<std::int64_t>(k) * s.every_steps);
+        const double pressure = (one[0] + one[2]) / 2;
+        table.rows.push_back({from, from + static_cast<double>(s.every_steps), one[0], one[1],
+                              one[2], pressure, one[3], pressure / one[4]});
+    }
+    return table;
+}
+
+/// Of the history's columns from `xx` on. The compressibility is that of the mean pressure.
+MeasuredTable pressure(const SampleSums& s, const MeasuredTable& history) {
+    MeasuredTable table{"pressure",
+                        {"means of the history with one standard error (from joined intervals; nan "
+                         "where there are too few)"},
+                        {},
+                        {}};
+    std::vector<double> means, errors;
+    for (std::size_t column = 2; column < history.columns.size(); ++column) {
+        std::vector<double> terms;
+        for (const std::vector<double>& row : history.rows) terms.push_back(row[column]);
+        const double sum = std::accumulate(terms.begin(), terms.end(), 0.0);
+        means.push_back(sum / static_cast<double>(terms.size()));
+        errors.push_back(standard_error(terms));
+        table.columns.push_back(history.columns[column]);
+    }
+    double ideal = 0;
+    for (std::size_t k = 4; k < s.pressures.size(); k += 5) ideal += s.pressures[k];
+    means.back() = means[3] * static_cast<double>(history.rows.size()) / ideal;
+    for (std::size_t column = 2; column < history.columns.size(); ++column)
+        table.columns.push_back(history.columns[column] + "_error");
+    means.insert(means.end(), errors.begin(), errors.end());
+    table.rows.push_back(std::move(means));
+    return table;
+}
+
 MeasuredTable displacement(const SampleSums& s) {
     MeasuredTable table{"displacement",
                         {"mean square displacement since from_step, over all discs, on through "
@@ -208,6 +254,11 @@ std::vector<MeasuredTable> tables_of(const SampleSums& sums, const Scene& scene)
         tables.push_back(density(sums, scene, sums.y, "y"));
     }
     if (output.displacement) tables.push_back(displacement(sums));
+    if (output.pressure && !sums.pressures.empty()) {
+        MeasuredTable history = pressure_tensor_history(sums);
+        tables.push_back(pressure(sums, history));
+        tables.push_back(std::move(history));
+    }
     const std::string what = fmt::format("{} samples, steps {} to {}, one every {}", sums.n_samples,
                                          sums.first_step, sums.last_step, sums.every_steps);
     for (MeasuredTable& table : tables) table.remarks.insert(table.remarks.begin(), what);

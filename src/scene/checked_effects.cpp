@@ -143,18 +143,28 @@ void check_moving_walls(const Check& check) {
     }
 }
 
+/// A last step of 0 shows the start, and measures nothing.
+void check_first_sample(const Check& check, std::string_view key, std::int64_t from) {
+    const std::int64_t last = check.scene.steps;
+    if (from > last && last > 0)
+        check.refuse({key},
+                     fmt::format("'{}' = {} lies beyond the last step, {}", key, from, last));
+}
+
 void check_samples(const Check& check) {
+    check_first_sample(check, "output.averages_from_step", check.scene.averages_from);
     if (!check.scene.measurements) return;
     const MeasurementOutput& output = *check.scene.measurements;
+    check_first_sample(check, "output.measurements.from_step", output.from_step);
     const std::int64_t steps = check.scene.steps - output.from_step;
     const std::int64_t n_samples = steps / output.every_steps;
-    if (!(output.wall_pressure || output.displacement) || n_samples <= most_samples_of_histories)
-        return;
-    check.refuse({"output.measurements.every_steps", quantities},
-                 fmt::format("{} samples of \"wall_pressure\" or \"displacement\" are more than "
-                             "{}; take output.measurements.every_steps = {}",
-                             n_samples, most_samples_of_histories,
-                             steps / most_samples_of_histories + 1));
+    const bool has_history = output.wall_pressure || output.displacement || output.pressure;
+    if (!has_history || n_samples <= most_samples_of_histories) return;
+    check.refuse(
+        {"output.measurements.every_steps", quantities},
+        fmt::format("{} samples of \"wall_pressure\", \"pressure\" or \"displacement\" are "
+                    "more than {}; take output.measurements.every_steps = {}",
+                    n_samples, most_samples_of_histories, steps / most_samples_of_histories + 1));
 }
 
 /// How far the radial distribution may look: half the room of centres, in the smallest box there

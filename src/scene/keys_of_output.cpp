@@ -53,6 +53,10 @@ std::vector<Key> keys_of_checkpoints() {
         key("output.folder", "", "Where all that the run writes has its place; -o sets it too.",
             [](auto& s) -> auto& { return s.folder; })
             .by_default("none"),
+        key("output.averages_from_step", "steps",
+            "Step that the averages of summary and report begin at: leave out equilibration.",
+            [](auto& s) -> auto& { return s.averages_from; })
+            .within({0, largest_steps}),
         key("output.checkpoint.every_steps", "steps", "Time from checkpoint to checkpoint.",
             [](auto& s) -> auto& { return s.checkpoint->every_steps; })
             .by_default("none")
@@ -119,7 +123,8 @@ std::vector<Key> keys_of_measurements() {
         {"radial_distribution", &Output::radial_distribution},
         {"velocities", &Output::velocities},
         {"density", &Output::density},
-        {"displacement", &Output::displacement}};
+        {"displacement", &Output::displacement},
+        {"pressure", &Output::pressure}};
     return {
         flags_key(
             "output.measurements.quantities", "", "What is measured.",

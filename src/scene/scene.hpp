@@ -87,7 +87,7 @@ struct MeasurementOutput {
     std::string folder; ///< in the run's folder
     std::int64_t every_steps = 10, from_step = 0;
     bool wall_pressure = false, radial_distribution = false, velocities = false, density = false,
-         displacement = false;
+         displacement = false, pressure = false;
     std::size_t bins = 100;
     double largest_distance = 0; ///< of the radial distribution
     bool is_distance_default =
@@ -111,7 +111,9 @@ struct Scene {
     Generator generator = Generator::random;
     std::string discs_file; ///< for Generator::file, relative to the scene's folder; empty: lines
                             ///< follow the header
-    double speed = 1;       ///< root mean square of the generated speeds
+    std::string discs_from; ///< an HDF5 file, likewise, whose discs follow as lines
+    std::optional<std::int64_t> discs_from_step; ///< of a frame; else the last one
+    double speed = 1;                            ///< root mean square of the generated speeds
     VelocityKind velocities = VelocityKind::maxwell;
     std::uint64_t seed = 3210;
     std::vector<Stream> streams;
@@ -137,6 +139,7 @@ struct Scene {
     std::optional<TrajectoryOutput> trajectory;
     std::optional<CollisionOutput> collisions;
     std::optional<MeasurementOutput> measurements;
+    std::int64_t averages_from = 0; ///< the step that averages of the report begin at
 
     std::vector<std::string> warnings; ///< legal but worth a line: K not a power of two, ...
 
@@ -150,7 +153,7 @@ struct Scene {
 /// A disc's spin at the start.
 double first_spin(const Scene& scene, DiscId id);
 
-/// Where `discs_file` lies: relative to the folder of the scene's own file.
+/// Where `discs_file` or `discs_from` lies: relative to the folder of the scene's own file.
 std::string discs_path(const Scene& scene);
 
 } // namespace carrom

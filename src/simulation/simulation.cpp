@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "check/state_check.hpp"
+#include "dynamics/species.hpp"
 #include "engine/engine.hpp"
 #include "engine/state_sums.hpp"
 #include "event_driven/event_driven_engine.hpp"
@@ -62,6 +63,42 @@ std::unique_ptr<Engine> engine_for(const Scene& scene, StoredState state,
     return make_time_stepped_engine(scene, std::move(state), communicator, tuning);
 }
 
+/// A speed per micro-step that discs are likely to have, now or later; the same on all ranks.
+double usual_speed(const Scene& scene, std::span<const Disc> own, const Communicator& ranks) {
+    const Effects& effects = scene.effects;
+    double fastest = 0;
+    for (const Disc& disc : own)
+        fastest = std::max({fastest, std::fabs(disc.vx), std::fabs(disc.vy)});
+    fastest = ranks.max(fastest) * static_cast<double>(scene.micro_steps);
+    const double pull = std::fabs(effects.gravity.x) + std::fabs(effects.gravity.y);
+    fastest = std::max(fastest, std::sqrt(2 * pull * scene.box_size));
+    for (const Boundary& side : effects.boundaries)
+        fastest = std::max({fastest, std::fabs(side.speed), std::sqrt(side.temperature)});
+    return (fastest > 0 ? fastest : scene.radius) / static_cast<double>(scene.micro_steps);
+}
+
+double heaviest_of(const Scene& scene) {
+    double heaviest = scene.effects.species.empty() ? 1 : 0;
+    for (const Species& one : scene.effects.species) heaviest = std::max(heaviest, one.mass);
+    return heaviest;
+}
+
+AveragedSystem averaged_system(const Scene& scene, std::uint64_t n_discs) {
+    AveragedSystem system;
+    system.n_discs = static_cast<double>(n_discs);
+    system.box_size = scene.box_size;
+    system.radius = scene.radius;
+    system.velocity_unit = static_cast<double>(scene.micro_steps);
+    system.micro_steps = scene.micro_steps;
+    system.sync_every = scene.sync_every;
+    system.is_plain = !scene.effects.are_any();
+    system.keeps_discs = !scene.effects.have_open_boundaries();
+    system.is_periodic_x = scene.effects.is_periodic_x();
+    system.is_periodic_y = scene.effects.is_periodic_y();
+    system.last_step = scene.steps;
+    return system;
+}
+
 } // namespace
 
 Simulation::Simulation(const Scene& scene, std::vector<InputDisc> discs,
@@ -72,24 +109,51 @@ Simulation::Simulation(const Scene& scene, StoredState state, const Communicator
                        const Tuning& tuning)
     : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)),
       effects_(scene.effects), box_size_(scene.box_size), n_threads_(tuning.threads),
+      heaviest_(heaviest_of(scene)), averages_from_(scene.averages_from),
       engine_(engine_for(scene, std::move(state), communicator, tuning)),
-      averages_(std::make_unique<BlockAverages>(
-          AveragedSystem{static_cast<double>(engine_->n_discs()), scene.box_size, scene.radius,
-                         velocity_unit_, scene.micro_steps, scene.sync_every,
-                         !scene.effects.are_any(), !scene.effects.have_open_boundaries()})) {}
+      averages_(std::make_unique<BlockAverages>(averaged_system(scene, engine_->n_discs()))) {
+    // Terms are some 2^50 units, and sums come to 2^75 of them.
+    begin_virial(heaviest_ * scene.radius * usual_speed(scene, engine_->own(), communicator) *
+                 0x1p75);
+}
 
 Simulation::~Simulation() = default;
 
 void Simulation::advance_towards(std::int64_t last_step) {
-    if (!averages_->has_begun()) average_anew();
+    if (!averages_->has_begun() && step() >= averages_from_) average_anew();
+    const std::int64_t next = averages_->has_begun() ? averages_->block_end() : averages_from_;
     if (check_ && step() < last_step)
         advance_checked();
-    else
-        engine_->advance_towards(
-            last_step); // never beyond the first step after a sync, where blocks may end
-    if (averages_->ends_block(step()))
-        averages_->end_block(step(),
-                             look_at(in_motion(), engine_->n_discs(), n_threads_, communicator_));
+    else // never beyond the first step after a sync
+        engine_->advance_towards(std::min(last_step, next));
+    if (!averages_->has_begun() && step() >= averages_from_)
+        average_anew();
+    else if (averages_->has_begun() && averages_->is_due(step()))
+        averages_->add(step(), look());
+}
+
+void Simulation::begin_virial(double bound) {
+    virial_bound_ = bound;
+    virial_ = std::make_unique<PairVirial>(bound);
+    engine_->add_virial_to(virial_.get());
+}
+
+const PairVirial& Simulation::virial() const { return *virial_; }
+
+MotionNow Simulation::motion() const {
+    const Look now = look();
+    return {averages_->motion_of(now), now.n_discs, now.area};
+}
+
+Look Simulation::look() const {
+    const SpeciesTable* const species_table = effects_.species.empty() ? nullptr
+                                                                       : engine_->species_table();
+    Look look = look_at(in_motion(), species_table, heaviest_, engine_->n_discs(), n_threads_,
+                        communicator_);
+    look.virial = sum_of(*virial_, communicator_);
+    const Extent box = extent_at(effects_, box_size_, static_cast<double>(step()));
+    look.area = (box.x_high - box.x_low) * (box.y_high - box.y_low);
+    return look;
 }
 
 void Simulation::check_every_step(const Scene& scene) {
@@ -108,14 +172,11 @@ void Simulation::advance_checked() {
     if (log_) log_->insert(log_->end(), collisions.begin(), collisions.end());
 }
 
-void Simulation::average_anew() {
-    averages_->begin(step(), look_at(in_motion(), engine_->n_discs(), n_threads_, communicator_));
-}
+void Simulation::average_anew() { averages_->begin(step(), look()); }
 
 Averages Simulation::averages() const {
     if (!averages_->has_begun()) return {};
-    return averages_->averages(step(),
-                               look_at(in_motion(), engine_->n_discs(), n_threads_, communicator_));
+    return averages_->averages(step(), look());
 }
 
 std::int64_t Simulation::step() const {

@@ -27,6 +27,9 @@ namespace carrom {
 class BlockAverages;
 class Engine;
 class StateCheck;
+struct Look;
+struct MotionNow;
+struct PairVirial;
 struct WallImpulses;
 
 class Simulation {
@@ -75,6 +78,16 @@ public:
     /// From now on what own discs are brought back by at syncs, in a periodic box, is appended to
     /// `crossings`; null ends that.
     void note_crossings_in(std::vector<Crossing>* crossings);
+    /// The virial of this rank's collisions of pairs since the simulation was made, in the unit of
+    /// `virial_bound()`.
+    const PairVirial& virial() const;
+    double virial_bound() const { return virial_bound_; }
+    /// What the kinetic part of the pressure follows from, now. **Collective.**
+    MotionNow motion() const;
+    /// Begins the sum anew in another unit, as a checkpoint's measurements need it; before any
+    /// step.
+    void begin_virial(double bound);
+
     /// Adds to counts[k] this rank's pairs of discs at distances from k to k + 1 times `bin_width`,
     /// now; over all ranks each pair is counted once. The counts of all bins reach no further than
     /// half the box. `species_ends`: the ids before which species end, the last one the number of
@@ -101,6 +114,7 @@ public:
 
 private:
     void advance_checked();
+    Look look() const;
     /// As `shown()`, for whoever looks at velocities only.
     std::span<const Disc> in_motion() const;
 
@@ -109,8 +123,12 @@ private:
     Effects effects_; ///< times in steps
     double box_size_;
     int n_threads_;
+    double heaviest_ = 1; ///< mass of a disc
+    double virial_bound_ = 1;
+    std::int64_t averages_from_;
     std::unique_ptr<Engine> engine_;
     std::unique_ptr<BlockAverages> averages_;
+    std::unique_ptr<PairVirial> virial_; ///< the engine adds to it
     std::unique_ptr<StateCheck> check_;
     mutable std::vector<Disc> shown_;  ///< under gravity
     mutable std::vector<Disc> stored_; ///< once discs have left

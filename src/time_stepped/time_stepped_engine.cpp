@@ -7,6 +7,7 @@
 
 #include "engine/dynamics_of_scene.hpp"
 #include "engine/state_sums.hpp"
+#include "time_stepped/speed_survey.hpp"
 
 namespace carrom {
 
@@ -76,7 +77,8 @@ template <class Dynamics> Window TimeSteppedEngine<Dynamics>::redistribute(int n
     if (part_ == 0) {
         this->set_departed_aside();
         agree_on_speed();
-        if (n_windows_ == 0 || n_parts_ > 1) survey_speeds();
+        if (largest_speed_ > 0 && (n_windows_ == 0 || n_parts_ > 1)) // all ranks have agreed on it
+            spread_ = survey_speeds(discs_.own(), largest_speed_, communicator_);
     }
     const Window window = choose(n_left);
     migrate_at(window.anchor());
@@ -252,9 +254,10 @@ template <class Dynamics>
 }
 
 /// Returns the square of the largest speed after it. Walls at rest that only mirror do not matter.
+/// Two ranks may carry out a collision: the one that owns the first disc adds its virial.
 template <class Dynamics>
 [[gnu::always_inline]] inline double TimeSteppedEngine<Dynamics>::collide(
-    const Candidate& c, int m, std::vector<Disc>& results) {
+    const Candidate& c, int m, std::vector<Disc>& results, PairVirial& virial) {
     Disc& p = results[c.p];
     if (c.is_wall()) {
         dynamics_.bounce(p, m, c.time);
@@ -263,12 +266,19 @@ template <class Dynamics>
         return Dynamics::has_mirror_walls ? 0 : squared_speed_of(p);
     }
     Disc& q = results[c.q];
+    const bool is_summed = this->virial_ && c.p < discs_.n_own();
+    const double vx = p.vx, vy = p.vy;
+    const Separation to = is_summed ? dynamics_.separation_at(p, q, m + c.time) : Separation{};
     // A spin does not affect the search, so it need not wait for a cut micro-step's end.
     if constexpr (Dynamics::has_spin) {
         std::vector<double>& spins = discs_.columns()[SideColumn::spin];
         dynamics_.collide(p, q, m, c.time, spins[c.p], spins[c.q]);
     } else {
         dynamics_.collide(p, q, m, c.time);
+    }
+    if (is_summed) {
+        const double mass = dynamics_.mass_of(p);
+        virial.add(mass * (p.vx - vx), mass * (p.vy - vy), to);
     }
     return std::max(squared_speed_of(p), squared_speed_of(q));
 }
@@ -284,22 +294,27 @@ double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m,
     const auto n_kept = static_cast<std::int64_t>(kept.size());
     hits_.resize(is_last ? 0 : 2 * kept.size());
     double fastest = 0;
-#pragma omp parallel for num_threads(tuning_.threads) schedule(static)                             \
-    reduction(max : fastest) if (n_kept > 256)
-    for (std::int64_t k = 0; k < n_kept; ++k) {
-        if (k + prefetch_distance < n_kept)
-            prefetch(kept[static_cast<std::size_t>(k + prefetch_distance)], results, is_last);
-        const Candidate& c = kept[static_cast<std::size_t>(k)];
-        fastest = std::max(fastest, collide(c, m, results));
-        if (is_last) continue;
-        const auto place = static_cast<std::size_t>(2 * k);
-        hits_[place] = c.p;
-        hits_[place + 1] = c.q;
-        for (const LocalIndex index : {c.p, c.q}) {
-            if (index == wall) continue;
-            states_[index] = window.state_after(m);
-            update_flight(index, results[index]);
+#pragma omp parallel num_threads(tuning_.threads) reduction(max : fastest) if (n_kept > 256)
+    {
+        PairVirial virial = this->no_virial_;
+#pragma omp for schedule(static)
+        for (std::int64_t k = 0; k < n_kept; ++k) {
+            if (k + prefetch_distance < n_kept)
+                prefetch(kept[static_cast<std::size_t>(k + prefetch_distance)], results, is_last);
+            const Candidate& c = kept[static_cast<std::size_t>(k)];
+            fastest = std::max(fastest, collide(c, m, results, virial));
+            if (is_last) continue;
+            const auto place = static_cast<std::size_t>(2 * k);
+            hits_[place] = c.p;
+            hits_[place + 1] = c.q;
+            for (const LocalIndex index : {c.p, c.q}) {
+                if (index == wall) continue;
+                states_[index] = window.state_after(m);
+                update_flight(index, results[index]);
+            }
         }
+#pragma omp critical(virial)
+        if (this->virial_) *this->virial_ += virial;
     }
     return std::sqrt(fastest);
 }
@@ -357,20 +372,6 @@ void TimeSteppedEngine<Dynamics>::update_halo(const Window& window, int m) {
         update_flight(index, discs_.all()[index]);
         hits_.push_back(index);
     }
-}
-
-/// Counts how many discs are how fast, all ranks having agreed on the largest speed.
-/// **Collective.**
-template <class Dynamics> void TimeSteppedEngine<Dynamics>::survey_speeds() {
-    if (!(largest_speed_ > 0)) return;
-    SpeedSpread::Counts counts{};
-    for (const Disc& disc : discs_.own()) {
-        const double part = std::sqrt(squared_speed_of(disc)) / largest_speed_ *
-                            SpeedSpread::n_parts;
-        counts[std::min(static_cast<std::size_t>(part), SpeedSpread::n_parts - 1)] += 1;
-    }
-    communicator_.sum(counts);
-    spread_ = SpeedSpread(counts, largest_speed_);
 }
 
 /// The next migration still allows for the largest speed before the sync.

@@ -49,7 +49,6 @@ private:
     void agree_on_speed();
     void migrate_at(double time);
     void sort(const Window& window, double reach, double usual_reach);
-    void survey_speeds();
     std::vector<Disc>* companion() { return in_parts_ ? &outcomes_ : nullptr; }
 
     bool run_micro_step(const Window& window, int m);
@@ -57,7 +56,8 @@ private:
     void strike_taken(std::vector<Candidate>& live) const;
     void apply(const Window& window, int m);
     double collide_all(const Window& window, int m, std::vector<Disc>& results);
-    double collide(const Candidate& candidate, int m, std::vector<Disc>& results);
+    double collide(const Candidate& candidate, int m, std::vector<Disc>& results,
+                   PairVirial& virial);
     void prefetch(const Candidate& candidate, const std::vector<Disc>& results, bool is_last) const;
     void update_flight(LocalIndex index, const Disc& disc);
     void update_halo(const Window& window, int m);

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How many discs are how fast, to choose windows by.
+#pragma once
+
+#include <span>
+
+#include "core/disc.hpp"
+#include "engine/window_choice.hpp"
+#include "parallel/communicator.hpp"
+
+namespace carrom {
+
+/// `largest_speed` > 0 is that of all ranks. **Collective.**
+SpeedSpread survey_speeds(std::span<const Disc> own, double largest_speed,
+                          const Communicator& communicator);
+
+} // namespace carrom

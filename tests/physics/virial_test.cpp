@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The pressure tensor: against equations of state in periodic boxes, against the walls' pressure,
+// and against sums over logged collisions. docs/understanding/pressure.md derives what is held
+// here.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "catch.hpp"
+#include <fmt/format.h>
+
+#include "engine/wall_impulses.hpp"
+#include "equations_of_state.hpp"
+#include "gas_runs.hpp"
+#include "parallel/exchange.hpp"
+#include "statistics/block_averages.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+void make_periodic(TestScene& scene) {
+    for (Boundary& side : scene.setting.effects.boundaries) side.kind = BoundaryKind::periodic;
+}
+
+/// Equilibrated, and averaged over about so many collisions.
+Averages averages_of(TestScene scene, double n_early, double n_collisions,
+                     const Communicator& world) {
+    scene.steps = 1 << 20;
+    Simulation simulation = event_driven_simulation(scene, world);
+    run_until(simulation, n_early);
+    simulation.average_anew();
+    run_until(simulation, n_early + n_collisions);
+    return simulation.averages();
+}
+
+/// What N discs in a periodic box are to have: the bulk's Z, and the first term in 1/N.
+KnownFactor periodic_factor(double eta, double n) {
+    const auto pressure = [](double x) { return x * known_factor(x).value; };
+    constexpr double h = 1e-3;
+    const double slope = (pressure(eta + h) - pressure(eta - h)) / (2 * h);
+    const double bend = (pressure(eta + h) - 2 * pressure(eta) + pressure(eta - h)) / (h * h);
+    KnownFactor known = known_factor(eta);
+    known.value -= eta * bend / slope / (2 * n);
+    return known;
+}
+
+void check_periodic(double eta, std::size_t n, double n_collisions, double largest_error) {
+    const Communicator world = Communicator::world();
+    TestScene scene = crystal(n, eta, 5 + n);
+    make_periodic(scene);
+    for (InputDisc& disc : scene.discs) disc.vx += 0.5; // a drift is no heat
+    const Averages averages = averages_of(scene, 60 * static_cast<double>(n), n_collisions, world);
+    const Estimate z = averages.compressibility;
+    const KnownFactor known = periodic_factor(eta, static_cast<double>(n));
+    fmt::print("| {} | {} | {:.5f} +- {:.5f} | {:.5f} | {:+.1f} |\n", eta, n, z.value, z.error,
+               known.value, (z.value - known.value) / std::hypot(z.error, known.error));
+    INFO("eta = " << eta << ", N = " << n);
+    CHECK(std::fabs(z.value - known.value) < 4 * z.error + known.error);
+    CHECK(z.error < largest_error * z.value);
+    // The trace is half of what the parts are, and nothing shears the gas.
+    const TensorEstimate& p = averages.pressure_tensor;
+    CHECK(averages.pressure.value == Approx((p.xx.value + p.yy.value) / 2).epsilon(1e-13));
+    CHECK(std::fabs(p.xy.value) < 4 * p.xy.error);
+    CHECK(std::fabs(p.xx.value - p.yy.value) < 4 * std::hypot(p.xx.error, p.yy.error));
+    CHECK(averages.compressibility.value ==
+          Approx(averages.pressure.value * std::pow(scene.setting.box_size, 2) /
+                 (static_cast<double>(n) * averages.temperature.value))
+              .epsilon(1e-12));
+}
+
+/// The means of both walls along x, and along y, over the averaged time.
+void check_walls(TestScene scene, double n_collisions) {
+    const Communicator world = Communicator::world();
+    scene.steps = 1 << 20;
+    Simulation simulation = event_driven_simulation(scene, world);
+    const double n = static_cast<double>(scene.discs.size());
+    run_until(simulation, 60 * n);
+    simulation.average_anew();
+    const std::int64_t first = simulation.step();
+    WallImpulses impulses(1e9);
+    simulation.add_impulses_to(&impulses);
+    run_until(simulation, 60 * n + n_collisions);
+    simulation.add_impulses_to(nullptr);
+    const Averages averages = simulation.averages();
+    const double size = scene.setting.box_size,
+                 steps = static_cast<double>(simulation.step() - first);
+    const double room = 1 - 2 * scene.setting.radius / size;
+    const TensorEstimate& p = averages.pressure_tensor;
+    const auto wall = [&](std::size_t side) {
+        return (impulses.normal[side].value() + impulses.normal[side + 1].value()) /
+               (2 * size * steps);
+    };
+    INFO(scene.name);
+    fmt::print(
+        "{}: xx {:.6g} +- {:.2g}, from walls {:.6g}; yy {:.6g} +- {:.2g}, from walls {:.6g}\n",
+        scene.name, p.xx.value, p.xx.error, wall(0) * room, p.yy.value, p.yy.error, wall(2) * room);
+    if (!scene.setting.effects.is_periodic_x())
+        CHECK(std::fabs(p.xx.value - wall(0) * room) < 4 * p.xx.error);
+    CHECK(std::fabs(p.yy.value - wall(2) * room) < 4 * p.yy.error);
+    CHECK(p.xx.error < 0.02 * p.xx.value);
+}
+
+struct State {
+    std::vector<Disc> discs;
+    double clock = 0;
+};
+
+/// All discs by id, on every rank.
+State state_of(const Simulation& simulation, const Communicator& world) {
+    State state;
+    stream_to_root(
+        world, simulation.shown(),
+        [&](std::span<const Disc> some) {
+            state.discs.insert(state.discs.end(), some.begin(), some.end());
+        },
+        1000);
+    world.broadcast(state.discs);
+    std::sort(state.discs.begin(), state.discs.end(),
+              [](const Disc& a, const Disc& b) { return a.id < b.id; });
+    state.clock = simulation.clock();
+    return state;
+}
+
+/// Steps one by one. A disc that has collided once in a step tells the impulse by its velocities
+/// before and after, and its place at the logged time by the state before.
+void check_against_log(const TestScene& scene, Method method) {
+    const Communicator world = Communicator::world();
+    Scene all = scene_of(scene);
+    all.method = method;
+    Simulation simulation(all, world.is_root() ? scene.discs : std::vector<InputDisc>{}, world, {});
+    std::vector<Collision> log;
+    simulation.log_to(&log);
+    const Periods periods = scene.setting.effects.periods(scene.setting.box_size);
+    const auto nearest = [](double d, double period) {
+        return period == 0 ? d : d - period * std::round(d / period);
+    };
+    const auto mass_of = [&](DiscId id) {
+        for (const Species& one : scene.setting.effects.species) {
+            if (id < one.count) return one.mass;
+            id -= one.count;
+        }
+        return 1.0;
+    };
+    int n_pairs = 0;
+    INFO(scene.name);
+    while (simulation.step() < scene.steps) {
+        const State before = state_of(simulation, world);
+        const Tensor virial_before = sum_of(simulation.virial(), world);
+        log.clear();
+        simulation.advance_towards(simulation.step() + 1);
+        const State after = state_of(simulation, world);
+        std::vector<int> n_hits(before.discs.size());
+        for (const Collision& c : log) {
+            n_hits[c.p] += 1;
+            if (c.q != Collision::wall) n_hits[c.q] += 1;
+        }
+        if (std::any_of(n_hits.begin(), n_hits.end(), [](int n) { return n > 1; })) continue;
+        double xx = 0, xy = 0, yy = 0, size = 0;
+        for (const Collision& c : log) {
+            if (c.q == Collision::wall) continue;
+            const Disc &p = before.discs[c.p], &q = before.discs[c.q];
+            const double into = c.time + static_cast<double>(c.micro_step) -
+                                static_cast<double>(simulation.step() - 1);
+            const double ex = nearest((q.x_at(before.clock) + q.vx * into) -
+                                          (p.x_at(before.clock) + p.vx * into),
+                                      periods.x),
+                         ey = nearest((q.y_at(before.clock) + q.vy * into) -
+                                          (p.y_at(before.clock) + p.vy * into),
+                                      periods.y);
+            const double ix = mass_of(c.p) * (after.discs[c.p].vx - p.vx),
+                         iy = mass_of(c.p) * (after.discs[c.p].vy - p.vy);
+            xx -= ix * ex;
+            xy -= (ix * ey + iy * ex) / 2;
+            yy -= iy * ey;
+            size += std::hypot(ix, iy) * std::hypot(ex, ey);
+            ++n_pairs;
+        }
+        const Tensor virial = sum_of(simulation.virial(), world);
+        CHECK(std::fabs(virial.xx - virial_before.xx - xx) <= 1e-10 * size);
+        CHECK(std::fabs(virial.xy - virial_before.xy - xy) <= 1e-10 * size);
+        CHECK(std::fabs(virial.yy - virial_before.yy - yy) <= 1e-10 * size);
+    }
+    CHECK(n_pairs > 15);
+}
+
+} // namespace
+
+TEST_CASE("physics: the virial is the sum of impulse times distance over the collisions") {
+    const ContactEffect lossy{ContactKind::restitution, 0.6};
+    const ContactEffect rough{ContactKind::rough, 0.8, 0.001, 0.4, 0.3, 0.5};
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
+        for (const bool is_periodic : {false, true}) {
+            for (const int kind : {0, 1, 2, 3}) {
+                TestScene scene = gas(36, 0.3, 0.004, 300 + static_cast<std::uint64_t>(kind));
+                scene.name = fmt::format("kind {}, periodic {}, method {}", kind, is_periodic,
+                                         static_cast<int>(method));
+                scene.steps = 300;
+                if (is_periodic) make_periodic(scene);
+                Effects& effects = scene.setting.effects;
+                if (kind == 1) effects.contact = lossy;
+                if (kind >= 2) effects.contact = rough;
+                if (kind == 3) effects.species = {{10, 1, 3}, {26, 0.9, 0.5}};
+                check_against_log(scene, method);
+            }
+        }
+    }
+}
+
+TEST_CASE("physics: the pressure in a periodic box is that of the equation of state") {
+    fmt::print("| eta | N | Z | known | deviation |\n|---|---|---|---|---|\n");
+    for (const double eta : {0.1, 0.3, 0.5}) check_periodic(eta, 1024, 1e6, 1.5e-3);
+}
+
+TEST_CASE("physics: few discs in a periodic box have the pressure of so few") {
+    // 1/N makes 0.027 here, and a kinetic part without the lost degree of freedom 0.016 more.
+    check_periodic(0.5, 64, 2e6, 1.5e-3);
+    check_periodic(0.3, 36, 1e6, 1.5e-3);
+}
+
+TEST_CASE("physics: the pressure in a box is that on its walls") {
+    check_walls(crystal(64, 0.3, 61), 4e5);
+    check_walls(crystal(100, 0.6, 62), 4e5);
+    TestScene rough = crystal(64, 0.3, 63);
+    rough.name = "rough discs";
+    rough.setting.effects.contact = {
+        ContactKind::rough, 1, 0.001, 1, std::numeric_limits<double>::infinity(), 0.5};
+    check_walls(rough, 4e5);
+    TestScene channel = crystal(100, 0.4, 64);
+    channel.name = "without walls along x";
+    channel.setting.effects.boundaries[0].kind = channel.setting.effects.boundaries[1].kind =
+        BoundaryKind::periodic;
+    check_walls(channel, 4e5);
+}
+
+TEST_CASE("physics: the pressure in a periodic box is that of the equation of state, long",
+          "[.long]") {
+    fmt::print("| eta | N | Z | known | deviation |\n|---|---|---|---|---|\n");
+    for (const double eta : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6}) check_periodic(eta, 4096, 1e8, 1.5e-4);
+}
