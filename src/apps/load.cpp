@@ -22,6 +22,7 @@
 #include "parallel/agreement.hpp"
 #include "scene/disc_reader.hpp"
 #include "scene/read_scene.hpp"
+#include "stored_scene/discs_from.hpp"
 
 namespace carrom {
 
@@ -110,8 +111,37 @@ Problems problems_of_disc_lines(const Scene& scene, std::istream& stream) {
 /// The files that are read: what is written must be others.
 std::vector<NamedFile> read_for(const RunOptions& options, const Scene& scene) {
     std::vector<NamedFile> sources = read_by(options);
-    if (!scene.discs_file.empty()) sources.push_back({"the file of discs", discs_path(scene)});
+    if (!scene.discs_file.empty() || !scene.discs_from.empty())
+        sources.push_back({"the file of discs", discs_path(scene)});
     return sources;
+}
+
+/// The discs of `discs.from` become the lines that follow the scene's text. Returns the settings
+/// that say so, the same on every rank. **Collective.**
+std::vector<std::string> follow_with_discs_from(const Scene& scene,
+                                                std::unique_ptr<std::istream>& stream,
+                                                Problems& problems, const Communicator& ranks) {
+    const std::string path = discs_path(scene);
+    check_damage(path, ranks);
+    FileOfDiscs file;
+    if (ranks.is_root()) {
+        collect(problems, [&] {
+            file = read_discs_from(path, scene.discs_from_step,
+                                   scene.effects.contact.kind == ContactKind::rough);
+            if (scene.n_discs != 0 && scene.n_discs != file.n_discs)
+                throw InputError({{path, 0,
+                                   fmt::format("has {} discs, and the scene is of {}", file.n_discs,
+                                               scene.n_discs)}});
+        });
+        stream = std::make_unique<std::istringstream>(std::move(file.lines));
+    }
+    ranks.broadcast(file.n_discs);
+    int have_spins = file.have_spins ? 1 : 0;
+    ranks.broadcast(have_spins);
+    std::vector<std::string> settings;
+    if (file.n_discs > 0) settings.push_back(fmt::format("discs.count={}", file.n_discs));
+    if (have_spins == 1) settings.emplace_back("discs.columns=[\"spin\"]");
+    return settings;
 }
 
 /// The scene; `stream`, on rank 0, is left at the first line of discs. **Collective.**
@@ -133,11 +163,22 @@ Scene load_scene(const RunOptions& options, const Problems& problems_so_far,
     if (ranks.all(is_readable)) {
         broadcast(text, ranks);
         Problems same_everywhere;
-        scene = read_scene(text, options.overrides, same_everywhere);
-        if (!scene.disc_columns.empty() && !scene.discs_file.empty()) {
-            text.columns = load_columns(scene, ranks);
+        std::vector<std::string> overrides = options.overrides;
+        const auto read_again = [&] {
             same_everywhere.clear();
-            scene = read_scene(text, options.overrides, same_everywhere);
+            scene = read_scene(text, overrides, same_everywhere);
+        };
+        read_again();
+        if (!scene.discs_from.empty()) {
+            const auto more = follow_with_discs_from(scene, stream, problems, ranks);
+            overrides.insert(overrides.end(), more.begin(), more.end());
+            text.discs_follow = true;
+            if (!more.empty()) read_again();
+        }
+        if (!scene.disc_columns.empty() &&
+            !(scene.discs_file.empty() && scene.discs_from.empty())) {
+            text.columns = load_columns(scene, stream.get(), ranks);
+            read_again();
         }
         const bool are_lines_wrong = text.columns && !text.columns->is_whole;
         if (ranks.is_root()) append(problems, same_everywhere);

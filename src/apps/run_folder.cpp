@@ -40,6 +40,8 @@ std::string text_of_copy(const Scene& scene) {
     std::vector<std::string> overrides = scene.overrides;
     if (!scene.discs_file.empty())
         overrides.push_back("discs.file=" + fs::absolute(discs_path(scene)).string());
+    if (!scene.discs_from.empty())
+        overrides.push_back("discs.from=" + fs::absolute(discs_path(scene)).string());
     for (const std::string& override : overrides)
         text += fmt::format("{}{}\n", override_mark, override);
     return text + scene.text;

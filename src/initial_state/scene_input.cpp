@@ -30,13 +30,21 @@ void broadcast(SceneText& text, const Communicator& ranks) {
     text.discs_follow = discs_follow == 1;
 }
 
-DiscColumns load_columns(const Scene& scene, const Communicator& ranks) {
+DiscColumns load_columns(const Scene& scene, std::istream* following, const Communicator& ranks) {
     DiscColumns columns;
     columns.is_whole = false;
     if (ranks.is_root()) {
         try {
-            std::ifstream file = open_input(discs_path(scene));
-            columns = read_disc_columns(file, scene);
+            std::ifstream file;
+            if (scene.discs_file.empty()) {
+                const auto begin = following->tellg();
+                columns = read_disc_columns(*following, scene);
+                following->clear();
+                following->seekg(begin);
+            } else {
+                file = open_input(discs_path(scene));
+                columns = read_disc_columns(file, scene);
+            }
         } catch (const InputError&) { // the reader of lines says it again, with all problems
         }
     }

@@ -16,8 +16,9 @@ namespace carrom {
 void broadcast(SceneText& text, const Communicator& ranks);
 
 /// The columns of the scene's file of discs beyond places and velocities. They are not whole where
-/// the file cannot be read: the reader of its lines reports why. **Collective.**
-DiscColumns load_columns(const Scene& scene, const Communicator& ranks);
+/// the file cannot be read: the reader of its lines reports why. `following` as below; it is left
+/// where it was. **Collective.**
+DiscColumns load_columns(const Scene& scene, std::istream* following, const Communicator& ranks);
 
 /// The discs that a scene starts with. `following` is on rank 0 the stream of a legacy text behind
 /// its header; null where no discs follow. A file of discs is opened here. Throws InputError on

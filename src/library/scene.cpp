@@ -30,7 +30,7 @@ carrom::Scene read(const SceneText& text, const Scene& scene) {
 /// The scene with the radii, masses and spins of its file of discs. **Collective.**
 carrom::Scene read_with_columns(SceneText text, const Scene& scene, const carrom::Scene& without,
                                 const Communicator& ranks) {
-    text.columns = load_columns(without, ranks);
+    text.columns = load_columns(without, nullptr, ranks);
     if (!text.columns->is_whole)
         let_root(ranks, [&] {
             std::ifstream file = open_input(discs_path(without));
@@ -123,6 +123,10 @@ FirstState first_state(const Scene& scene, const Communicator& ranks) {
     const SceneText text = text_of(scene.source());
     FirstState first;
     first.scene = read(text, scene);
+    if (!first.scene.discs_from.empty())
+        throw InputError({{"discs.from", 0,
+                           "the library does not read it; open the checkpoint, and give its discs "
+                           "to set_discs"}});
     if (!first.scene.disc_columns.empty() && !first.scene.discs_file.empty())
         first.scene = read_with_columns(text, scene, first.scene, ranks);
     if (first.scene.accuracy)

@@ -211,10 +211,10 @@ bool check_discs(const Check& check) {
     Scene& scene = check.scene;
     const bool is_legacy_text = scene.lines_before_discs > 0;
     if (scene.generator == Generator::file && !is_legacy_text &&
-        !check.settings.has("discs.file") && !check.settings.has("discs.list"))
-        check.refuse(
-            {"discs.generator"},
-            "discs.generator is \"file\", but there is no 'discs.file' and no 'discs.list'");
+        !check.settings.has("discs.file") && !check.settings.has("discs.list") &&
+        !check.settings.has("discs.from"))
+        check.refuse({"discs.generator"}, "discs.generator is \"file\", but there is no "
+                                          "'discs.file', 'discs.list' or 'discs.from'");
     const std::size_t n_problems = check.problems.size();
     check_species(check);
     const bool are_species_right = check.problems.size() == n_problems;

@@ -33,7 +33,7 @@ void derive_defaults(const Check& check) {
     Scene& scene = check.scene;
     const Settings& settings = check.settings;
     if (!settings.has("discs.generator") &&
-        (settings.has("discs.file") || settings.has("discs.list")))
+        (settings.has("discs.file") || settings.has("discs.list") || settings.has("discs.from")))
         scene.generator = Generator::file;
     if (check.columns && !check.columns->species.empty())
         scene.effects.species = check.columns->species;

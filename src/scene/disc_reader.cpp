@@ -34,7 +34,7 @@ public:
 
 DiscReader::DiscReader(std::istream& stream, const Scene& scene)
     : scene_(scene), species_(scene.effects.species, scene.radius),
-      place_(scene.discs_file.empty() ? scene.name : discs_path(scene)),
+      place_(scene.discs_file.empty() && scene.discs_from.empty() ? scene.name : discs_path(scene)),
       lines_(std::make_unique<Lines>(stream,
                                      scene.discs_file.empty() ? scene.lines_before_discs : 0)) {}
 

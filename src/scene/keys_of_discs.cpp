@@ -187,7 +187,7 @@ std::vector<Key> keys_of_discs() {
             [](auto& s) -> auto& { return s.n_discs; })
             .within({1, static_cast<double>(largest_count)})
             .required()
-            .unless({"discs.list", "discs.species"}),
+            .unless({"discs.list", "discs.species", "discs.from"}),
         key("discs.radius", "length", "r, the radius of a disc; or give 'discs.packing'.",
             [](auto& s) -> auto& { return s.radius; })
             .within(lengths)
@@ -200,7 +200,7 @@ std::vector<Key> keys_of_discs() {
             "Random: uniform without overlaps. Lattice: shaken. Legacy: C `rand`. File: "
             "discs are listed.",
             [](auto& s) -> auto& { return s.generator; })
-            .by_default("\"random\"; \"file\" with a list or file"),
+            .by_default("\"random\"; \"file\" with a list or file of discs"),
         list_key(),
         key("discs.file", "",
             "File of lines `id x y vx vy`, from the scene's folder. Ids are 0 to N-1.",
@@ -208,6 +208,19 @@ std::vector<Key> keys_of_discs() {
             .by_default("none")
             .needs(listed)
             .excludes({"discs.list"}),
+        key("discs.from", "",
+            "Checkpoint or trajectory of another run, from the scene's folder, to begin from.",
+            [](auto& s) -> auto& { return s.discs_from; })
+            .by_default("none")
+            .needs(listed)
+            .excludes({"discs.list", "discs.file"})
+            .not_physical(),
+        key("discs.from_step", "steps", "Step of the frame of 'discs.from' to take.",
+            [](auto& s) -> auto& { return s.discs_from_step; })
+            .by_default("the last frame")
+            .within({0, largest_steps})
+            .needs({"without 'discs.from'", [](const Scene& s) { return !s.discs_from.empty(); }})
+            .not_physical(),
         key("discs.columns", "",
             "What lines of the file have besides, in that order. Mass needs radius.",
             [](auto& s) -> auto& { return s.disc_columns; })

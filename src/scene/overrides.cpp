@@ -14,7 +14,8 @@ namespace {
 
 /// Keys of the input that have no meaning for the generator which the command line chooses.
 void remove_keys_of_other_generators(Settings& settings, const Settings& given) {
-    const bool lists_discs = given.has("discs.file") || given.has("discs.list");
+    const bool lists_discs = given.has("discs.file") || given.has("discs.list") ||
+                             given.has("discs.from");
     if (lists_discs) settings.remove("discs.generator");
     Scene chosen;
     if (given.is_right("discs.generator"))

@@ -27,7 +27,8 @@ double first_spin(const Scene& scene, DiscId id) {
 }
 
 std::string discs_path(const Scene& scene) {
-    return (std::filesystem::path(scene.name).parent_path() / scene.discs_file).string();
+    const std::string& name = scene.discs_from.empty() ? scene.discs_file : scene.discs_from;
+    return (std::filesystem::path(scene.name).parent_path() / name).string();
 }
 
 } // namespace carrom

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stored_scene/discs_from.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
+#include "io/frame_file.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr std::uint64_t block = 1 << 16;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& text) {
+    throw InputError({{path, 0, text}});
+}
+
+std::size_t frame_of(const std::string& path, const FileSummary& summary,
+                     std::optional<std::int64_t> step) {
+    if (summary.kind == FileKind::collisions)
+        refuse(path, "is a log of collisions; discs.from takes a checkpoint or a trajectory");
+    if (summary.kind == FileKind::trajectory && !(summary.has_position && summary.has_velocity))
+        refuse(path, "its frames lack positions or velocities; discs.from takes both");
+    if (summary.steps.empty()) refuse(path, "has no frame");
+    if (!step) return summary.steps.size() - 1;
+    const auto found = std::find(summary.steps.begin(), summary.steps.end(), *step);
+    if (found == summary.steps.end())
+        refuse(path, fmt::format("has no frame of step {}; its frames are of steps {} to {}", *step,
+                                 summary.steps.front(), summary.steps.back()));
+    return static_cast<std::size_t>(found - summary.steps.begin());
+}
+
+} // namespace
+
+FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t> step,
+                            bool wants_spins) {
+    const FrameFile file(path);
+    const std::size_t frame = frame_of(path, file.summary(), step);
+    FileOfDiscs discs;
+    discs.n_discs = file.summary().n_discs;
+    discs.have_spins = wants_spins && file.summary().has_angular_velocity;
+    auto out = std::back_inserter(discs.lines);
+    std::vector<FrameRow> rows;
+    for (std::uint64_t begin = 0; begin < discs.n_discs; begin += block) {
+        file.read(frame, begin, std::min(begin + block, discs.n_discs), rows);
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            const FrameRow& row = rows[k];
+            fmt::format_to(out, "{} {} {} {} {}", begin + k, row.x, row.y, row.vx, row.vy);
+            if (discs.have_spins) fmt::format_to(out, " {}", row.angular_velocity);
+            discs.lines += '\n';
+        }
+    }
+    return discs;
+}
+
+} // namespace carrom
