@@ -12,8 +12,6 @@ namespace {
 
 /// Blocks are joined to longer ones while so many are left.
 constexpr std::size_t fewest_joined_blocks = 16;
-/// A short run has so many blocks.
-constexpr std::int64_t first_blocks = 16;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A power of two that is two to four times the largest component of a velocity.
@@ -72,19 +70,25 @@ Look look_at(std::span<const Disc> own, const SpeciesTable* species_table, doubl
         pairs += disc.pair_collisions;
         const bool has_departed = disc.has_departed(); // and is at rest
         departed += has_departed;
-        const double mass = species_table ? species_table->of(disc.id).mass / heaviest : 1;
         const double vx = disc.vx * per_unit, vy = disc.vy * per_unit;
         const double square = vx * vx + vy * vy;
         speeds += fixed(std::sqrt(square));
-        squares += fixed(square);
         fourths += fixed(square * square);
-        masses += has_departed ? 0 : fixed(mass);
-        x += fixed(mass * vx);
-        y += fixed(mass * vy);
-        xx += fixed(mass * vx * vx);
-        xy += fixed(mass * vx * vy);
-        yy += fixed(mass * vy * vy);
+        double px = vx, py = vy;
+        if (species_table) {
+            const double mass = species_table->of(disc.id).mass / heaviest;
+            px = mass * vx;
+            py = mass * vy;
+            squares += fixed(square);
+            masses += has_departed ? 0 : fixed(mass);
+        }
+        x += fixed(px);
+        y += fixed(py);
+        xx += fixed(px * vx);
+        xy += fixed(px * vy);
+        yy += fixed(py * vy);
     }
+    if (!species_table) squares = xx + yy;
     std::uint64_t sums[] = {walls,  pairs, speeds, squares, fourths, departed,
                             masses, x,     y,      xx,      xy,      yy};
     communicator.sum(sums);
@@ -99,7 +103,7 @@ Look look_at(std::span<const Disc> own, const SpeciesTable* species_table, doubl
     const auto signed_sum = [&](std::size_t k) {
         return static_cast<double>(static_cast<std::int64_t>(sums[k])) * (per_term * heaviest);
     };
-    look.mass = signed_sum(6);
+    look.mass = species_table ? signed_sum(6) : look.n_discs;
     look.momentum_x = signed_sum(7);
     look.momentum_y = signed_sum(8);
     look.motion = {signed_sum(9), signed_sum(10), signed_sum(11)};
@@ -137,10 +141,10 @@ void BlockAverages::begin(std::int64_t step, const Look& look) {
     first_step_ = block_step_ = look_step_ = step;
     last_ = look;
     present_ = {};
+    constexpr auto fewest = static_cast<std::int64_t>(fewest_blocks); // each costs a look
     const std::int64_t per_sync = (system_.sync_every + system_.micro_steps - 1) /
                                   system_.micro_steps;
-    steps_per_block_ = std::clamp<std::int64_t>((system_.last_step - step) / first_blocks, 1,
-                                                per_sync);
+    steps_per_block_ = std::clamp<std::int64_t>((system_.last_step - step) / fewest, 1, per_sync);
     blocks_.clear();
 }
 

@@ -2,7 +2,7 @@
 // The history of a run in blocks of equal length in time, to show how much its averages can be
 // trusted.
 //
-// A block is a number of steps: a sixteenth of a short run, a sync interval of a long one. When
+// A block is a number of steps: a quarter of a short run, a sync interval of a long one. When
 // there are `most_blocks`, each two become one, and blocks are twice as long from then on. The
 // discs are looked at where a sync has ended and where a block ends: places that depend on the
 // scene alone. What is known then is taken to change evenly in between. Price of a look: two passes
