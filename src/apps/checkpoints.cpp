@@ -8,6 +8,7 @@
 #include "apps/restart.hpp"
 #include "io/checkpoint.hpp"
 #include "io/checkpoint_folder.hpp"
+#include "io/files.hpp"
 #include "stored_scene/stored_scene.hpp"
 
 namespace carrom {
@@ -28,8 +29,7 @@ Checkpoints::Checkpoints(const Scene& scene, std::int64_t first_step, bool is_re
     kept_ = earlier_checkpoints(scene_, first_step, ranks_);
     kept_.push_back(checkpoint_path(scene_.checkpoint->folder, first_step));
     if (!ranks_.is_root()) return;
-    for (const FoundFile& found : find_checkpoints(scene_.checkpoint->folder))
-        if (!found.is_finished) remove_file(found.path); // by the run that was killed
+    remove_unfinished(scene_.checkpoint->folder); // by the run that was killed
 }
 
 std::int64_t Checkpoints::next_look(std::int64_t step) const {
@@ -81,7 +81,7 @@ void Checkpoints::write(const Simulation& simulation, Recordings& recordings) {
     const std::string path = checkpoint_path(scene_.checkpoint->folder, header.step);
     write_checkpoint(path, header, simulation.discs(), ranks_,
                      {n_threads_, scene_.checkpoint->transfers == Transfers::collective},
-                     recordings.samples(), simulation.spins());
+                     recordings.samples(), simulation.side_columns());
     last_written_ = header.step;
     std::erase(kept_, path);
     kept_.push_back(path);

@@ -2,11 +2,14 @@
 #include "apps/file_commands.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -24,55 +27,134 @@ namespace {
 
 enum class Format { xyz, text, csv };
 
-void append_header(fmt::memory_buffer& out, Format format, const FileSummary& summary,
-                   std::int64_t step) {
-    if (format != Format::xyz) return;
+/// Which columns stand for which others where a file is written as text.
+constexpr std::array<std::string_view, 6> common_columns = {
+    "x", "y", "vx", "vy", "pair_collisions", "wall_collisions"};
+
+/// The columns that only some files have.
+std::vector<std::size_t> other_columns(const FileSummary& summary) {
+    std::vector<std::size_t> places;
+    for (std::size_t k = 0; k < summary.columns.size(); ++k)
+        if (std::find(common_columns.begin(), common_columns.end(), summary.columns[k]) ==
+            common_columns.end())
+            places.push_back(k);
+    return places;
+}
+
+/// Chemical symbols, for readers of extended XYZ take nothing else; X is no element.
+constexpr std::array<std::string_view, 119> symbols = {
+    "X",  "H",  "He", "Li", "Be", "B",  "C",  "N",  "O",  "F",  "Ne", "Na", "Mg", "Al", "Si",
+    "P",  "S",  "Cl", "Ar", "K",  "Ca", "Sc", "Ti", "V",  "Cr", "Mn", "Fe", "Co", "Ni", "Cu",
+    "Zn", "Ga", "Ge", "As", "Se", "Br", "Kr", "Rb", "Sr", "Y",  "Zr", "Nb", "Mo", "Tc", "Ru",
+    "Rh", "Pd", "Ag", "Cd", "In", "Sn", "Sb", "Te", "I",  "Xe", "Cs", "Ba", "La", "Ce", "Pr",
+    "Nd", "Pm", "Sm", "Eu", "Gd", "Tb", "Dy", "Ho", "Er", "Tm", "Yb", "Lu", "Hf", "Ta", "W",
+    "Re", "Os", "Ir", "Pt", "Au", "Hg", "Tl", "Pb", "Bi", "Po", "At", "Rn", "Fr", "Ra", "Ac",
+    "Th", "Pa", "U",  "Np", "Pu", "Am", "Cm", "Bk", "Cf", "Es", "Fm", "Md", "No", "Lr", "Rf",
+    "Db", "Sg", "Bh", "Hs", "Mt", "Ds", "Rg", "Cn", "Nh", "Fl", "Mc", "Lv", "Ts", "Og"};
+
+/// What each disc is, disc after disc.
+class Bodies {
+public:
+    explicit Bodies(const FileSummary& summary)
+        : species_(summary.species), all_{summary.n_rows, summary.radius, 1} {}
+    /// To be asked in the order of ids; from id 0 again at the next frame.
+    const Species& of(std::uint64_t id) {
+        if (id == 0) k_ = 0, end_ = species_.empty() ? all_.count : species_[0].count;
+        while (id >= end_) end_ += species_[++k_].count;
+        return species_.empty() ? all_ : species_[k_];
+    }
+    /// Of the disc that was asked for last: H, He and so on, or X.
+    std::string_view symbol() const {
+        return species_.empty() || species_.size() >= symbols.size() ? symbols[0] : symbols[k_ + 1];
+    }
+
+private:
+    std::span<const Species> species_;
+    Species all_;
+    std::size_t k_ = 0;
+    std::uint64_t end_ = 0;
+};
+
+/// Extended XYZ: a frame's first two lines.
+void append_header(fmt::memory_buffer& out, const FileSummary& summary, std::int64_t step) {
+    std::string others;
+    for (const std::size_t k : other_columns(summary))
+        others += fmt::format(":{}:R:1", summary.columns[k]);
     fmt::format_to(std::back_inserter(out),
                    "{}\nLattice=\"{} 0 0 0 {} 0 0 0 1\" "
-                   "Properties=species:S:1:pos:R:3:velo:R:3:id:I:1{} Time={} pbc=\"{} {} F\"\n",
-                   summary.n_discs, summary.box_size, summary.box_size,
-                   summary.has_angular_velocity ? ":angular_velocity:R:1" : "", step,
+                   "Properties=species:S:1:pos:R:3:velo:R:3:id:I:1:radius:R:1:mass:R:1{} Time={} "
+                   "pbc=\"{} {} F\"\n",
+                   summary.n_rows, summary.box_size, summary.box_size, others, step,
                    summary.is_periodic_x ? 'T' : 'F', summary.is_periodic_y ? 'T' : 'F');
 }
 
-void append_row(fmt::memory_buffer& out, Format format, std::int64_t step, std::uint64_t id,
-                const FrameRow& row, const FileSummary& summary) {
-    const auto end = std::back_inserter(out);
-    const bool with_counters = summary.has_collisions;
-    if (format == Format::xyz)
-        fmt::format_to(end, "D {} {} 0 {} {} 0 {}", row.x, row.y, row.vx, row.vy, id);
-    if (format == Format::csv) { // counters that the file does not have stay empty
-        fmt::format_to(end, "{},{},{},{},{},{},", step, id, row.x, row.y, row.vx, row.vy);
-        if (with_counters)
-            fmt::format_to(end, "{},{}", row.pair_collisions, row.wall_collisions);
-        else
-            fmt::format_to(end, ",");
+/// Writes rows of frames as text.
+class RowWriter {
+public:
+    RowWriter(const FileSummary& summary, Format format)
+        : format_(format), bodies_(summary), others_(other_columns(summary)) {
+        for (const std::string_view column : common_columns)
+            places_.push_back(summary.place_of(column));
     }
-    if (format != Format::text) {
-        if (summary.has_angular_velocity)
-            fmt::format_to(end, "{}{}", format == Format::csv ? ',' : ' ', row.angular_velocity);
+
+    void append(fmt::memory_buffer& out, std::int64_t step, std::uint64_t id, const Rows& rows,
+                std::size_t i) {
+        if (format_ == Format::text) return append_as_text(out, step, id, rows, i);
+        const auto end = std::back_inserter(out);
+        const char separator = format_ == Format::xyz ? ' ' : ',';
+        if (format_ == Format::xyz) {
+            const Species& body = bodies_.of(id);
+            fmt::format_to(end, "{} {} {} 0 {} {} 0 {} {} {}", bodies_.symbol(), number(rows, i, 0),
+                           number(rows, i, 1), number(rows, i, 2), number(rows, i, 3), id,
+                           body.radius, body.mass);
+        } else {
+            fmt::format_to(end, "{},{}", step, id);
+            for (const std::size_t place : places_) { // what the file does not have stays empty
+                out.push_back(',');
+                if (place < rows.size()) fmt::format_to(end, "{}", rows[place][i]);
+            }
+        }
+        for (const std::size_t k : others_) fmt::format_to(end, "{}{}", separator, rows[k][i]);
         out.push_back('\n');
     }
-    if (format == Format::text)
+
+private:
+    /// Of a common column; 0 where the file does not have it.
+    double number(const Rows& rows, std::size_t i, std::size_t column) const {
+        return places_[column] < rows.size() ? rows[places_[column]][i] : 0;
+    }
+    void append_as_text(fmt::memory_buffer& out, std::int64_t step, std::uint64_t id,
+                        const Rows& rows, std::size_t i) const {
         append_line(out, step,
-                    {id, row.x, row.y, row.vx, row.vy, row.pair_collisions, row.wall_collisions},
-                    RunOptions::round_trip_digits, with_counters);
-}
+                    {id, number(rows, i, 0), number(rows, i, 1), number(rows, i, 2),
+                     number(rows, i, 3), static_cast<std::uint64_t>(number(rows, i, 4)),
+                     static_cast<std::uint64_t>(number(rows, i, 5))},
+                    RunOptions::round_trip_digits, places_[4] < rows.size());
+    }
+
+    Format format_;
+    Bodies bodies_;
+    std::vector<std::size_t> places_, others_;
+};
 
 void write_frames(const FrameFile& file, Format format, DataOutput& output) {
     const FileSummary& summary = file.summary();
-    if (format == Format::csv)
-        output.buffer().append(
-            fmt::format("step,id,x,y,vx,vy,pair_collisions,wall_collisions{}\n",
-                        summary.has_angular_velocity ? ",angular_velocity" : ""));
-    std::vector<FrameRow> rows;
+    RowWriter writer(summary, format);
+    if (format == Format::csv) {
+        fmt::format_to(std::back_inserter(output.buffer()), "step,id,{}",
+                       fmt::join(common_columns, ","));
+        for (const std::size_t k : other_columns(summary))
+            fmt::format_to(std::back_inserter(output.buffer()), ",{}", summary.columns[k]);
+        output.buffer().push_back('\n');
+    }
+    Rows rows;
     for (std::size_t frame = 0; frame < summary.steps.size() && output.failure().empty(); ++frame) {
-        append_header(output.buffer(), format, summary, summary.steps[frame]);
-        for (std::uint64_t begin = 0; begin < summary.n_discs; begin += rows_at_a_time) {
-            file.read(frame, begin, std::min(begin + rows_at_a_time, summary.n_discs), rows);
-            for (std::size_t i = 0; i < rows.size(); ++i) {
-                append_row(output.buffer(), format, summary.steps[frame], begin + i, rows[i],
-                           summary);
+        if (format == Format::xyz) append_header(output.buffer(), summary, summary.steps[frame]);
+        for (std::uint64_t begin = 0; begin < summary.n_rows; begin += rows_at_a_time) {
+            const std::uint64_t end = std::min(begin + rows_at_a_time, summary.n_rows);
+            file.read(frame, begin, end, rows);
+            for (std::size_t i = 0; i < end - begin; ++i) {
+                writer.append(output.buffer(), summary.steps[frame], begin + i, rows, i);
                 output.flush_if_full();
             }
         }
@@ -80,14 +162,18 @@ void write_frames(const FrameFile& file, Format format, DataOutput& output) {
 }
 
 void write_log(const FrameFile& file, DataOutput& output) {
-    output.buffer().append(std::string_view("step,time,p,q,impulse\n"));
-    std::vector<LoggedCollision> rows;
-    for (std::uint64_t begin = 0; begin < file.summary().n_logged && output.failure().empty();
+    const FileSummary& summary = file.summary();
+    const auto out = std::back_inserter(output.buffer());
+    fmt::format_to(out, "{}\n", fmt::join(summary.columns, ","));
+    Rows rows;
+    for (std::uint64_t begin = 0; begin < summary.n_rows && output.failure().empty();
          begin += rows_at_a_time) {
-        file.read(begin, std::min(begin + rows_at_a_time, file.summary().n_logged), rows);
-        for (const LoggedCollision& row : rows) {
-            fmt::format_to(std::back_inserter(output.buffer()), "{},{},{},{},{}\n", row.step,
-                           row.time, row.p, row.q, row.impulse);
+        const std::uint64_t end = std::min(begin + rows_at_a_time, summary.n_rows);
+        file.read(0, begin, end, rows);
+        for (std::size_t i = 0; i < end - begin; ++i) {
+            for (std::size_t k = 0; k < rows.size(); ++k)
+                fmt::format_to(out, "{}{}", k == 0 ? "" : ",", rows[k][i]);
+            output.buffer().push_back('\n');
             output.flush_if_full();
         }
     }
@@ -98,7 +184,7 @@ std::string obstacle_to_format(const FileSummary& summary, Format format) {
     if (format == Format::csv) return {};
     if (summary.kind == FileKind::collisions)
         return "is a log of collisions; it can be converted to csv only";
-    if (!summary.has_position || !summary.has_velocity)
+    if (!summary.has("x") || !summary.has("vx"))
         return "has no positions or no velocities; convert it to csv";
     return {};
 }

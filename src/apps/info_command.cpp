@@ -2,12 +2,14 @@
 #include "apps/file_commands.hpp"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "apps/restart.hpp"
 #include "apps/words.hpp"
+#include "core/side_columns.hpp"
 #include "io/checkpoint.hpp"
 #include "io/frame_file.hpp"
 #include "parallel/agreement.hpp"
@@ -38,46 +40,69 @@ std::string frames_text(const std::vector<std::int64_t>& steps) {
 
 /// From when to when a log goes; it is in the order of time.
 std::string span_text(const FrameFile& file) {
-    const std::uint64_t n = file.summary().n_logged;
+    const FileSummary& summary = file.summary();
+    const std::uint64_t n = summary.n_rows;
     if (n == 0) return labelled_line("steps", "none");
-    std::vector<LoggedCollision> first, last;
-    file.read(0, 1, first);
-    file.read(n - 1, n, last);
-    return labelled_line("steps", fmt::format("{} to {}, times {:.6g} to {:.6g}", first[0].step,
-                                              last[0].step, first[0].time, last[0].time));
+    Rows first, last;
+    file.read(0, 0, 1, first);
+    file.read(0, n - 1, n, last);
+    const std::size_t step = summary.place_of("step"), time = summary.place_of("time");
+    return labelled_line("steps", fmt::format("{} to {}, times {:.6g} to {:.6g}", first[step][0],
+                                              last[step][0], first[time][0], last[time][0]));
 }
 
-/// The fields of a trajectory, a space before each.
+/// The fields of a trajectory as scenes name them.
 std::string fields_text(const FileSummary& summary) {
-    return fmt::format("{}{}{}{}", summary.has_position ? " position" : "",
-                       summary.has_velocity ? " velocity" : "",
-                       summary.has_collisions ? " collisions" : "",
-                       summary.has_angular_velocity ? " angular_velocity" : "");
+    constexpr std::array<std::array<const char*, 2>, 3> common = {
+        {{"position", "x"}, {"velocity", "vx"}, {"collisions", "pair_collisions"}}};
+    std::vector<std::string> fields;
+    for (const auto& [field, column] : common)
+        if (summary.has(column)) fields.emplace_back(field);
+    for (const SideColumnInfo& info : side_column_table)
+        if (summary.has(info.shown)) fields.emplace_back(info.shown);
+    return fmt::format("{}", fmt::join(fields, " "));
 }
 
 std::string trajectory_text(const FileSummary& summary) {
-    const std::string fields = fields_text(summary);
-    std::string text = labelled_line("radius", fmt::format("{:g}", summary.radius));
-    text += labelled_line("fields", fields.substr(std::min<std::size_t>(1, fields.size())));
-    if (summary.has_position || summary.has_velocity || summary.has_angular_velocity)
-        text += labelled_line("numbers", fmt::format("of {} bytes", summary.bytes_per_number));
-    return text + labelled_line("frames", frames_text(summary.steps));
+    return labelled_line("fields", fields_text(summary)) +
+           labelled_line("numbers", fmt::format("of {} bytes", summary.bytes_per_number)) +
+           labelled_line("frames", frames_text(summary.steps));
+}
+
+/// A line for each species, or one where all discs are equal.
+std::string species_text(const FileSummary& summary) {
+    constexpr std::size_t most_lines = 20;
+    if (summary.species.empty())
+        return labelled_line("radius", fmt::format("{:g}", summary.radius));
+    std::string text;
+    for (std::size_t k = 0; k < std::min(most_lines, summary.species.size()); ++k) {
+        const Species& one = summary.species[k];
+        text += labelled_line("species", fmt::format("{}: {} discs of radius {:g} and mass {:g}", k,
+                                                     one.count, one.radius, one.mass));
+    }
+    if (summary.species.size() > most_lines)
+        text += labelled_line(
+            "", fmt::format("and {} more species", summary.species.size() - most_lines));
+    return text;
 }
 
 std::string summary_text(const FileSummary& summary) {
     std::string text = labelled_line("kind", word_of(summary.kind)) +
                        labelled_line("written by", "carrom " + summary.program_version);
     if (summary.kind == FileKind::collisions)
-        return text + labelled_line("collisions", fmt::format("{}", summary.n_logged)) +
-               labelled_line("fields", "step time p q impulse");
+        return text + labelled_line("collisions", fmt::format("{}", summary.n_rows)) +
+               labelled_line("fields", fmt::format("{}", fmt::join(summary.columns, " ")));
     text += labelled_line("discs",
-                          fmt::format("{} in a box of {:g}", summary.n_discs, summary.box_size));
+                          fmt::format("{} in a box of {:g}", summary.n_rows, summary.box_size));
+    const std::string periodic = fmt::format("{}{}", summary.is_periodic_x ? "x" : "",
+                                             summary.is_periodic_y ? "y" : "");
+    if (!periodic.empty()) text += labelled_line("periodic", periodic);
+    text += species_text(summary);
     return summary.kind == FileKind::trajectory ? text + trajectory_text(summary) : text;
 }
 
 std::string header_text(const CheckpointHeader& header) {
     std::string text = labelled_line("step", fmt::format("{}", header.step));
-    text += labelled_line("radius", fmt::format("{:g}", header.radius));
     text += labelled_line("method",
                           fmt::format("{}, micro_steps = {}, sync_every = {}", header.method,
                                       header.micro_steps, header.sync_every));

@@ -228,10 +228,8 @@ RunOptions with_input_of_folder(RunOptions options, const Communicator& ranks) {
     if (!options.resume || !options.input.empty() || options.folder.empty()) return options;
     std::string copy, overrides;
     if (ranks.is_root()) {
-        bool has_checkpoint = false;
-        for (const FoundFile& file : find_checkpoints(checkpoints_of_run(options.folder)))
-            has_checkpoint |= file.is_finished;
-        if (!has_checkpoint) copy = scene_copy_of(options.folder);
+        if (find_checkpoints(checkpoints_of_run(options.folder)).empty())
+            copy = scene_copy_of(options.folder);
         if (!copy.ends_with(".toml")) copy.clear(); // the lines of discs are not in it
         for (const std::string& override : overrides_of_copy(copy)) overrides += override + '\n';
     }

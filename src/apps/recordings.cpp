@@ -95,7 +95,8 @@ void Recordings::record(const Simulation& simulation) {
     if (log_) record_collisions();
     if (sampler_) sampler_->look();
     if (trajectory_ && step % scene_.trajectory->every_steps == 0)
-        trajectory_->append(step, simulation.shown(), simulation.clock(), simulation.spins());
+        trajectory_->append(step, simulation.shown(), simulation.clock(),
+                            simulation.side_columns());
     commit_now_and_then();
 }
 

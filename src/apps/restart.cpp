@@ -49,25 +49,17 @@ std::string folder_to_search(const RunOptions& options, const Scene& scene,
     return folder;
 }
 
-/// Finished checkpoints of a folder, newest first, the same on every rank. **Collective.**
+/// Checkpoints of a folder, newest first, the same on every rank. **Collective.**
 std::vector<std::string> candidates_in(const std::string& folder, const Communicator& ranks) {
     std::string list;
     if (ranks.is_root()) {
-        for (const FoundFile& found : find_checkpoints(folder)) {
-            if (found.is_finished) list += found.path + '\0';
-        }
+        for (const FoundFile& found : find_checkpoints(folder)) list += found.path + '\0';
     }
     ranks.broadcast(list);
     std::vector<std::string> paths;
     std::istringstream stream(list);
     for (std::string path; std::getline(stream, path, '\0');) paths.push_back(path);
     return paths;
-}
-
-void report_unfinished(const std::string& folder) {
-    for (const FoundFile& found : find_checkpoints(folder))
-        if (!found.is_finished)
-            print_message("passing over {}: it was never finished\n", found.path);
 }
 
 /// Reads the checkpoint and fills in the scene if there is none yet; throws where it is not of that
@@ -151,7 +143,6 @@ void load_restart(const RunOptions& options, Loaded& loaded, const Communicator&
     if (folder.empty()) {
         checkpoint = read_matching(options.restart, options, loaded.scene, ranks);
     } else {
-        if (ranks.is_root()) report_unfinished(folder);
         const std::vector<std::string> paths = restart_candidates(options, loaded.scene, ranks);
         checkpoint = read_newest(paths, options, loaded.scene, ranks);
         if (!checkpoint && !paths.empty())
@@ -172,7 +163,7 @@ void load_restart(const RunOptions& options, Loaded& loaded, const Communicator&
     if (ranks.is_root() && !options.quiet) print_message("going on from step {}\n", header.step);
     loaded.samples = std::move(checkpoint->samples);
     loaded.stored = StoredState{std::move(checkpoint->discs), header.micro_steps_done,
-                                std::move(checkpoint->spins)};
+                                std::move(checkpoint->columns)};
 }
 
 } // namespace carrom

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -22,7 +23,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// What no state of a run can be; empty if all is well.
-std::string flaw_of(const Disc& disc, double spin, double radius, const CheckpointHeader& header,
+std::string flaw_of(const Disc& disc, double radius, const CheckpointHeader& header,
                     const Extent& box) {
     const double clock = header.clock();
     if (disc.has_departed())
@@ -36,7 +37,7 @@ std::string flaw_of(const Disc& disc, double spin, double radius, const Checkpoi
     const double slack = 1e-6 * header.radius + 0x1p-50 * header.box_size;
     const double margin = radius - slack;
     if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(disc.vx) ||
-        !std::isfinite(disc.vy) || !std::isfinite(spin))
+        !std::isfinite(disc.vy))
         return fmt::format("disc {} has a number that is not finite", disc.id);
     if (x < box.x_low + margin || x > box.x_high - margin || y < box.y_low + margin ||
         y > box.y_high - margin)
@@ -73,8 +74,11 @@ void verify_checkpoint(const std::string& path, const Communicator& ranks) {
     std::uint64_t sums[] = {0, 0};
     for (std::size_t i = 0; i < checkpoint.discs.size(); ++i) {
         const Disc& disc = checkpoint.discs[i];
-        const double spin = checkpoint.spins.empty() ? 0 : checkpoint.spins[i];
-        if (flaw.empty()) flaw = flaw_of(disc, spin, species.of(disc.id).radius, header, room);
+        if (flaw.empty()) flaw = flaw_of(disc, species.of(disc.id).radius, header, room);
+        header.columns.for_each([&](SideColumn column) {
+            if (flaw.empty() && !std::isfinite(checkpoint.columns[column][i]))
+                flaw = fmt::format("disc {} has a number that is not finite", disc.id);
+        });
         sums[0] += disc.wall_collisions;
         sums[1] += disc.pair_collisions;
     }
@@ -89,19 +93,42 @@ void refuse(const std::string& path, const std::string& text) {
     throw InputError({{path, 0, text}});
 }
 
+/// Rows of a file's numbers by name; those that it does not have are 0.
+class NamedRows {
+public:
+    explicit NamedRows(const FrameFile& file) : file_(file) {}
+    void read(std::size_t frame, std::uint64_t begin) {
+        const std::uint64_t end = std::min(begin + rows_at_a_time, file_.summary().n_rows);
+        file_.read(frame, begin, end, rows_);
+        size_ = end - begin;
+    }
+    std::size_t size() const { return size_; }
+    double operator()(std::size_t i, std::string_view column) const {
+        const std::size_t place = file_.summary().place_of(column);
+        return place < rows_.size() ? rows_[place][i] : 0;
+    }
+    bool are_finite(std::size_t i) const {
+        return std::all_of(rows_.begin(), rows_.end(),
+                           [i](const auto& column) { return std::isfinite(column[i]); });
+    }
+
+private:
+    const FrameFile& file_;
+    Rows rows_;
+    std::size_t size_ = 0;
+};
+
 /// Whether a run could show a disc there. Discs leave an open side as their centre is a radius
 /// beyond it, and lie there at rest; in the time-stepped method a disc that another one has pushed
 /// out may fly to the end of its micro-step before.
-bool is_possible(const FrameRow& row, const FileSummary& summary) {
-    if (!std::isfinite(row.vx) || !std::isfinite(row.vy) || !std::isfinite(row.angular_velocity))
-        return false;
-    if (!summary.has_position) return true;
-    if (!std::isfinite(row.x) || !std::isfinite(row.y)) return false;
+bool is_possible(const NamedRows& rows, std::size_t i, const FileSummary& summary) {
+    if (!rows.are_finite(i)) return false;
+    if (!summary.has("x")) return true;
+    const double x = rows(i, "x"), y = rows(i, "y"), vx = rows(i, "vx"), vy = rows(i, "vy");
     const double l = summary.box_size, rounding = summary.bytes_per_number == 4 ? 0x1p-22 : 0x1p-50;
     const double reach = summary.radius + rounding * (l + summary.radius);
-    const std::array<double, 4> beyond = {-row.x, row.x - l, -row.y, row.y - l},
-                                rate = {-row.vx, row.vx, -row.vy, row.vy};
-    const bool is_at_rest = summary.has_velocity && row.vx == 0 && row.vy == 0;
+    const std::array<double, 4> beyond = {-x, x - l, -y, y - l}, rate = {-vx, vx, -vy, vy};
+    const bool is_at_rest = summary.has("vx") && vx == 0 && vy == 0;
     bool has_left = false;
     for (std::size_t side = 0; side < beyond.size(); ++side)
         has_left |= summary.open_boundaries[side] && is_at_rest && beyond[side] > 0 &&
@@ -111,7 +138,7 @@ bool is_possible(const FrameRow& row, const FileSummary& summary) {
         if (!summary.open_boundaries[side]) return false;
         // Without velocities nobody knows how far it flies; pushed out over a corner it leaves by
         // one side and keeps its place along it.
-        const bool is_bounded = summary.has_velocity && !has_left;
+        const bool is_bounded = summary.has("vx") && !has_left;
         if (is_bounded && beyond[side] > reach + std::max(0.0, rate[side])) return false;
     }
     return true;
@@ -119,14 +146,14 @@ bool is_possible(const FrameRow& row, const FileSummary& summary) {
 
 void verify_frames(const FrameFile& file, const std::string& path) {
     const FileSummary& summary = file.summary();
-    std::vector<FrameRow> rows;
+    NamedRows rows(file);
     for (std::size_t frame = 0; frame < summary.steps.size(); ++frame) {
         if (frame > 0 && summary.steps[frame] <= summary.steps[frame - 1])
             refuse(path, fmt::format("frame {} goes back in time", frame));
-        for (std::uint64_t begin = 0; begin < summary.n_discs; begin += rows_at_a_time) {
-            file.read(frame, begin, std::min(begin + rows_at_a_time, summary.n_discs), rows);
+        for (std::uint64_t begin = 0; begin < summary.n_rows; begin += rows_at_a_time) {
+            rows.read(frame, begin);
             for (std::size_t i = 0; i < rows.size(); ++i) {
-                if (!is_possible(rows[i], summary))
+                if (!is_possible(rows, i, summary))
                     refuse(path, fmt::format("disc {} is outside the box or not finite at step {}",
                                              begin + i, summary.steps[frame]));
             }
@@ -135,16 +162,19 @@ void verify_frames(const FrameFile& file, const std::string& path) {
 }
 
 void verify_log(const FrameFile& file, const std::string& path) {
-    std::vector<LoggedCollision> rows;
-    LoggedCollision last;
-    for (std::uint64_t begin = 0; begin < file.summary().n_logged; begin += rows_at_a_time) {
-        file.read(begin, std::min(begin + rows_at_a_time, file.summary().n_logged), rows);
-        for (const LoggedCollision& row : rows) {
-            if (row.step < last.step || row.time < last.time)
-                refuse(path, fmt::format("goes back in time at step {}", row.step));
-            if (row.p < 0 || row.q < -1 || row.p == row.q)
-                refuse(path, fmt::format("has a collision of {} and {}", row.p, row.q));
-            last = row;
+    NamedRows rows(file);
+    double last_step = 0, last_time = 0;
+    for (std::uint64_t begin = 0; begin < file.summary().n_rows; begin += rows_at_a_time) {
+        rows.read(0, begin);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const double step = rows(i, "step"), time = rows(i, "time"), p = rows(i, "p"),
+                         q = rows(i, "q");
+            if (step < last_step || time < last_time)
+                refuse(path, fmt::format("goes back in time at step {}", step));
+            if (p < 0 || q < -1 || p == q)
+                refuse(path, fmt::format("has a collision of {} and {}", p, q));
+            last_step = step;
+            last_time = time;
         }
     }
 }

@@ -2,8 +2,10 @@
 // Numbers of discs beside their 64-byte states, in runs whose dynamics need them.
 //
 // Engines migrate, sort, exchange, speculate on and roll back whatever is present, and need not
-// know its meaning. A new column takes a name and a line in the table below, and a line in
-// `side_columns_of`. A run without a column has no memory and no work for it.
+// know its meaning. Checkpoints, restarts and recordings have what is in the table below. A new
+// column takes a name and a line there, a line in `side_columns_of`, and one in the function of
+// that name that looks at a scene's effects. A run without a column has no memory and no work for
+// it.
 #pragma once
 
 #include <array>
@@ -20,20 +22,69 @@ enum class SideColumn : std::size_t { spin, n_columns };
 inline constexpr auto n_side_columns = static_cast<std::size_t>(SideColumn::n_columns);
 
 struct SideColumnInfo {
-    const char* name;
+    const char* name; ///< in checkpoints
     const char* unit;
+    const char* shown;      ///< its name in recordings, tables and the keys of a scene
+    const char* shown_unit; ///< per step where it is a rate
+    bool is_rate;           ///< stored per micro-step
+    const char* needs;      ///< said where discs do not have it
 };
 inline constexpr std::array<SideColumnInfo, n_side_columns> side_column_table = {
-    {{"spin", "angle per micro-step"}}};
+    {{"spin", "angle per micro-step", "angular_velocity", "angle per step", true,
+      "it needs discs that turn, effects.contact.kind = \"rough\""}}};
+
+inline const SideColumnInfo& info_of(SideColumn column) {
+    return side_column_table[static_cast<std::size_t>(column)];
+}
+
+/// Some of the columns.
+struct SideColumnSet {
+    std::array<bool, n_side_columns> flags{};
+
+    bool has(SideColumn column) const { return flags[static_cast<std::size_t>(column)]; }
+    void add(SideColumn column) { flags[static_cast<std::size_t>(column)] = true; }
+    /// Calls visit(column) for each of them.
+    template <class Visit> void for_each(const Visit& visit) const {
+        for (std::size_t k = 0; k < n_side_columns; ++k)
+            if (flags[k]) visit(static_cast<SideColumn>(k));
+    }
+    friend bool operator==(const SideColumnSet&, const SideColumnSet&) = default;
+};
+
+/// Numbers along a list of discs that is kept elsewhere; none of a column that is not present.
+struct SideSpans {
+    std::array<std::span<const double>, n_side_columns> values;
+
+    std::span<const double>& operator[](SideColumn column) {
+        return values[static_cast<std::size_t>(column)];
+    }
+    std::span<const double> operator[](SideColumn column) const {
+        return values[static_cast<std::size_t>(column)];
+    }
+};
 
 /// The columns that are present, each along the same list of discs.
 class SideColumns {
 public:
-    bool has(SideColumn column) const { return is_present_[place_of(column)]; }
+    SideColumns() = default;
+    /// A copy; columns without numbers are not present.
+    explicit SideColumns(const SideSpans& spans) {
+        for (std::size_t k = 0; k < n_side_columns; ++k)
+            if (!spans.values[k].empty())
+                add(static_cast<SideColumn>(k), {spans.values[k].begin(), spans.values[k].end()});
+    }
+
+    const SideColumnSet& present() const { return present_; }
+    bool has(SideColumn column) const { return present_.has(column); }
     /// `values` that are left out are 0.
     void add(SideColumn column, std::vector<double> values = {}) {
-        is_present_[place_of(column)] = true;
+        present_.add(column);
         (*this)[column] = std::move(values);
+    }
+    SideSpans spans() const {
+        SideSpans spans;
+        for_each([&](SideColumn column) { spans[column] = (*this)[column]; });
+        return spans;
     }
 
     /// Empty where the column is not present.
@@ -43,10 +94,7 @@ public:
     }
 
     /// Calls visit(column) for each that is present.
-    template <class Visit> void for_each(const Visit& visit) const {
-        for (std::size_t k = 0; k < n_side_columns; ++k)
-            if (is_present_[k]) visit(static_cast<SideColumn>(k));
-    }
+    template <class Visit> void for_each(const Visit& visit) const { present_.for_each(visit); }
     void resize(std::size_t n) {
         for_each([&](SideColumn column) { (*this)[column].resize(n, 0); });
     }
@@ -69,7 +117,7 @@ private:
         return static_cast<std::size_t>(column);
     }
 
-    std::array<bool, n_side_columns> is_present_{};
+    SideColumnSet present_;
     std::array<std::vector<double>, n_side_columns> values_;
 };
 

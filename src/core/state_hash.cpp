@@ -34,9 +34,11 @@ StateHash hash_of(std::span<const Disc> discs) {
     return sum;
 }
 
-StateHash hash_of_spin(DiscId id, double spin) {
-    const std::array<std::uint64_t, 2> record = {id, std::bit_cast<std::uint64_t>(spin + 0.0)};
-    const XXH128_hash_t hash = XXH3_128bits(record.data(), sizeof record);
+/// The column is the seed; that of spins, 0, is the same as none.
+StateHash hash_of(SideColumn column, DiscId id, double number) {
+    const std::array<std::uint64_t, 2> record = {id, std::bit_cast<std::uint64_t>(number + 0.0)};
+    const XXH128_hash_t hash = XXH3_128bits_withSeed(record.data(), sizeof record,
+                                                     static_cast<std::uint64_t>(column));
     return {hash.low64, hash.high64};
 }
 

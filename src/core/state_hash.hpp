@@ -11,13 +11,17 @@
 #include <carrom/totals.hpp>
 
 #include "core/disc.hpp"
+#include "core/side_columns.hpp"
 
 namespace carrom {
 
 StateHash hash_of(const Disc& disc);
 StateHash hash_of(std::span<const Disc> discs);
 
-/// What a disc's spin adds, where discs turn.
-StateHash hash_of_spin(DiscId id, double spin);
+/// What a disc's number in a column beside the states adds, where there is one.
+StateHash hash_of(SideColumn column, DiscId id, double number);
+inline StateHash hash_of_spin(DiscId id, double spin) {
+    return hash_of(SideColumn::spin, id, spin);
+}
 
 } // namespace carrom

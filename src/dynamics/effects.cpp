@@ -96,6 +96,12 @@ Effects per_micro_step(const Effects& effects, double micro_steps) {
     return scaled;
 }
 
+SideColumnSet side_columns_of(const Effects& effects) {
+    SideColumnSet columns;
+    if (effects.contact.kind == ContactKind::rough) columns.add(SideColumn::spin);
+    return columns;
+}
+
 std::string description(const Effects& effects) {
     std::string text = description(effects.contact);
     const auto add = [&text](const std::string& more) {

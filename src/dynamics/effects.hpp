@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/image.hpp"
+#include "core/side_columns.hpp"
 #include "dynamics/species.hpp"
 
 namespace carrom {
@@ -109,6 +110,9 @@ struct Effects {
 
 /// The same effects with the micro-step, 1/K of a step, as the unit of time.
 Effects per_micro_step(const Effects& effects, double micro_steps);
+
+/// What discs have beside their states under these effects.
+SideColumnSet side_columns_of(const Effects& effects);
 
 /// One line for a summary, as in "restitution 0.9 of pairs; gravity (0, -0.001)"; empty where there
 /// are none.

@@ -58,9 +58,7 @@ public:
     virtual std::span<const Disc> own() const = 0;
     virtual std::span<const Disc> departed()
         const = 0; ///< of this rank, those that have left the box and are no more among its own
-    virtual std::span<const double> spins() const {
-        return {};
-    } ///< along `own()`; empty where discs do not turn
+    virtual SideSpans side_columns() const { return {}; } ///< along `own()`
     virtual const SpeciesTable* species_table() const {
         return nullptr;
     } ///< of dynamics with several species

@@ -24,7 +24,8 @@ namespace {
 
 template <class Dynamics> SideColumns stored_columns(StoredState& state) {
     SideColumns columns = side_columns_of<Dynamics>();
-    if (columns.has(SideColumn::spin)) columns[SideColumn::spin] = std::move(state.spins);
+    columns.for_each(
+        [&](SideColumn column) { columns[column] = std::move(state.columns[column]); });
     return columns;
 }
 

@@ -28,7 +28,7 @@ public:
     std::int64_t micro_steps_done() const final { return n_micro_done_; }
     std::span<const Disc> own() const final { return discs_.own(); }
     std::span<const Disc> departed() const final { return discs_.departed(); }
-    std::span<const double> spins() const final { return discs_.own_column(SideColumn::spin); }
+    SideSpans side_columns() const final { return discs_.own_columns(); }
     const SpeciesTable* species_table() const final {
         if constexpr (Dynamics::has_species) return &dynamics_.species_table();
         return nullptr;

@@ -14,7 +14,7 @@
 
 namespace carrom {
 
-void measure_collisions(std::span<const Disc> own, std::span<const double> spins,
+void measure_collisions(std::span<const Disc> own, const SideSpans& columns,
                         const Communicator& communicator, Totals& totals) {
     std::uint64_t walls = 0, pairs = 0;
     for (const Disc& disc : own) {
@@ -22,7 +22,9 @@ void measure_collisions(std::span<const Disc> own, std::span<const double> spins
         pairs += disc.pair_collisions;
     }
     StateHash hash = hash_of(own);
-    for (std::size_t i = 0; i < spins.size(); ++i) hash += hash_of_spin(own[i].id, spins[i]);
+    for (std::size_t k = 0; k < n_side_columns; ++k)
+        for (std::size_t i = 0; i < columns.values[k].size(); ++i)
+            hash += hash_of(static_cast<SideColumn>(k), own[i].id, columns.values[k][i]);
     std::uint64_t sums[] = {walls, pairs, hash.low, hash.high};
     communicator.sum(sums);
     totals.wall_collisions = sums[0];

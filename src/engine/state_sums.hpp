@@ -15,9 +15,9 @@
 
 namespace carrom {
 
-/// Fills in the collision counts and the state hash; `spins` run along the discs or are empty.
+/// Fills in the collision counts and the state hash; `columns` run along the discs.
 /// **Collective.**
-void measure_collisions(std::span<const Disc> own, std::span<const double> spins,
+void measure_collisions(std::span<const Disc> own, const SideSpans& columns,
                         const Communicator& communicator, Totals& totals);
 
 /// Fills in how many discs have left through which side. **Collective.**

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/disc.hpp"
+#include "core/side_columns.hpp"
 
 namespace carrom {
 
@@ -14,7 +15,7 @@ namespace carrom {
 struct StoredState {
     std::vector<Disc> discs;
     std::int64_t micro_steps_done = 0;
-    std::vector<double> spins{}; ///< along the discs, of rough ones; empty: no disc turns yet
+    SideColumns columns{}; ///< along the discs; what is left out is 0
 };
 
 } // namespace carrom

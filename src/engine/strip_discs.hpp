@@ -84,9 +84,10 @@ public:
     /// By disc, own and halo.
     SideColumns& columns() { return columns_; }
     const SideColumns& columns() const { return columns_; }
-    /// Of own discs; empty where the column is not present.
-    std::span<const double> own_column(SideColumn column) const {
-        return std::span(columns_[column]).first(columns_.has(column) ? n_own_ : 0);
+    SideSpans own_columns() const {
+        SideSpans own = columns_.spans();
+        columns_.for_each([&](SideColumn column) { own[column] = own[column].first(n_own_); });
+        return own;
     }
     std::size_t n_own() const { return n_own_; }
     std::uint64_t n_total() const { return n_total_; } ///< over all ranks

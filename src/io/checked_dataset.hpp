@@ -2,10 +2,8 @@
 // What a file says of a data set, held against what this program writes before a number of it is
 // read.
 //
-// HDF5 believes its metadata: numbers of strange types make it write beyond buffers, a claimed
-// length makes it look through as many chunks, a claimed chunk takes as much memory, and a strange
-// filter loads a plugin. Recordings have no seal, and a sealed file may be a forgery. Price: some
-// calls that look at what is in memory already.
+// What HDF5 itself does not survive has shown in a child process before (child_process.hpp). Price:
+// some calls that look at what is in memory already.
 #pragma once
 
 #include <optional>
@@ -19,13 +17,25 @@ namespace carrom::h5 {
 /// The axes that a data set must have; where there is none any length will do.
 using Shape = std::vector<std::optional<hsize_t>>;
 
-/// Opens a data set to be read. Throws FileError unless it is of whole numbers or reals of 4 or 8
-/// bytes or a text of fixed length, lies in this file as one piece or in chunks and under filters
-/// that this program uses, has no more axes and no larger chunks than it makes, and claims no more
-/// numbers than the file has room for.
+/// Opens a data set to be read. Throws FileError unless it is of numbers or of a text of fixed
+/// length, and all of it lies in this file, or in segments in the folder of this file that have
+/// room for it.
 Dataset open_checked(hid_t parent, const std::string& name);
 
 /// The same for one of that shape.
 Dataset open_checked(hid_t parent, const std::string& name, const Shape& shape);
+
+/// How long a column is, and how many of its ascending numbers are <= `last`.
+std::uint64_t length_of(hid_t file, const std::string& path);
+std::uint64_t count_up_to(hid_t file, const std::string& path, std::int64_t last);
+
+/// All of a column. Throws FileError.
+template <class Number> std::vector<Number> read_column(hid_t file, const std::string& path) {
+    const Dataset dataset = open_checked(file, path, {std::nullopt});
+    std::vector<Number> numbers(n_rows_of(dataset.id()));
+    if (!numbers.empty())
+        read_rows(dataset.id(), {0, numbers.size()}, type_of<Number>(), numbers.data());
+    return numbers;
+}
 
 } // namespace carrom::h5

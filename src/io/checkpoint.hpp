@@ -9,9 +9,9 @@
 //
 // Rank 0 makes the file and takes its room on disk. Then each rank writes its share of the ids
 // through HDF5 and MPI-IO, and reads it so. Price of writing: 80 bytes a disc to disk, and a disc
-// is sent once if it is another rank's. Memory: 8 bytes a disc and some megabytes. Discs that turn
-// take 8 bytes more on disk and 24 of memory. Collective transfers take 80 bytes a disc of memory
-// more.
+// is sent once if it is another rank's. Memory: 8 bytes a disc and some megabytes. A column beside
+// the states takes 8 bytes a disc more on disk and 24 of memory. Collective transfers take 80 bytes
+// a disc of memory more.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,10 @@
 
 #include "core/disc.hpp"
 #include "core/frame.hpp"
+#include "core/side_columns.hpp"
 #include "core/stored_samples.hpp"
 #include "dynamics/species.hpp"
+#include "io/recorded_system.hpp"
 #include "parallel/communicator.hpp"
 
 namespace carrom {
@@ -47,10 +49,8 @@ struct CheckpointHeader {
     Frame frame; ///< that the discs' coordinates are in; in the file only where it moves
     std::vector<Species>
         species; ///< where a file of discs had them, for the scene's text has not; else empty
-    bool has_spins =
-        false; ///< discs turn; the file has their spins then, and the state hash covers them
-    std::vector<Species> shown; ///< whose radii other programs see; empty where all are `radius`.
-                                ///< Not read.
+    SideColumnSet columns; ///< what discs have beside their states; the state hash covers it
+    RecordedSystem shown;  ///< what other programs see. Not read.
 
     /// Micro-steps since the last sync, or what the frame's clock makes of them: the time that the
     /// discs' own times belong to.
@@ -70,17 +70,17 @@ struct WriteSettings {
 };
 
 /// Writes `discs`, in any distribution, as a whole file or not at all: beside its place first,
-/// brought to disk, then renamed. `spins`, per micro-step, run along the discs where the header has
+/// brought to disk, then renamed. `columns` run along the discs where the header has
 /// some. The header's counters and its hash are filled in here. If it fails on any rank every rank
 /// throws CollectiveError, code 4, and an older file of that name is as it was. **Collective.**
 void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs,
                       const Communicator& communicator, const WriteSettings& settings = {},
-                      const StoredSamples& samples = {}, std::span<const double> spins = {});
+                      const StoredSamples& samples = {}, const SideSpans& columns = {});
 
 struct Checkpoint {
     CheckpointHeader header;
-    std::vector<Disc> discs;   ///< this rank's share of the ids, see slabs.hpp
-    std::vector<double> spins; ///< along the discs; empty where the header has none
+    std::vector<Disc> discs; ///< this rank's share of the ids, see slabs.hpp
+    SideColumns columns;     ///< along the discs
     StoredSamples samples;
 };
 

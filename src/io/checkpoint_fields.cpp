@@ -2,9 +2,7 @@
 #include "io/checkpoint_fields.hpp"
 
 #include <array>
-#include <bit>
 #include <cmath>
-#include <optional>
 #include <type_traits>
 
 #include "io/checked_dataset.hpp"
@@ -28,67 +26,58 @@ void write_header(hid_t group, const CheckpointHeader& header) {
         h5::write_scalar(group, entry.name, header.frame.*entry.field);
 }
 
-CheckpointHeader read_header(hid_t group) {
+CheckpointHeader read_header(hid_t file) {
+    const h5::Group group(h5::checked(H5Gopen2(file, run_path, H5P_DEFAULT), run_path));
     CheckpointHeader header;
+    const auto read_frame = [&](const auto& fields) {
+        for (const FrameField& entry : fields)
+            h5::read_scalar(group.id(), entry.name, header.frame.*entry.field);
+    };
     for (const HeaderField& entry : checkpoint_header)
-        std::visit([&](auto field) { h5::read_scalar(group, entry.name, header.*field); },
+        std::visit([&](auto field) { h5::read_scalar(group.id(), entry.name, header.*field); },
                    entry.field);
-    header.frame.is_moving = H5Lexists(group, checkpoint_frame[0].name, H5P_DEFAULT) > 0;
-    if (header.frame.is_moving)
-        for (const FrameField& entry : checkpoint_frame)
-            h5::read_scalar(group, entry.name, header.frame.*entry.field);
-    if (H5Lexists(group, checkpoint_periods[0].name, H5P_DEFAULT) > 0)
-        for (const FrameField& entry : checkpoint_periods)
-            h5::read_scalar(group, entry.name, header.frame.*entry.field);
+    header.frame.is_moving = H5Lexists(group.id(), checkpoint_frame[0].name, H5P_DEFAULT) > 0;
+    if (header.frame.is_moving) read_frame(checkpoint_frame);
+    if (H5Lexists(group.id(), checkpoint_periods[0].name, H5P_DEFAULT) > 0)
+        read_frame(checkpoint_periods);
+    for (std::size_t k = 0; k < n_side_columns; ++k)
+        if (h5::has(file, path_of(static_cast<SideColumn>(k))))
+            header.columns.add(static_cast<SideColumn>(k));
     return header;
 }
 
-bool has_spins(hid_t file) {
-    return H5Lexists(file, "/carrom/discs", H5P_DEFAULT) > 0 &&
-           H5Lexists(file, spin_column, H5P_DEFAULT) > 0;
-}
-
-void write_species(hid_t carrom, const std::vector<Species>& species) {
+void write_species(hid_t file, const std::string& path, const std::vector<Species>& species) {
     if (species.empty()) return;
-    const h5::Group group = h5::create_group(carrom, "species");
-    const auto write = [&](const char* name, hid_t type, auto field) {
+    const h5::Group group = h5::create_group(file, path.c_str());
+    const auto write = [&](const char* name, auto field) {
         std::vector<std::remove_cvref_t<decltype(species[0].*field)>> numbers;
         for (const Species& one : species) numbers.push_back(one.*field);
-        h5::write_whole(group.id(), name, std::array<hsize_t, 1>{numbers.size()}, type,
-                        numbers.data());
+        h5::write_whole(group.id(), name, std::array<hsize_t, 1>{numbers.size()},
+                        h5::type_of<typename decltype(numbers)::value_type>(), numbers.data());
     };
-    write("count", H5T_NATIVE_UINT64, &Species::count);
-    write("radius", H5T_NATIVE_DOUBLE, &Species::radius);
-    write("mass", H5T_NATIVE_DOUBLE, &Species::mass);
+    write("count", &Species::count);
+    write("radius", &Species::radius);
+    write("mass", &Species::mass);
 }
 
-std::vector<Species> read_species(hid_t file, std::uint64_t n_discs) {
-    if (H5Lexists(file, "/carrom/species", H5P_DEFAULT) <= 0) return {};
+std::vector<Species> read_species(hid_t file, const std::string& path, std::uint64_t n_discs) {
+    if (!h5::has(file, path)) return {};
+    const auto counts = h5::read_column<std::uint64_t>(file, path + "/count");
+    const auto radii = h5::read_column<double>(file, path + "/radius"),
+               masses = h5::read_column<double>(file, path + "/mass");
+    if (counts.size() != radii.size() || counts.size() != masses.size())
+        throw FileError("its species are no such list");
     std::vector<Species> species;
-    const auto read = [&](const std::string& name, hid_t type, auto field) {
-        const h5::Dataset column = h5::open_checked(file, "/carrom/species/" + name,
-                                                    {std::nullopt});
-        std::vector<std::remove_cvref_t<decltype(species[0].*field)>> numbers(
-            h5::dimensions_of(column.id()).front());
-        if (numbers.empty() || numbers.size() > n_discs ||
-            (!species.empty() && species.size() != numbers.size()))
-            throw FileError("its species are no such list");
-        h5::read_rows(column.id(), {0, numbers.size()}, type, numbers.data());
-        species.resize(numbers.size());
-        for (std::size_t k = 0; k < numbers.size(); ++k) species[k].*field = numbers[k];
-    };
-    read("count", H5T_NATIVE_UINT64, &Species::count);
-    read("radius", H5T_NATIVE_DOUBLE, &Species::radius);
-    read("mass", H5T_NATIVE_DOUBLE, &Species::mass);
-    std::uint64_t n = 0;
-    for (const Species& one : species) {
+    std::uint64_t n_left = n_discs;
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+        const Species& one = species.emplace_back(Species{counts[k], radii[k], masses[k]});
         const bool is_body = one.radius > 0 && one.mass > 0 && std::isfinite(one.radius) &&
                              std::isfinite(one.mass);
-        if (one.count == 0 || one.count > n_discs - n || !is_body)
+        if (one.count == 0 || one.count > n_left || !is_body)
             throw FileError("its species cannot be those of its discs");
-        n += one.count;
+        n_left -= one.count;
     }
-    if (n != n_discs) throw FileError("its species cannot be those of its discs");
+    if (n_left != 0) throw FileError("its species cannot be those of its discs");
     return species;
 }
 
@@ -96,9 +85,7 @@ void broadcast(CheckpointHeader& header, const Communicator& communicator) {
     for (const HeaderField& entry : checkpoint_header)
         std::visit([&](auto field) { communicator.broadcast(header.*field); }, entry.field);
     communicator.broadcast(header.frame);
-    std::uint64_t has_spins = header.has_spins ? 1 : 0;
-    communicator.broadcast(has_spins);
-    header.has_spins = has_spins == 1;
+    communicator.broadcast(header.columns);
     communicator.broadcast(header.species);
 }
 

@@ -14,12 +14,19 @@
 
 namespace carrom {
 
+inline constexpr const char* run_path = "/carrom/run";
+inline constexpr const char* species_path = "/carrom/species";
 /// In /carrom/format. Formats 1 and 2 began with a text instead of HDF5's signature.
 inline constexpr std::int64_t checkpoint_format = 3;
 inline constexpr const char* format_path = "/carrom/format";
 
-/// One more, of doubles, where discs turn: angles per micro-step.
-inline constexpr const char* spin_column = "/carrom/discs/spin";
+/// Where the columns are.
+inline std::string path_of(const DiscColumn& column) {
+    return std::string("/carrom/discs/") + column.name;
+}
+inline std::string path_of(SideColumn column) {
+    return std::string("/carrom/discs/") + info_of(column).name;
+}
 
 /// A dataset of /carrom/run: one value.
 struct HeaderField {
@@ -67,6 +74,7 @@ struct SampleColumn {
     double FirstPlace::* field;
     bool is_of_periodic_boxes = false;
 
+    std::string path() const { return std::string("/carrom/measurements/") + name; }
     bool is_in(const StoredSamples& samples) const {
         return is_of_periodic_boxes ? samples.have_lengths : samples.have_first_places;
     }
@@ -83,14 +91,12 @@ inline constexpr std::array<FrameField, 2> checkpoint_periods = {
 hid_t type_of(const DiscColumn& column);
 
 void write_header(hid_t group, const CheckpointHeader& header);
-/// Throws FileError where something is missing or of another kind. Whether there are spins is for
-/// `has_spins` to say.
-CheckpointHeader read_header(hid_t group);
-bool has_spins(hid_t file);
-/// The species of /carrom/species, a column each for counts, radii and masses; nothing where there
-/// are none. Throw FileError.
-void write_species(hid_t carrom, const std::vector<Species>& species);
-std::vector<Species> read_species(hid_t file, std::uint64_t n_discs);
+/// From a file. Throws FileError where something is missing or of another kind. Leaves out species.
+CheckpointHeader read_header(hid_t file);
+/// Species, a column each for counts, radii and masses; nothing where there are none. Throw
+/// FileError.
+void write_species(hid_t file, const std::string& path, const std::vector<Species>& species);
+std::vector<Species> read_species(hid_t file, const std::string& path, std::uint64_t n_discs);
 /// Replaces the header on every rank by that of rank 0. **Collective.**
 void broadcast(CheckpointHeader& header, const Communicator& communicator);
 

@@ -17,13 +17,12 @@ namespace carrom {
 
 namespace {
 
-constexpr std::string_view prefix = "checkpoint-", suffix = ".h5", unfinished = ".partial";
+constexpr std::string_view prefix = "checkpoint-", suffix = ".h5";
 
 std::optional<FoundFile> as_checkpoint(const std::filesystem::path& path) {
     const std::string name = path.filename().string();
     std::string_view rest = name;
-    FoundFile found{path.string(), 0, !rest.ends_with(unfinished)};
-    if (!found.is_finished) rest.remove_suffix(unfinished.size());
+    FoundFile found{path.string(), 0};
     if (!rest.starts_with(prefix) || !rest.ends_with(suffix) ||
         rest.size() <= prefix.size() + suffix.size())
         return std::nullopt;

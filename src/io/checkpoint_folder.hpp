@@ -18,7 +18,6 @@ std::string checkpoint_path(const std::string& folder, std::int64_t step);
 struct FoundFile {
     std::string path;
     std::int64_t step = 0;
-    bool is_finished = true; ///< false for what a killed run has left beside its place
 };
 
 /// Files named like checkpoints, those of the latest step first. A folder that is not there has

@@ -26,19 +26,11 @@ namespace carrom {
 
 namespace {
 
-constexpr const char* run_path = "/carrom/run";
 constexpr const char* measurements_path = "/carrom/measurements";
 constexpr const char* sums_path = "/carrom/measurements/sums";
 
 /// In boxes, and in box lengths: the most that measurements can go on with.
 constexpr double farthest_place = 2, most_lengths = 0x1p21;
-
-std::string path_of(const DiscColumn& column) {
-    return std::string("/carrom/discs/") + column.name;
-}
-std::string path_of(const SampleColumn& column) {
-    return std::string(measurements_path) + '/' + column.name;
-}
 
 /// What no writer of this program would write; a file with right checksums that has it was made by
 /// something else.
@@ -71,14 +63,12 @@ bool is_listed(const Checksums& sums, const std::string& path) {
 
 StoredSamples samples_of(hid_t file, const Checksums& sums) {
     StoredSamples samples;
-    const auto has = [&](const SampleColumn& column) { return is_listed(sums, path_of(column)); };
+    const auto has = [&](const SampleColumn& column) { return is_listed(sums, column.path()); };
     samples.have_first_places = has(sample_columns[0]) || has(sample_columns[1]);
     samples.have_lengths = has(sample_columns[2]) || has(sample_columns[3]);
     if (!h5::has(file, measurements_path)) return samples;
-    const h5::Dataset stored = h5::open_checked(file, sums_path, {std::nullopt});
-    samples.sums.resize(h5::n_rows_of(stored.id()));
+    samples.sums = h5::read_column<std::int64_t>(file, sums_path);
     if (samples.sums.empty()) throw FileError("its measurements are no list of sums");
-    h5::read_rows(stored.id(), {0, samples.sums.size()}, H5T_NATIVE_INT64, samples.sums.data());
     return samples;
 }
 
@@ -86,9 +76,9 @@ StoredSamples samples_of(hid_t file, const Checksums& sums) {
 void check_disc_data(const Contents& contents) {
     std::vector<std::string> wanted;
     for (const DiscColumn& column : disc_columns) wanted.push_back(path_of(column));
-    if (contents.header.has_spins) wanted.push_back(spin_column);
+    contents.header.columns.for_each([&](SideColumn column) { wanted.push_back(path_of(column)); });
     for (const SampleColumn& column : sample_columns)
-        if (column.is_in(contents.samples)) wanted.push_back(path_of(column));
+        if (column.is_in(contents.samples)) wanted.push_back(column.path());
     for (const std::string& path : wanted)
         if (!is_listed(contents.sums, path)) throw FileError("has no " + path);
     for (const DiscData& data : contents.sums.data)
@@ -110,11 +100,9 @@ Contents contents_of(const std::string& path) {
     const h5::File file = h5::open_file(path, h5::Access::read);
     check_format(file.id());
     Contents contents;
-    const h5::Group run(h5::checked(H5Gopen2(file.id(), run_path, H5P_DEFAULT), run_path));
-    contents.header = read_header(run.id());
-    contents.header.has_spins = has_spins(file.id());
+    contents.header = read_header(file.id());
     check_header(contents.header);
-    contents.header.species = read_species(file.id(), contents.header.n_discs);
+    contents.header.species = read_species(file.id(), species_path, contents.header.n_discs);
     contents.sums = read_checksums(file.id());
     contents.samples = samples_of(file.id(), contents.sums);
     check_disc_data(contents);
@@ -275,13 +263,13 @@ std::vector<FirstPlace> read_places(const WholeFile& file, const Share& share) {
     std::vector<double> numbers(share.size());
     for (const SampleColumn& column : sample_columns) {
         if (!column.is_in(samples)) continue;
-        file.read(path_of(column), std::span(numbers), share.begin, H5T_NATIVE_DOUBLE);
+        file.read(column.path(), std::span(numbers), share.begin, H5T_NATIVE_DOUBLE);
         const double most = column.is_of_periodic_boxes
                                 ? most_lengths
                                 : farthest_place * file.contents.header.box_size;
         for (std::size_t i = 0; i < places.size(); ++i) {
             if (!(std::fabs(numbers[i]) <= most))
-                throw FileError(path_of(column) + " holds what is no place");
+                throw FileError(column.path() + " holds what is no place");
             places[i].*column.field = numbers[i];
         }
     }
@@ -290,8 +278,10 @@ std::vector<FirstPlace> read_places(const WholeFile& file, const Share& share) {
 
 StateHash hash_of(const Checkpoint& checkpoint) {
     StateHash hash = hash_of(checkpoint.discs);
-    for (std::size_t i = 0; i < checkpoint.spins.size(); ++i)
-        hash += hash_of_spin(checkpoint.discs[i].id, checkpoint.spins[i]);
+    checkpoint.columns.for_each([&](SideColumn column) {
+        for (std::size_t i = 0; i < checkpoint.discs.size(); ++i)
+            hash += hash_of(column, checkpoint.discs[i].id, checkpoint.columns[column][i]);
+    });
     return hash;
 }
 
@@ -325,9 +315,11 @@ Checkpoint read_checkpoint(const std::string& path, const Communicator& communic
     const Share share(checkpoint.header.n_discs, communicator);
     on_all(communicator, path, ExitCode::bad_input, [&] {
         checkpoint.discs = read_discs(file, share);
-        checkpoint.spins.resize(checkpoint.header.has_spins ? share.size() : 0);
-        if (checkpoint.header.has_spins)
-            file.read(spin_column, std::span(checkpoint.spins), share.begin, H5T_NATIVE_DOUBLE);
+        checkpoint.header.columns.for_each([&](SideColumn column) {
+            std::vector<double> numbers(share.size());
+            file.read(path_of(column), std::span(numbers), share.begin, H5T_NATIVE_DOUBLE);
+            checkpoint.columns.add(column, std::move(numbers));
+        });
         checkpoint.samples.first_places = read_places(file, share);
     });
     file.close();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/checkpoint_structure.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include <fcntl.h>
@@ -12,6 +13,16 @@
 namespace carrom {
 
 namespace {
+
+constexpr const char *radius_path = "/particles/discs/radius",
+                     *species_number_path = "/particles/discs/species";
+
+/// The ids before which species end.
+std::vector<DiscId> ends_of(const std::vector<Species>& species) {
+    std::vector<DiscId> ends;
+    for (const Species& one : species) ends.push_back((ends.empty() ? 0 : ends.back()) + one.count);
+    return ends;
+}
 
 /// What `number_of` makes of each disc, one after the other.
 template <class NumberOf>
@@ -25,9 +36,7 @@ void put_each(std::span<const Disc> discs, std::byte* out, const NumberOf& numbe
 
 void create_column(hid_t parent, const char* name, std::span<const hsize_t> dimensions,
                    hid_t type) {
-    const h5::Properties creation = h5::dataset_creation();
-    h5::checked(H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY), name);
-    h5::checked(H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER), name);
+    const h5::Properties creation = h5::allocated_creation();
     const h5::Dataset dataset(h5::checked(H5Dcreate2(parent, name, type, h5::space(dimensions).id(),
                                                      H5P_DEFAULT, creation.id(), H5P_DEFAULT),
                                           name));
@@ -43,53 +52,45 @@ h5::Group create_frame(hid_t parent, const char* name, const CheckpointHeader& h
     return group;
 }
 
-/// A radius for each disc where they differ, else one value.
-void create_radius(hid_t discs, const CheckpointHeader& header) {
-    if (header.shown.empty())
-        h5::write_scalar(discs, "radius", header.radius);
-    else
-        create_column(discs, "radius", std::array<hsize_t, 1>{header.n_discs}, H5T_NATIVE_FLOAT);
-}
-
 void create_groups(hid_t file, const CheckpointHeader& header, const StoredSamples& samples) {
-    h5md::write_metadata(file, header.program_version);
-    const h5::Group particles = h5::create_group(file, "particles");
-    const h5::Group discs = h5::create_group(particles.id(), "discs");
-    const h5::Group box = h5md::create_box(discs.id(), header.frame.period_x != 0,
-                                           header.frame.period_y != 0);
-    const std::array<double, 3> edges = {header.box_size, header.box_size, 1};
-    h5::write_whole(create_frame(box.id(), "edges", header).id(), "value",
-                    std::array<hsize_t, 2>{1, 3}, H5T_NATIVE_DOUBLE, edges.data());
+    h5md::write_system(file, header.shown);
+    const std::array<hsize_t, 1> rows = {header.n_discs};
     const std::array<hsize_t, 3> vectors = {1, header.n_discs, 3};
-    for (const char* name : {"position", "velocity"})
-        create_column(create_frame(discs.id(), name, header).id(), "value", vectors,
-                      H5T_NATIVE_FLOAT);
-    create_radius(discs.id(), header);
+    const std::array<double, 3> edges = h5md::edges_of(header.shown);
+    h5::write_whole(create_frame(file, "/particles/discs/box/edges", header).id(), "value",
+                    std::array<hsize_t, 2>{1, 3}, H5T_NATIVE_DOUBLE, edges.data());
+    for (const char* name : {"/particles/discs/position", "/particles/discs/velocity"})
+        create_column(create_frame(file, name, header).id(), "value", vectors, H5T_NATIVE_FLOAT);
+    if (header.shown.species.empty()) {
+        h5md::write_bodies(file, header.shown);
+    } else {
+        create_column(file, radius_path, rows, H5T_NATIVE_DOUBLE);
+        create_column(file, species_number_path, rows, H5T_NATIVE_INT32);
+    }
 
     const h5::Group carrom = h5::create_group(file, "carrom");
     h5::write_scalar(file, format_path, checkpoint_format);
     write_header(h5::create_group(carrom.id(), "run").id(), header);
-    write_species(carrom.id(), header.species);
+    write_species(file, species_path, header.species);
     const h5::Group columns = h5::create_group(carrom.id(), "discs");
     for (const DiscColumn& column : disc_columns)
-        create_column(columns.id(), column.name, std::array<hsize_t, 1>{header.n_discs},
-                      type_of(column));
-    if (header.has_spins)
-        create_column(file, spin_column, std::array<hsize_t, 1>{header.n_discs}, H5T_NATIVE_DOUBLE);
+        create_column(columns.id(), column.name, rows, type_of(column));
+    header.columns.for_each([&](SideColumn column) {
+        create_column(file, path_of(column).c_str(), rows, H5T_NATIVE_DOUBLE);
+    });
     if (samples.sums.empty()) return;
     const h5::Group measurements = h5::create_group(carrom.id(), "measurements");
     h5::write_whole(measurements.id(), "sums", std::array<hsize_t, 1>{samples.sums.size()},
                     H5T_NATIVE_INT64, samples.sums.data());
     for (const SampleColumn& column : sample_columns)
         if (column.is_in(samples))
-            create_column(measurements.id(), column.name, std::array<hsize_t, 1>{header.n_discs},
-                          H5T_NATIVE_DOUBLE);
+            create_column(measurements.id(), column.name, rows, H5T_NATIVE_DOUBLE);
 }
 
 } // namespace
 
 std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples,
-                                     const SpinsOfPieces& spins) {
+                                     const SideOfPieces& columns) {
     std::vector<DiscTarget> targets;
     const Frame frame = header.frame;
     const double clock = header.clock(), k = static_cast<double>(header.micro_steps);
@@ -114,24 +115,31 @@ std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const Store
                 return vector_of(shown.vx * k, shown.vy * k);
             });
         });
-    if (!header.shown.empty())
-        add("/particles/discs/radius", H5T_NATIVE_FLOAT, 1,
-            [table = SpeciesTable(header.shown, header.radius)](std::span<const Disc> discs,
-                                                                std::byte* out) {
+    if (!header.shown.species.empty()) {
+        add(radius_path, H5T_NATIVE_DOUBLE, 1,
+            [table = SpeciesTable(header.shown.species, header.radius)](std::span<const Disc> discs,
+                                                                        std::byte* out) {
+                put_each(discs, out, [&](const Disc& disc) { return table.of(disc.id).radius; });
+            });
+        add(species_number_path, H5T_NATIVE_INT32, 1,
+            [ends = ends_of(header.shown.species)](std::span<const Disc> discs, std::byte* out) {
                 put_each(discs, out, [&](const Disc& disc) {
-                    return static_cast<float>(table.of(disc.id).radius);
+                    return static_cast<std::int32_t>(
+                        std::upper_bound(ends.begin(), ends.end(), disc.id) - ends.begin());
                 });
             });
+    }
     for (const DiscColumn& column : disc_columns)
-        add(std::string("/carrom/discs/") + column.name, type_of(column), 1, column.put);
-    if (header.has_spins)
-        add(spin_column, H5T_NATIVE_DOUBLE, 1,
-            [&spins](std::span<const Disc> discs, std::byte* out) {
-                put_each(discs, out, [&spins](const Disc& disc) { return spins.of(disc); });
+        add(path_of(column), type_of(column), 1, column.put);
+    header.columns.for_each([&](SideColumn column) {
+        add(path_of(column), H5T_NATIVE_DOUBLE, 1,
+            [column, &columns](std::span<const Disc> discs, std::byte* out) {
+                put_each(discs, out, [&](const Disc& disc) { return columns.of(column, disc); });
             });
+    });
     for (const SampleColumn& column : sample_columns) {
         if (!column.is_in(samples)) continue;
-        add(std::string("/carrom/measurements/") + column.name, H5T_NATIVE_DOUBLE, 1,
+        add(column.path(), H5T_NATIVE_DOUBLE, 1,
             [&column, &places = samples.first_places](std::span<const Disc> discs, std::byte* out) {
                 put_each(discs, out, [&](const Disc& disc) {
                     return places[disc.id - places.front().id].*column.field;
@@ -147,24 +155,29 @@ void create_structure(const std::string& path, CheckpointHeader header,
     header.state_hash = to_string(StateHash{});
     Checksums sums;
     for (const DiscTarget& target : targets) sums.data.push_back({target.path, 0, 0, {}, {}});
-    h5::File file = h5::create_file_for_ranks(path);
-    create_groups(file.id(), header, samples);
-    h5::write_scalar(file.id(), checksums_path, sums.text());
-    file.close("cannot be written");
+    header.shown.n_discs = header.n_discs;
+    header.shown.program_version = header.program_version;
+    h5::create_file(path, [&](hid_t file) {
+        create_groups(file, header, samples);
+        h5::write_text(file, checksums_path, sums.text());
+    });
 }
 
 void complete(const std::string& path, const StateSums& sums,
               const std::vector<StateHash>& checksums) {
     h5::File file = h5::open_file(path, h5::Access::write);
-    h5::overwrite_scalar(file.id(), "/carrom/run/wall_collisions", sums.wall_collisions);
-    h5::overwrite_scalar(file.id(), "/carrom/run/pair_collisions", sums.pair_collisions / 2);
-    h5::overwrite_scalar(file.id(), "/carrom/run/state_hash", to_string(sums.hash));
+    const auto overwrite_count = [&](const char* name, std::uint64_t count) {
+        h5::overwrite(file.id(), name, H5T_NATIVE_UINT64, &count);
+    };
+    overwrite_count("/carrom/run/wall_collisions", sums.wall_collisions);
+    overwrite_count("/carrom/run/pair_collisions", sums.pair_collisions / 2);
+    h5::overwrite_text(file.id(), "/carrom/run/state_hash", to_string(sums.hash));
     Checksums all = read_checksums(file.id());
     file.close("cannot be written");
     for (std::size_t k = 0; k < checksums.size(); ++k) all.data[k].checksum = checksums[k];
     all.others = checksum_of_others(path, all.left_out()); // a file open to be written says so
     file = h5::open_file(path, h5::Access::write);
-    h5::overwrite_scalar(file.id(), checksums_path, all.text());
+    h5::overwrite_text(file.id(), checksums_path, all.text());
     file.close("cannot be written");
     Descriptor(path, O_RDWR).sync();
 }

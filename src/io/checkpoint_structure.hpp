@@ -26,18 +26,20 @@ struct DiscTarget {
     std::function<void(std::span<const Disc>, std::byte*)> put;
 };
 
-/// Of this rank's pieces (pieces.hpp), in the order of ids; empty where discs do not turn.
-struct SpinsOfPieces {
+/// Columns beside the states, of this rank's pieces (pieces.hpp), in the order of ids.
+struct SideOfPieces {
     DiscId first = 0;
-    std::vector<double> values;
+    SideColumns columns;
 
-    double of(const Disc& disc) const { return values[disc.id - first]; }
+    double of(SideColumn column, const Disc& disc) const {
+        return columns[column][disc.id - first];
+    }
 };
 
 /// The data sets of discs that a checkpoint has.
-/// `samples` and `spins` must outlive them.
+/// `samples` and `columns` must outlive them.
 std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples,
-                                     const SpinsOfPieces& spins);
+                                     const SideOfPieces& columns);
 
 /// What is known of a state only once all its discs have been seen.
 struct StateSums {

@@ -38,26 +38,6 @@ namespace {
 constexpr std::uint64_t bytes_of_structure = 1 << 20;
 static_assert(Pieces::least_rows % rows_per_block == 0, "pieces are made of whole blocks");
 
-/// The file beside its place; gone again unless it was renamed, so that half a file takes no room
-/// on a full disk.
-class PartialFile {
-public:
-    PartialFile(std::string path, const Communicator& communicator)
-        : path_(std::move(path)), is_mine_(communicator.is_root()) {
-        if (is_mine_) ::unlink(path_.c_str());
-    }
-    ~PartialFile() {
-        if (is_mine_) ::unlink(path_.c_str());
-    }
-    PartialFile(const PartialFile&) = delete;
-    PartialFile& operator=(const PartialFile&) = delete;
-    const std::string& path() const { return path_; }
-
-private:
-    std::string path_;
-    bool is_mine_;
-};
-
 /// Ends all ranks where HDF5 does not come back from closing a file that ranks share.
 class Deadline {
 public:
@@ -168,15 +148,15 @@ class Sums {
 public:
     explicit Sums(std::size_t n_targets) : words_(4 + 2 * n_targets, 0) {}
 
-    /// `spins`: of discs that turn.
-    void add(std::span<const Disc> discs, const SpinsOfPieces& spins) {
+    void add(std::span<const Disc> discs, const SideOfPieces& side) {
         for (const Disc& disc : discs) {
             words_[0] += disc.wall_collisions;
             words_[1] += disc.pair_collisions;
         }
         add(2, hash_of(discs));
-        if (spins.values.empty()) return;
-        for (const Disc& disc : discs) add(2, hash_of_spin(disc.id, spins.of(disc)));
+        side.columns.for_each([&](SideColumn column) {
+            for (const Disc& disc : discs) add(2, hash_of(column, disc.id, side.of(column, disc)));
+        });
     }
     void add_checksum(std::size_t target, const StateHash& checksum) {
         add(4 + 2 * target, checksum);
@@ -204,7 +184,7 @@ private:
 /// blocks. Meanwhile this thread, which alone may call MPI, does `first_of_all`. They wait for each
 /// other asleep: ranks may share their cores.
 template <class Act>
-void pack(std::span<const Disc> piece, std::uint64_t first, const SpinsOfPieces& spins,
+void pack(std::span<const Disc> piece, std::uint64_t first, const SideOfPieces& side,
           const std::vector<DiscTarget>& targets, Batch& batch, Sums& sums, int n_threads,
           const Act& first_of_all) {
     const std::size_t before = batch.n_rows;
@@ -221,7 +201,7 @@ void pack(std::span<const Disc> piece, std::uint64_t first, const SpinsOfPieces&
             const std::size_t row = block * rows_per_block;
             const std::span<const Disc> discs = piece.subspan(
                 row, std::min<std::size_t>(rows_per_block, piece.size() - row));
-            mine.add(discs, spins);
+            mine.add(discs, side);
             for (std::size_t k = 0; k < targets.size(); ++k) {
                 const std::size_t width = targets[k].bytes_per_row;
                 const std::span<std::byte> bytes = std::span(batch.buffers[k])
@@ -240,31 +220,36 @@ void pack(std::span<const Disc> piece, std::uint64_t first, const SpinsOfPieces&
     pack_blocks();
 }
 
-struct DiscSpin {
+struct NumberOfDisc {
     DiscId id = 0;
-    double spin = 0;
+    double number = 0;
 };
 
-/// Brings each disc's spin to the rank whose pieces have it. **Collective.**
-SpinsOfPieces in_pieces(std::span<const Disc> discs, std::span<const double> spins,
-                        std::uint64_t n_discs, const Communicator& communicator) {
-    ensure(spins.size() == discs.size(), "spins do not run along the discs");
-    std::vector<DiscSpin> records;
-    records.reserve(discs.size());
-    for (std::size_t i = 0; i < discs.size(); ++i) records.push_back({discs[i].id, spins[i]});
-    PieceStream stream(communicator, std::span<const DiscSpin>(records), n_discs,
-                       [](const DiscSpin& record) { return record.id; });
-    const Pieces& pieces = stream.pieces();
-    SpinsOfPieces mine{pieces.begin(pieces.first_of(communicator.rank())), {}};
-    for (std::uint64_t round = 0; round < pieces.n_rounds(); ++round)
-        for (const DiscSpin& record : stream.next()) mine.values.push_back(record.spin);
+/// Brings each disc's numbers to the rank whose pieces have it. **Collective.**
+SideOfPieces in_pieces(std::span<const Disc> discs, const SideColumnSet& wanted,
+                       const SideSpans& spans, std::uint64_t n_discs,
+                       const Communicator& communicator) {
+    const Pieces pieces(n_discs, communicator.size());
+    SideOfPieces mine{pieces.begin(pieces.first_of(communicator.rank())), {}};
+    wanted.for_each([&](SideColumn column) {
+        ensure(spans[column].size() == discs.size(), "a column does not run along the discs");
+        std::vector<NumberOfDisc> records;
+        for (std::size_t i = 0; i < discs.size(); ++i)
+            records.push_back({discs[i].id, spans[column][i]});
+        PieceStream stream(communicator, std::span<const NumberOfDisc>(records), n_discs,
+                           [](const NumberOfDisc& record) { return record.id; });
+        std::vector<double> numbers;
+        for (std::uint64_t round = 0; round < pieces.n_rounds(); ++round)
+            for (const NumberOfDisc& record : stream.next()) numbers.push_back(record.number);
+        mine.columns.add(column, std::move(numbers));
+    });
     return mine;
 }
 
 /// Fills the data sets with the ranks' pieces. Each piece is written while the next one is packed;
 /// collective transfers come at the end instead, one for each data set. **Collective.**
 Sums write_discs(const std::string& path, const std::vector<DiscTarget>& targets,
-                 std::span<const Disc> discs, const SpinsOfPieces& spins, std::uint64_t n_discs,
+                 std::span<const Disc> discs, const SideOfPieces& side, std::uint64_t n_discs,
                  const WriteSettings& settings, const Communicator& communicator) {
     RankWriter writer(path, targets, settings.is_collective, communicator);
     PieceStream stream(communicator, discs, n_discs, [](const Disc& disc) { return disc.id; });
@@ -279,7 +264,7 @@ Sums write_discs(const std::string& path, const std::vector<DiscTarget>& targets
     for (std::uint64_t round = 0; round < stream.pieces().n_rounds(); ++round) {
         const std::span<const Disc> piece = stream.next();
         if (piece.empty()) continue;
-        pack(piece, stream.begin(), spins, targets, next, sums, settings.n_threads, write_last);
+        pack(piece, stream.begin(), side, targets, next, sums, settings.n_threads, write_last);
         if (!settings.is_collective) std::swap(next, last);
     }
     write_last();
@@ -293,23 +278,24 @@ Sums write_discs(const std::string& path, const std::vector<DiscTarget>& targets
 
 void write_checkpoint(const std::string& path, CheckpointHeader header, std::span<const Disc> discs,
                       const Communicator& communicator, const WriteSettings& settings,
-                      const StoredSamples& samples, std::span<const double> spins) {
+                      const StoredSamples& samples, const SideSpans& columns) {
     header.n_discs = communicator.sum(std::uint64_t{discs.size()});
-    const SpinsOfPieces spins_of_pieces = header.has_spins ? in_pieces(discs, spins, header.n_discs,
-                                                                       communicator)
-                                                           : SpinsOfPieces{};
-    const std::vector<DiscTarget> targets = disc_targets(header, samples, spins_of_pieces);
-    const PartialFile partial(path + ".partial", communicator);
+    const SideOfPieces side = in_pieces(discs, header.columns, columns, header.n_discs,
+                                        communicator);
+    const std::vector<DiscTarget> targets = disc_targets(header, samples, side);
+    std::string name = communicator.is_root() ? unguessable_path(folder_of(path)) : "";
+    communicator.broadcast(name);
+    const UnfinishedFile partial(name, communicator.is_root());
     on_root(communicator, path, ExitCode::output_failure, [&] {
         std::uint64_t bytes = bytes_of_structure + samples.sums.size() * sizeof(std::int64_t) +
-                              header.species.size() * sizeof(Species);
+                              2 * header.shown.species.size() * sizeof(Species);
         for (const DiscTarget& target : targets) bytes += header.n_discs * target.bytes_per_row;
         check_room(folder_of(path), bytes);
         create_structure(partial.path(), header, samples, targets);
         reserve(partial.path());
     });
-    const Sums sums = write_discs(partial.path(), targets, discs, spins_of_pieces, header.n_discs,
-                                  settings, communicator);
+    const Sums sums = write_discs(partial.path(), targets, discs, side, header.n_discs, settings,
+                                  communicator);
     on_root(communicator, path, ExitCode::output_failure, [&] {
         std::vector<StateHash> checksums;
         for (std::size_t k = 0; k < targets.size(); ++k) checksums.push_back(sums.checksum(k));

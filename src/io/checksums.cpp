@@ -70,6 +70,30 @@ ByteRange place_of(hid_t dataset, const std::string& path) {
 
 } // namespace
 
+Hasher::Hasher() : state_(XXH3_createState()) {
+    ensure(state_ != nullptr && XXH3_128bits_reset(state_.get()) == XXH_OK,
+           "no memory for a checksum");
+}
+
+void Hasher::Delete::operator()(XXH3_state_s* state) const { XXH3_freeState(state); }
+
+void Hasher::add(std::span<const std::byte> bytes) {
+    XXH3_128bits_update(state_.get(), bytes.data(), bytes.size());
+}
+
+void Hasher::add_bytes_of(const std::string& path, const ByteRange& range) {
+    const Descriptor file(path, O_RDONLY);
+    std::vector<std::byte> bytes(std::min(bytes_at_a_time, range.end - range.begin));
+    for (std::uint64_t place = range.begin; place < range.end; place += bytes.size()) {
+        const auto wanted = std::span(bytes).first(
+            std::min<std::uint64_t>(bytes.size(), range.end - place));
+        if (file.read(wanted, place) < wanted.size()) throw FileError("is cut short");
+        add(wanted);
+    }
+}
+
+StateHash Hasher::digest() const { return as_state_hash(XXH3_128bits_digest(state_.get())); }
+
 StateHash checksum_of_block(std::span<const std::byte> bytes, std::uint64_t block) {
     return as_state_hash(XXH3_128bits_withSeed(bytes.data(), bytes.size(), block));
 }
@@ -88,8 +112,7 @@ std::vector<ByteRange> Checksums::left_out() const {
 }
 
 Checksums read_checksums(hid_t file) {
-    std::string text;
-    h5::read_scalar(file, checksums_path, text);
+    const std::string text = h5::read_text(file, checksums_path);
     Checksums sums = parsed(text);
     sums.place = place_of(h5::open_checked(file, checksums_path).id(), checksums_path);
     for (DiscData& one : sums.data) {
@@ -108,28 +131,17 @@ Checksums read_checksums(hid_t file) {
 StateHash checksum_of_others(const std::string& path, std::vector<ByteRange> left_out) {
     std::sort(left_out.begin(), left_out.end(),
               [](const ByteRange& a, const ByteRange& b) { return a.begin < b.begin; });
-    const Descriptor bytes_of(path, O_RDONLY);
-    const std::uint64_t size = bytes_of.size();
+    const std::uint64_t size = Descriptor(path, O_RDONLY).size();
     left_out.push_back({size, size});
-    const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(),
-                                                                                XXH3_freeState);
-    ensure(state != nullptr && XXH3_128bits_reset(state.get()) == XXH_OK,
-           "no memory for a checksum");
-    std::vector<std::byte> bytes(bytes_at_a_time);
+    Hasher hasher;
     std::uint64_t place = 0;
     for (const ByteRange& hole : left_out) {
         if (hole.begin < place || hole.end < hole.begin || hole.end > size)
-            throw FileError("is damaged: its data sets lie over each other");
-        for (; place < hole.begin; place += std::min(bytes_at_a_time, hole.begin - place)) {
-            const auto wanted = std::span(bytes).first(
-                std::min(bytes_at_a_time, hole.begin - place));
-            if (bytes_of.read(wanted, place) < wanted.size())
-                throw FileError("ends while it is being read");
-            XXH3_128bits_update(state.get(), wanted.data(), wanted.size());
-        }
+            throw FileError("is damaged: its data sets lie over each other, or it is cut short");
+        hasher.add_bytes_of(path, {place, hole.begin});
         place = hole.end;
     }
-    return as_state_hash(XXH3_128bits_digest(state.get()));
+    return hasher.digest();
 }
 
 StateHash share_of_checksum(hid_t dataset, const DiscData& data, const Communicator& communicator) {

@@ -15,12 +15,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/state_hash.hpp"
 #include "io/hdf5.hpp"
+
+struct XXH3_state_s;
 
 namespace carrom {
 
@@ -35,6 +38,22 @@ StateHash checksum_of_block(std::span<const std::byte> bytes, std::uint64_t bloc
 /// Bytes [begin, end) of a file.
 struct ByteRange {
     std::uint64_t begin = 0, end = 0;
+};
+
+/// The XXH3-128 of bytes that come one after the other.
+class Hasher {
+public:
+    Hasher();
+    void add(std::span<const std::byte> bytes);
+    /// Throws FileError where the file does not have them.
+    void add_bytes_of(const std::string& path, const ByteRange& range);
+    StateHash digest() const;
+
+private:
+    struct Delete {
+        void operator()(XXH3_state_s* state) const;
+    };
+    std::unique_ptr<XXH3_state_s, Delete> state_;
 };
 
 /// A data set with a row for each disc, its bytes in the file, and their checksum.

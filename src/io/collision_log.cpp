@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <filesystem>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "io/files.hpp"
 #include "io/h5md.hpp"
 #include "io/segmented_file.hpp"
 #include "parallel/exchange.hpp"
@@ -42,6 +40,7 @@ std::vector<RecordedColumn> recorded_columns() {
 
 void write_structure(hid_t file, const RecordedSystem& system) {
     h5md::write_system(file, system);
+    h5md::write_bodies(file, system);
     const std::array<double, 3> edges = h5md::edges_of(system);
     h5::write_whole(file, "/particles/discs/box/edges", std::array<hsize_t, 1>{3},
                     H5T_NATIVE_DOUBLE, edges.data());
@@ -57,7 +56,7 @@ void write_rows(SegmentedFile& file, std::span<const LoggedCollision> rows) {
                 numbers[i] = std::visit(
                     [&](auto field) { return std::bit_cast<std::uint64_t>(some[i].*field); },
                     log_columns[k].field);
-            file.write(k, 0, some.size(), std::as_bytes(std::span(numbers)));
+            file.write(k, std::as_bytes(std::span(numbers)));
         }
         file.add(some.size());
         rows = rows.subspan(some.size());
@@ -67,48 +66,28 @@ void write_rows(SegmentedFile& file, std::span<const LoggedCollision> rows) {
 } // namespace
 
 struct CollisionLog::State {
-    State(const std::string& path, const RecordedSystem& system)
-        : file(path, recorded_columns(),
-               [&system](hid_t index, std::uint64_t) { write_structure(index, system); }) {}
     SegmentedFile file;
 };
 
 CollisionLog::CollisionLog(const std::string& path, const RecordedSystem& system,
                            const Communicator& communicator)
-    : path_(path), system_(system), communicator_(communicator) {
-    if (communicator_.is_root()) state_ = std::make_unique<State>(path_, system_);
+    : communicator_(communicator) {
+    state_ = std::make_unique<State>(
+        State{{path, recorded_columns(), [system](hid_t index) { write_structure(index, system); },
+               communicator}});
 }
 
 CollisionLog::~CollisionLog() = default;
 
-void CollisionLog::begin() {
-    on_root(communicator_, path_, ExitCode::output_failure, [&] {
-        check_room(folder_of(path_), 1 << 20);
-        state_->file.create();
-    });
-}
+void CollisionLog::begin() { state_->file.begin(); }
 
 bool CollisionLog::go_on(std::int64_t step) {
-    std::uint64_t is_there = 0;
-    on_root(communicator_, path_, ExitCode::output_failure,
-            [&] { is_there = std::filesystem::exists(path_) ? 1 : 0; });
-    communicator_.broadcast(is_there);
-    if (is_there == 0) {
-        begin();
-        return false;
-    }
-    on_root(communicator_, path_, ExitCode::bad_input, [&] {
-        state_->file.go_on(log_columns.front().path, step, [&](hid_t file) {
-            if (!h5::has(file, "/carrom/collisions")) throw FileError("is no log of collisions");
-        });
+    return state_->file.go_on(log_columns.front().path, step, [&](hid_t file) {
+        if (!h5::has(file, "/carrom/collisions")) throw FileError("is no log of collisions");
     });
-    commit();
-    return true;
 }
 
-void CollisionLog::commit() {
-    on_root(communicator_, path_, ExitCode::output_failure, [&] { state_->file.commit(); });
-}
+void CollisionLog::commit() { state_->file.commit(); }
 
 void CollisionLog::append(std::span<const LoggedCollision> mine) {
     if (communicator_.sum(std::uint64_t{mine.size()}) == 0) return;
@@ -116,7 +95,7 @@ void CollisionLog::append(std::span<const LoggedCollision> mine) {
         state_->file.attempt([&] { write_rows(state_->file, rows); });
     };
     stream_to_root(communicator_, mine, write, rows_at_once);
-    on_root(communicator_, path_, ExitCode::output_failure, [&] { state_->file.close(); });
+    state_->file.finish_addition();
 }
 
 } // namespace carrom

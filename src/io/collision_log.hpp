@@ -41,9 +41,7 @@ public:
 
 private:
     struct State;
-    std::unique_ptr<State> state_; ///< rank 0's
-    std::string path_;
-    RecordedSystem system_;
+    std::unique_ptr<State> state_;
     const Communicator& communicator_;
 };
 

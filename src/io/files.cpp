@@ -101,20 +101,22 @@ void rename_durably(const std::string& from, const std::string& to) {
     Descriptor(folder_of(to), O_RDONLY | O_DIRECTORY).sync();
 }
 
+std::string unguessable_path(const std::string& folder) {
+    std::random_device random;
+    return (std::filesystem::path(folder) /
+            fmt::format("{}{:08x}{:08x}{}", partial_prefix, random(), random(), partial_suffix))
+        .string();
+}
+
+UnfinishedFile::~UnfinishedFile() {
+    if (is_mine_) ::unlink(path_.c_str());
+}
+
 void replace_file(const std::string& path,
                   const std::function<void(const std::string& beside)>& write) {
-    std::random_device random;
-    const std::string beside = (std::filesystem::path(folder_of(path)) /
-                                fmt::format("{}{:08x}{:08x}{}", partial_prefix, random(), random(),
-                                            partial_suffix))
-                                   .string();
-    try {
-        write(beside);
-        rename_durably(beside, path);
-    } catch (const FileError&) {
-        ::unlink(beside.c_str());
-        throw;
-    }
+    const UnfinishedFile beside(unguessable_path(folder_of(path)), true);
+    write(beside.path());
+    rename_durably(beside.path(), path);
 }
 
 void replace_file(const std::string& path, const std::string& text) {

@@ -58,12 +58,30 @@ void check_room(const std::string& folder, std::uint64_t bytes);
 void reserve(const std::string& path);
 /// Renames and makes it last: the folder is synced too.
 void rename_durably(const std::string& from, const std::string& to);
+/// A name in a folder that nobody can guess, for a file that is to be renamed.
+std::string unguessable_path(const std::string& folder);
+
+/// A file of such a name. At the end it is removed by whom it belongs to, unless it was renamed:
+/// half a file takes no room on a full disk.
+class UnfinishedFile {
+public:
+    UnfinishedFile(std::string path, bool is_mine) : path_(std::move(path)), is_mine_(is_mine) {}
+    ~UnfinishedFile();
+    UnfinishedFile(const UnfinishedFile&) = delete;
+    UnfinishedFile& operator=(const UnfinishedFile&) = delete;
+    const std::string& path() const { return path_; }
+
+private:
+    std::string path_;
+    bool is_mine_;
+};
+
 /// Puts a file in the place of any other, whole or not at all. `write` makes it anew under a name
 /// that nobody can guess and brings it to disk.
 void replace_file(const std::string& path,
                   const std::function<void(const std::string& beside)>& write);
 void replace_file(const std::string& path, const std::string& text);
-/// Removes what killed calls of `replace_file` have left in a folder. No other may be under way.
+/// Removes what killed writers have left in a folder. No other may be under way.
 void remove_unfinished(const std::string& folder);
 std::string folder_of(const std::string& path);
 

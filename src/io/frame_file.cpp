@@ -2,14 +2,13 @@
 #include "io/frame_file.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
+#include <optional>
 
 #include "io/checked_dataset.hpp"
 #include "io/checkpoint_fields.hpp"
-#include "io/crash_guard.hpp"
+#include "io/child_process.hpp"
 #include "io/files.hpp"
-#include "io/read_columns.hpp"
+#include "io/h5md.hpp"
 #include "io/segments.hpp"
 
 namespace carrom {
@@ -17,28 +16,57 @@ namespace carrom {
 namespace {
 
 constexpr std::size_t longest_word = 1000;
+constexpr const char *discs_path = "/particles/discs/", *log_path = "/carrom/collisions/";
 
-/// Rows [begin, end) of a column, or, of `width` numbers each, of frame `frame` of a dataset with
-/// several axes.
-void read_block(hid_t file, const std::string& path, std::size_t frame, std::uint64_t begin,
-                std::uint64_t end, hsize_t width, hid_t type, void* values) {
+/// Where a column's numbers are: component `place` of `width` numbers in each row of a data set.
+struct Source {
+    std::string column, dataset;
+    hsize_t width = 1, place = 0;
+};
+
+/// In the order of FileSummary::columns.
+std::vector<Source> sources_of_frames() {
+    std::vector<Source> sources = {{"x", "position", 3, 0},
+                                   {"y", "position", 3, 1},
+                                   {"vx", "velocity", 3, 0},
+                                   {"vy", "velocity", 3, 1},
+                                   {"pair_collisions", "collisions", 2, 1},
+                                   {"wall_collisions", "collisions", 2, 0}};
+    for (const SideColumnInfo& info : side_column_table)
+        sources.push_back({info.shown, info.shown, 1, 0});
+    for (Source& source : sources) source.dataset = discs_path + source.dataset + "/value";
+    return sources;
+}
+
+std::vector<Source> sources_of_logs() {
+    std::vector<Source> sources;
+    for (const char* name : {"step", "time", "p", "q", "impulse"})
+        sources.push_back({name, std::string(log_path) + name});
+    return sources;
+}
+
+/// Rows [begin, end) of a frame, as doubles; of a data set with one axis `frame` must be 0.
+void read_block(hid_t file, const Source& source, std::size_t frame, std::uint64_t begin,
+                std::uint64_t end, std::vector<double>& numbers) {
+    const std::string& path = source.dataset;
     const h5::Dataset dataset = h5::open_checked(file, path);
     std::vector<hsize_t> count = h5::dimensions_of(dataset.id()), start(count.size(), 0);
-    if (count.empty() || (count.size() == 3 ? count[2] : 1) != width)
+    if (count.empty() || count.size() > 3 || (count.size() == 3 ? count[2] : 1) != source.width)
         throw FileError(path + " has another shape than this program writes");
     const std::size_t axis = count.size() == 1 ? 0 : 1;
     if (end > count[axis] || (axis == 1 && frame >= count[0]))
         throw FileError(path + " is shorter than the others");
-    if (axis == 1) start[0] = frame;
-    if (axis == 1) count[0] = 1;
+    if (axis == 1) start[0] = frame, count[0] = 1;
     start[axis] = begin;
     count[axis] = end - begin;
-    const h5::Space source(h5::checked(H5Dget_space(dataset.id()), path.c_str())),
+    numbers.resize((end - begin) * source.width);
+    const h5::Space place(h5::checked(H5Dget_space(dataset.id()), path.c_str())),
         memory = h5::space(count);
-    h5::checked(H5Sselect_hyperslab(source.id(), H5S_SELECT_SET, start.data(), nullptr,
-                                    count.data(), nullptr),
+    h5::checked(H5Sselect_hyperslab(place.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(),
+                                    nullptr),
                 path.c_str());
-    h5::checked(H5Dread(dataset.id(), type, memory.id(), source.id(), H5P_DEFAULT, values),
+    h5::checked(H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, memory.id(), place.id(), H5P_DEFAULT,
+                        numbers.data()),
                 path.c_str());
 }
 
@@ -58,201 +86,181 @@ std::string letters_of(hid_t file, const char* object, const char* name, hssize_
     return letters;
 }
 
-template <class Act> void guarded(const std::string& path, const Act& act) {
+/// What all files say of the discs' system.
+void read_system(hid_t file, std::uint64_t n_discs, FileSummary& summary) {
+    summary.program_version = letters_of(file, "/h5md/creator", "version", 1);
+    h5::read_scalar(file, "/parameters/radius", summary.radius);
+    if (n_discs > 0) summary.species = read_species(file, h5md::shown_species_path, n_discs);
+    const std::string boundary = letters_of(file, "/particles/discs/box", "boundary", 3);
+    summary.is_periodic_x = boundary.starts_with("periodic");
+    summary.is_periodic_y = boundary.substr(boundary.size() / 3).starts_with("periodic");
+    std::vector<double> open(4, 0);
+    if (h5::has(file, "/parameters/open_sides"))
+        read_block(file, {"", "/parameters/open_sides"}, 0, 0, 4, open);
+    for (std::size_t side = 0; side < open.size(); ++side)
+        summary.open_boundaries[side] = open[side] != 0;
+}
+
+template <class Act> void with_path(const std::string& path, const Act& act) {
     try {
-        const CrashGuard guard(path);
         act();
     } catch (const FileError& error) {
         throw InputError({{path, 0, error.what()}});
     }
 }
 
-/// What `/particles/discs` has of one frame after the other.
-struct Element {
-    const char* name;
-    hsize_t width; ///< numbers for a disc
-};
-constexpr std::array<Element, 4> elements = {
-    {{"position", 3}, {"velocity", 3}, {"collisions", 2}, {"angular_velocity", 1}}};
-
-constexpr const char* discs_path = "/particles/discs/";
-
-FileSummary summary_of_checkpoint(hid_t file, CheckpointHeader& header) {
-    const h5::Group run(
-        h5::checked(H5Gopen2(file, "/carrom/run", H5P_DEFAULT), "has no /carrom/run"));
-    header = read_header(run.id());
-    header.has_spins = has_spins(file);
-    return {FileKind::checkpoint,
-            header.program_version,
-            header.n_discs,
-            header.box_size,
-            header.radius,
-            8,
-            true,
-            true,
-            true,
-            header.has_spins,
-            {header.step},
-            0,
-            header.state_hash};
-}
-
-FileSummary summary_of_trajectory(hid_t file) {
-    const std::string discs = discs_path;
-    FileSummary summary;
-    summary.kind = FileKind::trajectory;
-    summary.has_position = h5::has(file, "/particles/discs/position");
-    summary.has_velocity = h5::has(file, "/particles/discs/velocity");
-    summary.has_collisions = h5::has(file, "/particles/discs/collisions");
-    summary.has_angular_velocity = h5::has(file, "/particles/discs/angular_velocity");
-    summary.steps = read_numbers(file, "/particles/discs/box/edges/step");
-    for (const Element& element : elements) {
-        if (!h5::has(file, discs + element.name)) continue;
-        h5::Shape shape = {std::nullopt, std::nullopt};
-        if (element.width > 1) shape.push_back(element.width);
-        const h5::Dataset values = h5::open_checked(file, discs + element.name + "/value", shape);
-        const h5::Type type(h5::checked(H5Dget_type(values.id()), element.name));
-        summary.n_discs = h5::dimensions_of(values.id())[1];
-        if (element.width != 2) summary.bytes_per_number = H5Tget_size(type.id());
-    }
-    h5::read_scalar(file, "/parameters/radius", summary.radius);
-    const std::string boundary = letters_of(file, "/particles/discs/box", "boundary", 3),
-                      periodic = "periodic";
-    summary.is_periodic_x = boundary.compare(0, periodic.size(), periodic) == 0;
-    summary.is_periodic_y = boundary.compare(boundary.size() / 3, periodic.size(), periodic) == 0;
-    std::array<std::int32_t, 4> open_boundaries{};
-    if (h5::has(file, "/parameters/open_sides"))
-        read_block(file, "/parameters/open_sides", 0, 0, 4, 1, H5T_NATIVE_INT32,
-                   open_boundaries.data());
-    for (std::size_t side = 0; side < open_boundaries.size(); ++side)
-        summary.open_boundaries[side] = open_boundaries[side] != 0;
-    std::array<double, 3> edges = {};
-    if (!summary.steps.empty())
-        read_block(file, discs + "box/edges/value", 0, 0, 3, 1, H5T_NATIVE_DOUBLE, edges.data());
-    summary.box_size = edges[0];
-    return summary;
-}
-
 } // namespace
+
+std::size_t FileSummary::place_of(std::string_view column) const {
+    return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) -
+                                    columns.begin());
+}
 
 struct FrameFile::State {
     h5::File file;
-    CheckpointHeader header; ///< of a checkpoint
+    CheckpointHeader header;       ///< of a checkpoint
+    std::vector<Source> sources;   ///< of a recording's columns
+    std::vector<Segment> segments; ///< of a recording
 };
 
 FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_unique<State>()) {
-    guarded(path_, [&] {
-        const bool has_segments = joins_segments(path_);
-        if (has_segments) check_segments(path_, false);
-        h5::File opened = h5::open_file(
-            path_, h5::Access::read); // closed in here if anything is thrown: closing may crash too
-        const hid_t file = opened.id();
-        if (!has_segments && h5::has(file, "/carrom/recording"))
-            throw FileError(
-                "is damaged: it does not end with a checksum, as this program writes it");
-        if (h5::has(file, "/carrom/run")) {
-            summary_ = summary_of_checkpoint(file, state_->header);
-        } else if (h5::has(file, "/carrom/collisions")) {
-            summary_.kind = FileKind::collisions;
-            summary_.n_logged = length_of(file, "/carrom/collisions/step");
-        } else if (h5::has(file, "/particles/discs")) {
-            summary_ = summary_of_trajectory(file);
-        } else {
-            throw FileError("holds nothing that carrom writes");
-        }
-        if (summary_.kind != FileKind::checkpoint)
-            summary_.program_version = letters_of(file, "/h5md/creator", "version", 1);
-        state_->file = std::move(opened);
+    with_path(path_, [&] {
+        try_in_child([&] {
+            open();
+            try_all_parts();
+        });
+        open();
     });
 }
 
-FrameFile::~FrameFile() {
-    const CrashGuard guard(path_);
-    state_.reset();
-}
+FrameFile::~FrameFile() = default;
 FrameFile::FrameFile(FrameFile&&) noexcept = default;
 
+void FrameFile::open() {
+    summary_ = {};
+    const bool has_segments = joins_segments(path_);
+    if (has_segments) state_->segments = check_segments(path_, false).segments;
+    state_->file = h5::open_file(path_, h5::Access::read);
+    const hid_t file = state_->file.id();
+    if (!has_segments && h5::has(file, "/carrom/recording"))
+        throw FileError("is damaged: it does not end with a checksum, as this program writes it");
+    if (h5::has(file, run_path)) {
+        const CheckpointHeader& header = state_->header = read_header(file);
+        summary_.columns = {"x", "y", "vx", "vy", "pair_collisions", "wall_collisions"};
+        header.columns.for_each(
+            [&](SideColumn column) { summary_.columns.push_back(info_of(column).shown); });
+        summary_.n_rows = header.n_discs;
+        summary_.box_size = header.box_size;
+        summary_.steps = {header.step};
+        summary_.state_hash = header.state_hash;
+    } else if (h5::has(file, "/carrom/collisions")) {
+        summary_.kind = FileKind::collisions;
+        for (const Source& source : state_->sources = sources_of_logs())
+            summary_.columns.push_back(source.column);
+        summary_.n_rows = h5::length_of(file, state_->sources.front().dataset);
+    } else if (h5::has(file, "/particles/discs")) {
+        open_trajectory();
+    } else {
+        throw FileError("holds nothing that carrom writes");
+    }
+    read_system(file, summary_.kind == FileKind::collisions ? 0 : summary_.n_rows, summary_);
+}
+
+void FrameFile::open_trajectory() {
+    const hid_t file = state_->file.id();
+    summary_.kind = FileKind::trajectory;
+    summary_.steps = h5::read_column<std::int64_t>(file, h5md::step_path);
+    state_->sources.clear();
+    for (const Source& source : sources_of_frames()) {
+        if (!h5::has(file, source.dataset)) continue;
+        h5::Shape shape = {summary_.steps.size(), std::nullopt};
+        if (source.width > 1) shape.push_back(source.width);
+        const h5::Dataset values = h5::open_checked(file, source.dataset, shape);
+        const h5::Type type(h5::checked(H5Dget_type(values.id()), source.dataset.c_str()));
+        summary_.n_rows = h5::n_rows_of(values.id());
+        if (source.width != 2) summary_.bytes_per_number = H5Tget_size(type.id());
+        summary_.columns.push_back(source.column);
+        state_->sources.push_back(source);
+    }
+    if (summary_.steps.empty()) return;
+    std::vector<double> edges;
+    read_block(file, {"", h5md::edges_path}, summary_.steps.size() - 1, 0, 3, edges);
+    summary_.box_size = edges[0];
+}
+
+/// The first row of each segment, or of a checkpoint.
+void FrameFile::try_all_parts() const {
+    Rows rows;
+    std::uint64_t first = 0;
+    const std::uint64_t n = std::min<std::uint64_t>(1, summary_.n_rows);
+    if (summary_.kind == FileKind::checkpoint) read(0, 0, n, rows);
+    for (const Segment& segment : state_->segments) {
+        if (segment.rows > 0 && summary_.kind == FileKind::trajectory) read(first, 0, n, rows);
+        if (segment.rows > 0 && summary_.kind == FileKind::collisions)
+            read(0, first, first + 1, rows);
+        first += segment.rows;
+    }
+}
+
 void FrameFile::check_numbers() const {
-    guarded(path_, [&] {
+    with_path(path_, [&] {
         if (joins_segments(path_)) check_segments(path_, true);
     });
 }
 
-void FrameFile::read(std::size_t frame, std::uint64_t begin, std::uint64_t end,
-                     std::vector<FrameRow>& rows) const {
-    const hid_t file = state_->file.id();
-    const std::uint64_t n = end - begin;
-    rows.assign(n, {});
-    guarded(path_, [&] {
-        if (summary_.kind == FileKind::checkpoint) {
-            std::vector<Disc> discs(n);
-            std::vector<std::uint64_t> numbers(n);
-            for (const DiscColumn& column : disc_columns) {
-                read_block(file, std::string("/carrom/discs/") + column.name, 0, begin, end, 1,
-                           type_of(column), numbers.data());
-                for (std::uint64_t i = 0; i < n; ++i) column.set(discs[i], numbers[i]);
-            }
-            const double clock = state_->header.clock(),
-                         k = static_cast<double>(state_->header.micro_steps);
-            for (std::uint64_t i = 0; i < n; ++i) {
-                const Disc disc = state_->header.frame.in_box(discs[i], clock);
-                rows[i] = {disc.x + 0.0,
-                           disc.y + 0.0,
-                           disc.vx * k + 0.0,
-                           disc.vy * k + 0.0,
-                           disc.wall_collisions,
-                           disc.pair_collisions,
-                           0};
-            }
-            if (!summary_.has_angular_velocity) return;
-            std::vector<double> spins(n);
-            read_block(file, spin_column, 0, begin, end, 1, H5T_NATIVE_DOUBLE, spins.data());
-            for (std::uint64_t i = 0; i < n; ++i) rows[i].angular_velocity = spins[i] * k + 0.0;
-            return;
-        }
-        const std::string discs = discs_path;
-        std::vector<double> vectors(3 * n);
-        std::vector<std::uint64_t> counts(2 * n);
-        if (summary_.has_position)
-            read_block(file, discs + "position/value", frame, begin, end, 3, H5T_NATIVE_DOUBLE,
-                       vectors.data());
-        for (std::uint64_t i = 0; i < n && summary_.has_position; ++i)
-            rows[i].x = vectors[3 * i], rows[i].y = vectors[3 * i + 1];
-        if (summary_.has_velocity)
-            read_block(file, discs + "velocity/value", frame, begin, end, 3, H5T_NATIVE_DOUBLE,
-                       vectors.data());
-        for (std::uint64_t i = 0; i < n && summary_.has_velocity; ++i)
-            rows[i].vx = vectors[3 * i], rows[i].vy = vectors[3 * i + 1];
-        if (summary_.has_collisions)
-            read_block(file, discs + "collisions/value", frame, begin, end, 2, H5T_NATIVE_UINT64,
-                       counts.data());
-        for (std::uint64_t i = 0; i < n && summary_.has_collisions; ++i)
-            rows[i].wall_collisions = counts[2 * i], rows[i].pair_collisions = counts[2 * i + 1];
-        if (summary_.has_angular_velocity)
-            read_block(file, discs + "angular_velocity/value", frame, begin, end, 1,
-                       H5T_NATIVE_DOUBLE, vectors.data());
-        for (std::uint64_t i = 0; i < n && summary_.has_angular_velocity; ++i)
-            rows[i].angular_velocity = vectors[i];
+void FrameFile::read(std::size_t frame, std::uint64_t begin, std::uint64_t end, Rows& rows) const {
+    rows.resize(summary_.columns.size());
+    with_path(path_, [&] {
+        if (summary_.kind == FileKind::checkpoint)
+            read_state(begin, end, rows);
+        else
+            read_stored(frame, begin, end, rows);
     });
 }
 
-void FrameFile::read(std::uint64_t begin, std::uint64_t end,
-                     std::vector<LoggedCollision>& rows) const {
+void FrameFile::read_stored(std::size_t frame, std::uint64_t begin, std::uint64_t end,
+                            Rows& rows) const {
+    std::vector<double> numbers;
+    std::string last;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const Source& source = state_->sources[k];
+        if (source.dataset != last)
+            read_block(state_->file.id(), source, frame, begin, end, numbers);
+        last = source.dataset;
+        rows[k].resize(end - begin);
+        for (std::uint64_t i = 0; i < end - begin; ++i)
+            rows[k][i] = numbers[i * source.width + source.place];
+    }
+}
+
+/// Adding +0 turns -0 into +0: two states of the same hash show the same.
+void FrameFile::read_state(std::uint64_t begin, std::uint64_t end, Rows& rows) const {
+    const CheckpointHeader& header = state_->header;
     const hid_t file = state_->file.id();
-    rows.assign(end - begin, {});
-    const auto column = [&](const char* name, hid_t type, auto field) {
-        using Number = std::remove_reference_t<decltype(rows[0].*field)>;
-        std::vector<Number> numbers(end - begin);
-        read_block(file, std::string("/carrom/collisions/") + name, 0, begin, end, 1, type,
-                   numbers.data());
-        for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*field = numbers[i];
-    };
-    guarded(path_, [&] {
-        column("step", H5T_NATIVE_INT64, &LoggedCollision::step);
-        column("time", H5T_NATIVE_DOUBLE, &LoggedCollision::time);
-        column("p", H5T_NATIVE_INT64, &LoggedCollision::p);
-        column("q", H5T_NATIVE_INT64, &LoggedCollision::q);
-        column("impulse", H5T_NATIVE_DOUBLE, &LoggedCollision::impulse);
+    const double clock = header.clock(), unit = static_cast<double>(header.micro_steps);
+    std::vector<Disc> discs(end - begin);
+    std::vector<std::uint64_t> bits(discs.size());
+    for (const DiscColumn& column : disc_columns) {
+        const h5::Dataset dataset = h5::open_checked(file, path_of(column), {header.n_discs});
+        h5::read_rows(dataset.id(), {begin, end}, type_of(column), bits.data());
+        for (std::size_t i = 0; i < discs.size(); ++i) column.set(discs[i], bits[i]);
+    }
+    for (auto& column : rows) column.clear();
+    for (const Disc& stored : discs) {
+        const Disc disc = header.frame.in_box(stored, clock);
+        const std::array<double, 6> shown = {disc.x,
+                                             disc.y,
+                                             disc.vx * unit,
+                                             disc.vy * unit,
+                                             static_cast<double>(disc.pair_collisions),
+                                             static_cast<double>(disc.wall_collisions)};
+        for (std::size_t k = 0; k < shown.size(); ++k) rows[k].push_back(shown[k] + 0.0);
+    }
+    std::size_t k = 6;
+    header.columns.for_each([&](SideColumn column) {
+        std::vector<double>& numbers = rows[k++];
+        read_block(file, {"", path_of(column)}, 0, begin, end, numbers);
+        for (double& number : numbers) number = number * (info_of(column).is_rate ? unit : 1) + 0.0;
     });
 }
 

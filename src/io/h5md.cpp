@@ -5,8 +5,13 @@
 #include <array>
 #include <vector>
 
+#include "io/checkpoint_fields.hpp"
+
 namespace carrom::h5md {
 
+namespace {
+
+/// /h5md: who wrote the file with what.
 void write_metadata(hid_t file, const std::string& program_version) {
     const h5::Group h5md = h5::create_group(file, "h5md");
     h5::write_attribute(h5md.id(), "version", std::array<std::int32_t, 2>{1, 1});
@@ -16,19 +21,17 @@ void write_metadata(hid_t file, const std::string& program_version) {
     h5::write_attribute(creator.id(), "version", program_version);
 }
 
-h5::Group create_box(hid_t parent, bool is_periodic_x, bool is_periodic_y) {
-    h5::Group box = h5::create_group(parent, "box");
+/// `box` in a group of particles, with its sides.
+void create_box(hid_t parent, const RecordedSystem& system) {
+    const h5::Group box = h5::create_group(parent, "box");
     h5::write_attribute(box.id(), "dimension", std::array<std::int32_t, 1>{3});
     const auto boundary = [](bool is_periodic) -> std::string {
         return is_periodic ? "periodic" : "none";
     };
-    h5::write_attribute(
-        box.id(), "boundary",
-        std::vector<std::string>{boundary(is_periodic_x), boundary(is_periodic_y), "none"});
-    return box;
+    h5::write_attribute(box.id(), "boundary",
+                        std::vector<std::string>{boundary(system.is_periodic_x),
+                                                 boundary(system.is_periodic_y), "none"});
 }
-
-namespace {
 
 /// By disc, without step and time (H5MD 1.1, "time-independent data"). Values of one species stand
 /// side by side, so that they are small when deflated.
@@ -63,9 +66,13 @@ void write_system(hid_t file, const RecordedSystem& system) {
         h5::write_whole(parameters.id(), "open_sides", std::array<hsize_t, 1>{4}, H5T_NATIVE_INT32,
                         flags.data());
     }
-    const h5::Group particles = h5::create_group(file, "particles"),
-                    discs = h5::create_group(particles.id(), "discs");
-    static_cast<void>(create_box(discs.id(), system.is_periodic_x, system.is_periodic_y));
+    write_species(file, shown_species_path, system.species);
+    create_box(h5::create_group(file, "/particles/discs").id(), system);
+}
+
+void write_bodies(hid_t file, const RecordedSystem& system) {
+    const h5::Group discs(
+        h5::checked(H5Gopen2(file, "/particles/discs", H5P_DEFAULT), "/particles/discs"));
     std::vector<double> radii, masses;
     std::vector<std::int64_t> numbers;
     for (const Species& one : system.species) {

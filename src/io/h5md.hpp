@@ -12,15 +12,19 @@
 
 namespace carrom::h5md {
 
-/// /h5md: who wrote the file with what.
-void write_metadata(hid_t file, const std::string& program_version);
+inline constexpr const char *step_path = "/particles/discs/box/edges/step",
+                            *time_path = "/particles/discs/box/edges/time",
+                            *edges_path = "/particles/discs/box/edges/value";
 
-/// `box` in a group of particles, with its sides; the caller adds `edges`.
-h5::Group create_box(hid_t parent, bool is_periodic_x, bool is_periodic_y);
+/// The table of species; none where all discs are equal.
+inline constexpr const char* shown_species_path = "/parameters/species";
 
-/// /h5md, /parameters, and /particles/discs with the box, and radius, mass and species by disc.
-/// Where discs are equal these take no room: they are fill values.
+/// /h5md, /parameters, and /particles/discs with the box; the caller adds its `edges`.
 void write_system(hid_t file, const RecordedSystem& system);
+
+/// Radius, mass and species by disc. Where discs are equal these take no room: they are fill
+/// values.
+void write_bodies(hid_t file, const RecordedSystem& system);
 
 std::array<double, 3> edges_of(const RecordedSystem& system);
 

@@ -20,6 +20,7 @@ void start_io() {
     H5dont_atexit();
     H5open();                         // started before MPI it does not hook into MPI's end either
     H5Lunregister(H5L_TYPE_EXTERNAL); // no link of a file leads into another one
+    H5PLset_loading_state(0);         // no filter of a file loads a library
 }
 
 std::string hdf5_version() {
@@ -78,34 +79,6 @@ void write_attribute(hid_t object, const char* name, hid_t type, const Space& sh
     checked(H5Awrite(attribute.id(), type, values), name);
 }
 
-/// Small writes reach the file when the dataset is closed.
-void write_dataset(hid_t parent, const char* name, const Space& shape, hid_t type,
-                   const void* values) {
-    Dataset dataset(checked(H5Dcreate2(parent, name, type, shape.id(), H5P_DEFAULT,
-                                       dataset_creation().id(), H5P_DEFAULT),
-                            name));
-    checked(H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
-    dataset.close(name);
-}
-
-void overwrite(hid_t parent, const char* name, hid_t type, const void* value) {
-    Dataset dataset = open_dataset(parent, name);
-    checked(H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value), name);
-    dataset.close(name);
-}
-
-/// Checks that there is one value, so that nothing is written beyond it.
-void read_scalar_as(hid_t parent, const char* name, hid_t type, void* value) {
-    const Dataset dataset = open_checked(parent, name);
-    const Space shape(checked(H5Dget_space(dataset.id()), name));
-    const Type stored(checked(H5Dget_type(dataset.id()), name));
-    if (H5Tget_class(stored.id()) != H5Tget_class(type))
-        throw FileError(std::string(name) + " is of another type than this program writes");
-    if (H5Sget_simple_extent_npoints(shape.id()) != 1)
-        throw FileError(std::string(name) + " is not a single value");
-    checked(H5Dread(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value), name);
-}
-
 /// Rows of a data set, and as much memory without gaps.
 struct Selection {
     Space memory, file;
@@ -150,32 +123,25 @@ Properties dataset_creation() {
     return creation;
 }
 
-Space space(std::span<const hsize_t> dimensions, std::span<const hsize_t> largest) {
-    return Space(checked(H5Screate_simple(static_cast<int>(dimensions.size()), dimensions.data(),
-                                          largest.empty() ? nullptr : largest.data()),
-                         "cannot make a data space"));
+Properties allocated_creation() {
+    Properties creation = dataset_creation();
+    checked(H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY), "cannot allocate");
+    checked(H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER), "cannot allocate");
+    return creation;
 }
 
-Space scalar_space() { return Space(checked(H5Screate(H5S_SCALAR), "cannot make a data space")); }
-
-File create_file(const std::string& path) {
-    be_quiet();
-    return File(checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
-                        "cannot be created"));
+Space space(std::span<const hsize_t> dimensions) {
+    return Space(
+        checked(H5Screate_simple(static_cast<int>(dimensions.size()), dimensions.data(), nullptr),
+                "cannot make a data space"));
 }
 
-File create_file_for_ranks(const std::string& path) {
+File create_empty_file(const std::string& path) {
     be_quiet();
     const Properties creation = properties(H5P_FILE_CREATE), access = properties(H5P_FILE_ACCESS);
     as_checked_group(creation);
     checked(H5Pset_alignment(access.id(), 1 << 16, 1 << 12), "cannot align data sets to pages");
     return File(checked(H5Fcreate(path.c_str(), H5F_ACC_EXCL, creation.id(), access.id()),
-                        "cannot be created"));
-}
-
-File create_new_file(const std::string& path) {
-    be_quiet();
-    return File(checked(H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT),
                         "cannot be created"));
 }
 
@@ -192,11 +158,6 @@ File open_file(const std::string& path, Access access) {
         if (std::string_view(error.what()).find("truncated file") == std::string_view::npos) throw;
         throw FileError("is cut short, or its first bytes are damaged");
     }
-}
-
-File open_file(const std::string& path, const Properties& access) {
-    be_quiet();
-    return File(checked(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), "cannot be opened"));
 }
 
 SharedFile::SharedFile(const std::string& path, Access access, const Communicator& communicator) {
@@ -234,7 +195,7 @@ Dataset open_dataset(hid_t parent, const char* name) {
 }
 
 void write_attribute(hid_t object, const char* name, const std::string& text) {
-    write_attribute(object, name, text_type(text.size()).id(), scalar_space(), text.c_str());
+    write_attribute(object, name, text_type(text.size()).id(), space({}), text.c_str());
 }
 
 void write_attribute(hid_t object, const char* name, std::span<const std::int32_t> numbers) {
@@ -254,50 +215,47 @@ void write_attribute(hid_t object, const char* name, const std::vector<std::stri
     write_attribute(object, name, text_type(longest).id(), space({&length, 1}), letters.data());
 }
 
-void write_scalar(hid_t parent, const char* name, double value) {
-    write_dataset(parent, name, scalar_space(), H5T_NATIVE_DOUBLE, &value);
-}
-void write_scalar(hid_t parent, const char* name, std::int64_t value) {
-    write_dataset(parent, name, scalar_space(), H5T_NATIVE_INT64, &value);
-}
-void write_scalar(hid_t parent, const char* name, std::uint64_t value) {
-    write_dataset(parent, name, scalar_space(), H5T_NATIVE_UINT64, &value);
-}
-void write_scalar(hid_t parent, const char* name, const std::string& value) {
-    write_dataset(parent, name, scalar_space(), text_type(value.size()).id(), value.c_str());
+void write_text(hid_t parent, const char* name, const std::string& text) {
+    write_whole(parent, name, {}, text_type(text.size()).id(), text.c_str());
 }
 
-void overwrite_scalar(hid_t parent, const char* name, std::uint64_t value) {
-    overwrite(parent, name, H5T_NATIVE_UINT64, &value);
-}
-void overwrite_scalar(hid_t parent, const char* name, const std::string& value) {
-    overwrite(parent, name, text_type(value.size()).id(), value.c_str());
+void overwrite_text(hid_t parent, const char* name, const std::string& text) {
+    overwrite(parent, name, text_type(text.size()).id(), text.c_str());
 }
 
-void read_scalar(hid_t parent, const char* name, double& value) {
-    read_scalar_as(parent, name, H5T_NATIVE_DOUBLE, &value);
-}
-void read_scalar(hid_t parent, const char* name, std::int64_t& value) {
-    read_scalar_as(parent, name, H5T_NATIVE_INT64, &value);
-}
-void read_scalar(hid_t parent, const char* name, std::uint64_t& value) {
-    read_scalar_as(parent, name, H5T_NATIVE_UINT64, &value);
-}
-void read_scalar(hid_t parent, const char* name, std::string& value) {
-    const Dataset dataset = open_checked(parent, name);
-    const Type type(checked(H5Dget_type(dataset.id()), name));
-    if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0)
-        throw FileError(std::string(name) + " is not a text");
-    if (H5Tget_size(type.id()) > longest_text)
-        throw FileError(std::string(name) + " is longer than any text of ours");
-    value.assign(H5Tget_size(type.id()), '\0');
-    read_scalar_as(parent, name, type.id(), value.data());
-    value.resize(value.find_last_not_of('\0') + 1); // the padding
+std::string read_text(hid_t parent, const char* name) {
+    const Type type(
+        checked(H5Dget_type(open_checked(parent, name).id()), "cannot look at a dataset"));
+    if (H5Tget_class(type.id()) != H5T_STRING || H5Tget_size(type.id()) > longest_text)
+        throw FileError(std::string(name) + " is not a text of ours");
+    std::string text(H5Tget_size(type.id()), '\0');
+    read_single(parent, name, type.id(), text.data());
+    text.resize(text.find_last_not_of('\0') + 1); // the padding
+    return text;
 }
 
+/// Small writes reach the file when the dataset is closed.
 void write_whole(hid_t parent, const char* name, std::span<const hsize_t> dimensions, hid_t type,
                  const void* values) {
-    write_dataset(parent, name, space(dimensions), type, values);
+    Dataset dataset(checked(H5Dcreate2(parent, name, type, space(dimensions).id(), H5P_DEFAULT,
+                                       dataset_creation().id(), H5P_DEFAULT),
+                            name));
+    checked(H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
+    dataset.close(name);
+}
+
+void overwrite(hid_t parent, const char* name, hid_t type, const void* values) {
+    Dataset dataset = open_dataset(parent, name);
+    checked(H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
+    dataset.close(name);
+}
+
+void read_single(hid_t parent, const char* name, hid_t type, void* value) {
+    const Dataset dataset = open_checked(parent, name, Shape{});
+    const Type stored(checked(H5Dget_type(dataset.id()), name));
+    if (H5Tget_class(stored.id()) != H5Tget_class(type))
+        throw FileError(std::string(name) + " is of another type than this program writes");
+    checked(H5Dread(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value), name);
 }
 
 std::vector<hsize_t> dimensions_of(hid_t dataset) {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -66,19 +67,13 @@ using Properties = Handle<H5Pclose>;
 Properties properties(hid_t kind);
 /// For a new dataset, which is not to say when it was made: the same contents are the same bytes.
 Properties dataset_creation();
-Space space(std::span<const hsize_t> dimensions, std::span<const hsize_t> largest = {});
-Space scalar_space();
+/// The same for one that has its place in the file at once, and no numbers yet.
+Properties allocated_creation();
+/// Of one number where there are no dimensions.
+Space space(std::span<const hsize_t> dimensions);
 
-/// A new file of this process alone, in place of any other.
-File create_file(const std::string& path);
-/// The same where no file, nor a symbolic link, may be of that name.
-File create_new_file(const std::string& path);
-/// The same where no file is yet. Large data sets begin at pages of 4096 bytes.
-File create_file_for_ranks(const std::string& path);
 enum class Access { read, write };
 File open_file(const std::string& path, Access access);
-/// An existing file to write to, by the driver that `access` names.
-File open_file(const std::string& path, const Properties& access);
 
 /// A file that ranks have open through MPI-IO, each to read or write rows of its own. Nothing
 /// collective is called on one that has failed: unless it is closed, it stays open until the
@@ -111,22 +106,43 @@ Dataset open_dataset(hid_t parent, const char* name);
 void write_attribute(hid_t object, const char* name, const std::string& text);
 void write_attribute(hid_t object, const char* name, std::span<const std::int32_t> numbers);
 void write_attribute(hid_t object, const char* name, const std::vector<std::string>& words);
-void write_scalar(hid_t parent, const char* name, double value);
-void write_scalar(hid_t parent, const char* name, std::int64_t value);
-void write_scalar(hid_t parent, const char* name, std::uint64_t value);
-void write_scalar(hid_t parent, const char* name, const std::string& value);
-/// Replaces the value of one that is there; a text by one as long.
-void overwrite_scalar(hid_t parent, const char* name, std::uint64_t value);
-void overwrite_scalar(hid_t parent, const char* name, const std::string& value);
-void read_scalar(hid_t parent, const char* name, double& value);
-void read_scalar(hid_t parent, const char* name, std::int64_t& value);
-void read_scalar(hid_t parent, const char* name, std::uint64_t& value);
-void read_scalar(hid_t parent, const char* name, std::string& value);
+void write_text(hid_t parent, const char* name, const std::string& text);
+/// Replaces a text by one as long.
+void overwrite_text(hid_t parent, const char* name, const std::string& text);
+std::string read_text(hid_t parent, const char* name);
 
 /// A dataset of one value or one row of values for each of the numbers, written at once by this
 /// process.
 void write_whole(hid_t parent, const char* name, std::span<const hsize_t> dimensions, hid_t type,
                  const void* values);
+
+/// Replaces all of a data set.
+void overwrite(hid_t parent, const char* name, hid_t type, const void* values);
+/// Reads a data set of one value.
+void read_single(hid_t parent, const char* name, hid_t type, void* value);
+
+template <class Number> hid_t type_of() {
+    if constexpr (std::is_same_v<Number, double>)
+        return H5T_NATIVE_DOUBLE;
+    else if constexpr (std::is_same_v<Number, std::int64_t>)
+        return H5T_NATIVE_INT64;
+    else {
+        static_assert(std::is_same_v<Number, std::uint64_t>);
+        return H5T_NATIVE_UINT64;
+    }
+}
+template <class Value> void write_scalar(hid_t parent, const char* name, const Value& value) {
+    if constexpr (std::is_same_v<Value, std::string>)
+        write_text(parent, name, value);
+    else
+        write_whole(parent, name, {}, type_of<Value>(), &value);
+}
+template <class Value> void read_scalar(hid_t parent, const char* name, Value& value) {
+    if constexpr (std::is_same_v<Value, std::string>)
+        value = read_text(parent, name);
+    else
+        read_single(parent, name, type_of<Value>(), &value);
+}
 
 /// The dimensions of a dataset.
 std::vector<hsize_t> dimensions_of(hid_t dataset);
@@ -149,5 +165,21 @@ enum class Transfer { independent, collective };
 /// This rank's rows of a data set. **Collective** if `transfer` is; a rank may have no rows then.
 void write_rows(hid_t dataset, const Rows& rows, hid_t type, const void* numbers,
                 Transfer transfer);
+
+/// A new file where there is none, nor a symbolic link, of that name. Large data sets begin at
+/// pages of 4096 bytes.
+File create_empty_file(const std::string& path);
+
+/// The same, filled by `build(file)` and closed.
+template <class Build> void create_file(const std::string& path, const Build& build) {
+    File file = create_empty_file(path);
+    try {
+        build(file.id());
+        file.close("cannot be written");
+    } catch (...) {
+        file.abandon(); // closing would try to write again
+        throw;
+    }
+}
 
 } // namespace carrom::h5

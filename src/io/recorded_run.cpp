@@ -10,7 +10,6 @@ namespace carrom {
 
 namespace {
 
-constexpr const char* carrom_path = "/carrom";
 constexpr const char* scene_path = "/carrom/scene";
 
 bool is_recorded(const HeaderField& entry) {
@@ -27,8 +26,7 @@ void write_recorded_run(hid_t file, const CheckpointHeader& run) {
         if (is_recorded(entry))
             std::visit([&](auto field) { h5::write_scalar(scene.id(), entry.name, run.*field); },
                        entry.field);
-    const h5::Group carrom(h5::checked(H5Gopen2(file, carrom_path, H5P_DEFAULT), carrom_path));
-    write_species(carrom.id(), run.species);
+    write_species(file, species_path, run.species);
 }
 
 void check_recorded_run(hid_t file, const DifferenceFrom& difference_from) {
@@ -39,7 +37,7 @@ void check_recorded_run(hid_t file, const DifferenceFrom& difference_from) {
         if (is_recorded(entry))
             std::visit([&](auto field) { h5::read_scalar(scene.id(), entry.name, there.*field); },
                        entry.field);
-    there.species = read_species(file, there.n_discs);
+    there.species = read_species(file, species_path, there.n_discs);
     if (const std::string difference = difference_from(there); !difference.empty())
         throw FileError("is another run's (" + difference +
                         "); name another file, or move it away");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a recording says of its discs once and for all.
+// What a file says to other programs of its discs, once and for all.
 #pragma once
 
 #include <array>

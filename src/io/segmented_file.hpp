@@ -12,7 +12,7 @@
 // commit are written again. Readers need no lock: what they see does not change.
 //
 // Segments double in size, so they are few. Room that is not yet used takes no space on disk.
-// These are calls of one rank; all throw FileError.
+// Rank 0 has the file; all ranks know how it goes.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,6 @@
 #include <string>
 #include <vector>
 
-#include "core/state_hash.hpp"
 #include "io/files.hpp"
 #include "io/hdf5.hpp"
 #include "io/segments.hpp"
@@ -35,69 +34,74 @@ struct RecordedColumn {
     std::string path;         ///< of the dataset in the file that readers open
     hid_t type;               ///< of numbers of 4 or 8 bytes, little-endian, also in memory
     std::vector<hsize_t> row; ///< {} or {discs} or {discs, components}
-
-    std::uint64_t n_cells() const { return row.empty() ? 1 : row[0]; }
-    std::uint64_t bytes_per_cell() const;
 };
 
 class SegmentedFile {
 public:
     /// Makes all of the small file that is no column, and their groups.
-    using Build = std::function<void(hid_t file, std::uint64_t n_rows)>;
+    using Build = std::function<void(hid_t file)>;
 
-    SegmentedFile(const std::string& path, std::vector<RecordedColumn> columns, Build build);
-    /// A new one, without rows, in the place of any other. Committed.
-    void create();
+    /// `communicator` must outlive this.
+    SegmentedFile(const std::string& path, std::vector<RecordedColumn> columns, Build build,
+                  const Communicator& communicator);
+
+    /// A new one, without rows, in the place of any other. If this or any other call fails, every
+    /// rank throws CollectiveError, code 4, and the file is as it was at the last commit.
+    /// **Collective.**
+    void begin();
 
     /// Goes on with what is there, after `check` has looked at it: cut back to the rows whose
-    /// number in the column `step` is up to `last`. The columns must be the same. What is written
-    /// to next is checked. Nothing changes on disk before a commit, which must come first.
-    void go_on(const std::string& step, std::int64_t last,
+    /// number in the column `step` is up to `last`. Begins a new one where there is none, and
+    /// returns false then. Throws code 2 where columns differ or a byte is damaged: all are read.
+    /// **Collective.**
+    bool go_on(const std::string& step, std::int64_t last,
                const std::function<void(hid_t file)>& check);
 
-    std::uint64_t n_rows() const { return n_rows_; }
-    const std::vector<Segment>& segments() const { return segments_; }
+    /// Rows so far are to stay, and readers see them. **Collective.**
+    void commit();
 
-    /// The next rows, or cells [begin, begin + count) of the next row; parts begin at multiples of
-    /// `cells_per_part`. They count once `add` has said so, for all columns together.
-    void write(std::size_t column, std::uint64_t begin, std::uint64_t count,
-               std::span<const std::byte> numbers);
-    /// How many rows can be written before the next `add`, at least 1. Makes a segment if need be.
-    std::uint64_t room();
-    void add(std::uint64_t n_rows);
-
-    /// What goes wrong in an `attempt` is thrown by `close`: a rank that writes what others send
-    /// goes on receiving till then.
+    /// The rest of an addition is rank 0's alone, in an `attempt`. What goes wrong there is thrown
+    /// by `finish_addition`: rank 0 goes on receiving what others send till then.
     template <class Act> void attempt(const Act& act) {
-        if (!failure_.empty()) return;
+        if (!communicator_.is_root() || !failure_.empty()) return;
         try {
             act();
         } catch (const FileError& error) {
             failure_ = error.what();
         }
     }
-    /// Ends an addition.
-    void close();
-    /// Rows so far are to stay.
-    void commit();
+    /// **Collective.**
+    void finish_addition();
+
+    /// How many rows can be written before the next `add`, at least 1. Makes a segment if need be.
+    std::uint64_t room();
+    /// Numbers of the next rows of a column. They count once `add` has said so, for all columns
+    /// together.
+    void write(std::size_t column, std::span<const std::byte> numbers);
+    void add(std::uint64_t n_rows);
+
+    std::uint64_t n_rows() const { return n_rows_; }
+    const std::vector<Segment>& segments() const { return index_.segments; }
 
 private:
-    std::string path_of(const Segment& segment) const;
+    void take_over(const std::string& step, std::int64_t last,
+                   const std::function<void(hid_t file)>& check);
     void make_segment();
-    void check_columns(hid_t file) const;
+    void check_columns(hid_t file, const Index& index) const;
     void cut(std::uint64_t n_rows);
-    void remove_other_segments() const;
-    void write_index(hid_t file) const;
+    void commit_here();
     void write_virtual(hid_t file, const RecordedColumn& column) const;
 
     std::string path_;
     std::vector<RecordedColumn> columns_;
     Build build_;
-    std::vector<Segment> segments_;
+    const Communicator& communicator_;
+    Index index_;
     std::uint64_t n_rows_ = 0;
-    std::size_t first_unsynced_ = 0;   ///< among the segments
-    StateHash written_;                ///< of what `write` has written since the last `add`
-    std::unique_ptr<Descriptor> open_; ///< the last segment, during an addition
+    std::size_t first_unsynced_ = 0;     ///< among the segments
+    ColumnHashers hashers_;              ///< of the last segment
+    std::vector<std::uint64_t> written_; ///< bytes of each column since the last `add`
+    std::unique_ptr<Descriptor> open_;   ///< the last segment, during an addition
     std::string failure_;
 };
 

@@ -9,24 +9,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "core/state_hash.hpp"
-#include "io/files.hpp"
+#include "io/checksums.hpp"
 #include "io/hdf5.hpp"
 
 namespace carrom {
-
-/// Cells of a row that are written, hashed and read at a time.
-inline constexpr std::uint64_t cells_per_part = std::uint64_t{1} << 16;
-
-/// What is needed of a column to find and hash its numbers.
-struct Width {
-    std::uint64_t cells = 1, bytes_per_cell = 8;
-    std::uint64_t bytes_per_row() const { return cells * bytes_per_cell; }
-};
 
 struct Segment {
     std::string name; ///< relative to the folder of the file that joins them
@@ -38,25 +28,25 @@ struct Segment {
 
 /// What the small file says of its segments.
 struct Index {
-    std::vector<Width> widths;
+    std::vector<std::uint64_t> row_bytes; ///< of each column
     std::vector<Segment> segments;
 };
 
 /// "trajectory/0001.h5" for "run/trajectory.h5" and 1.
 std::string segment_name(const std::string& path, std::size_t number);
+/// Where a segment is; `joining` is the path of the file that joins.
+std::string segment_path(const std::string& joining, const std::string& name);
 
-/// Checksums; a part of a row is hashed with its place.
-StateHash hash_of_part(std::size_t column, std::uint64_t row, std::uint64_t begin,
-                       std::span<const std::byte> bytes);
-StateHash hash_of_rows(const Descriptor& file, const Segment& segment,
-                       const std::vector<Width>& widths, std::uint64_t begin, std::uint64_t end);
-StateHash hash_of_structure(const Descriptor& file, const Segment& segment,
-                            const std::vector<Width>& widths);
+/// What has hashed each column of a segment so far; their digests add up to the segment's.
+using ColumnHashers = std::vector<Hasher>;
+ColumnHashers hashers_of_columns(std::size_t n_columns);
+StateHash sum_of(const ColumnHashers& hashers);
 
-/// Throws FileError, naming the segment, unless its structure is whole, and its rows where they are
-/// wanted. `folder`: of the file that joins.
-void check_segment(const std::string& folder, const Segment& segment,
-                   const std::vector<Width>& widths, bool are_rows_wanted);
+/// Of a segment's rows up to `rows`. Throws FileError.
+ColumnHashers hash_rows(const std::string& path, const Segment& segment,
+                        const std::vector<std::uint64_t>& row_bytes, std::uint64_t rows);
+StateHash hash_of_structure(const std::string& path, const Segment& segment,
+                            const std::vector<std::uint64_t>& row_bytes);
 
 Index read_index(hid_t file, const std::string& path);
 void write_index(hid_t file, const Index& index);
@@ -67,8 +57,8 @@ void seal_index(const std::string& path);
 /// Whether a file is one that joins segments, by its last bytes.
 bool joins_segments(const std::string& path);
 
-/// Checks such a file's own bytes and the structure of its segments; all their rows too where
-/// `are_rows_wanted`. HDF5 gets nothing that has not been checked. Throws FileError.
-void check_segments(const std::string& path, bool are_rows_wanted);
+/// Checks such a file's own bytes and the structure of its segments, and all their rows where
+/// `are_rows_wanted`. Returns its index. Throws FileError, naming the segment.
+Index check_segments(const std::string& path, bool are_rows_wanted);
 
 } // namespace carrom

@@ -4,16 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <filesystem>
+#include <functional>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "io/files.hpp"
+#include "io/checked_dataset.hpp"
 #include "io/h5md.hpp"
-#include "io/read_columns.hpp"
 #include "io/recorded_run.hpp"
 #include "io/segmented_file.hpp"
 #include "io/xdmf.hpp"
@@ -23,16 +22,14 @@ namespace carrom {
 
 namespace {
 
-constexpr const char* step_path = "/particles/discs/box/edges/step";
-constexpr const char* time_path = "/particles/discs/box/edges/time";
-constexpr const char* edges_path = "/particles/discs/box/edges/value";
+constexpr std::uint64_t discs_at_a_time = std::uint64_t{1} << 16;
 
 /// A disc as it travels to rank 0: what it shows at the time of the frame.
 struct ShownDisc {
     DiscId id = 0;
     double position[2] = {}, velocity[2] = {};
     std::uint64_t collisions[2] = {}; ///< with walls, with discs
-    double angular_velocity = 0;
+    double columns[n_side_columns] = {};
 };
 
 /// What a frame has of each disc.
@@ -41,7 +38,7 @@ struct Field {
     hsize_t width; ///< numbers of a disc
     bool is_real;
     /// Component k; the bits of a double where it is real.
-    std::uint64_t (*bits)(const ShownDisc&, std::size_t k);
+    std::function<std::uint64_t(const ShownDisc&, std::size_t k)> bits;
 };
 
 std::uint64_t bits_of(double number) { return std::bit_cast<std::uint64_t>(number); }
@@ -59,14 +56,17 @@ std::vector<Field> fields_of(const TrajectoryLayout& layout) {
     if (layout.has_collisions)
         fields.push_back({"collisions", 2, false,
                           [](const ShownDisc& disc, std::size_t k) { return disc.collisions[k]; }});
-    if (layout.has_angular_velocity)
-        fields.push_back({"angular_velocity", 1, true, [](const ShownDisc& disc, std::size_t) {
-                              return bits_of(disc.angular_velocity);
-                          }});
+    layout.columns.for_each([&](SideColumn column) {
+        fields.push_back(
+            {info_of(column).shown, 1, true,
+             [place = static_cast<std::size_t>(column)](const ShownDisc& disc, std::size_t) {
+                 return bits_of(disc.columns[place]);
+             }});
+    });
     return fields;
 }
 
-/// One for each field, then steps and times.
+/// One for each field, then step, time and box.
 std::vector<RecordedColumn> columns_of(const TrajectoryLayout& layout) {
     const hid_t real = layout.is_single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
     std::vector<RecordedColumn> columns;
@@ -77,44 +77,23 @@ std::vector<RecordedColumn> columns_of(const TrajectoryLayout& layout) {
         if (field.width > 1) column.row.push_back(field.width);
         columns.push_back(std::move(column));
     }
-    columns.push_back({step_path, H5T_STD_I64LE, {}});
-    columns.push_back({time_path, H5T_IEEE_F64LE, {}});
+    columns.push_back({h5md::step_path, H5T_STD_I64LE, {}});
+    columns.push_back({h5md::time_path, H5T_IEEE_F64LE, {}});
+    columns.push_back({h5md::edges_path, H5T_IEEE_F64LE, {3}});
     return columns;
 }
 
-/// The same for all frames: where walls move it holds the discs until the last step, which a
-/// restart may change. Deflated it takes hardly any room.
-void write_edges(hid_t edges, const RecordedSystem& system, hsize_t n_frames) {
-    std::vector<double> values;
-    for (hsize_t frame = 0; frame < n_frames; ++frame)
-        for (const double edge : h5md::edges_of(system)) values.push_back(edge);
-    const std::array<hsize_t, 2> sizes = {n_frames, 3}, chunk = {1 << 14, 3};
-    const h5::Properties creation = h5::dataset_creation();
-    h5::checked(H5Pset_chunk(creation.id(), 2, chunk.data()), edges_path);
-    h5::checked(H5Pset_deflate(creation.id(), 1), edges_path);
-    const std::array<hsize_t, 2> largest = {H5S_UNLIMITED, 3};
-    h5::Dataset dataset(
-        h5::checked(H5Dcreate2(edges, "value", H5T_IEEE_F64LE, h5::space(sizes, largest).id(),
-                               H5P_DEFAULT, creation.id(), H5P_DEFAULT),
-                    edges_path));
-    if (n_frames > 0)
-        h5::checked(
-            H5Dwrite(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
-            edges_path);
-    dataset.close(edges_path);
-}
-
 /// Steps and times stand once; every element links to them, as H5MD allows.
-void write_structure(hid_t file, const TrajectoryLayout& layout, std::uint64_t n_frames) {
+void write_structure(hid_t file, const TrajectoryLayout& layout) {
     h5md::write_system(file, layout.system);
+    h5md::write_bodies(file, layout.system);
     write_recorded_run(file, layout.run);
-    const h5::Group edges = h5::create_group(file, "/particles/discs/box/edges");
-    write_edges(edges.id(), layout.system, n_frames);
+    static_cast<void>(h5::create_group(file, "/particles/discs/box/edges"));
     for (const Field& field : fields_of(layout)) {
         const h5::Group element = h5::create_group(
             file, (std::string("/particles/discs/") + field.name).c_str());
         for (const auto& [name, path] :
-             {std::pair("step", step_path), std::pair("time", time_path)})
+             {std::pair("step", h5md::step_path), std::pair("time", h5md::time_path)})
             h5::checked(H5Lcreate_soft(path, element.id(), name, H5P_DEFAULT, H5P_DEFAULT), name);
     }
 }
@@ -122,10 +101,9 @@ void write_structure(hid_t file, const TrajectoryLayout& layout, std::uint64_t n
 /// The discs of all ranks on rank 0, slab after slab of ids.
 class SlabStream {
 public:
-    /// `spins` may be empty.
-    SlabStream(std::span<const Disc> discs, std::span<const double> spins, double clock,
-               double velocity_unit, const Communicator& communicator)
-        : discs_(discs), spins_(spins), clock_(clock), velocity_unit_(velocity_unit),
+    SlabStream(std::span<const Disc> discs, const SideSpans& columns, double clock,
+               const TrajectoryLayout& layout, const Communicator& communicator)
+        : discs_(discs), columns_(columns), clock_(clock), layout_(layout),
           communicator_(communicator), order_(discs.size()) {
         std::iota(order_.begin(), order_.end(), LocalIndex{0});
         std::sort(order_.begin(), order_.end(),
@@ -149,16 +127,23 @@ public:
 private:
     ShownDisc shown(LocalIndex i) const {
         const Disc& disc = discs_[i];
-        return {disc.id,
-                {disc.x_at(clock_), disc.y_at(clock_)},
-                {disc.vx * velocity_unit_, disc.vy * velocity_unit_},
-                {disc.wall_collisions, disc.pair_collisions},
-                spins_.empty() ? 0 : spins_[i] * velocity_unit_};
+        const double unit = layout_.velocity_unit;
+        ShownDisc shown = {disc.id,
+                           {disc.x_at(clock_), disc.y_at(clock_)},
+                           {disc.vx * unit, disc.vy * unit},
+                           {disc.wall_collisions, disc.pair_collisions},
+                           {}};
+        layout_.columns.for_each([&](SideColumn column) {
+            shown.columns[static_cast<std::size_t>(column)] = columns_[column][i] *
+                                                              (info_of(column).is_rate ? unit : 1);
+        });
+        return shown;
     }
 
     std::span<const Disc> discs_;
-    std::span<const double> spins_;
-    double clock_, velocity_unit_;
+    SideSpans columns_;
+    double clock_;
+    const TrajectoryLayout& layout_;
     const Communicator& communicator_;
     std::vector<LocalIndex> order_;
     std::size_t next_ = 0;
@@ -184,97 +169,84 @@ std::vector<std::byte> bytes_of(const Field& field, std::span<const ShownDisc> s
 } // namespace
 
 struct Trajectory::State {
-    State(const std::string& path, const TrajectoryLayout& layout)
-        : file(path, columns_of(layout), [&layout](hid_t index, std::uint64_t n_frames) {
-              write_structure(index, layout, n_frames);
-          }) {}
+    State(const std::string& path, const TrajectoryLayout& layout, const Communicator& communicator)
+        : file(
+              path, columns_of(layout), [&layout](hid_t index) { write_structure(index, layout); },
+              communicator) {}
     SegmentedFile file;
-    std::vector<std::int64_t> steps; ///< of the frames there are
+    std::vector<std::int64_t> steps; ///< of the frames there are, on rank 0
     std::size_t n_described = 0;     ///< of them in the XDMF file
 };
 
 Trajectory::Trajectory(const std::string& path, const TrajectoryLayout& layout,
                        const Communicator& communicator)
     : path_(path), layout_(layout), communicator_(communicator) {
-    if (communicator_.is_root()) state_ = std::make_unique<State>(path_, layout_);
+    state_ = std::make_unique<State>(path_, layout_, communicator_);
 }
 
 Trajectory::~Trajectory() = default;
 
 void Trajectory::begin() {
-    on_root(communicator_, path_, ExitCode::output_failure, [&] {
-        check_room(folder_of(path_), 1 << 20);
-        state_->file.create();
-        state_->steps.clear();
-    });
+    state_->file.begin();
+    state_->steps.clear();
 }
 
 std::int64_t Trajectory::go_on(std::int64_t step, const DifferenceFrom& difference_from) {
-    std::uint64_t is_there = 0;
-    on_root(communicator_, path_, ExitCode::output_failure,
-            [&] { is_there = std::filesystem::exists(path_) ? 1 : 0; });
-    communicator_.broadcast(is_there);
-    if (is_there == 0) {
-        begin();
-        return -1;
-    }
-    on_root(communicator_, path_, ExitCode::bad_input, [&] {
-        state_->file.go_on(step_path, step, [&](hid_t file) {
-            if (!h5::has(file, "/particles/discs")) throw FileError("is no trajectory");
-            check_recorded_run(file, difference_from);
-            state_->steps = read_numbers(file, step_path);
-        });
-        state_->steps.resize(state_->file.n_rows());
+    std::vector<std::int64_t>& steps = state_->steps;
+    const bool is_there = state_->file.go_on(h5md::step_path, step, [&](hid_t file) {
+        if (!h5::has(file, "/particles/discs")) throw FileError("is no trajectory");
+        check_recorded_run(file, difference_from);
+        steps = h5::read_column<std::int64_t>(file, h5md::step_path);
     });
-    commit();
-    return communicator_.is_root() && !state_->steps.empty() ? state_->steps.back() : -1;
+    if (!is_there || !communicator_.is_root()) return -1;
+    steps.resize(state_->file.n_rows());
+    return steps.empty() ? -1 : steps.back();
 }
 
 void Trajectory::append(std::int64_t step, std::span<const Disc> discs, double clock,
-                        std::span<const double> spins) {
-    ensure(!layout_.has_angular_velocity || spins.size() == discs.size(),
-           "spins do not run along the discs");
-    if (communicator_.is_root())
-        state_->file.attempt([&] { static_cast<void>(state_->file.room()); });
-    SlabStream stream(discs, layout_.has_angular_velocity ? spins : std::span<const double>{},
-                      clock, layout_.velocity_unit, communicator_);
+                        const SideSpans& columns) {
+    layout_.columns.for_each([&](SideColumn column) {
+        ensure(columns[column].size() == discs.size(), "a column does not run along the discs");
+    });
+    SegmentedFile& file = state_->file;
+    file.attempt([&] { static_cast<void>(file.room()); });
+    SlabStream stream(discs, columns, clock, layout_, communicator_);
     const std::vector<Field> fields = fields_of(layout_);
     const std::uint64_t n = layout_.system.n_discs;
-    for (std::uint64_t begin = 0; begin < n; begin += cells_per_part) {
+    for (std::uint64_t begin = 0; begin < n; begin += discs_at_a_time) {
         const std::span<const ShownDisc> slab = stream.next(begin,
-                                                            std::min(begin + cells_per_part, n));
-        if (!communicator_.is_root()) continue;
-        state_->file.attempt([&] {
+                                                            std::min(begin + discs_at_a_time, n));
+        file.attempt([&] {
             for (std::size_t k = 0; k < fields.size(); ++k)
-                state_->file.write(k, begin, slab.size(),
-                                   bytes_of(fields[k], slab, layout_.is_single));
+                file.write(k, bytes_of(fields[k], slab, layout_.is_single));
         });
     }
-    on_root(communicator_, path_, ExitCode::output_failure, [&] {
-        state_->file.attempt([&] {
-            const auto time = static_cast<double>(step);
-            state_->file.write(fields.size(), 0, 1, std::as_bytes(std::span(&step, 1)));
-            state_->file.write(fields.size() + 1, 0, 1, std::as_bytes(std::span(&time, 1)));
-            state_->file.add(1);
-        });
-        state_->file.close();
-        state_->steps.push_back(step);
+    file.attempt([&] {
+        const auto time = static_cast<double>(step);
+        const std::array<double, 3> edges = h5md::edges_of(layout_.system);
+        file.write(fields.size(), std::as_bytes(std::span(&step, 1)));
+        file.write(fields.size() + 1, std::as_bytes(std::span(&time, 1)));
+        file.write(fields.size() + 2, std::as_bytes(std::span(edges)));
+        file.add(1);
     });
+    file.finish_addition();
+    state_->steps.push_back(step);
 }
 
 void Trajectory::commit() {
-    on_root(communicator_, path_, ExitCode::output_failure, [&] {
-        state_->file.commit();
-        // Its length is that of all frames: often enough, and never for long.
-        if (state_->steps.size() < state_->n_described + state_->n_described / 4 + 1) return;
-        write_xdmf(path_, layout_, state_->file.segments(), state_->steps);
-        state_->n_described = state_->steps.size();
-    });
+    state_->file.commit();
+    // Its length is that of all frames: often enough, and never for long.
+    if (communicator_.any(communicator_.is_root() &&
+                          state_->steps.size() >=
+                              state_->n_described + state_->n_described / 4 + 1))
+        describe();
 }
 
 void Trajectory::describe() {
-    on_root(communicator_, path_, ExitCode::output_failure,
-            [&] { write_xdmf(path_, layout_, state_->file.segments(), state_->steps); });
+    on_root(communicator_, path_, ExitCode::output_failure, [&] {
+        write_xdmf(path_, layout_, state_->file.segments(), state_->steps);
+        state_->n_described = state_->steps.size();
+    });
 }
 
 } // namespace carrom

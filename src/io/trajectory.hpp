@@ -13,6 +13,7 @@
 #include <string>
 
 #include "core/disc.hpp"
+#include "core/side_columns.hpp"
 #include "io/checkpoint.hpp"
 #include "io/recorded_system.hpp"
 #include "parallel/communicator.hpp"
@@ -23,8 +24,8 @@ struct TrajectoryLayout {
     RecordedSystem system;
     double velocity_unit = 1; ///< what stored velocities are multiplied by to be per step
     bool has_position = true, has_velocity = true, has_collisions = false;
-    bool has_angular_velocity = false; ///< of discs that turn, per step, counterclockwise
-    bool is_single = true;             ///< float32, else float64
+    SideColumnSet columns; ///< that frames have
+    bool is_single = true; ///< float32, else float64
     CheckpointHeader run; ///< of which run it is: scene and classes. No text: the file will not say
 };
 
@@ -39,16 +40,15 @@ public:
     /// CollectiveError, code 4, and the file is as it was at the last commit. **Collective.**
     void begin();
 
-    /// Goes on with the file, cut back to frames up to `step`, which get this layout's box. Begins
-    /// a new one where there is none. Throws code 2 where the file has another layout or is
-    /// damaged. Returns, on rank 0, the step of the last frame that is left, or -1.
-    /// **Collective.**
+    /// Goes on with the file, cut back to frames up to `step`. Begins a new one where there is
+    /// none. Throws code 2 where the file has another layout or is damaged: all of it is read.
+    /// Returns, on rank 0, the step of the last frame that is left, or -1. **Collective.**
     std::int64_t go_on(std::int64_t step, const DifferenceFrom& difference_from = {});
 
-    /// Adds a frame: the discs, spread over the ranks in any way, at `clock`; their spins along
-    /// them, where the layout has angular velocities. **Collective.**
+    /// Adds a frame: the discs, in any distribution over the ranks, at `clock`, and the layout's
+    /// columns along them. **Collective.**
     void append(std::int64_t step, std::span<const Disc> discs, double clock,
-                std::span<const double> spins = {});
+                const SideSpans& columns = {});
 
     /// What has been added so far is to stay, and readers see it. Renews the description when it
     /// has grown old. **Collective.**
@@ -59,7 +59,7 @@ public:
 
 private:
     struct State;
-    std::unique_ptr<State> state_; ///< rank 0's
+    std::unique_ptr<State> state_;
     std::string path_;
     TrajectoryLayout layout_;
     const Communicator& communicator_;

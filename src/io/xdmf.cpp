@@ -74,9 +74,10 @@ void write_xdmf(const std::string& path, const TrajectoryLayout& layout,
             text += fixed(file, layout, "radius", "Float") + fixed(file, layout, "species", "Int");
             if (layout.has_velocity)
                 text += attribute("velocity", "Vector", vectors(row, layout, "velocity"));
-            if (layout.has_angular_velocity)
-                text += attribute("angular_velocity", "Scalar",
-                                  numbers(row, layout, "angular_velocity"));
+            layout.columns.for_each([&](SideColumn column) {
+                const char* const name = info_of(column).shown;
+                text += attribute(name, "Scalar", numbers(row, layout, name));
+            });
             text += "</Grid>\n";
         }
     text += "</Grid></Domain></Xdmf>\n";

@@ -80,7 +80,7 @@ Simulation Simulation::from_checkpoint(const Session& session, const std::string
                            fmt::format("the checkpoint is of step {}, and time.steps is {}",
                                        header.step, scene.steps)}});
     StoredState stored{std::move(checkpoint.discs), header.micro_steps_done,
-                       std::move(checkpoint.spins)};
+                       std::move(checkpoint.columns)};
     return Simulation(std::make_unique<State>(ranks, std::move(scene), std::move(stored),
                                               std::move(checkpoint.samples),
                                               tuning_of(options, ranks)));
@@ -141,7 +141,7 @@ void Simulation::write_checkpoint(const std::string& path) const {
     carrom::write_checkpoint(path, header_now(now.scene, now.simulation), now.simulation.discs(),
                              now.ranks, {.n_threads = now.n_threads},
                              now.sampler ? now.sampler->stored() : StoredSamples{},
-                             now.simulation.spins());
+                             now.simulation.side_columns());
 }
 
 } // namespace carrom::api

@@ -25,7 +25,8 @@ TrajectoryOutput wanted_of(const TrajectoryFields& fields, const carrom::Scene& 
     wanted.file = path;
     wanted.has_velocity = fields.velocities;
     wanted.has_collisions = fields.collisions;
-    wanted.has_angular_velocity = fields.spins;
+    wanted.columns = {};
+    if (fields.spins) wanted.columns.add(SideColumn::spin);
     wanted.is_single = fields.single_precision;
     return wanted;
 }
@@ -69,7 +70,8 @@ void TrajectoryWriter::append() {
     const std::int64_t step = simulation.step();
     if (step <= state_->last_step)
         throw InputError({{state_->file, 0, fmt::format("step {} has a frame already", step)}});
-    state_->trajectory.append(step, simulation.shown(), simulation.clock(), simulation.spins());
+    state_->trajectory.append(step, simulation.shown(), simulation.clock(),
+                              simulation.side_columns());
     state_->trajectory.commit();
     state_->last_step = step;
 }
@@ -99,7 +101,7 @@ FrameReader::FrameReader(FrameReader&&) noexcept = default;
 FrameReader::~FrameReader() = default;
 
 const std::vector<std::int64_t>& FrameReader::steps() const { return state_->file.summary().steps; }
-std::uint64_t FrameReader::n_discs() const { return state_->file.summary().n_discs; }
+std::uint64_t FrameReader::n_discs() const { return state_->file.summary().n_rows; }
 double FrameReader::box_size() const { return state_->file.summary().box_size; }
 std::string FrameReader::state_hash() const { return state_->file.summary().state_hash; }
 
@@ -112,13 +114,23 @@ std::vector<Disc> FrameReader::read(std::size_t frame, std::uint64_t begin,
                            fmt::format("has {} frames of {} discs; it has no discs {} to {} of "
                                        "frame {}",
                                        steps().size(), n_discs(), begin, end, frame)}});
-    std::vector<FrameRow> rows;
+    Rows rows;
     state_->file.read(frame, begin, end, rows);
-    std::vector<Disc> discs;
-    discs.reserve(rows.size());
-    for (const FrameRow& row : rows)
-        discs.push_back({begin + discs.size(), row.x, row.y, row.vx, row.vy, row.angular_velocity,
-                         row.wall_collisions, row.pair_collisions});
+    std::vector<Disc> discs(end - begin);
+    const auto take = [&](std::string_view column, auto field) {
+        const std::size_t place = state_->file.summary().place_of(column);
+        for (std::size_t i = 0; place < rows.size() && i < discs.size(); ++i)
+            discs[i].*
+                field = static_cast<std::remove_cvref_t<decltype(discs[i].*field)>>(rows[place][i]);
+    };
+    for (std::size_t i = 0; i < discs.size(); ++i) discs[i].id = begin + i;
+    take("x", &Disc::x);
+    take("y", &Disc::y);
+    take("vx", &Disc::vx);
+    take("vy", &Disc::vy);
+    take(info_of(SideColumn::spin).shown, &Disc::spin);
+    take("wall_collisions", &Disc::wall_collisions);
+    take("pair_collisions", &Disc::pair_collisions);
     return discs;
 }
 

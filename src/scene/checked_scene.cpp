@@ -39,7 +39,7 @@ void derive_defaults(const Check& check) {
         scene.effects.species = check.columns->species;
     if (check.columns && !check.columns->spins.empty()) scene.spins = check.columns->spins;
     if (scene.trajectory && !settings.has("output.trajectory.fields"))
-        scene.trajectory->has_angular_velocity = scene.effects.contact.kind == ContactKind::rough;
+        scene.trajectory->columns = side_columns_of(scene.effects);
     if (scene.measurements)
         scene.measurements->is_distance_default = !settings.has(
             "output.measurements.largest_distance");

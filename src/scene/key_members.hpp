@@ -171,31 +171,37 @@ Key key(std::string name, std::string_view unit, std::string_view help, const Ge
     return declared;
 }
 
+/// A word, and the flag that it stands for.
+template <class Object> struct Flag {
+    std::string_view word;
+    std::function<bool&(Object&)> of;
+};
+
 /// A key of a list of words, each of which is a flag of the object that `member` gives.
 template <class Get, class Object>
 Key flags_key(std::string name, std::string_view unit, std::string_view help, const Get& member,
-              const std::vector<std::pair<std::string_view, bool Object::*>>& flags) {
+              const std::vector<Flag<Object>>& flags) {
     Key declared = named_key(std::move(name), unit, help);
     declared.kind = Kind::words;
-    for (const auto& [word, flag] : flags) declared.words.push_back(word);
+    for (const auto& flag : flags) declared.words.push_back(flag.word);
     declared.get = [member, flags](const Scene& scene) {
+        Object object = member(scene);
         Values words;
-        for (const auto& [word, flag] : flags)
-            if (member(scene).*flag) words.push_back({std::string(word)});
+        for (const auto& flag : flags)
+            if (flag.of(object)) words.push_back({std::string(flag.word)});
         return Value{std::move(words)};
     };
     declared.set = [member, flags](Scene& scene, const Value& value) {
         const Values& words = std::get<Values>(value.data);
-        for (const auto& [word, flag] : flags)
-            member(scene).*
-                flag = std::any_of(words.begin(), words.end(), [name = word](const Value& one) {
-                return std::get<std::string>(one.data) == name;
+        for (const auto& flag : flags)
+            flag.of(member(scene)) = std::any_of(words.begin(), words.end(), [&](const Value& one) {
+                return std::get<std::string>(one.data) == flag.word;
             });
     };
     declared.is_same = [member, flags](const Scene& a, const Scene& b) {
-        return std::all_of(flags.begin(), flags.end(), [&](const auto& flag) {
-            return member(a).*flag.second == member(b).*flag.second;
-        });
+        Object first = member(a), second = member(b);
+        return std::all_of(flags.begin(), flags.end(),
+                           [&](const auto& flag) { return flag.of(first) == flag.of(second); });
     };
     return declared;
 }

@@ -80,11 +80,12 @@ std::vector<Key> keys_of_checkpoints() {
 
 std::vector<Key> keys_of_recordings() {
     using Output = TrajectoryOutput;
-    const std::vector<std::pair<std::string_view, bool Output::*>> fields = {
-        {"position", &Output::has_position},
-        {"velocity", &Output::has_velocity},
-        {"collisions", &Output::has_collisions},
-        {"angular_velocity", &Output::has_angular_velocity}};
+    std::vector<Flag<Output>> fields = {{"position", &Output::has_position},
+                                        {"velocity", &Output::has_velocity},
+                                        {"collisions", &Output::has_collisions}};
+    for (std::size_t k = 0; k < n_side_columns; ++k)
+        fields.push_back({side_column_table[k].shown,
+                          [k](Output& output) -> bool& { return output.columns.flags[k]; }});
     return {
         key("output.trajectory.every_steps", "steps", "Time from frame to frame.",
             [](auto& s) -> auto& { return s.trajectory->every_steps; })
@@ -118,7 +119,7 @@ Key largest_distance() {
 
 std::vector<Key> keys_of_measurements() {
     using Output = MeasurementOutput;
-    const std::vector<std::pair<std::string_view, bool Output::*>> quantities = {
+    const std::vector<Flag<Output>> quantities = {
         {"wall_pressure", &Output::wall_pressure},
         {"radial_distribution", &Output::radial_distribution},
         {"velocities", &Output::velocities},

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which features do not go together. The check and the reference's table both come from here.
+#include <utility>
+
 #include "scene/disc_columns.hpp"
 #include "scene/key.hpp"
 #include "scene/limits.hpp"
@@ -115,6 +117,18 @@ std::vector<Rule> rules_of_effects() {
     };
 }
 
+/// Frames have no numbers that discs do not have.
+template <std::size_t k> Rule rule_of_column() {
+    return rule(side_column_table[k].shown, "discs without it", side_column_table[k].needs,
+                {"output.trajectory.fields"}, [](const Scene& s) {
+                    return s.trajectory && s.trajectory->columns.flags[k] &&
+                           !side_columns_of(s.effects).flags[k];
+                });
+}
+template <std::size_t... k> std::vector<Rule> rules_of_columns(std::index_sequence<k...>) {
+    return {rule_of_column<k>()...};
+}
+
 std::vector<Rule> rules_of_outputs() {
     return {
         rule("\"wall_pressure\"", "a box that is periodic all round", "it has no walls",
@@ -135,12 +149,6 @@ std::vector<Rule> rules_of_outputs() {
                  return measured(s).radial_distribution && has_species(s) &&
                         !is_periodic_all_round(s);
              }),
-        rule("\"angular_velocity\"", "discs that are not rough",
-             "it needs discs that turn, effects.contact.kind = \"rough\"",
-             {"output.trajectory.fields"},
-             [](const Scene& s) {
-                 return s.trajectory && s.trajectory->has_angular_velocity && !is_rough(s);
-             }),
         rule("spins in discs.columns", "discs that are not rough",
              "spins have no meaning without effects.contact.kind = \"rough\"", {"discs.columns"},
              [](const Scene& s) { return has_column(s, DiscColumn::spin) && !is_rough(s); }),
@@ -157,7 +165,8 @@ std::vector<Rule> rules_of_outputs() {
 const std::vector<Rule>& rules() {
     static const std::vector<Rule> all = [] {
         std::vector<Rule> list = rules_of_methods();
-        for (const auto& part : {rules_of_effects(), rules_of_outputs()})
+        for (const auto& part : {rules_of_effects(), rules_of_outputs(),
+                                 rules_of_columns(std::make_index_sequence<n_side_columns>())})
             list.insert(list.end(), part.begin(), part.end());
         return list;
     }();

@@ -73,8 +73,8 @@ struct TrajectoryOutput {
     std::string file; ///< in the run's folder
     std::int64_t every_steps = 1;
     bool has_position = true, has_velocity = true, has_collisions = false;
-    bool has_angular_velocity = false; ///< of rough discs, where fields are not named
-    bool is_single = true;             ///< numbers of 4 bytes, else of 8
+    SideColumnSet columns; ///< all that discs have, where fields are not named
+    bool is_single = true; ///< numbers of 4 bytes, else of 8
 };
 
 /// `[output.collisions]`: every collision in one file.

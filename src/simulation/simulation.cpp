@@ -39,6 +39,7 @@ std::vector<std::vector<InputDisc>> in_parts(std::vector<InputDisc> discs) {
 StoredState first_state(const Scene& scene, std::vector<InputDisc> inputs) {
     const auto k = static_cast<double>(scene.micro_steps);
     StoredState state;
+    std::vector<double> spins;
     const std::size_t n = inputs.size();
     std::vector<std::vector<InputDisc>> parts = in_parts(std::move(inputs));
     state.discs.reserve(n);
@@ -50,9 +51,10 @@ StoredState first_state(const Scene& scene, std::vector<InputDisc> inputs) {
             disc.y = input.y;
             disc.vx = input.vx / k;
             disc.vy = input.vy / k;
-            if (!scene.spins.empty()) state.spins.push_back(first_spin(scene, input.id) / k);
+            if (!scene.spins.empty()) spins.push_back(first_spin(scene, input.id) / k);
         }
     }
+    if (!spins.empty()) state.columns.add(SideColumn::spin, std::move(spins));
     return state;
 }
 
@@ -167,7 +169,7 @@ void Simulation::advance_checked() {
     engine_->advance_towards(step() + 1);
     engine_->log_to(log_);
     const LocalView now = engine_->local_view();
-    check_->look(now, micro_steps_done(), collisions, engine_->spins());
+    check_->look(now, micro_steps_done(), collisions, engine_->side_columns()[SideColumn::spin]);
     engine_->forget_images();
     if (log_) log_->insert(log_->end(), collisions.begin(), collisions.end());
 }
@@ -192,12 +194,14 @@ std::span<const Disc> Simulation::discs() const {
     return stored_;
 }
 
-std::span<const double> Simulation::spins() const {
-    if (engine_->departed().empty() || effects_.contact.kind != ContactKind::rough)
-        return engine_->spins();
-    stored_spins_.assign(engine_->spins().begin(), engine_->spins().end());
-    stored_spins_.resize(engine_->spins().size() + engine_->departed().size(), 0);
-    return stored_spins_;
+SideSpans Simulation::side_columns() const {
+    if (engine_->departed().empty()) return engine_->side_columns();
+    stored_columns_ = SideColumns(engine_->side_columns());
+    side_columns_of(effects_).for_each([&](SideColumn column) {
+        if (!stored_columns_.has(column)) stored_columns_.add(column); // all have left
+    });
+    stored_columns_.resize(engine_->own().size() + engine_->departed().size());
+    return stored_columns_.spans();
 }
 
 Frame Simulation::frame() const { return engine_->frame(); }
@@ -238,7 +242,7 @@ void Simulation::count_pair_distances(double bin_width, std::span<const DiscId> 
 Totals Simulation::totals() const {
     Totals totals;
     totals.n_discs = engine_->n_discs();
-    measure_collisions(discs(), spins(), communicator_, totals);
+    measure_collisions(discs(), side_columns(), communicator_, totals);
     measure_departures(discs(), box_size_, communicator_, totals);
     const SpeciesTable* const species_table = effects_.species.empty() ? nullptr
                                                                        : engine_->species_table();

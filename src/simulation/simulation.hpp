@@ -55,8 +55,10 @@ public:
     /// Own discs in no particular order: velocities per micro-step, times on `clock()`. Those that
     /// have left the box are among them (Disc::has_departed). Good until the next call.
     std::span<const Disc> discs() const;
-    /// Along `discs()`, in angles per micro-step; empty where discs are not rough.
-    std::span<const double> spins() const;
+    /// Along `discs()`; those that have left the box have 0. Good until the next call.
+    SideSpans side_columns() const;
+    /// One of them, in angles per micro-step; empty where discs are not rough.
+    std::span<const double> spins() const { return side_columns()[SideColumn::spin]; }
     /// The present time in micro-steps since the last sync, to evaluate Disc::x_at with.
     double clock() const;
     /// What the coordinates of `discs()` are in at `clock()`; the box's own unless there is
@@ -130,9 +132,9 @@ private:
     std::unique_ptr<BlockAverages> averages_;
     std::unique_ptr<PairVirial> virial_; ///< the engine adds to it
     std::unique_ptr<StateCheck> check_;
-    mutable std::vector<Disc> shown_;  ///< under gravity
-    mutable std::vector<Disc> stored_; ///< once discs have left
-    mutable std::vector<double> stored_spins_;
+    mutable std::vector<Disc> shown_;       ///< under gravity
+    mutable std::vector<Disc> stored_;      ///< once discs have left
+    mutable SideColumns stored_columns_;    ///< likewise
     std::vector<Collision>* log_ = nullptr; ///< the user's, while the check has a log of its own
 };
 

@@ -34,8 +34,8 @@ CheckpointHeader header_now(const Scene& scene, const Simulation& simulation) {
     header.step = simulation.step();
     header.micro_steps_done = simulation.micro_steps_done();
     header.frame = simulation.frame();
-    header.has_spins = scene.effects.contact.kind == ContactKind::rough;
-    header.shown = scene.effects.species;
+    header.columns = side_columns_of(scene.effects);
+    header.shown = system_of(scene);
     return header;
 }
 
@@ -63,9 +63,8 @@ void refuse_other_run(const CheckpointHeader& header, const Scene& scene,
     std::vector<Problem> problems;
     for (const std::string& difference : physical_differences(there, scene))
         problems.push_back({place, 0, difference + "; a restart cannot change it"});
-    if (header.has_spins != (there.effects.contact.kind == ContactKind::rough))
-        problems.push_back(
-            {place, 0, "its scene and its columns do not agree on whether discs turn"});
+    if (header.columns != side_columns_of(there.effects))
+        problems.push_back({place, 0, "its scene and its columns of discs do not agree"});
     if (!problems.empty()) throw InputError(std::move(problems));
 }
 
@@ -108,7 +107,7 @@ TrajectoryLayout layout_of(const Scene& scene, const TrajectoryOutput& wanted) {
     layout.has_position = wanted.has_position;
     layout.has_velocity = wanted.has_velocity;
     layout.has_collisions = wanted.has_collisions;
-    layout.has_angular_velocity = wanted.has_angular_velocity;
+    layout.columns = wanted.columns;
     layout.is_single = wanted.is_single;
     return layout;
 }

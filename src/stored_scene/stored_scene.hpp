@@ -32,9 +32,9 @@ void refuse_other_run(const CheckpointHeader& header, const Scene& scene, const 
 /// How a recorded run differs from that of the scene: the first difference in words, or nothing.
 std::string first_difference(const CheckpointHeader& there, const Scene& scene);
 
-/// What a trajectory of the scene's run holds.
-/// What recordings of the scene say of its discs.
+/// What files of the scene's run say of its discs.
 RecordedSystem system_of(const Scene& scene);
+/// What a trajectory of the scene's run holds.
 TrajectoryLayout layout_of(const Scene& scene, const TrajectoryOutput& wanted);
 
 } // namespace carrom

@@ -73,7 +73,7 @@ std::vector<std::size_t> places_of_values() {
     for (const HeaderField& field : checkpoint_header)
         add(std::string("/carrom/run/") + field.name);
     for (const DiscColumn& column : disc_columns) add(std::string("/carrom/discs/") + column.name);
-    add(spin_column);
+    add(path_of(SideColumn::spin));
     return places;
 }
 
@@ -104,10 +104,10 @@ void check(const Checkpoint& checkpoint) {
     demand(header.n_discs == checkpoint.discs.size() && header.n_discs > 0);
     demand(header.micro_steps >= 1 && header.sync_every >= 1 &&
            header.micro_steps_done == header.step * header.micro_steps);
-    demand(checkpoint.spins.size() == (header.has_spins ? checkpoint.discs.size() : 0));
+    demand(checkpoint.columns.present() == header.columns);
     StateHash hash = hash_of(checkpoint.discs);
-    for (std::size_t i = 0; i < checkpoint.spins.size(); ++i)
-        hash += hash_of_spin(i, checkpoint.spins[i]);
+    const std::vector<double>& spins = checkpoint.columns[SideColumn::spin];
+    for (std::size_t i = 0; i < spins.size(); ++i) hash += hash_of_spin(i, spins[i]);
     demand(to_string(hash) == header.state_hash);
     for (std::size_t i = 0; i < checkpoint.discs.size(); ++i) demand(checkpoint.discs[i].id == i);
 }

@@ -56,15 +56,13 @@ void read_all(const std::string& file_path, const Communicator& world) {
     check_damage(file_path, world);
     const FrameFile file(file_path);
     const FileSummary& summary = file.summary();
-    std::vector<FrameRow> rows;
-    std::vector<LoggedCollision> collisions;
+    Rows rows;
     if (summary.kind == FileKind::checkpoint) static_cast<void>(read_checkpoint(file_path, world));
     constexpr std::uint64_t at_a_time = 1 << 14;
-    for (std::size_t frame = 0; frame < summary.steps.size(); ++frame)
-        for (std::uint64_t begin = 0; begin < summary.n_discs; begin += at_a_time)
-            file.read(frame, begin, std::min(begin + at_a_time, summary.n_discs), rows);
-    for (std::uint64_t begin = 0; begin < summary.n_logged; begin += at_a_time)
-        file.read(begin, std::min(begin + at_a_time, summary.n_logged), collisions);
+    const std::size_t n_frames = summary.kind == FileKind::collisions ? 1 : summary.steps.size();
+    for (std::size_t frame = 0; frame < n_frames; ++frame)
+        for (std::uint64_t begin = 0; begin < summary.n_rows; begin += at_a_time)
+            file.read(frame, begin, std::min(begin + at_a_time, summary.n_rows), rows);
 }
 
 struct Kind {

@@ -41,6 +41,12 @@ std::vector<double> some_spins() {
     return spins;
 }
 
+SideSpans spans_of(const std::vector<double>& spins) {
+    SideSpans spans;
+    spans[SideColumn::spin] = spins;
+    return spans;
+}
+
 } // namespace
 
 std::vector<char> bytes_of(const std::string& path) {
@@ -66,8 +72,9 @@ void write_sample_checkpoint(const std::string& path, const Communicator& world)
     header.sync_every = 64;
     header.step = header.micro_steps_done = 70;
     header.species = {{5, 0.5, 1}, {7, 0.25, 2}};
-    header.has_spins = true;
-    write_checkpoint(path, header, some_discs(), world, {}, {}, some_spins());
+    header.columns.add(SideColumn::spin);
+    const std::vector<double> spins = some_spins();
+    write_checkpoint(path, header, some_discs(), world, {}, {}, spans_of(spins));
 }
 
 TrajectoryLayout sample_layout(bool is_double) {
@@ -78,7 +85,7 @@ TrajectoryLayout sample_layout(bool is_double) {
     layout.system.radius = 0.5;
     layout.has_collisions = true;
     layout.is_single = !is_double;
-    layout.has_angular_velocity = is_double;
+    if (is_double) layout.columns.add(SideColumn::spin);
     return layout;
 }
 
@@ -86,7 +93,8 @@ void write_sample_trajectory(const std::string& path, bool is_double, const Comm
     const std::vector<Disc> discs = some_discs();
     Trajectory trajectory(path, sample_layout(is_double), world);
     trajectory.begin();
-    for (const std::int64_t step : {0, 10, 20}) trajectory.append(step, discs, 6, some_spins());
+    const std::vector<double> spins = some_spins();
+    for (const std::int64_t step : {0, 10, 20}) trajectory.append(step, discs, 6, spans_of(spins));
     trajectory.commit();
 }
 

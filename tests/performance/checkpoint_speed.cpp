@@ -120,8 +120,8 @@ void write_plainly(const std::string& path, CheckpointHeader header, std::span<c
                    int n_threads, const Communicator& communicator) {
     header.n_discs = communicator.sum(std::uint64_t{discs.size()});
     const StoredSamples samples;
-    const SpinsOfPieces spins;
-    const std::vector<DiscTarget> targets = disc_targets(header, samples, spins);
+    const SideOfPieces columns;
+    const std::vector<DiscTarget> targets = disc_targets(header, samples, columns);
     const std::string partial = path + ".partial";
     on_root(communicator, path, ExitCode::output_failure, [&] {
         create_structure(partial, header, samples, targets);

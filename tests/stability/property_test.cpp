@@ -190,7 +190,7 @@ bool has_same_bits_begun_again(const TestScene& scene, Method method, const Outc
     Simulation second(again,
                       {{first.discs().begin(), first.discs().end()},
                        first.micro_steps_done(),
-                       {first.spins().begin(), first.spins().end()}},
+                       SideColumns(first.side_columns())},
                       Communicator::world(), tuning);
     run_to(second, scene.steps);
     return second.totals().hash == end.totals.hash;

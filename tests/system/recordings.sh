@@ -89,14 +89,20 @@ for file in whole/trajectory.h5 whole/collisions.h5 whole/trajectory/0001.h5; do
 done
 run 1 verify whole/trajectory.h5
 expect_code 0 'a mended trajectory'
-# The segment that is written to next is looked at as a whole.
-last=$(ls parts/trajectory | tail -n 1)
-printf x | dd of="parts/trajectory/$last" bs=1 seek=9000 conv=notrunc status=none
-for ranks in 1 3; do
-    run "$ranks" run --restart parts/checkpoints/checkpoint-000000000090.h5 --quiet --steps 95
-    expect_code 2 "going on with a damaged trajectory on $ranks ranks"
-    expect_told "parts/trajectory.h5: its part trajectory/$last: its numbers are damaged" \
-        'a damaged trajectory'
+# A restart checks all that it keeps: the segment that it writes to next, and those of before.
+[ "$(ls parts/trajectory | wc -l)" -gt 1 ] || complain 'a trajectory of one segment'
+for segment in $(ls parts/trajectory | sed -n '1p;$p'); do
+    cp --sparse=always "parts/trajectory/$segment" kept_file
+    byte=$(od -An -tu1 -j 9000 -N 1 kept_file)
+    printf "\\x$(printf %02x $((byte ^ 4)))" | dd \
+        of="parts/trajectory/$segment" bs=1 seek=9000 conv=notrunc status=none
+    for ranks in 1 3; do
+        run "$ranks" run --restart parts/checkpoints/checkpoint-000000000090.h5 --quiet --steps 95
+        expect_code 2 "going on with a damaged trajectory on $ranks ranks"
+        expect_told "parts/trajectory.h5: its part trajectory/$segment: its numbers are damaged" \
+            'a damaged trajectory'
+    done
+    mv kept_file "parts/trajectory/$segment"
 done
 
 # What is missing is told.

@@ -132,11 +132,13 @@ public:
         : world_(Communicator::world()), test_scene_(gas_of(effects)),
           scene_(checked_scene(test_scene_, method)),
           engine_(engine_of(scene_, {share_of(test_scene_, world_), 0}, world_)),
-          check_(scene_, engine_->own(), 0, world_, {}, 0, engine_->spins()) {
+          check_(scene_, engine_->own(), 0, world_, {}, 0,
+                 engine_->side_columns()[SideColumn::spin]) {
         engine_->log_to(&log);
         engine_->advance_towards(1);
         local_view = copy_of(engine_->local_view());
-        spins.assign(engine_->spins().begin(), engine_->spins().end());
+        const std::span<const double> now = engine_->side_columns()[SideColumn::spin];
+        spins.assign(now.begin(), now.end());
     }
 
     /// This rank's own disc of that id, or null.

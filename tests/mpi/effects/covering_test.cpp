@@ -288,7 +288,7 @@ StateHash engine_hash(const Plan& plan, const Communicator& world) {
     scene.method = plan.method;
     const StoredState state{{first.discs().begin(), first.discs().end()},
                             first.micro_steps_done(),
-                            {first.spins().begin(), first.spins().end()}};
+                            SideColumns(first.side_columns())};
     Simulation second(scene, state, world, plan.tuning);
     advance_to(second, plan.scene.steps);
     return second.totals().hash;

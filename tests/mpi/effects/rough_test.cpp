@@ -55,7 +55,7 @@ Meeting meet(const ContactEffect& contact, Method method, const Communicator& wo
     if (world.is_root()) {
         for (const InputDisc& disc : scene.discs)
             state.discs.push_back({disc.x, disc.y, disc.vx, disc.vy, 0, disc.id, 0, 0});
-        state.spins = spins;
+        state.columns.add(SideColumn::spin, spins);
     }
     Simulation simulation(all, state, world, {});
     Meeting meeting;

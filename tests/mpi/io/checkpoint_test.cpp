@@ -43,7 +43,7 @@ TEST_CASE("spins are read as they were written, and are part of the state hash")
     const TestFolder folder(world);
     const std::string path = folder.file("spins.h5");
     CheckpointHeader turning = some_header();
-    turning.has_spins = true;
+    turning.columns.add(SideColumn::spin);
     for (const std::uint64_t n : {1u, 5u, 20011u}) {
         StateHash hash;
         for (DiscId id = 0; id < n; ++id) hash += hash_of(odd_disc(id));
@@ -51,22 +51,24 @@ TEST_CASE("spins are read as they were written, and are part of the state hash")
         for (DiscId id = 0; id < n; ++id) hash += hash_of_spin(id, odd_spin(id));
         for (unsigned method = 0; method < 3; ++method) {
             const std::vector<Disc> mine = share(n, world, method);
-            write_checkpoint(path, turning, mine, world, {2}, {}, spins_of(mine));
+            const SideColumns columns = spins_of(mine);
+            write_checkpoint(path, turning, mine, world, {2}, {}, columns.spans());
             const Checkpoint read = read_checkpoint(path, world);
-            CHECK(read.header.has_spins);
-            CHECK(read_checkpoint_header(path, world).has_spins);
+            CHECK(read.header.columns.has(SideColumn::spin));
+            CHECK(read_checkpoint_header(path, world).columns.has(SideColumn::spin));
             CHECK(read.header.state_hash == to_string(hash));
-            REQUIRE(read.spins.size() == read.discs.size());
+            const std::vector<double>& spins = read.columns[SideColumn::spin];
+            REQUIRE(spins.size() == read.discs.size());
             bool all_same = true;
-            for (std::size_t i = 0; i < read.spins.size(); ++i)
-                all_same = all_same && std::bit_cast<std::uint64_t>(read.spins[i]) ==
+            for (std::size_t i = 0; i < spins.size(); ++i)
+                all_same = all_same && std::bit_cast<std::uint64_t>(spins[i]) ==
                                            std::bit_cast<std::uint64_t>(odd_spin(read.discs[i].id));
             CHECK(all_same);
         }
         write_checkpoint(path, some_header(), share(n, world, 0), world);
         const Checkpoint plain = read_checkpoint(path, world);
-        CHECK(!plain.header.has_spins);
-        CHECK(plain.spins.empty());
+        CHECK(!plain.header.columns.has(SideColumn::spin));
+        CHECK(plain.columns[SideColumn::spin].empty());
         CHECK(plain.header.state_hash == still);
     }
 }
@@ -103,10 +105,11 @@ TEST_CASE("the file does not depend on who holds which disc, and nothing else is
     const TestFolder folder(world);
     for (const std::uint64_t n : {777u, 9000u}) {
         CheckpointHeader header = some_header();
-        header.has_spins = n == 9000;
+        if (n == 9000) header.columns.add(SideColumn::spin);
         const auto write = [&](const char* name, unsigned method, const WriteSettings& settings) {
             const std::vector<Disc> mine = share(n, world, method);
-            write_checkpoint(folder.file(name), header, mine, world, settings, {}, spins_of(mine));
+            const SideColumns columns = spins_of(mine);
+            write_checkpoint(folder.file(name), header, mine, world, settings, {}, columns.spans());
         };
         write("a.h5", 0, {1});
         if (n == 777)
@@ -118,7 +121,10 @@ TEST_CASE("the file does not depend on who holds which disc, and nothing else is
                                 bytes == bytes_of(folder.file("c.h5"));
         CHECK(same_bytes); // not told byte by byte
     }
-    CHECK(!std::filesystem::exists(folder.file("a.h5.partial")));
+    if (world.is_root()) {
+        const std::filesystem::directory_iterator files(folder.file("")), end;
+        CHECK(std::distance(files, end) == 3);
+    }
 }
 
 TEST_CASE("what cannot be written is an error on every rank, and the older file stays") {
@@ -127,15 +133,22 @@ TEST_CASE("what cannot be written is an error on every rank, and the older file 
     const std::string path = folder.file("a.h5");
     write_checkpoint(path, some_header(), share(9, world, 0), world);
     const std::string before = bytes_of(path);
-    if (world.is_root()) std::filesystem::create_directories(path + ".partial/in the way");
+    const std::string in_the_way = folder.file("folder.h5"), nowhere = folder.file("none/a.h5");
+    if (world.is_root()) std::filesystem::create_directories(in_the_way + "/file");
     world.barrier();
-    int code = 0;
-    try {
-        write_checkpoint(path, some_header(), share(8, world, 0), world);
-    } catch (const CollectiveError& error) {
-        code = static_cast<int>(error.code());
+    for (const std::string& target : {in_the_way, nowhere}) {
+        int code = 0;
+        try {
+            write_checkpoint(target, some_header(), share(8, world, 0), world);
+        } catch (const CollectiveError& error) {
+            code = static_cast<int>(error.code());
+        }
+        CHECK(code == 4);
     }
-    CHECK(code == 4);
+    if (world.is_root()) { // what was begun is gone
+        const std::filesystem::directory_iterator files(folder.file("")), end;
+        CHECK(std::distance(files, end) == 2);
+    }
     CHECK(bytes_of(path) == before);
     CHECK(problem_of(path, world).empty());
 }

@@ -72,10 +72,12 @@ inline double odd_spin(DiscId id) {
                : std::ldexp(static_cast<double>(std::mt19937_64(id + 77)() >> 11), -55) - 0.1;
 }
 
-inline std::vector<double> spins_of(const std::vector<Disc>& discs) {
+inline SideColumns spins_of(const std::vector<Disc>& discs) {
     std::vector<double> spins;
     for (const Disc& disc : discs) spins.push_back(odd_spin(disc.id));
-    return spins;
+    SideColumns columns;
+    columns.add(SideColumn::spin, spins);
+    return columns;
 }
 
 /// The discs 0 .. n-1 on ranks by a rule that leaves some with none, in no order.

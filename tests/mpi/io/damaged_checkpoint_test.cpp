@@ -42,9 +42,10 @@ TEST_CASE("damage is told by the data set that it is in") {
     const TestFolder folder(world);
     const std::string path = folder.file("a.h5");
     CheckpointHeader header = some_header();
-    header.has_spins = true;
+    header.columns.add(SideColumn::spin);
     const std::vector<Disc> mine = share(5000, world, 0);
-    write_checkpoint(path, header, mine, world, {}, {}, spins_of(mine));
+    const SideColumns columns = spins_of(mine);
+    write_checkpoint(path, header, mine, world, {}, {}, columns.spans());
     const std::string good = bytes_of(path);
     const Checksums sums = read_checksums(h5::open_file(path, h5::Access::read).id());
     CHECK(sums.data.size() == 10);
@@ -123,8 +124,6 @@ namespace {
 /// `dropped`.
 void write_checksums_again(const std::string& path, const std::string& dropped) {
     h5::File file = h5::open_file(path, h5::Access::write);
-    std::string text;
-    h5::read_scalar(file.id(), checksums_path, text);
     Checksums sums;
     for (const DiscColumn& column : disc_columns)
         sums.data.push_back({std::string("/carrom/discs/") + column.name, 0, 0, {}, {}});
@@ -144,7 +143,7 @@ void write_checksums_again(const std::string& path, const std::string& dropped) 
             0);
     sums.others = checksum_of_others(path, sums.left_out());
     file = h5::open_file(path, h5::Access::write);
-    h5::overwrite_scalar(file.id(), checksums_path, sums.text());
+    h5::overwrite_text(file.id(), checksums_path, sums.text());
     file.close("");
 }
 

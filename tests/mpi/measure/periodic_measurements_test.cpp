@@ -230,7 +230,7 @@ TEST_CASE(
         advance_to(first, first_sampler, 33); // between samples, and between syncs
         StoredState state = {{first.discs().begin(), first.discs().end()},
                              first.micro_steps_done(),
-                             {first.spins().begin(), first.spins().end()}};
+                             SideColumns(first.side_columns())};
         Simulation second(scene, std::move(state), world, {});
         Sampler sampler(scene, second, world);
         sampler.go_on(first_sampler.stored());

@@ -72,7 +72,7 @@ void check_bits(const TestScene& scene, Method method) {
     Simulation second(again,
                       {{first.discs().begin(), first.discs().end()},
                        first.micro_steps_done(),
-                       {first.spins().begin(), first.spins().end()}},
+                       SideColumns(first.side_columns())},
                       world, {});
     advance_to(second, scene.steps);
     CHECK(to_string(second.totals().hash) == to_string(expected.hash));

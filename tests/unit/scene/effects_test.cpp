@@ -190,12 +190,13 @@ TEST_CASE("Rough discs are read, and refused beside what does not go with them y
               "cannot have drag together with rough discs"));
     CHECK(problems_with(with({"output.folder=kept"})).empty());
 
+    constexpr SideColumn turning = SideColumn::spin;
     const std::string folder = "output.folder=t", every = "output.trajectory.every_steps=1",
                       fields = "output.trajectory.fields=[\"position\", \"angular_velocity\"]";
-    CHECK(read_scene(good, "s.toml", with({folder, every})).trajectory->has_angular_velocity);
-    CHECK(!read_scene(good, "s.toml", {folder, every}).trajectory->has_angular_velocity);
+    CHECK(read_scene(good, "s.toml", with({folder, every})).trajectory->columns.has(turning));
+    CHECK(!read_scene(good, "s.toml", {folder, every}).trajectory->columns.has(turning));
     const TrajectoryOutput named = *read_scene(good, "s.toml", with({folder, fields})).trajectory;
-    CHECK((named.has_position && !named.has_velocity && named.has_angular_velocity));
+    CHECK((named.has_position && !named.has_velocity && named.columns.has(turning)));
     CHECK(has(problems_with({folder, fields}),
               "needs discs that turn, effects.contact.kind = \"rough\""));
 }
