@@ -2,7 +2,7 @@
 """Run Carrom, the hard-disc simulation, and read what it writes.
 
 Lengths are in the scene's unit, times in steps, velocities in lengths per step and masses in
-the scene's unit of mass. `docs/python.md` has a lesson.
+the scene's unit of mass. `docs/reference/python.md` lists all there is.
 """
 
 from carrom.checkpoints import Checkpoint

@@ -87,7 +87,8 @@ def compressibility(run: Run) -> Measured:
     Between walls Z comes from `virial_pressure` of the report; A is the whole box. The walls push
     discs together: Z is above that of an endless gas by some 2 r / L. In a box that is periodic
     all round Z comes from the collision frequency f: Z = 1 + (d / 4) f sqrt(pi m / kT), with the
-    diameter d. That holds in equilibrium. kT leaves out the motion of all discs together.
+    diameter d. That holds in equilibrium. kT leaves out the motion of all discs together. Z - 1 of
+    N discs is below that of an endless gas by some 1 / N of itself.
 
     Raises:
         NoDataError: the run is not finished, has species, or effects other than periodic sides

@@ -7,7 +7,8 @@ import concurrent.futures
 import os
 import sys
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
 
@@ -92,7 +93,7 @@ def _run_all(
     with concurrent.futures.ThreadPoolExecutor(workers) as pool:
         futures = {pool.submit(_run_point, point, jobs, stop): point for point in points}
         try:
-            for done, future in enumerate(concurrent.futures.as_completed(futures), 1):
+            for done, future in enumerate(_completed(futures), 1):
                 if (error := future.exception()) is not None:
                     if not isinstance(error, CarromError):
                         raise error
@@ -107,6 +108,16 @@ def _run_all(
         finally:
             if is_shown and points:
                 print(file=sys.stderr)
+
+
+def _completed(futures: Iterable[Future[None]]) -> Iterator[Future[None]]:
+    """Give futures as they complete. Waits are short, so that interrupts come through."""
+    waiting = set(futures)
+    while waiting:
+        done, waiting = concurrent.futures.wait(
+            waiting, timeout=0.2, return_when=concurrent.futures.FIRST_COMPLETED
+        )
+        yield from done
 
 
 def _is_interactive() -> bool:

@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import _thread
+import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -66,6 +69,31 @@ def test_another_scene_in_the_folder_is_an_error(program: Path, tmp_path: Path) 
     carrom.sweep(gas(steps=3), {"discs.seed": [1]}, folder=tmp_path)
     with pytest.raises(carrom.FileError, match=r"another scene \(box\.size\); name another folder"):
         carrom.sweep(gas(steps=3, size=30), {"discs.seed": [1]}, folder=tmp_path)
+
+
+def test_a_longer_run_in_the_folder_is_an_error(program: Path, tmp_path: Path) -> None:
+    carrom.sweep(gas(steps=4), {"discs.seed": [1]}, folder=tmp_path)
+    with pytest.raises(carrom.FileError, match="holds a run of 4 steps; name another folder"):
+        carrom.sweep(gas(steps=3), {"discs.seed": [1]}, folder=tmp_path)
+    longer = carrom.sweep(gas(steps=6), {"discs.seed": [1]}, folder=tmp_path)
+    assert longer.runs[0].report["first_step"] == 4
+
+
+def test_an_interrupt_lets_all_runs_store_checkpoints(program: Path, tmp_path: Path) -> None:
+    def interrupt() -> None:
+        while len(list(tmp_path.glob("*/scene.toml"))) < 2:
+            time.sleep(0.02)
+        time.sleep(0.5)
+        _thread.interrupt_main()
+
+    thread = threading.Thread(target=interrupt)
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        carrom.sweep(gas(steps=50_000_000), {"discs.seed": [1, 2, 3]}, folder=tmp_path, workers=2)
+    thread.join()
+    folders = sorted(path.name for path in tmp_path.iterdir())
+    assert folders == ["discs.seed=1", "discs.seed=2"]
+    assert [len(carrom.open(tmp_path / name).checkpoints) for name in folders] == [1, 1]
 
 
 def test_what_fails_leaves_the_rest(program: Path, tmp_path: Path) -> None:
