@@ -3,8 +3,7 @@
 say?
 
 Both files hold single-precision numbers for other programs: the lines' numbers rounded to the
-nearest are asked for, to the bit. A checkpoint's own columns are in double precision. `readers.py
-pictures LINES PNG ... GIF PNG` looks at pictures instead.
+nearest are asked for, to the bit. A checkpoint's own columns are in double precision.
 """
 
 import sys
@@ -102,24 +101,8 @@ def read_with_vtk(lines, trajectory, _):
         )
 
 
-def look_at(*paths):
-    from PIL import Image
-
-    for path in paths:
-        with Image.open(path) as picture:
-            assert (getattr(picture, "n_frames", 1) == 5) == path.endswith(".gif"), path
-            pixels = np.asarray(picture.convert("RGB")).reshape(-1, 3)
-        is_grey = (pixels.max(axis=1) - pixels.min(axis=1)) < 20
-        # Discs cover 0.3 of the box; curves are thin.
-        assert np.count_nonzero(~is_grey) > (0.001 if "history" in path else 0.05) * len(
-            pixels
-        ), f"{path}: hardly any colour"
-
-
 def main():
     reader, lines, *paths = sys.argv[1:]
-    if reader == "pictures":
-        return look_at(*paths)
     read = {
         "h5py": read_with_h5py,
         "pyh5md": read_with_pyh5md,

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Other programs open our files and see what the run itself has written as text: h5py, pyh5md,
-# MDAnalysis, VTK (through XDMF), our own tools for pictures, and the worked example of
+# MDAnalysis, VTK (through XDMF), and the worked example and figures of
 # docs/understanding/method.md. They come from PyPI, into a folder that is kept; each is skipped
 # where it cannot be had. Argument: that folder.
 source "$(dirname "$0")/common.sh"
@@ -53,28 +53,7 @@ if has h5py h5py; then # the worked example of the method's page, against a run 
     expect_same "$method" method.md 'three_strips.py writes another table than the page has'
 fi
 if has matplotlib matplotlib && has h5py h5py; then
-    "$python" "$tools/plot_frame.py" run/checkpoints/checkpoint-000000000020.h5 -o speed.png ||
-        complain 'plot_frame.py of a checkpoint'
-    "$python" "$tools/plot_frame.py" run/trajectory.h5 --step 10 --colour strip --ranks 3 \
-        -o strip.png || complain 'plot_frame.py of a trajectory'
-    "$python" "$tools/plot_frame.py" run/trajectory.h5 --step 11 -o no.png 2>"$test_folder/err" &&
-        complain 'plot_frame.py of no frame'
-    expect_told 'no frame of step 11; there are 5, of steps 0 to 20' 'plot_frame.py'
-    "$python" "$tools/plot_movie.py" run/trajectory.h5 --dpi 40 -o movie.gif ||
-        complain 'plot_movie.py'
-    if command -v ffmpeg >/dev/null || "$python" -c 'import imageio_ffmpeg' 2>/dev/null; then
-        "$python" "$tools/plot_movie.py" run/trajectory.h5 --dpi 41 -o movie.mp4 ||
-            complain 'plot_movie.py to MP4'
-        head -c 12 movie.mp4 | grep -q ftyp || complain 'no MP4'
-        "$python" "$tools/plot_movie.py" run/trajectory.h5 -o none/movie.mp4 2>"$test_folder/err" &&
-            complain 'plot_movie.py to nowhere'
-        expect_told 'ffmpeg has failed' 'plot_movie.py to nowhere'
-    fi
-    "$python" "$tools/plot_history.py" --trajectory run/trajectory.h5 \
-        --collisions run/collisions.h5 -o history.png || complain 'plot_history.py'
     "$python" "$tools/method_figures.py" --output . || complain 'method_figures.py'
-    "$python" "$tests/readers.py" pictures lines speed.png strip.png movie.gif history.png ||
-        complain 'pictures'
 else
     skip "matplotlib or h5py is not to be had: $(tail -n 1 "$test_folder/err")"
 fi
