@@ -80,16 +80,20 @@ std::string collision_rate_text(const Averages& averages) {
                        estimate_text(averages.mean_free_time));
 }
 
-std::string pressure_text(const Averages& averages) {
-    const TensorEstimate& tensor = averages.pressure_tensor;
-    return fmt::format("{}; xx {}, xy {}, yy {}", estimate_text(averages.pressure),
-                       estimate_text(tensor.xx), estimate_text(tensor.xy),
-                       estimate_text(tensor.yy));
+std::string tensor_text(const TensorEstimate& tensor) {
+    return fmt::format("pressure xx {}, xy {}, yy {}", estimate_text(tensor.xx),
+                       estimate_text(tensor.xy), estimate_text(tensor.yy));
+}
+
+std::string state_text(const Averages& averages) {
+    const std::string pressure = fmt::format("P = {}", estimate_text(averages.pressure));
+    if (std::isnan(averages.compressibility.value)) return pressure;
+    return fmt::format("{}, Z = P A / (N kT) = {}", pressure,
+                       estimate_text(averages.compressibility));
 }
 
 std::string counted_pressure_text(const Averages& averages) {
-    return fmt::format("pressure {} from the number of collisions with walls, {} with those of "
-                       "pairs",
+    return fmt::format("{} from collisions with walls, {} with those of pairs",
                        estimate_text(averages.wall_pressure),
                        estimate_text(averages.virial_pressure));
 }
@@ -166,11 +170,10 @@ std::string average_lines(const Scene& scene, const Averages& averages) {
         text += labelled_line("frequency", collision_rate_text(averages));
     text += labelled_line("temperature",
                           fmt::format("kT = {}", estimate_text(averages.temperature)));
-    text += labelled_line("pressure", pressure_text(averages));
-    if (!std::isnan(averages.compressibility.value))
-        text += labelled_line(
-            "state", fmt::format("Z = P A / (N kT) = {}", estimate_text(averages.compressibility)));
-    if (!scene.effects.are_any()) text += labelled_line("counts", counted_pressure_text(averages));
+    text += labelled_line("state", state_text(averages));
+    text += labelled_line("tensor", tensor_text(averages.pressure_tensor));
+    if (!scene.effects.are_any())
+        text += labelled_line("pressure", counted_pressure_text(averages));
     text += labelled_line("speeds", speeds_text(scene, averages));
     const std::string reason = reason_without_error(averages.temperature, averages);
     return reason.empty() ? text : text + labelled_line("errors", "none: " + reason);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Hold the estimate of lost collisions of time-stepped runs to event-driven runs of the same gas, as CSV.
+"""Hold the estimate of lost collisions to event-driven runs of the same gas, as CSV.
 
   tests/physics/lost_collisions.py CARROM
 """
@@ -24,11 +24,13 @@ def report(program, eta, per_step, method):
         scene = os.path.join(folder, "gas.toml")
         with open(scene, "w", encoding="utf-8") as file:
             file.write(f"[box]\nsize = {math.sqrt(N_DISCS * math.pi / eta)}\n{SIDES}"
-                       f"[discs]\ncount = {N_DISCS}\nradius = 1\nspeed = {per_step * 2 * math.sqrt(2) / RATES[eta]}\n"
-                       f"[time]\nsteps = {steps}\nmethod = \"{method}\"\n[output]\naverages_from_step = {steps // 3}\n")
+                       f"[discs]\ncount = {N_DISCS}\nradius = 1\n"
+                       f"speed = {per_step * 2 * math.sqrt(2) / RATES[eta]}\n"
+                       f"[time]\nsteps = {steps}\nmethod = \"{method}\"\n"
+                       f"[output]\naverages_from_step = {steps // 3}\n")
         result = os.path.join(folder, "report.json")
-        subprocess.run([program, "run", scene, "--quiet", "--threads", "1", "--report", result], check=True,
-                       stderr=subprocess.DEVNULL)
+        subprocess.run([program, "run", scene, "--quiet", "--threads", "1", "--report", result],
+                       check=True, stderr=subprocess.DEVNULL)
         with open(result, encoding="utf-8") as file:
             return json.load(file)
 
@@ -46,8 +48,8 @@ def main():
                         exact["averages"]["collision_frequency"]["value"])
             pressure = found["pressure"]["value"] / exact["pressure"]["value"] - 1
             estimate = found["lost_collisions"]
-            print(f"{eta},{per_step},{lost:.4f},{estimate['share']:.4f},{pressure:.4f},{estimate['pressure_error']:.4f}",
-                  flush=True)
+            print(f"{eta},{per_step},{lost:.4f},{estimate['share']:.4f},{pressure:.4f},"
+                  f"{estimate['pressure_error']:.4f}", flush=True)
 
 
 if __name__ == "__main__":

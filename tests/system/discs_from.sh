@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# A run that begins from the discs of another run's checkpoint or frame: the same places and velocities, other effects,
-# species and methods, the same bits for any machine shape, and a restart that needs the file no more.
+# A run that begins from the discs of another run's checkpoint or frame: the same places and
+# velocities, other effects, species and methods, the same bits for any machine shape, and a restart
+# that needs the file no more.
 source "$(dirname "$0")/common.sh"
 
 gas_scene 40 300 0.3 1 50 >gas.toml
-run 2 run gas.toml --quiet --set time.method=event-driven --set output.text=ends -o first --set output.trajectory.every_steps=25 \
-    --set output.trajectory.precision=double --set output.collisions=true
+run 2 run gas.toml --quiet --set time.method=event-driven --set output.text=ends -o first \
+    --set output.trajectory.every_steps=25 --set output.trajectory.precision=double \
+    --set output.collisions=true
 expect_code 0 'the first run'
 checkpoint=first/checkpoints/checkpoint-000000000050.h5
 awk '$1 == 50 { print $2, $3, $4, $5, $6 }' "$test_folder/out" >left
@@ -23,7 +25,8 @@ for ranks in 1 3; do
     awk '{ print $2, $3, $4, $5, $6 }' "$test_folder/out" >start
     expect_same left start 'other discs than the checkpoint has'
 done
-run 1 run next.toml --quiet --steps 0 --set output.text=ends --set discs.from=first/trajectory.h5 --set discs.from_step=50
+run 1 run next.toml --quiet --steps 0 --set output.text=ends \
+    --set discs.from=first/trajectory.h5 --set discs.from_step=50
 awk '{ print $2, $3, $4, $5, $6 }' "$test_folder/out" >start
 expect_same left start 'other discs than the frame has'
 
@@ -40,14 +43,16 @@ for method in time-stepped event-driven; do
         run $ranks run first/cooling.toml --quiet --set time.method=$method --report cooled.json
         expect_code 0 "cooling, $method, $ranks ranks"
         hash=${hash:-$(json_value cooled.json state_hash)}
-        [ "$(json_value cooled.json state_hash)" = "$hash" ] || complain "cooling has other bits on $ranks ranks, $method"
+        [ "$(json_value cooled.json state_hash)" = "$hash" ] ||
+            complain "cooling has other bits on $ranks ranks, $method"
     done
     run 2 run first/cooling.toml --quiet --set time.method=$method --steps 10 -o cold_$method
     mv first away
     run 1 run --restart cold_$method --quiet --steps 30 --report cooled.json
     expect_code 0 "a restart without the file, $method"
     mv away first
-    [ "$(json_value cooled.json state_hash)" = "$hash" ] || complain "cooling has other bits after a restart, $method"
+    [ "$(json_value cooled.json state_hash)" = "$hash" ] ||
+        complain "cooling has other bits after a restart, $method"
 done
 next_scene "from = \"$checkpoint\"
 [[discs.species]]
@@ -74,7 +79,10 @@ next_scene "radius = $radius
 from = \"turned/checkpoints/checkpoint-000000000030.h5\"" "$rough" >again.toml
 run 3 run again.toml --quiet --steps 0 -o begun
 expect_code 0 'rough discs that turn already'
-spins() { run 1 convert "$1" --to csv && awk -F, 'NR > 1 { print $1, $2, $3, $4, $5, $NF }' "$test_folder/out"; }
+spins() {
+    run 1 convert "$1" --to csv
+    awk -F, 'NR > 1 { print $1, $2, $3, $4, $5, $NF }' "$test_folder/out"
+}
 spins turned/checkpoints/checkpoint-000000000030.h5 | cut -d' ' -f 2- >before
 spins begun/checkpoints/checkpoint-000000000000.h5 | cut -d' ' -f 2- >after
 expect_same before after 'other spins than the checkpoint has'
@@ -86,17 +94,23 @@ refuse() { # WHAT TOLD ARGUMENTS...
     expect_told "$2" "$1"
 }
 refuse 'a missing file' 'nowhere.h5' next.toml --set discs.from=nowhere.h5
-refuse 'a missing frame' 'has no frame of step 7' next.toml --set discs.from=first/trajectory.h5 --set discs.from_step=7
+refuse 'a missing frame' 'has no frame of step 7' next.toml \
+    --set discs.from=first/trajectory.h5 --set discs.from_step=7
 refuse 'a log' 'is a log of collisions' next.toml --set discs.from=first/collisions.h5
-refuse 'another number of discs' 'has 300 discs, and the scene is of 7' next.toml --set discs.count=7
+refuse 'another number of discs' 'has 300 discs, and the scene is of 7' next.toml \
+    --set discs.count=7
 refuse 'discs that have grown' 'overlap' next.toml --set discs.radius=0.8
 refuse 'a smaller box' "$checkpoint" next.toml --set box.size=30
-refuse 'a step without a file' "'discs.from_step' has no meaning" gas.toml --set discs.from_step=3
+refuse 'a step without a file' "'discs.from_step' has no meaning" gas.toml \
+    --set discs.from_step=3
 
 # A measurement that would never begin, and a folder without a checkpoint.
-refuse 'samples after the end' "'output.measurements.from_step' = 51 lies beyond the last step, 50" gas.toml -o never \
+refuse 'samples after the end' \
+    "'output.measurements.from_step' = 51 lies beyond the last step, 50" gas.toml -o never \
     --set 'output.measurements.quantities=["pressure"]' --set output.measurements.from_step=51
-refuse 'averages after the end' "'output.averages_from_step' = 60 lies beyond the last step, 50" gas.toml --set output.averages_from_step=60
+refuse 'averages after the end' \
+    "'output.averages_from_step' = 60 lies beyond the last step, 50" gas.toml \
+    --set output.averages_from_step=60
 mkdir empty
 refuse 'an empty folder' 'there is no checkpoint' gas.toml --restart empty
 refuse 'an empty folder, no scene' 'there is no checkpoint' --restart empty

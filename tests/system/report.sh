@@ -18,7 +18,8 @@ expect_code 0 'a run with a report'
 for key in version state_hash n_discs steps wall_collisions pair_collisions rejected_candidates \
     overlapping_pairs \
     averages radius box eta kT temperature pressure compressibility pressure_tensor \
-    lost_collisions kinetic_energy momentum wall_seconds ns_per_disc_step ranks threads phase_seconds \
+    lost_collisions kinetic_energy momentum \
+    wall_seconds ns_per_disc_step ranks threads phase_seconds \
         phase_imbalance imbalance peak_bytes_per_disc; do
     grep -q "\"$key\": " report.json || complain "the report has no $key"
 done
