@@ -25,6 +25,7 @@
 #include <unistd.h>
 
 #include "io/checkpoint.hpp"
+#include "io/checkpoint_folder.hpp"
 #include "io/checkpoint_structure.hpp"
 #include "io/checksums.hpp"
 #include "io/files.hpp"
@@ -283,14 +284,13 @@ void write_checkpoint(const std::string& path, CheckpointHeader header, std::spa
     const SideOfPieces side = in_pieces(discs, header.columns, columns, header.n_discs,
                                         communicator);
     const std::vector<DiscTarget> targets = disc_targets(header, samples, side);
-    std::string name = communicator.is_root() ? unguessable_path(folder_of(path)) : "";
-    communicator.broadcast(name);
-    const UnfinishedFile partial(name, communicator.is_root());
+    const UnfinishedFile partial(path + std::string(unfinished_suffix), communicator.is_root());
     on_root(communicator, path, ExitCode::output_failure, [&] {
         std::uint64_t bytes = bytes_of_structure + samples.sums.size() * sizeof(std::int64_t) +
                               2 * header.shown.species.size() * sizeof(Species);
         for (const DiscTarget& target : targets) bytes += header.n_discs * target.bytes_per_row;
         check_room(folder_of(path), bytes);
+        remove_file(partial.path()); // of a run that was killed
         create_structure(partial.path(), header, samples, targets);
         reserve(partial.path());
     });

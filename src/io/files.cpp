@@ -19,7 +19,7 @@ namespace carrom {
 
 namespace {
 
-constexpr std::string_view partial_prefix = ".carrom-", partial_suffix = ".partial";
+constexpr std::string_view partial_prefix = ".carrom-", checkpoint_prefix = "checkpoint-";
 
 } // namespace
 
@@ -101,20 +101,16 @@ void rename_durably(const std::string& from, const std::string& to) {
     Descriptor(folder_of(to), O_RDONLY | O_DIRECTORY).sync();
 }
 
-std::string unguessable_path(const std::string& folder) {
-    std::random_device random;
-    return (std::filesystem::path(folder) /
-            fmt::format("{}{:08x}{:08x}{}", partial_prefix, random(), random(), partial_suffix))
-        .string();
-}
-
 UnfinishedFile::~UnfinishedFile() {
     if (is_mine_) ::unlink(path_.c_str());
 }
 
 void replace_file(const std::string& path,
                   const std::function<void(const std::string& beside)>& write) {
-    const UnfinishedFile beside(unguessable_path(folder_of(path)), true);
+    std::random_device random;
+    const std::string name = fmt::format("{}{:08x}{:08x}{}", partial_prefix, random(), random(),
+                                         unfinished_suffix);
+    const UnfinishedFile beside((std::filesystem::path(folder_of(path)) / name).string(), true);
     write(beside.path());
     rename_durably(beside.path(), path);
 }
@@ -132,8 +128,9 @@ void remove_unfinished(const std::string& folder) {
     for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
          entry.increment(error)) {
         const std::string name = entry->path().filename().string();
-        if (name.starts_with(partial_prefix) && name.ends_with(partial_suffix))
-            ::unlink(entry->path().c_str());
+        const bool is_ours = name.starts_with(partial_prefix) ||
+                             name.starts_with(checkpoint_prefix);
+        if (is_ours && name.ends_with(unfinished_suffix)) ::unlink(entry->path().c_str());
     }
 }
 

@@ -12,6 +12,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "core/errors.hpp"
 #include "parallel/agreement.hpp"
@@ -58,10 +59,10 @@ void check_room(const std::string& folder, std::uint64_t bytes);
 void reserve(const std::string& path);
 /// Renames and makes it last: the folder is synced too.
 void rename_durably(const std::string& from, const std::string& to);
-/// A name in a folder that nobody can guess, for a file that is to be renamed.
-std::string unguessable_path(const std::string& folder);
+/// What the names of unfinished files end in.
+inline constexpr std::string_view unfinished_suffix = ".partial";
 
-/// A file of such a name. At the end it is removed by whom it belongs to, unless it was renamed:
+/// A file that is to be renamed. At the end it is removed by whom it belongs to, unless it was:
 /// half a file takes no room on a full disk.
 class UnfinishedFile {
 public:

@@ -70,7 +70,8 @@ def read_with_mdanalysis(lines, trajectory, checkpoint):
 
     for path, steps in ((trajectory, [0, 5, 10, 15, 20]), (checkpoint, [20])):
         universe = MDAnalysis.Universe.empty(len(lines[0]), trajectory=True)
-        universe.load_new(path, format="H5MD", convert_units=False)
+        universe.load_new(path, format="H5MD", convert_units=False, dt=5)
+        assert universe.trajectory.dt == 5
         assert len(universe.trajectory) == len(steps)
         for moment, step in zip(universe.trajectory, steps):
             assert moment.time == step

@@ -45,6 +45,42 @@ for reader in 'h5py h5py' 'pyh5md h5py pyh5md' 'MDAnalysis h5py MDAnalysis' 'vtk
     fi
 done
 
+# Two species in a box that is periodic along x: radii, types, box and sides as they are.
+cat >mixed.toml <<'END'
+[box]
+size = 60
+left.kind = "periodic"
+right.kind = "periodic"
+[discs]
+speed = 1
+[[discs.species]]
+count = 20
+radius = 2
+mass = 4
+[[discs.species]]
+count = 60
+radius = 0.957
+[time]
+steps = 20
+END
+run 2 run mixed.toml --quiet --set output.text=every_step --output mixed_lines -o mixed \
+    --set output.trajectory.every_steps=5
+expect_code 0 'a run of two species'
+last=mixed/checkpoints/checkpoint-000000000020.h5
+for file in mixed/trajectory.h5 "$last"; do
+    run 1 convert "$file" --to xyz --output "$(basename "$file" .h5).xyz"
+    expect_code 0 "convert $file"
+done
+for reader in 'h5py h5py' 'ase ase' 'ovito ovito' 'MDAnalysis h5py MDAnalysis' 'vtk vtk'; do
+    read -r module packages <<<"$reader"
+    if has "$module" $packages; then
+        "$python" "$tests/readers_of_mixtures.py" "$module" mixed_lines mixed/trajectory.h5 \
+            "$last" trajectory.xyz checkpoint-000000000020.xyz || complain "$module, two species"
+    else
+        skip "$module is not to be had: $(tail -n 1 "$test_folder/err")"
+    fi
+done
+
 if has h5py h5py; then # the worked example of the method's page, against a run on three ranks
     method=$CARROM_SOURCE_DIR/docs/understanding/method.md
     cp "$method" method.md
@@ -57,5 +93,5 @@ if has matplotlib matplotlib && has h5py h5py; then
 else
     skip "matplotlib or h5py is not to be had: $(tail -n 1 "$test_folder/err")"
 fi
-[ "$n_skipped" -lt 5 ] || [ "$n_failures" -gt 0 ] || exit 77
+[ "$n_skipped" -lt 10 ] || [ "$n_failures" -gt 0 ] || exit 77
 finish

@@ -84,7 +84,7 @@ printf 'X' | dd of="$newest" bs=1 seek=9000 conv=notrunc status=none
 head -c 5000 kept/checkpoints/checkpoint-000000000090.h5 \
     >kept/checkpoints/checkpoint-000000000098.h5
 echo 'no checkpoint' >kept/checkpoints/checkpoint-000000000099.h5
-: >kept/checkpoints/.carrom-0123456789abcdef.partial # of a run that was killed
+: >kept/checkpoints/checkpoint-000000000100.h5.partial # of a run that was killed
 run 3 run "$input" "${small[@]}" --steps 97 --restart kept --report report.json
 has_hash 'from the newest whole one'
 [ "$(json_value report.json first_step)" = 90 ] || complain 'not from step 90'

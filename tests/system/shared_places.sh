@@ -87,6 +87,14 @@ ln -s victim report.json.partial
 run 1 run "${scene[@]}" --report report.json --steps 1
 expect_code 0 'a link in the place where reports were written beside'
 [ "$(cat victim)" = victim ] || complain 'a file was written through a link'
+for name in trajectory.xdmf scene.toml; do
+    mkdir -p "linked_$name"
+    ln -s ../victim "linked_$name/$name.partial"
+    run 1 run "${scene[@]}" -o "linked_$name" --steps 4 --set output.trajectory.every_steps=1
+    expect_code 0 "a link where $name was written beside"
+    [ "$(cat victim)" = victim ] || complain "a file was written through $name.partial"
+    [ -L "linked_$name/$name.partial" ] || complain "a foreign $name.partial was removed"
+done
 [ -L report.json.partial ] || complain 'a foreign file was removed'
 
 # Empty words are variables that are not set, and only a run's own folder may begin anew.

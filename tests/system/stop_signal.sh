@@ -88,6 +88,20 @@ for ((k = 0; k < 24; ++k)); do
 done
 [ "$n_complete" -lt 24 ] || complain 'no signal came early enough to stop a short run'
 
+# After the last step a run is complete, whatever comes: the report is the last that it writes.
+for ((k = 0; k < 8; ++k)); do
+    rm -rf kept
+    "$CARROM_PROGRAM" run short.in --quiet "${store[@]}" >"$test_folder/out" 2>"$test_folder/err" &
+    program=$!
+    for ((i = 0; i < 5000; ++i)); do
+        [ ! -e kept/report.json ] || break
+    done
+    kill -USR1 "$program" 2>/dev/null
+    wait "$program"
+    code=$?
+    expect_code 0 "a signal after the last step, $k"
+done
+
 # Without a folder for checkpoints the run ends in order too: its recordings are whole, and it says
 # that nothing else is.
 for signal in TERM USR1; do
