@@ -64,7 +64,7 @@ Scene read_scene_on_all(const CompareOptions& options, std::istream& stream,
     broadcast(text, ranks);
     Scene scene = read_scene(text, options.overrides);
     if (!scene.disc_columns.empty() && !scene.discs_file.empty()) {
-        text.columns = load_columns(scene, ranks);
+        text.columns = load_columns(scene, &stream, ranks);
         scene = read_scene(text, options.overrides);
     }
     if (std::vector<Problem> problems = obstacles(scene); !problems.empty())

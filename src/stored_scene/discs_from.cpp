@@ -2,6 +2,7 @@
 #include "stored_scene/discs_from.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace carrom {
 namespace {
 
 constexpr std::uint64_t block = 1 << 16;
+constexpr std::array columns = {"x", "y", "vx", "vy"}; // of a line of a disc, behind its id
 
 [[noreturn]] void refuse(const std::string& path, const std::string& text) {
     throw InputError({{path, 0, text}});
@@ -24,8 +26,9 @@ std::size_t frame_of(const std::string& path, const FileSummary& summary,
                      std::optional<std::int64_t> step) {
     if (summary.kind == FileKind::collisions)
         refuse(path, "is a log of collisions; discs.from takes a checkpoint or a trajectory");
-    if (summary.kind == FileKind::trajectory && !(summary.has_position && summary.has_velocity))
-        refuse(path, "its frames lack positions or velocities; discs.from takes both");
+    for (const char* column : columns)
+        if (!summary.has(column))
+            refuse(path, "its frames lack positions or velocities; discs.from takes both");
     if (summary.steps.empty()) refuse(path, "has no frame");
     if (!step) return summary.steps.size() - 1;
     const auto found = std::find(summary.steps.begin(), summary.steps.end(), *step);
@@ -42,16 +45,20 @@ FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t>
     const FrameFile file(path);
     const std::size_t frame = frame_of(path, file.summary(), step);
     FileOfDiscs discs;
-    discs.n_discs = file.summary().n_discs;
-    discs.have_spins = wants_spins && file.summary().has_angular_velocity;
+    discs.n_discs = file.summary().n_rows;
+    discs.have_spins = wants_spins && file.summary().has("angular_velocity");
+    std::vector<std::size_t> places;
+    for (const char* column : columns) places.push_back(file.summary().place_of(column));
+    if (discs.have_spins) places.push_back(file.summary().place_of("angular_velocity"));
     auto out = std::back_inserter(discs.lines);
-    std::vector<FrameRow> rows;
+    Rows rows;
     for (std::uint64_t begin = 0; begin < discs.n_discs; begin += block) {
-        file.read(frame, begin, std::min(begin + block, discs.n_discs), rows);
-        for (std::size_t k = 0; k < rows.size(); ++k) {
-            const FrameRow& row = rows[k];
-            fmt::format_to(out, "{} {} {} {} {}", begin + k, row.x, row.y, row.vx, row.vy);
-            if (discs.have_spins) fmt::format_to(out, " {}", row.angular_velocity);
+        const std::uint64_t end = std::min(begin + block, discs.n_discs);
+        file.read(frame, begin, end, rows);
+        for (std::uint64_t id = begin; id < end; ++id) {
+            fmt::format_to(out, "{}", id);
+            for (const std::size_t place : places)
+                fmt::format_to(out, " {}", rows[place][id - begin]);
             discs.lines += '\n';
         }
     }
