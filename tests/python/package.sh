@@ -19,9 +19,9 @@ done
 install_package
 release_environment
 
-# Not from the checkout: what is tested is what pip has installed.
-cp -r "$package/tests" "$package/pyproject.toml" .
-"$python" -m pytest -q -rs -p no:cacheprovider tests || complain 'pytest'
+# The working folder is not the checkout's: what is tested is what pip has installed.
+export PYTHONDONTWRITEBYTECODE=1
+"$python" -m pytest -q -rs -p no:cacheprovider "$package/tests" || complain 'pytest'
 
 for tool in mypy ruff; do
     has "$tool" "$tool" ||

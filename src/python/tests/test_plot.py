@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +20,12 @@ matplotlib.use("Agg")
 from carrom import plot  # noqa: E402
 from carrom.plot.commands import main  # noqa: E402
 from carrom.plot.movies import find_ffmpeg  # noqa: E402
+
+
+@pytest.fixture(autouse=True)
+def _close_figures() -> Iterator[None]:
+    yield
+    matplotlib.pyplot.close("all")
 
 
 def coloured(path: Path) -> float:
