@@ -136,6 +136,18 @@ Key packing_key() {
     return key;
 }
 
+/// Not known before the file of `discs.from` is read.
+Key count_key() {
+    Key count = key("discs.count", "discs",
+                    "N, the number of discs; a list or species give it too.",
+                    [](auto& s) -> auto& { return s.n_discs; })
+                    .within({1, static_cast<double>(largest_count)})
+                    .required()
+                    .unless({"discs.list", "discs.species", "discs.from"});
+    count.get = [](const Scene& s) { return s.n_discs == 0 ? Value{} : value_of(s.n_discs); };
+    return count;
+}
+
 std::vector<Key> keys_of_time() {
     return {
         key("time.steps", "steps", "S, how many steps to run; 0 shows the start.",
@@ -183,11 +195,7 @@ std::vector<Key> keys_of_discs() {
             [](auto& s) -> auto& { return s.box_size; })
             .within(lengths)
             .required(),
-        key("discs.count", "discs", "N, the number of discs; a list or species give it too.",
-            [](auto& s) -> auto& { return s.n_discs; })
-            .within({1, static_cast<double>(largest_count)})
-            .required()
-            .unless({"discs.list", "discs.species", "discs.from"}),
+        count_key(),
         key("discs.radius", "length", "r, the radius of a disc; or give 'discs.packing'.",
             [](auto& s) -> auto& { return s.radius; })
             .within(lengths)
