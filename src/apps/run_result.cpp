@@ -143,10 +143,12 @@ LostCollisions lost_collisions(const Scene& scene, const RunResult& result) {
 std::string warning_of_lost_collisions(const Scene& scene, const RunResult& result) {
     const LostCollisions lost = lost_collisions(scene, result);
     if (!(lost.share > 0.01)) return {};
-    return fmt::format("the time-stepped method loses about {:.2g} % of the collisions of pairs, "
-                       "and the pressure is about {:.2g} % too low; try: time.method = "
+    const auto digits = [](double percent) { return percent < 9.5 ? 1 : 0; };
+    const double share = 100 * lost.share, error = -100 * lost.pressure_error;
+    return fmt::format("the time-stepped method loses about {:.{}f} % of the collisions of pairs, "
+                       "and the pressure is about {:.{}f} % too low; try: time.method = "
                        "\"event-driven\", or more time.micro_steps",
-                       100 * lost.share, -100 * lost.pressure_error);
+                       share, digits(share), error, digits(error));
 }
 
 double rejected_share(const RunResult& result) {

@@ -36,9 +36,9 @@ SETTINGS = {
 GAS = "[box]\nsize = 250.66\n[discs]\ncount = 4000\nradius = 1\nspeed = 0.3\n[time]\n"
 # name: (scene, kind, steps)
 SCENES = {
-    "gas, time-stepped": (GAS + "steps = 128\nmethod = \"time-stepped\"\n", "toml", 128),
-    "generated, time-stepped": ("2000\n20000\n1\n10\nperf\n", "in", 10),
-    "gas, event-driven": (GAS + "steps = 64\nmethod = \"event-driven\"\n", "toml", 64),
+    "gas, time-stepped": (GAS + "steps = 256\nmethod = \"time-stepped\"\n", "toml", 256),
+    "generated, time-stepped": ("2000\n20000\n1\n40\nperf\n", "in", 40),
+    "gas, event-driven": (GAS + "steps = 256\nmethod = \"event-driven\"\n", "toml", 256),
 }
 
 
