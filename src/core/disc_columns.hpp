@@ -17,7 +17,7 @@
 namespace carrom {
 
 /// One number of 8 bytes for each disc: a double, or else a whole number.
-struct DiscColumn {
+struct StateColumn {
     const char* name;
     const char* unit;
     bool is_real;
@@ -30,7 +30,7 @@ namespace columns {
 
 /// `Get(disc)` is the number, `Set(disc, bits)` takes it over.
 template <auto Get, auto Set>
-constexpr DiscColumn make(const char* name, const char* unit, bool is_real) {
+constexpr StateColumn make(const char* name, const char* unit, bool is_real) {
     return {name, unit, is_real,
             [](std::span<const Disc> discs, std::byte* out) {
                 for (const Disc& disc : discs) {
@@ -42,7 +42,7 @@ constexpr DiscColumn make(const char* name, const char* unit, bool is_real) {
             },
             [](Disc& disc, std::uint64_t bits) { Set(disc, bits); }};
 }
-template <auto Field> constexpr DiscColumn make(const char* name, const char* unit) {
+template <auto Field> constexpr StateColumn make(const char* name, const char* unit) {
     return make<[](const Disc& disc) { return disc.*Field; },
                 [](Disc& disc, std::uint64_t bits) { disc.*Field = std::bit_cast<double>(bits); }>(
         name, unit, true);

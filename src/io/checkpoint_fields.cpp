@@ -10,7 +10,7 @@
 
 namespace carrom {
 
-hid_t type_of(const DiscColumn& column) {
+hid_t type_of(const StateColumn& column) {
     return column.is_real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_UINT64;
 }
 

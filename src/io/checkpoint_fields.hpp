@@ -21,7 +21,7 @@ inline constexpr std::int64_t checkpoint_format = 3;
 inline constexpr const char* format_path = "/carrom/format";
 
 /// Where the columns are.
-inline std::string path_of(const DiscColumn& column) {
+inline std::string path_of(const StateColumn& column) {
     return std::string("/carrom/discs/") + column.name;
 }
 inline std::string path_of(SideColumn column) {
@@ -88,7 +88,7 @@ inline constexpr std::array<SampleColumn, 4> sample_columns = {
 inline constexpr std::array<FrameField, 2> checkpoint_periods = {
     {{"period_x", &Frame::period_x}, {"period_y", &Frame::period_y}}};
 
-hid_t type_of(const DiscColumn& column);
+hid_t type_of(const StateColumn& column);
 
 void write_header(hid_t group, const CheckpointHeader& header);
 /// From a file. Throws FileError where something is missing or of another kind. Leaves out species.

@@ -75,7 +75,7 @@ StoredSamples samples_of(hid_t file, const Checksums& sums) {
 /// Every data set of discs must be there, have its checksum and a row for each disc.
 void check_disc_data(const Contents& contents) {
     std::vector<std::string> wanted;
-    for (const DiscColumn& column : disc_columns) wanted.push_back(path_of(column));
+    for (const StateColumn& column : disc_columns) wanted.push_back(path_of(column));
     contents.header.columns.for_each([&](SideColumn column) { wanted.push_back(path_of(column)); });
     for (const SampleColumn& column : sample_columns)
         if (column.is_in(contents.samples)) wanted.push_back(column.path());
@@ -246,7 +246,7 @@ std::vector<Disc> read_discs(const WholeFile& file, const Share& share) {
             std::min(rows_per_piece, share.size() - begin));
         for (std::size_t i = 0; i < wanted.size(); ++i)
             discs[begin + i].id = share.begin + begin + i;
-        for (const DiscColumn& column : disc_columns) {
+        for (const StateColumn& column : disc_columns) {
             file.read(path_of(column), wanted, share.begin + begin, type_of(column));
             for (std::size_t i = 0; i < wanted.size(); ++i) column.set(discs[begin + i], wanted[i]);
         }

@@ -73,7 +73,7 @@ void create_groups(hid_t file, const CheckpointHeader& header, const StoredSampl
     write_header(h5::create_group(carrom.id(), "run").id(), header);
     write_species(file, species_path, header.species);
     const h5::Group columns = h5::create_group(carrom.id(), "discs");
-    for (const DiscColumn& column : disc_columns)
+    for (const StateColumn& column : disc_columns)
         create_column(columns.id(), column.name, rows, type_of(column));
     header.columns.for_each([&](SideColumn column) {
         create_column(file, path_of(column).c_str(), rows, H5T_NATIVE_DOUBLE);
@@ -129,7 +129,7 @@ std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const Store
                 });
             });
     }
-    for (const DiscColumn& column : disc_columns)
+    for (const StateColumn& column : disc_columns)
         add(path_of(column), type_of(column), 1, column.put);
     header.columns.for_each([&](SideColumn column) {
         add(path_of(column), H5T_NATIVE_DOUBLE, 1,

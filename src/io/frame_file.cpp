@@ -240,7 +240,7 @@ void FrameFile::read_state(std::uint64_t begin, std::uint64_t end, Rows& rows) c
     const double clock = header.clock(), unit = static_cast<double>(header.micro_steps);
     std::vector<Disc> discs(end - begin);
     std::vector<std::uint64_t> bits(discs.size());
-    for (const DiscColumn& column : disc_columns) {
+    for (const StateColumn& column : disc_columns) {
         const h5::Dataset dataset = h5::open_checked(file, path_of(column), {header.n_discs});
         h5::read_rows(dataset.id(), {begin, end}, type_of(column), bits.data());
         for (std::size_t i = 0; i < discs.size(); ++i) column.set(discs[i], bits[i]);

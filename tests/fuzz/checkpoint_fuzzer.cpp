@@ -72,7 +72,7 @@ std::vector<std::size_t> places_of_values() {
     };
     for (const HeaderField& field : checkpoint_header)
         add(std::string("/carrom/run/") + field.name);
-    for (const DiscColumn& column : disc_columns) add(std::string("/carrom/discs/") + column.name);
+    for (const StateColumn& column : disc_columns) add(std::string("/carrom/discs/") + column.name);
     add(path_of(SideColumn::spin));
     return places;
 }

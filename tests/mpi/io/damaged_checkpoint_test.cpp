@@ -125,7 +125,7 @@ namespace {
 void write_checksums_again(const std::string& path, const std::string& dropped) {
     h5::File file = h5::open_file(path, h5::Access::write);
     Checksums sums;
-    for (const DiscColumn& column : disc_columns)
+    for (const StateColumn& column : disc_columns)
         sums.data.push_back({std::string("/carrom/discs/") + column.name, 0, 0, {}, {}});
     for (const SampleColumn& column : sample_columns) {
         const std::string name = std::string("/carrom/measurements/") + column.name;
