@@ -145,10 +145,14 @@ std::string warning_of_lost_collisions(const Scene& scene, const RunResult& resu
     if (!(lost.share > 0.01)) return {};
     const auto digits = [](double percent) { return percent < 9.5 ? 1 : 0; };
     const double share = 100 * lost.share, error = -100 * lost.pressure_error;
-    return fmt::format("the time-stepped method loses about {:.{}f} % of the collisions of pairs, "
-                       "and the pressure is about {:.{}f} % too low; try: time.method = "
-                       "\"event-driven\", or more time.micro_steps",
-                       share, digits(share), error, digits(error));
+    const std::string pressure = error > 0
+                                     ? fmt::format(", and the pressure is about {:.{}f} % too low",
+                                                   error, digits(error))
+                                     : "";
+    return fmt::format(
+        "the time-stepped method loses about {:.{}f} % of the collisions of pairs{}; "
+        "try: time.method = \"event-driven\", or more time.micro_steps",
+        share, digits(share), pressure);
 }
 
 double rejected_share(const RunResult& result) {

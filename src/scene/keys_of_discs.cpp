@@ -189,6 +189,25 @@ std::vector<Key> keys_of_time() {
 
 } // namespace
 
+/// Discs that another run has left.
+std::vector<Key> keys_of_other_runs() {
+    return {
+        key("discs.from", "",
+            "Checkpoint or trajectory of another run, from the scene's folder, to begin from.",
+            [](auto& s) -> auto& { return s.discs_from; })
+            .by_default("none")
+            .needs(listed)
+            .excludes({"discs.list", "discs.file"})
+            .not_physical(),
+        key("discs.from_step", "steps", "Step of the frame of 'discs.from' to take.",
+            [](auto& s) -> auto& { return s.discs_from_step; })
+            .by_default("the last frame")
+            .within({0, largest_steps})
+            .needs({"without 'discs.from'", [](const Scene& s) { return !s.discs_from.empty(); }})
+            .not_physical(),
+    };
+}
+
 std::vector<Key> keys_of_discs() {
     std::vector<Key> all = {
         key("box.size", "length", "L, the side of the square box; the walls are at 0 and L.",
@@ -216,19 +235,6 @@ std::vector<Key> keys_of_discs() {
             .by_default("none")
             .needs(listed)
             .excludes({"discs.list"}),
-        key("discs.from", "",
-            "Checkpoint or trajectory of another run, from the scene's folder, to begin from.",
-            [](auto& s) -> auto& { return s.discs_from; })
-            .by_default("none")
-            .needs(listed)
-            .excludes({"discs.list", "discs.file"})
-            .not_physical(),
-        key("discs.from_step", "steps", "Step of the frame of 'discs.from' to take.",
-            [](auto& s) -> auto& { return s.discs_from_step; })
-            .by_default("the last frame")
-            .within({0, largest_steps})
-            .needs({"without 'discs.from'", [](const Scene& s) { return !s.discs_from.empty(); }})
-            .not_physical(),
         key("discs.columns", "",
             "What lines of the file have besides, in that order. Mass needs radius.",
             [](auto& s) -> auto& { return s.disc_columns; })
@@ -253,6 +259,7 @@ std::vector<Key> keys_of_discs() {
             .needs(generated)
             .with_rows({{"region", "[x0, y0, x1, y1]", 4, 4}, {"velocity", "[vx, vy]", 2, 2}}),
     };
+    for (Key& one : keys_of_other_runs()) all.push_back(std::move(one));
     for (Key& one : keys_of_time()) all.push_back(std::move(one));
     return all;
 }

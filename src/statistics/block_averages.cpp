@@ -47,13 +47,17 @@ double standard_error(std::vector<double> terms) {
     return error;
 }
 
+/// No term is above 1: the sum of as many as there are discs stays below 2^63.
+double terms_per_unit_of(std::uint64_t n_discs) {
+    const double bits = std::ceil(std::log2(static_cast<double>(n_discs)));
+    return std::ldexp(1.0, 62 - static_cast<int>(bits));
+}
+
 Look look_at(std::span<const Disc> own, const SpeciesTable* species_table, double heaviest,
              std::uint64_t n_discs, int n_threads, const Communicator& communicator) {
     Look look;
     look.speed_unit = speed_unit_of(own, n_threads, communicator);
-    // No term is above 1: their sum stays below 2^63.
-    const double terms_per_unit = std::ldexp(
-        1.0, 62 - static_cast<int>(std::ceil(std::log2(static_cast<double>(n_discs)))));
+    const double terms_per_unit = terms_per_unit_of(n_discs);
     const double per_unit = 1 / look.speed_unit;
     std::uint64_t walls = 0, pairs = 0, speeds = 0, squares = 0, fourths = 0, departed = 0;
     std::uint64_t masses = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;

@@ -99,7 +99,7 @@ refuse 'a missing frame' 'has no frame of step 7' next.toml \
 refuse 'a log' 'is a log of collisions' next.toml --set discs.from=first/collisions.h5
 refuse 'another number of discs' 'has 300 discs, and the scene is of 7' next.toml \
     --set discs.count=7
-refuse 'discs that have grown' 'overlap' next.toml --set discs.radius=0.8
+refuse 'discs that have grown' 'is not inside the box' next.toml --set discs.radius=0.8
 refuse 'a smaller box' "$checkpoint" next.toml --set box.size=30
 refuse 'a step without a file' "'discs.from_step' has no meaning" gas.toml \
     --set discs.from_step=3

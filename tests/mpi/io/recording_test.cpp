@@ -228,6 +228,12 @@ LoggedCollision collision(std::int64_t k) {
             0.1 * static_cast<double>(k)};
 }
 
+bool has_row(const Rows& rows, std::size_t row, const LoggedCollision& wanted) {
+    return rows[0][row] == static_cast<double>(wanted.step) && rows[1][row] == wanted.time &&
+           rows[2][row] == static_cast<double>(wanted.p) &&
+           rows[3][row] == static_cast<double>(wanted.q) && rows[4][row] == wanted.impulse;
+}
+
 } // namespace
 
 TEST_CASE("a log of collisions keeps the order of the ranks and is cut back") {
@@ -250,15 +256,8 @@ TEST_CASE("a log of collisions keeps the order of the ranks and is cut back") {
             is_right = file.summary().kind == FileKind::collisions &&
                        file.summary().n_rows == static_cast<std::uint64_t>(n);
             if (is_right) file.read(0, 0, file.summary().n_rows, rows);
-            for (std::int64_t k = 0; is_right && k < n; ++k) {
-                const LoggedCollision wanted = collision(k);
-                const auto row = static_cast<std::size_t>(k);
-                is_right = rows[0][row] == static_cast<double>(wanted.step) &&
-                           rows[1][row] == wanted.time &&
-                           rows[2][row] == static_cast<double>(wanted.p) &&
-                           rows[3][row] == static_cast<double>(wanted.q) &&
-                           rows[4][row] == wanted.impulse;
-            }
+            for (std::int64_t k = 0; is_right && k < n; ++k)
+                is_right = has_row(rows, static_cast<std::size_t>(k), collision(k));
         }
         world.barrier();
         return is_right;

@@ -87,6 +87,36 @@ void check_pressures(const Averages& averages, const test::TestScene& test, cons
               .epsilon(1e-10));
 }
 
+/// The 41 steps of 100 discs below. Virials are per micro-step, of which a step has 4; `motion` is
+/// the integral of the tensor of velocities over the steps.
+void check_tensor(const Averages& averages, const Tensor& first, const Tensor& last,
+                  const Tensor& motion, double area, double square) {
+    CHECK(averages.pressure_tensor.xx.value ==
+          Approx((motion.xx + 4 * (last.xx - first.xx)) / (41 * area)).epsilon(1e-10));
+    CHECK(std::fabs(averages.pressure_tensor.xy.value -
+                    (motion.xy + 4 * (last.xy - first.xy)) / (41 * area)) <
+          1e-10 * averages.pressure.value);
+    CHECK(averages.temperature.value == Approx(square / 200).epsilon(1e-10)); // kept
+    CHECK(averages.compressibility.value ==
+          Approx(averages.pressure.value * area / (100 * averages.temperature.value)));
+}
+
+/// Those of the list that are dealt to this rank.
+std::vector<InputDisc> own_of(const std::vector<InputDisc>& discs, const Communicator& world) {
+    std::vector<InputDisc> mine;
+    for (const InputDisc& disc : discs)
+        if (static_cast<int>(disc.id) % world.size() == world.rank()) mine.push_back(disc);
+    return mine;
+}
+
+void check_frequency(const Averages& averages, double pairs, const std::vector<double>& by_block) {
+    CHECK(averages.n_blocks == static_cast<std::int64_t>(by_block.size()));
+    CHECK(averages.collision_frequency.value == Approx(2 * pairs / 4100).epsilon(1e-13));
+    CHECK(averages.collision_frequency.error >= over_blocks(by_block).error * (1 - 1e-12));
+    CHECK(averages.collision_frequency.error < 3 * over_blocks(by_block).error);
+    CHECK(averages.mean_free_time.value == Approx(4100 / (2 * pairs)).epsilon(1e-13));
+}
+
 } // namespace
 
 TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sums") {
@@ -100,11 +130,7 @@ TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sum
         scene.method = method;
         Tuning tuning;
         tuning.threads = omp_get_max_threads();
-        std::vector<InputDisc> mine;
-        for (const InputDisc& disc : test.discs) {
-            if (static_cast<int>(disc.id) % world.size() == world.rank()) mine.push_back(disc);
-        }
-        Simulation simulation(scene, mine, world, tuning);
+        Simulation simulation(scene, own_of(test.discs, world), world, tuning);
         const auto advance_to = [&](std::int64_t step) {
             while (simulation.step() < step) simulation.advance_towards(step);
         };
@@ -142,29 +168,13 @@ TEST_CASE("averages: counts, speeds, pressures and errors are those of plain sum
         const Averages averages = simulation.averages();
         CHECK(averages.first_step == 7);
         CHECK(averages.steps == 41);
-        CHECK(averages.n_blocks == static_cast<std::int64_t>(frequencies.size()));
-        CHECK(averages.collision_frequency.value ==
-              Approx(2 * (now.pairs - first.pairs) / 4100).epsilon(1e-13));
-        CHECK(averages.collision_frequency.error >= over_blocks(frequencies).error * (1 - 1e-12));
-        CHECK(averages.collision_frequency.error < 3 * over_blocks(frequencies).error);
-        CHECK(averages.mean_free_time.value ==
-              Approx(4100 / (2 * (now.pairs - first.pairs))).epsilon(1e-13));
+        check_frequency(averages, now.pairs - first.pairs, frequencies);
         CHECK(averages.mean_speed.value == Approx(all_speeds / 41).epsilon(1e-11));
         CHECK(averages.mean_speed.error >= over_blocks(speeds).error * (1 - 1e-6));
         CHECK(averages.speed_kurtosis.value == Approx(all_kurtoses / 41).epsilon(1e-11));
 
-        // Virials are per micro-step.
-        const Tensor virial = sum_of(simulation.virial(), world);
-        const double area = test.setting.box_size * test.setting.box_size;
-        CHECK(averages.pressure_tensor.xx.value ==
-              Approx((xx + 4 * (virial.xx - first_virial.xx)) / (41 * area)).epsilon(1e-10));
-        CHECK(std::fabs(averages.pressure_tensor.xy.value -
-                        (xy + 4 * (virial.xy - first_virial.xy)) / (41 * area)) <
-              1e-10 * averages.pressure.value);
-        CHECK(averages.temperature.value == Approx(now.square / 200).epsilon(1e-10)); // kept
-        CHECK(averages.compressibility.value ==
-              Approx(averages.pressure.value * area / (100 * averages.temperature.value)));
-
+        check_tensor(averages, first_virial, sum_of(simulation.virial(), world), {xx, xy, 0},
+                     test.setting.box_size * test.setting.box_size, now.square);
         check_pressures(averages, test, first, now);
     }
 }

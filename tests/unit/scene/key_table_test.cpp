@@ -124,6 +124,7 @@ Texts random_overrides(Draw& draw) {
     for (const Key& key : keys()) {
         if (key.name == "box.size" || draw.below(8) != 0) continue;
         if (key.name == source[0] || key.name == source[1]) continue;
+        if (key.name.starts_with("discs.from")) continue; // a scene is whole once the file is read
         texts.push_back(key.name + '=' + (key.has_rows() ? draw.rows(key.name) : draw.value(key)));
     }
     return texts;
@@ -194,7 +195,8 @@ TEST_CASE("What is written of a scene reads as the same scene, whatever it names
     CHECK(n_read > 1500);
     for (const Key& key : keys()) { // each has been there
         CAPTURE(key.name);
-        if (key.name != "box.size") CHECK(written.count(key.name) == 1);
+        if (key.name != "box.size" && !key.name.starts_with("discs.from"))
+            CHECK(written.count(key.name) == 1);
     }
 }
 
