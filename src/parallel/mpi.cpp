@@ -91,16 +91,6 @@ int agreed_code(const Communicator& communicator, const Outcome& outcome, double
     return largest;
 }
 
-/// Settings of Open MPI that the user has not chosen.
-void choose_settings() {
-    // Its own MPI-IO hangs in a collective write to a full disk; ROMIO, which it also has, returns
-    // the error.
-    setenv("OMPI_MCA_io", "^ompio", 0);
-    // A process without a launcher starts a daemon, in case it wants to start other processes. It
-    // never does, and the daemon takes 0.4 s. Open MPI 5 and MPICH start none.
-    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-}
-
 /// Whether a launcher has started this process, as the first of several perhaps. One that is
 /// missing here leaves each process to itself.
 bool has_launcher() {
@@ -114,6 +104,20 @@ bool has_launcher() {
         "FLUX_TASK_RANK"};
     return std::any_of(variables.begin(), variables.end(),
                        [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
+/// Settings of Open MPI that the user has not chosen.
+void choose_settings() {
+    // Its own MPI-IO hangs in a collective write to a full disk; ROMIO, which it also has, returns
+    // the error.
+    setenv("OMPI_MCA_io", "^ompio", 0);
+    // A process without a launcher starts a daemon, in case it wants to start other processes. It
+    // never does, and the daemon takes 0.4 s. Open MPI 5 and MPICH start none.
+    if (has_launcher()) return;
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    // Such processes have one name, and so one folder for what they share with others, which they
+    // do not need: two that start at once would fail to make it.
+    setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
 }
 
 void start_mpi(int* argc, char*** argv) {

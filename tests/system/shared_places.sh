@@ -112,4 +112,8 @@ run 1 run -o none --resume
 expect_code 2 'going on where no run has begun, without a scene'
 run 2 run "${scene[@]}" --steps 1 -o none --restart latest
 expect_code 0 'latest begins anew'
+
+# A process without a launcher shares nothing: it makes no folder that another one may make too.
+TMPDIR=/proc run 1 run "${scene[@]}" --steps 1
+expect_code 0 'a run where no temporary folder can be made'
 finish
