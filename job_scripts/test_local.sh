@@ -17,6 +17,6 @@ configure -DCARROM_TESTS=ON
 build_targets
 # Tests run more threads than most machines have cores.
 use_mpi_settings $((2 * $(nproc)))
-# Many tests wait longer than they compute: two more of them than there are cores.
+# Many tests wait longer than they compute: four more of them than there are cores.
 exec ctest --test-dir "$build" --output-on-failure --no-tests=error \
-    --parallel $(($(nproc) + 2)) "$@" </dev/null
+    --parallel $(($(nproc) + 4)) "$@" </dev/null

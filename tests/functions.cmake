@@ -69,20 +69,16 @@ function(carrom_unit_test module)
                        ENVIRONMENT "OMP_NUM_THREADS=2")
 endfunction()
 
-# carrom_mpi_test(name RANKS 1 2 ... SOURCES a_test.cpp ... [LINKS target ...] [THREADS 1 2]
-# [TIMEOUT seconds]
-#                 [LABELS label ...] [IN_PARTS])
-# Builds <name>_mpi_test; one ctest entry per rank and thread count runs all its Catch2 cases on
-# every rank. Links carrom::<name>, if there is one, and carrom::parallel by itself. IN_PARTS:
-# $CARROM_TEST_PART says "k/n" to the k-th of n shapes, for tests that share their scenes out;
-# `ctest -C long -L long` runs everything on every shape,
-# hidden Catch2 cases with the tag [long] included.
+# carrom_mpi_test(name SHAPES 1x2 3x1 ... [LONG_SHAPES 2x1 ...] SOURCES a_test.cpp ...
+#                 [LINKS target ...] [TIMEOUT seconds] [LABELS label ...] [IN_PARTS])
+# Builds <name>_mpi_test; one ctest entry for each shape, ranks x threads, runs all its Catch2 cases
+# on every rank. Links carrom::<name>, if there is one, and carrom::parallel by itself. Shapes that
+# hold what others hold are long: `ctest -C long -L long` runs them. IN_PARTS: $CARROM_TEST_PART
+# says "k/n" to the k-th of n shapes, for tests that share their scenes out; the long run does
+# everything on every shape, hidden Catch2 cases with the tag [long] included.
 function(carrom_mpi_test name)
-  cmake_parse_arguments(arg "IN_PARTS" "TIMEOUT" "RANKS;THREADS;SOURCES;LINKS;LABELS" ${ARGN})
+  cmake_parse_arguments(arg "IN_PARTS" "TIMEOUT" "SHAPES;LONG_SHAPES;SOURCES;LINKS;LABELS" ${ARGN})
   carrom_time_limit(120)
-  if(NOT arg_THREADS)
-    set(arg_THREADS 1)
-  endif()
   if(NOT arg_LABELS)
     set(arg_LABELS mpi)
   endif()
@@ -90,37 +86,44 @@ function(carrom_mpi_test name)
   add_executable(${target} ${arg_SOURCES})
   carrom_test_executable(${target} ${name} carrom_mpi_main carrom::parallel ${arg_LINKS})
   target_precompile_headers(${target} REUSE_FROM carrom_mpi_main)
-  list(LENGTH arg_RANKS n_ranks)
-  list(LENGTH arg_THREADS n_threads)
-  math(EXPR n_parts "${n_ranks} * ${n_threads}")
+  list(LENGTH arg_SHAPES n_parts)
   set(part 0)
-  foreach(ranks ${arg_RANKS})
-    foreach(threads ${arg_THREADS})
-      math(EXPR cores "${ranks} * ${threads}")
-      if(ranks EQUAL 1)
-        set(cores 1) # threads of small scenes wait for each other asleep, most of the time
-      endif()
-      set(command ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} ${MPIEXEC_PREFLAGS}
-          $<TARGET_FILE:${target}>)
-      set(environment "${CARROM_TEST_ENVIRONMENT};OMP_NUM_THREADS=${threads}")
-      set(test "${name}: ${ranks} ranks x ${threads} threads")
-      add_test(NAME ${test} COMMAND ${command} ${MPIEXEC_POSTFLAGS})
-      set_tests_properties(${test} PROPERTIES LABELS "${arg_LABELS}" PROCESSORS ${cores}
-                           TIMEOUT ${arg_TIMEOUT})
-      set_tests_properties(${test} PROPERTIES ENVIRONMENT
-                           "${environment};CARROM_TEST_SECONDS=${arg_TIMEOUT}")
-      if(arg_IN_PARTS)
-        set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT CARROM_TEST_PART=${part}/${n_parts})
-        set(long_test "${name}, all of it: ${ranks} ranks x ${threads} threads")
-        add_test(NAME ${long_test} COMMAND ${command} "*" ${MPIEXEC_POSTFLAGS} CONFIGURATIONS long)
-        set_tests_properties(${long_test} PROPERTIES LABELS "${arg_LABELS};long" PROCESSORS ${cores}
-                             TIMEOUT 3600)
-        set_tests_properties(${long_test} PROPERTIES ENVIRONMENT
-                             "${environment};CARROM_TEST_SECONDS=3600")
-      endif()
-      math(EXPR part "${part} + 1")
-    endforeach()
+  foreach(shape ${arg_SHAPES})
+    carrom_mpi_entry(${target} "${name}" ${shape} ${arg_TIMEOUT} "${arg_LABELS}")
+    if(arg_IN_PARTS)
+      set_property(TEST "${entry}" APPEND PROPERTY ENVIRONMENT CARROM_TEST_PART=${part}/${n_parts})
+      carrom_mpi_entry(${target} "${name}, all of it" ${shape} 3600 "${arg_LABELS};long" "*")
+    endif()
+    math(EXPR part "${part} + 1")
   endforeach()
+  foreach(shape ${arg_LONG_SHAPES})
+    carrom_mpi_entry(${target} "${name}, all of it" ${shape} 3600 "${arg_LABELS};long")
+  endforeach()
+endfunction()
+
+# carrom_mpi_entry(target name RANKSxTHREADS timeout labels [argument ...]): one entry, whose name
+# is in `entry`.
+function(carrom_mpi_entry target name shape timeout labels)
+  string(REPLACE x ";" numbers ${shape})
+  list(GET numbers 0 ranks)
+  list(GET numbers 1 threads)
+  math(EXPR cores "${ranks} * ${threads}")
+  if(ranks EQUAL 1)
+    set(cores 1) # threads of small scenes wait for each other asleep, most of the time
+  endif()
+  set(configurations)
+  if(long IN_LIST labels)
+    set(configurations CONFIGURATIONS long)
+  endif()
+  set(entry "${name}: ${ranks} ranks x ${threads} threads")
+  set(entry "${entry}" PARENT_SCOPE)
+  add_test(NAME ${entry} ${configurations}
+           COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} ${MPIEXEC_PREFLAGS}
+                   $<TARGET_FILE:${target}> ${ARGN} ${MPIEXEC_POSTFLAGS})
+  set_tests_properties(${entry} PROPERTIES LABELS "${labels}" PROCESSORS ${cores}
+                       TIMEOUT ${timeout})
+  set_tests_properties(${entry} PROPERTIES ENVIRONMENT
+    "${CARROM_TEST_ENVIRONMENT};OMP_NUM_THREADS=${threads};CARROM_TEST_SECONDS=${timeout}")
 endfunction()
 
 # carrom_system_test(name COMMAND program arg ... [LABELS label ...] [PROCESSORS n] [TIMEOUT

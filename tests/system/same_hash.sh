@@ -36,12 +36,10 @@ shape() {
 shape 1 1
 [ "$(json_value report.json pair_collisions)" -gt 0 ] ||
     complain 'a scene without collisions shows nothing'
-for ranks in 1 2 3 4 7; do
-    for threads in 1 2 3; do
-        [ "$ranks$threads" = 11 ] || shape "$ranks" "$threads"
-    done
+for ranks_threads in '1 3' '2 1' '2 2' '3 3' '4 1' '7 2'; do
+    shape $ranks_threads
 done
-for window in 0.07 0.5 1 3 64; do
+for window in 0.07 1 64; do
     shape 1 2 --window "$window"
     shape 3 1 --window "$window" --rebalance-every 1 --rebalance-above 0
 done
