@@ -12,6 +12,7 @@
 #include "apps/accuracy_command.hpp"
 #include "apps/file_commands.hpp"
 #include "apps/keys_command.hpp"
+#include "apps/replicas_command.hpp"
 #include "apps/run_command.hpp"
 #include "apps/version_text.hpp"
 
@@ -23,6 +24,7 @@ constexpr const char* examples = R"(Examples:
   carrom run inputs/gas.toml
   mpirun -np 4 carrom run inputs/gas.toml --threads 2 --report report.json
   carrom run inputs/gas.toml --set time.steps=50 --set discs.count=2000
+  mpirun -np 8 carrom replicas inputs/gas.toml --count 64 -o FOLDER
   carrom accuracy inputs/gas.toml --output gas.csv
   carrom info FILE.h5
   carrom diff A.h5 B.h5
@@ -139,8 +141,9 @@ Action parse_command_line(int argc, char** argv) {
     app.footer(examples);
     app.require_subcommand(1);
     const std::vector<Subcommand> subcommands = {
-        run_subcommand(),  accuracy_subcommand(), info_subcommand(),    verify_subcommand(),
-        diff_subcommand(), convert_subcommand(),  compare_subcommand(), keys_subcommand()};
+        run_subcommand(),     replicas_subcommand(), accuracy_subcommand(),
+        info_subcommand(),    verify_subcommand(),   diff_subcommand(),
+        convert_subcommand(), compare_subcommand(),  keys_subcommand()};
     for (const Subcommand& subcommand : subcommands) declare(app, subcommand);
     try {
         app.parse(argc, argv);

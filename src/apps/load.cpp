@@ -246,6 +246,12 @@ RunOptions with_input_of_folder(RunOptions options, const Communicator& ranks) {
 
 } // namespace
 
+Scene load_scene_alone(const RunOptions& options, const Problems& problems,
+                       const Communicator& ranks) {
+    std::unique_ptr<std::istream> stream;
+    return load_scene(options, problems, ranks, stream);
+}
+
 Loaded load(const RunOptions& given, const Problems& problems, const Communicator& ranks) {
     const RunOptions options = with_input_of_folder(given, ranks);
     std::unique_ptr<std::istream> stream;

@@ -34,4 +34,9 @@ struct Loaded {
 Loaded load(const RunOptions& options, const std::vector<Problem>& problems,
             const Communicator& ranks);
 
+/// The scene alone, with the problems of its text and its outputs' places; nothing is made or
+/// locked. **Collective.**
+Scene load_scene_alone(const RunOptions& options, const std::vector<Problem>& problems,
+                       const Communicator& ranks);
+
 } // namespace carrom

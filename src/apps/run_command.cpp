@@ -131,9 +131,10 @@ void warn_of_threads(int threads, bool are_chosen, const Communicator& ranks) {
     if (!crowded.empty()) print_message("warning: {}\n", crowded);
 }
 
-/// The run itself. **Collective.**
-ExitCode run(const RunOptions& options, const std::vector<Problem>& problems,
-             const Communicator& ranks) {
+} // namespace
+
+ExitCode run_scene(const RunOptions& options, const std::vector<Problem>& problems,
+                   const Communicator& ranks) {
     Stopwatch watch;
     std::optional<StopSignals> signals;
     if (options.input != "-")
@@ -175,8 +176,6 @@ ExitCode run(const RunOptions& options, const std::vector<Problem>& problems,
     return is_done ? ExitCode::success : ExitCode::stopped;
 }
 
-} // namespace
-
 Subcommand run_subcommand() {
     const auto words = std::make_shared<RunWords>();
     const auto action = [words](std::vector<Problem>& problems) -> Action {
@@ -188,7 +187,7 @@ Subcommand run_subcommand() {
         const bool reads_input = options.input == "-"; // which may keep us waiting
         if (!has_input) return failing(problems);
         return {[options = std::move(options), problems](const Communicator& ranks) {
-                    return run(options, problems, ranks);
+                    return run_scene(options, problems, ranks);
                 },
                 true, !reads_input};
     };

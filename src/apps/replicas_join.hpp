@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What independent runs of one scene say together: means, with errors from how the runs differ.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carrom {
+
+/// A run that has ended: its folder and the seed of its discs.
+struct Replica {
+    std::string folder;
+    std::uint64_t seed = 0;
+};
+
+/// The last step that the folder's report speaks of; nothing where there is no whole report.
+std::optional<std::int64_t> last_step_reported(const std::string& folder);
+
+/// Reads the replicas' reports and writes to `folder`:
+///   replicas.csv   a line for each replica: folder, seed, state hash, averages
+///   replicas.json  each average over the replicas: value and standard error of the mean
+///   NAME.csv       each measured table that all have in the same form: means and their errors
+/// Returns lines for the terminal. Throws CollectiveError, code 4, where a file cannot be written,
+/// and InputError where a report cannot be read. Call it on one rank.
+std::string join_replicas(const std::vector<Replica>& replicas, const std::string& folder);
+
+} // namespace carrom
