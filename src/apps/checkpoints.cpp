@@ -79,9 +79,11 @@ void Checkpoints::write(const Simulation& simulation, Recordings& recordings) {
         .commit(); // a restart cuts them back to its step, but cannot make up for what is missing
     const CheckpointHeader header = header_now(scene_, simulation);
     const std::string path = checkpoint_path(scene_.checkpoint->folder, header.step);
+    StoredSamples samples = recordings.samples();
+    samples.averages = simulation.stored_averages();
     write_checkpoint(path, header, simulation.discs(), ranks_,
-                     {n_threads_, scene_.checkpoint->transfers == Transfers::collective},
-                     recordings.samples(), simulation.side_columns());
+                     {n_threads_, scene_.checkpoint->transfers == Transfers::collective}, samples,
+                     simulation.side_columns());
     last_written_ = header.step;
     std::erase(kept_, path);
     kept_.push_back(path);

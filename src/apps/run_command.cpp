@@ -151,6 +151,7 @@ ExitCode run_scene(const RunOptions& options, const std::vector<Problem>& proble
     Simulation simulation = is_restart ? Simulation(scene, std::move(*loaded.stored), ranks, tuning)
                                        : Simulation(scene, std::move(loaded.discs), ranks, tuning);
 
+    simulation.go_on_averaging(loaded.samples.averages);
     look_for_hard_cases(scene, simulation, ranks);
     if (options.check) check_every_step(simulation, scene);
     RunResult result;

@@ -22,7 +22,7 @@ struct RunResult {
     int ranks = 1;
     int threads = 1;         ///< per rank; the largest where ranks differ
     double wall_seconds = 0; ///< of stepping, on the slowest rank; files are phases of their own
-    Averages averages;       ///< since this process began
+    Averages averages;       ///< over the run, restarts included
     std::vector<MeasuredTable> tables; ///< of what the scene asks to be measured
     RollbackCounts runs;               ///< in the event-driven method
     PhaseSeconds phase_seconds;        ///< each on the rank where it took longest

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a checkpoint keeps of a run's measurements, where its scene asks for some: plain numbers,
-// made and read by Sampler.
+// What a checkpoint keeps of a run's averages and of the measurements that its scene asks for:
+// plain numbers, made and read by Simulation and Sampler.
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,10 @@ struct FirstPlace {
 };
 
 struct StoredSamples {
-    std::vector<std::int64_t> sums; ///< the same on all ranks; empty where nothing is measured
-    bool have_first_places = false; ///< the same on all ranks
-    bool have_lengths = false;      ///< likewise
+    std::vector<std::int64_t> averages; ///< the same on all ranks; empty before the first block
+    std::vector<std::int64_t> sums;     ///< the same on all ranks; empty where nothing is measured
+    bool have_first_places = false;     ///< the same on all ranks
+    bool have_lengths = false;          ///< likewise
     /// A run of ids without gaps: to be written, of this rank's pieces (pieces.hpp); as read, of
     /// its slab (slabs.hpp).
     std::vector<FirstPlace> first_places;

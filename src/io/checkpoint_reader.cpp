@@ -27,6 +27,7 @@ namespace carrom {
 namespace {
 
 constexpr const char* measurements_path = "/carrom/measurements";
+constexpr const char* averages_path = "/carrom/averages";
 constexpr const char* sums_path = "/carrom/measurements/sums";
 
 /// In boxes, and in box lengths: the most that measurements can go on with.
@@ -66,6 +67,8 @@ StoredSamples samples_of(hid_t file, const Checksums& sums) {
     const auto has = [&](const SampleColumn& column) { return is_listed(sums, column.path()); };
     samples.have_first_places = has(sample_columns[0]) || has(sample_columns[1]);
     samples.have_lengths = has(sample_columns[2]) || has(sample_columns[3]);
+    if (h5::has(file, averages_path))
+        samples.averages = h5::read_column<std::int64_t>(file, averages_path);
     if (!h5::has(file, measurements_path)) return samples;
     samples.sums = h5::read_column<std::int64_t>(file, sums_path);
     if (samples.sums.empty()) throw FileError("its measurements are no list of sums");
@@ -150,6 +153,7 @@ void broadcast(Contents& contents, const Communicator& communicator) {
         communicator.broadcast(data.bytes_per_row);
         communicator.broadcast(data.checksum);
     }
+    communicator.broadcast(contents.samples.averages);
     communicator.broadcast(contents.samples.sums);
     std::array<std::uint64_t, 2> flags = {contents.samples.have_first_places ? 1u : 0u,
                                           contents.samples.have_lengths ? 1u : 0u};

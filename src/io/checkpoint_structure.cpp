@@ -78,10 +78,15 @@ void create_groups(hid_t file, const CheckpointHeader& header, const StoredSampl
     header.columns.for_each([&](SideColumn column) {
         create_column(file, path_of(column).c_str(), rows, H5T_NATIVE_DOUBLE);
     });
+    const auto write_numbers = [](hid_t parent, const char* name,
+                                  const std::vector<std::int64_t>& numbers) {
+        h5::write_whole(parent, name, std::array<hsize_t, 1>{numbers.size()}, H5T_NATIVE_INT64,
+                        numbers.data());
+    };
+    if (!samples.averages.empty()) write_numbers(carrom.id(), "averages", samples.averages);
     if (samples.sums.empty()) return;
     const h5::Group measurements = h5::create_group(carrom.id(), "measurements");
-    h5::write_whole(measurements.id(), "sums", std::array<hsize_t, 1>{samples.sums.size()},
-                    H5T_NATIVE_INT64, samples.sums.data());
+    write_numbers(measurements.id(), "sums", samples.sums);
     for (const SampleColumn& column : sample_columns)
         if (column.is_in(samples))
             create_column(measurements.id(), column.name, rows, H5T_NATIVE_DOUBLE);

@@ -286,7 +286,9 @@ void write_checkpoint(const std::string& path, CheckpointHeader header, std::spa
     const std::vector<DiscTarget> targets = disc_targets(header, samples, side);
     const UnfinishedFile partial(path + std::string(unfinished_suffix), communicator.is_root());
     on_root(communicator, path, ExitCode::output_failure, [&] {
-        std::uint64_t bytes = bytes_of_structure + samples.sums.size() * sizeof(std::int64_t) +
+        std::uint64_t bytes = bytes_of_structure +
+                              (samples.averages.size() + samples.sums.size()) *
+                                  sizeof(std::int64_t) +
                               2 * header.shown.species.size() * sizeof(Species);
         for (const DiscTarget& target : targets) bytes += header.n_discs * target.bytes_per_row;
         check_room(folder_of(path), bytes);

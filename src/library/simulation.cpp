@@ -53,6 +53,7 @@ Simulation::State::State(const Communicator& all, carrom::Scene checked, StoredS
                          StoredSamples samples, const Tuning& tuning)
     : ranks(all), scene(std::move(checked)), facts(facts_of(scene)), n_threads(tuning.threads),
       simulation(scene, std::move(stored), ranks, tuning) {
+    simulation.go_on_averaging(samples.averages);
     if (!scene.measurements) return;
     sampler.emplace(scene, simulation, ranks);
     sampler->go_on(std::move(samples));
@@ -138,9 +139,10 @@ std::vector<MeasuredTable> Simulation::measurements() const {
 
 void Simulation::write_checkpoint(const std::string& path) const {
     const State& now = *state_;
+    StoredSamples samples = now.sampler ? now.sampler->stored() : StoredSamples{};
+    samples.averages = now.simulation.stored_averages();
     carrom::write_checkpoint(path, header_now(now.scene, now.simulation), now.simulation.discs(),
-                             now.ranks, {.n_threads = now.n_threads},
-                             now.sampler ? now.sampler->stored() : StoredSamples{},
+                             now.ranks, {.n_threads = now.n_threads}, samples,
                              now.simulation.side_columns());
 }
 

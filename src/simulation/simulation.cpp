@@ -2,6 +2,7 @@
 #include "simulation/simulation.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -135,6 +136,7 @@ void Simulation::advance_towards(std::int64_t last_step) {
 }
 
 void Simulation::begin_virial(double bound) {
+    if (virial_ && bound == virial_bound_) return; // it may go on from a checkpoint
     virial_bound_ = bound;
     virial_ = std::make_unique<PairVirial>(bound);
     engine_->add_virial_to(virial_.get());
@@ -175,6 +177,37 @@ void Simulation::advance_checked() {
 }
 
 void Simulation::average_anew() { averages_->begin(step(), look()); }
+
+std::vector<std::int64_t> Simulation::stored_averages() const {
+    if (!averages_->has_begun()) return {};
+    PairVirial all = *virial_;
+    std::vector<std::int64_t> words = {averages_from_, std::bit_cast<std::int64_t>(virial_bound_)};
+    for (ExactSum* sum : {&all.xx, &all.xy, &all.yy}) {
+        communicator_.sum(*sum);
+        words.push_back(static_cast<std::int64_t>(sum->low_word()));
+        words.push_back(static_cast<std::int64_t>(sum->high_word()));
+    }
+    const std::vector<std::int64_t> blocks = averages_->words();
+    words.insert(words.end(), blocks.begin(), blocks.end());
+    return words;
+}
+
+void Simulation::go_on_averaging(std::span<const std::int64_t> words) {
+    constexpr std::size_t n_virial = 8;
+    if (words.size() < n_virial || words[0] != averages_from_) return;
+    const auto bound = std::bit_cast<double>(words[1]);
+    if (!(bound > 0) || !std::isfinite(bound) || !averages_->set_words(words.subspan(n_virial)))
+        return;
+    virial_.reset();
+    begin_virial(bound);
+    if (!communicator_.is_root()) return; // all ranks' sums are added up
+    std::size_t next = 2;
+    for (ExactSum* sum : {&virial_->xx, &virial_->xy, &virial_->yy}) {
+        sum->add_words(static_cast<std::uint64_t>(words[next]),
+                       static_cast<std::uint64_t>(words[next + 1]));
+        next += 2;
+    }
+}
 
 Averages Simulation::averages() const {
     if (!averages_->has_begun()) return {};

@@ -103,8 +103,14 @@ public:
     /// must outlive the run, and be of the default precision and arithmetic. **Collective.**
     void check_every_step(const Scene& scene);
 
-    /// Averages since this process began, or since `average_anew`. **Collective.**
+    /// Averages since the run's start, or since `average_anew`. **Collective.**
     Averages averages() const;
+    /// What `averages` and the virial rest on, for a checkpoint; empty before they have begun.
+    /// **Collective.**
+    std::vector<std::int64_t> stored_averages() const;
+    /// Goes on with those of a checkpoint of the present step, before any step. They begin anew
+    /// where there are none, or where averages are to be over other steps.
+    void go_on_averaging(std::span<const std::int64_t> words);
     /// Forgets what has been averaged so far, as before a gas had come to equilibrium.
     /// **Collective.**
     void average_anew();

@@ -2,6 +2,8 @@
 #include "statistics/block_averages.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -171,6 +173,50 @@ void BlockAverages::add(std::int64_t step, const Look& look) {
     }
     blocks_.resize(most_blocks / 2);
     steps_per_block_ *= 2;
+}
+
+namespace {
+
+/// A record of numbers of 8 bytes, one behind the other.
+template <class Record> constexpr std::size_t n_words_of = sizeof(Record) / sizeof(std::int64_t);
+
+template <class Record> void append_words(std::vector<std::int64_t>& words, const Record& record) {
+    const auto mine = std::bit_cast<std::array<std::int64_t, n_words_of<Record>>>(record);
+    words.insert(words.end(), mine.begin(), mine.end());
+}
+
+template <class Record> Record take_words(std::span<const std::int64_t>& words) {
+    std::array<std::int64_t, n_words_of<Record>> mine;
+    std::copy_n(words.begin(), mine.size(), mine.begin());
+    words = words.subspan(mine.size());
+    return std::bit_cast<Record>(mine);
+}
+
+} // namespace
+
+std::vector<std::int64_t> BlockAverages::words() const {
+    std::vector<std::int64_t> words = {first_step_, block_step_, look_step_, steps_per_block_};
+    append_words(words, last_);
+    append_words(words, present_);
+    for (const Block& block : blocks_) append_words(words, block);
+    return words;
+}
+
+bool BlockAverages::set_words(std::span<const std::int64_t> words) {
+    constexpr std::size_t n_fixed = 4 + n_words_of<Look> + n_words_of<Block>;
+    if (words.size() < n_fixed || (words.size() - n_fixed) % n_words_of<Block> != 0) return false;
+    const std::size_t n_blocks = (words.size() - n_fixed) / n_words_of<Block>;
+    if (n_blocks >= most_blocks || words[3] < 1 || words[1] < words[0] || words[2] < words[1])
+        return false;
+    first_step_ = words[0], block_step_ = words[1], look_step_ = words[2];
+    steps_per_block_ = words[3];
+    words = words.subspan(4);
+    last_ = take_words<Look>(words);
+    present_ = take_words<Block>(words);
+    blocks_.clear();
+    for (std::size_t k = 0; k < n_blocks; ++k) blocks_.push_back(take_words<Block>(words));
+    has_begun_ = true;
+    return true;
 }
 
 Tensor BlockAverages::motion_of(const Look& look) const {

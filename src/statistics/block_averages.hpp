@@ -91,6 +91,11 @@ public:
     /// axis: a momentum that is conserved takes one of N degrees of freedom away.
     Tensor motion_of(const Look& look) const;
 
+    /// All that it knows, as plain words, for a checkpoint. Good for the same scene alone.
+    std::vector<std::int64_t> words() const;
+    /// Goes on with such words; false, and nothing has changed, where they are none.
+    bool set_words(std::span<const std::int64_t> words);
+
     /// Averages up to `step`.
     Averages averages(std::int64_t step, const Look& look) const;
 
