@@ -4,6 +4,7 @@
 #pragma once
 
 #include <carrom/averages.hpp>
+#include <carrom/box.hpp>
 #include <carrom/disc.hpp>
 #include <carrom/errors.hpp>
 #include <carrom/measured_table.hpp>

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include <carrom/box.hpp>
 #include <carrom/disc.hpp>
 
 namespace carrom::api {
@@ -19,9 +20,9 @@ class Session;
 
 /// What a checked scene comes to. Lengths in the scene's unit.
 struct SceneFacts {
-    double box_size = 0; ///< L: the box is [0, L] x [0, L]
-    double radius = 0;   ///< the largest one, where there are several
-    double packing = 0;  ///< share of the box that discs cover
+    Box box;
+    double radius = 0;  ///< the largest one, where there are several
+    double packing = 0; ///< share of the box that discs cover
     std::uint64_t n_discs = 0;
     std::int64_t steps = 0;            ///< the last step
     std::int64_t micro_steps = 1;      ///< per step

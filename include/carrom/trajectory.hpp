@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <carrom/box.hpp>
 #include <carrom/disc.hpp>
 #include <carrom/session.hpp>
 #include <carrom/simulation.hpp>
@@ -68,7 +69,7 @@ public:
 
     const std::vector<std::int64_t>& steps() const; ///< of the frames; their number is its size
     std::uint64_t n_discs() const;
-    double box_size() const;        ///< of the box that holds all frames
+    Box box() const;                ///< that holds all frames
     std::string state_hash() const; ///< of a checkpoint; else empty
 
     /// The discs of a frame, by id, or those of ids from `begin` to `end` - 1. Numbers that the

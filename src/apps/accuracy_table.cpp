@@ -9,6 +9,7 @@
 
 #include "apps/csv_table.hpp"
 #include "apps/words.hpp"
+#include "core/box_text.hpp"
 #include "machine/machine.hpp"
 
 namespace carrom {
@@ -26,13 +27,12 @@ constexpr std::string_view build_columns = "version,compiler,flags,machine";
 
 std::string setting_fields(const Scene& scene, const TrialStart& start, const TrialKey& key) {
     const RunSetting& s = key.setting;
-    return fmt::format("{},{},{},{},{:.6g},{},{},{},{},{},{},{},{}",
-                       plain_field(std::filesystem::path(scene.name).filename().string()),
-                       scene.box_size, scene.radius, scene.n_discs, scene.packing(),
-                       scene.sync_every, key.start, to_string(start.hash), name_of(s.method),
-                       s.micro_steps, s.precision == Precision::single ? "single" : "double",
-                       s.arithmetic == Arithmetic::naive ? "naive" : "stable",
-                       s.contraction ? "on" : "off");
+    return fmt::format(
+        "{},{},{},{},{:.6g},{},{},{},{},{},{},{},{}",
+        plain_field(std::filesystem::path(scene.name).filename().string()), scene.box, scene.radius,
+        scene.n_discs, scene.packing(), scene.sync_every, key.start, to_string(start.hash),
+        name_of(s.method), s.micro_steps, s.precision == Precision::single ? "single" : "double",
+        s.arithmetic == Arithmetic::naive ? "naive" : "stable", s.contraction ? "on" : "off");
 }
 
 std::string build_fields() {

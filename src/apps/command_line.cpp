@@ -33,7 +33,7 @@ constexpr const char* examples = R"(Examples:
   carrom keys
   carrom run --help
 
-Discs move freely and collide with each other and with the walls of a square box.
+Discs move freely and collide with each other and with the walls of a rectangular box.
 The result is bit for bit the same for any number of ranks and threads.
 
 Standard output carries data only; progress, summary and messages go to standard error.
@@ -134,8 +134,7 @@ Action failing(std::vector<Problem> problems) {
 }
 
 Action parse_command_line(int argc, char** argv) {
-    CLI::App app("Carrom: hard discs in a square box, the same bits on every machine shape",
-                 "carrom");
+    CLI::App app("Carrom: hard discs in a box, the same bits on every machine shape", "carrom");
     app.set_version_flag("--version", version_text);
     app.set_help_flag(help_words, help_of_help);
     app.footer(examples);

@@ -27,7 +27,7 @@ constexpr double coarsest_digit = 0.01;
 } // namespace
 
 Grader::Grader(const Scene& scene, double tolerance, std::istream& stream, const std::string& name)
-    : scene_(scene), setting_{scene.box_size, scene.radius, scene.micro_steps, scene.sync_every},
+    : scene_(scene), setting_{scene.box, scene.radius, scene.micro_steps, scene.sync_every},
       tolerance_(tolerance), unit_(static_cast<double>(scene.micro_steps)), output_(stream, name),
       lines_(scene.n_discs), digits_before_(scene.n_discs),
       is_counter_unknown_(scene.n_discs, false) {}

@@ -58,8 +58,10 @@ struct PlainRule::Path {
 
 PlainRule::PlainRule(const RuleSetting& setting, std::vector<Disc> discs,
                      std::int64_t micro_steps_done, Mistake mistake)
-    : setting_(setting), walls_(setting.box_size, setting.radius, 1e-8 * setting.radius),
-      deepest_overlap_(std::max(1e-12 * (2 * setting.radius), 16 * 0x1p-52 * setting.box_size)),
+    : setting_(setting), x_walls_(setting.box.x, setting.radius, 1e-8 * setting.radius),
+      y_walls_(setting.box.y, setting.radius, 1e-8 * setting.radius),
+      deepest_overlap_(
+          std::max(1e-12 * (2 * setting.radius), 16 * 0x1p-52 * setting.box.longest())),
       mistake_(mistake), discs_(std::move(discs)), micro_steps_(micro_steps_done) {}
 
 void PlainRule::run_micro_step() {
@@ -84,7 +86,7 @@ void PlainRule::synchronize() {
 void PlainRule::find_candidates(double m) {
     candidates_.clear();
     std::vector<Path> paths;
-    const double margin = 1.01 * setting_.radius + 1e-12 * setting_.box_size;
+    const double margin = 1.01 * setting_.radius + 1e-12 * setting_.box.longest();
     for (const Disc& disc : discs_) {
         const auto [x_low, x_high] = std::minmax({disc.x_at(m), disc.x_at(m + 1)});
         const auto [y_low, y_high] = std::minmax({disc.y_at(m), disc.y_at(m + 1)});
@@ -131,8 +133,8 @@ double PlainRule::overlap_time(const Disc& p, const Disc& q, double m) const {
 }
 
 double PlainRule::wall_time(const Disc& disc, double m) const {
-    return std::min(walls_.time(disc.x, disc.vx, disc.tau, m),
-                    walls_.time(disc.y, disc.vy, disc.tau, m));
+    return std::min(x_walls_.time(disc.x, disc.vx, disc.tau, m),
+                    y_walls_.time(disc.y, disc.vy, disc.tau, m));
 }
 
 void PlainRule::sort_candidates() {
@@ -211,16 +213,16 @@ void PlainRule::collide(Disc& p, Disc& q, double time) const {
 }
 
 void PlainRule::bounce(Disc& disc, double m, double t) const {
-    const double tx = walls_.time(disc.x, disc.vx, disc.tau, m);
-    const double ty = walls_.time(disc.y, disc.vy, disc.tau, m);
+    const double tx = x_walls_.time(disc.x, disc.vx, disc.tau, m);
+    const double ty = y_walls_.time(disc.y, disc.vy, disc.tau, m);
     advance(disc, m + t);
-    bool x_reverses = tx == t || walls_.touches(disc.x, disc.vx);
-    bool y_reverses = ty == t || walls_.touches(disc.y, disc.vy);
+    bool x_reverses = tx == t || x_walls_.touches(disc.x, disc.vx);
+    bool y_reverses = ty == t || y_walls_.touches(disc.y, disc.vy);
     if (!x_reverses && !y_reverses) { // of every_candidate: another collision came before
-        const auto gap = [this](double x, double v) {
-            return v == 0 ? never : v < 0 ? x - walls_.low() : walls_.high() - x;
+        const auto gap = [](const RestingWalls<double>& walls, double x, double v) {
+            return v == 0 ? never : v < 0 ? x - walls.low() : walls.high() - x;
         };
-        x_reverses = gap(disc.x, disc.vx) <= gap(disc.y, disc.vy);
+        x_reverses = gap(x_walls_, disc.x, disc.vx) <= gap(y_walls_, disc.y, disc.vy);
         y_reverses = !x_reverses;
     }
     if (mistake_ == Mistake::corner_on_one_axis && x_reverses && y_reverses)
@@ -232,7 +234,8 @@ void PlainRule::bounce(Disc& disc, double m, double t) const {
 
 void PlainRule::stop(Disc& disc, double m, double t) const {
     if (mistake_ == Mistake::no_stop || mistake_ == Mistake::every_collision) return;
-    const double sx = walls_.stop(disc.x, disc.vx, 1 - t), sy = walls_.stop(disc.y, disc.vy, 1 - t);
+    const double sx = x_walls_.stop(disc.x, disc.vx, 1 - t),
+                 sy = y_walls_.stop(disc.y, disc.vy, 1 - t);
     const double s = std::min(sx, sy);
     if (s == never) return;
     if (mistake_ == Mistake::stop_on_one_axis) {

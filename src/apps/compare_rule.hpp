@@ -11,6 +11,8 @@
 #include <span>
 #include <vector>
 
+#include <carrom/box.hpp>
+
 #include "core/disc.hpp"
 #include "dynamics/resting_walls.hpp"
 #include "engine/collision.hpp"
@@ -40,7 +42,8 @@ enum class Mistake {
 };
 
 struct RuleSetting {
-    double box_size = 0, radius = 0;
+    Box box;
+    double radius = 0;
     std::int64_t micro_steps = 1, sync_every = 64;
 };
 
@@ -83,7 +86,7 @@ private:
     void synchronize();
 
     RuleSetting setting_;
-    RestingWalls<double> walls_;
+    RestingWalls<double> x_walls_, y_walls_;
     double deepest_overlap_;
     Mistake mistake_;
     std::vector<Disc> discs_;

@@ -18,10 +18,10 @@ constexpr std::size_t discs_at_a_time = 1 << 16;
 
 std::vector<InputDisc> moved_by_a_bit(std::vector<InputDisc> discs, const Scene& scene,
                                       std::uint64_t seed) {
-    const double low = scene.radius, high = scene.box_size - scene.radius;
+    const double low = scene.radius;
     for (InputDisc& disc : discs) {
-        disc.x = std::clamp(nudged(disc.x, disc.id, seed), low, high);
-        disc.y = std::clamp(nudged(disc.y, disc.id, seed + 1), low, high);
+        disc.x = std::clamp(nudged(disc.x, disc.id, seed), low, scene.box.x - low);
+        disc.y = std::clamp(nudged(disc.y, disc.id, seed + 1), low, scene.box.y - low);
         disc.vx = nudged(disc.vx, disc.id, seed + 2);
         disc.vy = nudged(disc.vy, disc.id, seed + 3);
     }

@@ -84,7 +84,7 @@ void append_header(fmt::memory_buffer& out, const FileSummary& summary, std::int
                    "{}\nLattice=\"{} 0 0 0 {} 0 0 0 1\" "
                    "Properties=species:S:1:pos:R:3:velo:R:3:id:I:1:radius:R:1:mass:R:1{} Time={} "
                    "pbc=\"{} {} F\"\n",
-                   summary.n_rows, summary.box_size, summary.box_size, others, step,
+                   summary.n_rows, summary.box.x, summary.box.y, others, step,
                    summary.is_periodic_x ? 'T' : 'F', summary.is_periodic_y ? 'T' : 'F');
 }
 

@@ -26,10 +26,11 @@ double largest_speed(const Simulation& simulation, const Communicator& ranks) {
 constexpr double most_crossings = 8000;
 
 void refuse_long_flights(const Scene& scene, double speed) {
+    if (!scene.effects.are_periodic()) return;
     const double interval = static_cast<double>(
         std::min(scene.sync_every, scene.steps * scene.micro_steps));
-    const double crossings = speed * interval / scene.box_size;
-    if (!scene.effects.are_periodic() || crossings <= most_crossings) return;
+    const double crossings = speed * interval / scene.effects.periods(scene.box).shortest();
+    if (crossings <= most_crossings) return;
     throw InputError({{scene.name, 0,
                        fmt::format("the fastest disc flies {:.3g} times through the box with "
                                    "periodic sides from one sync to the next; this version "

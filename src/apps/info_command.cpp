@@ -9,6 +9,7 @@
 
 #include "apps/restart.hpp"
 #include "apps/words.hpp"
+#include "core/box_text.hpp"
 #include "core/side_columns.hpp"
 #include "io/checkpoint.hpp"
 #include "io/frame_file.hpp"
@@ -92,8 +93,7 @@ std::string summary_text(const FileSummary& summary) {
     if (summary.kind == FileKind::collisions)
         return text + labelled_line("collisions", fmt::format("{}", summary.n_rows)) +
                labelled_line("fields", fmt::format("{}", fmt::join(summary.columns, " ")));
-    text += labelled_line("discs",
-                          fmt::format("{} in a box of {:g}", summary.n_rows, summary.box_size));
+    text += labelled_line("discs", fmt::format("{} in a box of {:g}", summary.n_rows, summary.box));
     const std::string periodic = fmt::format("{}{}", summary.is_periodic_x ? "x" : "",
                                              summary.is_periodic_y ? "y" : "");
     if (!periodic.empty()) text += labelled_line("periodic", periodic);

@@ -47,7 +47,7 @@ void add_thermodynamics(nlohmann::ordered_json& report, const Scene& scene,
     const auto estimate = [&averages](const Estimate& one) { return estimate_json(one, averages); };
     const bool has_any = averages.steps > 0;
     report["radius"] = scene.radius;
-    report["box"] = {scene.box_size, scene.box_size};
+    report["box"] = {scene.box.x, scene.box.y};
     report["eta"] = scene.packing();
     report["kT"] = has_any ? number_or_null(averages.temperature.value) : nullptr;
     report["temperature"] = estimate(averages.temperature);

@@ -116,7 +116,7 @@ double ideal_overlaps(const Scene& scene) {
         for (const Species& b : species)
             areas += static_cast<double>(a.count) * static_cast<double>(b.count) *
                      std::numbers::pi * std::pow(a.radius + b.radius, 2);
-    return areas / (static_cast<double>(scene.n_discs) * scene.box_size * scene.box_size);
+    return areas / (static_cast<double>(scene.n_discs) * scene.box.x * scene.box.y);
 }
 
 } // namespace

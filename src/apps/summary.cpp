@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "apps/words.hpp"
+#include "core/box_text.hpp"
 #include "machine/machine.hpp"
 
 namespace carrom {
@@ -139,7 +140,7 @@ std::string plural(int count, const char* what) {
 std::string scene_lines(const Scene& scene) {
     std::string text = labelled_line(
         "scene", fmt::format("{}: {} discs of {} in a box of {:g}, packing {:.4g}", scene.name,
-                             scene.n_discs, radii_text(scene), scene.box_size, scene.packing()));
+                             scene.n_discs, radii_text(scene), scene.box, scene.packing()));
     text += labelled_line("method", fmt::format("{}, micro_steps = {}, sync_every = {}{}",
                                                 name_of(scene.method), scene.micro_steps,
                                                 scene.sync_every, arithmetic_text(scene)));

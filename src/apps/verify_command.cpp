@@ -34,7 +34,7 @@ std::string flaw_of(const Disc& disc, double radius, const CheckpointHeader& hea
     const double x = shown.x, y = shown.y;
     // A disc may stand a little beyond its wall for the rest of a micro-step, or by the rounding of
     // L - r.
-    const double slack = 1e-6 * header.radius + 0x1p-50 * header.box_size;
+    const double slack = 1e-6 * header.radius + 0x1p-50 * header.box().longest();
     const double margin = radius - slack;
     if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(disc.vx) ||
         !std::isfinite(disc.vy))
@@ -49,7 +49,7 @@ std::string flaw_of(const Disc& disc, double radius, const CheckpointHeader& hea
 
 /// Where a run may show the centre of a disc without a radius. **Not collective.**
 Extent room_of(const CheckpointHeader& header, const Effects& effects) {
-    Extent box = extent_at(effects, header.box_size, static_cast<double>(header.step));
+    Extent box = extent_at(effects, header.box(), static_cast<double>(header.step));
     const auto make_room = [&](std::size_t side, double& line, double outwards) {
         if (effects.boundaries[side].kind == BoundaryKind::open)
             line = outwards * infinity; // discs may be on their way out
@@ -125,9 +125,10 @@ bool is_possible(const NamedRows& rows, std::size_t i, const FileSummary& summar
     if (!rows.are_finite(i)) return false;
     if (!summary.has("x")) return true;
     const double x = rows(i, "x"), y = rows(i, "y"), vx = rows(i, "vx"), vy = rows(i, "vy");
-    const double l = summary.box_size, rounding = summary.bytes_per_number == 4 ? 0x1p-22 : 0x1p-50;
-    const double reach = summary.radius + rounding * (l + summary.radius);
-    const std::array<double, 4> beyond = {-x, x - l, -y, y - l}, rate = {-vx, vx, -vy, vy};
+    const Box& box = summary.box;
+    const double rounding = summary.bytes_per_number == 4 ? 0x1p-22 : 0x1p-50;
+    const double reach = summary.radius + rounding * (box.longest() + summary.radius);
+    const std::array<double, 4> beyond = {-x, x - box.x, -y, y - box.y}, rate = {-vx, vx, -vy, vy};
     const bool is_at_rest = summary.has("vx") && vx == 0 && vy == 0;
     bool has_left = false;
     for (std::size_t side = 0; side < beyond.size(); ++side)

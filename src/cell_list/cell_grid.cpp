@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "cell_list/disc_sorter_passes.hpp"
@@ -42,11 +43,14 @@ struct StoredPlaces {
 
 } // namespace
 
-GridGeometry make_geometry(double x_low, double x_high, double y_low, double y_high, double reach,
-                           std::size_t n_discs, double cell_width) {
-    const double width = std::max(x_high - x_low, 0.0), height = std::max(y_high - y_low, 0.0);
-    const double sparse_width = std::sqrt(width / static_cast<double>(n_discs + 16)) *
-                                std::sqrt(height);
+GridGeometry make_geometry(const Extent& extent, Axis axis, double reach, std::size_t n_discs,
+                           double cell_width) {
+    const auto [width, height] = turned(axis, std::max(extent.size().x, 0.0),
+                                        std::max(extent.size().y, 0.0));
+    const auto n_cells = static_cast<double>(n_discs + 16);
+    // In a thin tube one cell holds its whole height.
+    const double sparse_width = std::max(std::sqrt(width / n_cells) * std::sqrt(height),
+                                         std::max(width, height) / n_cells);
     // Two cells to the reach save a third of the pairs where cells of one reach would hold many
     // discs.
     const double discs_per_reach = reach / std::max(sparse_width, reach * 1e-3);
@@ -54,8 +58,8 @@ GridGeometry make_geometry(double x_low, double x_high, double y_low, double y_h
     const double wanted = cell_width > 0 ? std::max(cell_width, 1e-6) * reach
                                          : (discs_per_reach > 2.4 ? reach / 2 : reach);
     GridGeometry geometry;
-    geometry.x_low = x_low;
-    geometry.y_low = y_low;
+    geometry.axis = axis;
+    std::tie(geometry.low, geometry.across_low) = turned(axis, extent.x_low, extent.y_low);
     geometry.set_cell_width(std::max(wanted, least_spacings * sparse_width));
     geometry.n_reach = std::max(
         1, static_cast<int>(std::ceil(reach / geometry.cell_width * (1 - 1e-9))));
@@ -64,36 +68,30 @@ GridGeometry make_geometry(double x_low, double x_high, double y_low, double y_h
     return geometry;
 }
 
-GridGeometry make_sparse_geometry(double x_low, double x_high, double y_low, double y_high,
-                                  double reach, std::size_t n_discs) {
-    const double area = std::max(x_high - x_low, 0.0) * std::max(y_high - y_low, 0.0);
+GridGeometry make_sparse_geometry(const Extent& extent, Axis axis, double reach,
+                                  std::size_t n_discs) {
+    const double area = std::max(extent.size().x, 0.0) * std::max(extent.size().y, 0.0);
     const double width = std::sqrt(2 * area / static_cast<double>(n_discs + 16)) / reach;
-    return make_geometry(x_low, x_high, y_low, y_high, reach, n_discs, width > 1 ? width : 0);
+    return make_geometry(extent, axis, reach, n_discs, width > 1 ? width : 0);
 }
 
 template <class Places>
-std::uint32_t CellGrid::column_at(const Places& places, const Disc& disc) const {
-    return static_cast<std::uint32_t>(geometry_.column_of(places.x_of(disc, anchor_)));
-}
-
-template <class Places>
-std::uint32_t CellGrid::row_at(const Places& places, const Disc& disc) const {
-    return static_cast<std::uint32_t>(geometry_.row_of(places.y_of(disc, anchor_)));
-}
-
-template <class Places>
-std::uint32_t CellGrid::cell_at(const Places& places, const Disc& disc) const {
-    return column_at(places, disc) * rows() + row_at(places, disc);
+CellGrid::Cell CellGrid::cell_at(const Places& places, const Disc& disc) const {
+    const auto [along, across] = turned(geometry_.axis, places.x_of(disc, anchor_),
+                                        places.y_of(disc, anchor_));
+    return {geometry_.column_of(along), geometry_.row_of(across)};
 }
 
 template <class Places>
 void CellGrid::place(const Places& places, float* flight, std::size_t length,
                      const Disc& disc) const {
     const double cells = geometry_.cells_per_length();
-    flight[0] = static_cast<float>((places.x_of(disc, time_) - geometry_.x_low) * cells);
-    flight[length] = static_cast<float>((places.y_of(disc, time_) - geometry_.y_low) * cells);
-    flight[2 * length] = static_cast<float>(disc.vx * duration_ * cells);
-    flight[3 * length] = static_cast<float>(disc.vy * duration_ * cells);
+    const auto [x, y] = turned(geometry_.axis, places.x_of(disc, time_), places.y_of(disc, time_));
+    const auto [vx, vy] = turned(geometry_.axis, disc.vx, disc.vy);
+    flight[0] = static_cast<float>((x - geometry_.low) * cells);
+    flight[length] = static_cast<float>((y - geometry_.across_low) * cells);
+    flight[2 * length] = static_cast<float>(vx * duration_ * cells);
+    flight[3 * length] = static_cast<float>(vy * duration_ * cells);
 }
 
 void CellGrid::sort(std::span<Disc> own, const GridGeometry& geometry, double anchor, double time,
@@ -154,7 +152,12 @@ void CellGrid::sort(const Places& places, std::span<Disc> own, int n_threads,
                     const Companions& companions) {
     const SortMemory memory{lanes_, lane_length_};
     sorter_.find_order(
-        own, [&](const Disc& disc) { return cell_at(places, disc); },
+        own,
+        [&](const Disc& disc) {
+            const Cell cell = cell_at(places, disc);
+            return static_cast<std::uint32_t>(cell.column) * rows() +
+                   static_cast<std::uint32_t>(cell.row);
+        },
         static_cast<std::size_t>(geometry_.n_columns), n_threads, cell_start_, memory);
     if (companions.columns) sort_columns(*companions.columns, memory.order());
     const auto place_flight = [&](std::size_t i) {
@@ -184,8 +187,9 @@ template <class Places> void CellGrid::add_halo(const Places& places, std::span<
     if (halo.empty()) return;
     halo_column_.assign(static_cast<std::size_t>(geometry_.n_columns), no_halo);
     for (std::size_t i = 0; i < halo.size(); ++i) {
-        halo_order_[i] = column_at(places, halo[i]); // for now, both
-        halo_slot_[i] = row_at(places, halo[i]);
+        const Cell cell = cell_at(places, halo[i]);
+        halo_order_[i] = static_cast<LocalIndex>(cell.column); // for now, both
+        halo_slot_[i] = static_cast<std::uint32_t>(cell.row);
         halo_column_[halo_order_[i]] = 0;
     }
     std::uint32_t n_cells = 0;
@@ -268,6 +272,7 @@ CellGrid::Cell CellGrid::cell_of(LocalIndex own_index) const {
 
 std::vector<SlotRange> CellGrid::outside(const Inside& inner) const {
     constexpr double margin = 1e-6; // where a cell ends is rounded
+    const auto corner = turned(geometry_.axis, geometry_.low, geometry_.across_low);
     // Cells first .. end - 1 of n from `origin` on lie within low .. high; those at the ends hold
     // what is beyond them, too.
     const auto cells_within = [this](double low, double high, double origin, int n) {
@@ -280,10 +285,13 @@ std::vector<SlotRange> CellGrid::outside(const Inside& inner) const {
             high == infinity ? n : std::clamp(std::floor(to), 0.0, n - 1.0));
         return cells;
     };
-    const SlotRange columns = cells_within(inner.x_low, inner.x_high, geometry_.x_low,
-                                           geometry_.n_columns);
-    const SlotRange inner_rows = cells_within(inner.y_low, inner.y_high, geometry_.y_low,
-                                              geometry_.n_rows);
+    const SlotRange in_x = cells_within(inner.x_low, inner.x_high, corner.first,
+                                        geometry_.axis == Axis::x ? geometry_.n_columns
+                                                                  : geometry_.n_rows);
+    const SlotRange in_y = cells_within(inner.y_low, inner.y_high, corner.second,
+                                        geometry_.axis == Axis::x ? geometry_.n_rows
+                                                                  : geometry_.n_columns);
+    const auto [columns, inner_rows] = turned(geometry_.axis, in_x, in_y);
     const auto n_own = static_cast<std::uint32_t>(n_own_);
     if (columns.begin >= columns.end || inner_rows.begin >= inner_rows.end) return {{0, n_own}};
     std::vector<SlotRange> ranges;

@@ -15,22 +15,29 @@
 #include <vector>
 
 #include "cell_list/disc_sorter.hpp"
+#include "core/axis.hpp"
 #include "core/disc.hpp"
+#include "core/extent.hpp"
 #include "core/image.hpp"
 #include "core/side_columns.hpp"
 
 namespace carrom {
 
-/// Where the cells lie. Discs outside of all cells are put into its border cells, which brings no
-/// two discs further apart.
+/// Where the cells lie. Columns follow each other along `axis`, rows across it. Discs outside of
+/// all cells are put into its border cells, which brings no two discs further apart.
 struct GridGeometry {
-    double x_low = 0, y_low = 0;
-    double cell_width = 1; ///< see set_cell_width
+    Axis axis = Axis::x;
+    double low = 0, across_low = 0; ///< of the first column and the first row
+    double cell_width = 1;          ///< see set_cell_width
     int n_columns = 1, n_rows = 1;
     int n_reach = 1; ///< cells on each side that can hold a partner
 
-    int column_of(double x) const { return clamp_cell((x - x_low) * cells_per_length_, n_columns); }
-    int row_of(double y) const { return clamp_cell((y - y_low) * cells_per_length_, n_rows); }
+    int column_of(double place) const {
+        return clamp_cell((place - low) * cells_per_length_, n_columns);
+    }
+    int row_of(double across) const {
+        return clamp_cell((across - across_low) * cells_per_length_, n_rows);
+    }
     double cells_per_length() const { return cells_per_length_; }
 
     void set_cell_width(double width) {
@@ -47,18 +54,18 @@ private:
     }
 };
 
-/// Cells over [x_low, x_high] x [y_low, y_high] for partners within `reach`, not many
-/// more than `n_discs` cells. `cell_width` in units of reach, 0 for a choice by density.
-GridGeometry make_geometry(double x_low, double x_high, double y_low, double y_high, double reach,
-                           std::size_t n_discs, double cell_width);
+/// Cells over `extent` for partners within `reach`, not many more than `n_discs` cells.
+/// `cell_width` in units of reach, 0 for a choice by density.
+GridGeometry make_geometry(const Extent& extent, Axis axis, double reach, std::size_t n_discs,
+                           double cell_width);
 
 /// The same for a look now and then, with no more than half as many cells as discs: less memory,
 /// more pairs.
-GridGeometry make_sparse_geometry(double x_low, double x_high, double y_low, double y_high,
-                                  double reach, std::size_t n_discs);
+GridGeometry make_sparse_geometry(const Extent& extent, Axis axis, double reach,
+                                  std::size_t n_discs);
 
 /// Free flights in slot order: position in cells from the grid's corner at the window's start,
-/// cells per window.
+/// cells per window. x is along the grid's axis, y across it.
 struct FlightLanes {
     const float* x = nullptr;
     const float* y = nullptr;
@@ -224,9 +231,7 @@ private:
     void sort(const Places& places, std::span<Disc> own, int n_threads,
               const Companions& companions);
     void sort_columns(SideColumns& columns, Lent order) const;
-    template <class Places> std::uint32_t column_at(const Places& places, const Disc& disc) const;
-    template <class Places> std::uint32_t row_at(const Places& places, const Disc& disc) const;
-    template <class Places> std::uint32_t cell_at(const Places& places, const Disc& disc) const;
+    template <class Places> Cell cell_at(const Places& places, const Disc& disc) const;
     template <class Places> void add_halo(const Places& places, std::span<const Disc> halo);
     template <class Places>
     void place(const Places& places, float* flight, std::size_t length, const Disc& disc) const;

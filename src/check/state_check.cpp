@@ -50,7 +50,7 @@ StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64
       species_(scene.effects.species, scene.radius), communicator_(communicator),
       first_id_(slab_begin(communicator.rank(), scene.n_discs, communicator.size())),
       micro_steps_done_(micro_steps_done), micro_steps_before_(micro_steps_done),
-      tolerance_(PlainDynamics(scene.box_size, scene.radius).tolerance()) {
+      tolerance_(PlainDynamics(scene.box, scene.radius).tolerance()) {
     may_lose_energy_ = may_lose_in_contacts() || effects_.obstacles.restitution < 1 ||
                        (effects_.gravity.is_any() && effects_.drag != 0);
     for (const Boundary& side : effects_.boundaries) {
@@ -58,7 +58,7 @@ StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64
         walls_give_energy_ = walls_give_energy_ || side.kind == BoundaryKind::thermal ||
                              side.speed != 0;
     }
-    if (effects_.obstacles.are_any()) obstacles_.emplace(scene.box_size, scene.radius, effects_);
+    if (effects_.obstacles.are_any()) obstacles_.emplace(scene.box, scene.radius, effects_);
     known_.resize(slab_begin(communicator.rank() + 1, scene.n_discs, communicator.size()) -
                   first_id_);
     for (Known& known : known_) known.free_from = micro_steps_done;
@@ -119,7 +119,7 @@ void StateCheck::fail_if_found(const Finding& mine, Log log) {
     if (first.disc < scene_.n_discs) {
         for (const SceneDisc& each :
              discs_around(first, discs_before(), slab_of_disc(first.disc), log,
-                          scene_.effects.periods(scene_.box_size), communicator_)) {
+                          scene_.effects.periods(scene_.box), communicator_)) {
             discs.push_back(each.disc);
             if (effects_.contact.kind == ContactKind::rough) spins.push_back(each.spin);
         }
@@ -133,18 +133,18 @@ void StateCheck::fail_if_found(const Finding& mine, Log log) {
 std::vector<SceneDisc> StateCheck::discs_before() const {
     const auto clock = static_cast<double>(micro_steps_before_ % scene_.sync_every);
     const auto unit = static_cast<double>(scene_.micro_steps);
-    const Periods periods = scene_.effects.periods(scene_.box_size);
-    const auto inside = [&](double x, double period, double radius) {
-        return period != 0 ? wrapped(x, period) : std::clamp(x, radius, scene_.box_size - radius);
+    const Periods periods = scene_.effects.periods(scene_.box);
+    const auto inside = [](double x, double period, double length, double radius) {
+        return period != 0 ? wrapped(x, period) : std::clamp(x, radius, length - radius);
     };
     std::vector<SceneDisc> discs;
     for (const Known& known : before_) {
         const Disc& disc = known.disc;
         const double radius = species_.of(disc.id).radius;
-        discs.push_back(
-            {{disc.id, inside(disc.x_at(clock), periods.x, radius),
-              inside(disc.y_at(clock), periods.y, radius), disc.vx * unit, disc.vy * unit},
-             known.spin * unit});
+        discs.push_back({{disc.id, inside(disc.x_at(clock), periods.x, scene_.box.x, radius),
+                          inside(disc.y_at(clock), periods.y, scene_.box.y, radius), disc.vx * unit,
+                          disc.vy * unit},
+                         known.spin * unit});
     }
     return discs;
 }
@@ -229,7 +229,7 @@ void StateCheck::take_log(Log log) {
 Finding StateCheck::first_out_of_place(const LocalView& now) const {
     const GridGeometry& geometry = now.grid->geometry();
     const double allowed = scene_.effects.are_any() ? blur(64) : blur(4);
-    const Extent box = extent_at(effects_, scene_.box_size, static_cast<double>(micro_steps_done_));
+    const Extent box = extent_at(effects_, scene_.box, static_cast<double>(micro_steps_done_));
     std::optional<Finding> first;
     const auto add = [&](Invariant invariant, DiscId id, double value, double bound) {
         if (!first || invariant < first->invariant)
@@ -248,11 +248,12 @@ Finding StateCheck::first_out_of_place(const LocalView& now) const {
             now.periods.y != 0 ? beyond(0, y, now.periods.y)
                                : radius + beyond(box.y_low, seen.y, box.y_high));
         if (outside > allowed) add(Invariant::in_box, disc.id, outside, allowed);
-        if (now.strips->owner(x) != communicator_.rank())
-            add(Invariant::in_strip, disc.id, now.strips->owner(x), 0);
+        const auto [along, across] = turned(geometry.axis, x, y);
+        if (now.strips->owner(along) != communicator_.rank())
+            add(Invariant::in_strip, disc.id, now.strips->owner(along), 0);
         const auto index = static_cast<LocalIndex>(i);
         const CellGrid::Cell cell = is_filed ? now.grid->cell_of(index) : CellGrid::Cell{-1, -1};
-        if (cell.column != geometry.column_of(x) || cell.row != geometry.row_of(y))
+        if (cell.column != geometry.column_of(along) || cell.row != geometry.row_of(across))
             add(Invariant::in_cell, disc.id, 0, 0);
     }
     return first.value_or(Finding{});
@@ -360,7 +361,7 @@ double StateCheck::blur(double n_ulps) const {
     constexpr double ulp = std::numeric_limits<double>::epsilon();
     const double time = ulp * static_cast<double>(
                                   scene_.sync_every); // the rounding of a time just before a sync
-    return n_ulps * ulp * scene_.box_size + 2 * fastest_ * time;
+    return n_ulps * ulp * scene_.box.longest() + 2 * fastest_ * time;
 }
 
 } // namespace carrom

@@ -112,7 +112,7 @@ Finding StateCheck::first_other_total(std::span<const Disc> own,
         const double k = static_cast<double>(scene_.micro_steps);
         const double fall = std::fabs(effects_.gravity.x) + std::fabs(effects_.gravity.y);
         expected = energy_ * energy_left();
-        scale = energy_ + total_mass_ * k * k * fall * scene_.box_size;
+        scale = energy_ + total_mass_ * k * k * fall * scene_.box.longest();
         allowed = bound * scale + n * k * k * communicator_.max(gain);
         energy_ = energy;
     }
@@ -159,7 +159,7 @@ double StateCheck::twice_energy(const Known& known) const {
     if (!effects_.gravity.is_any()) return body.mass * square;
     const double clock = seen.tau; // as it was seen
     const auto height = [this](double place, double pull) {
-        return (pull < 0 ? place : -place) + 2 * scene_.box_size;
+        return (pull < 0 ? place : -place) + 2 * scene_.box.longest();
     };
     return body.mass *
            (square +
@@ -206,7 +206,7 @@ double StateCheck::energy_of(std::span<const Disc> own) const {
         measure_rotation(own, spins, species_, effects_.contact.inertia, unit, communicator_,
                          totals);
     if (effects_.gravity.is_any())
-        measure_height(own, species_table, scene_.effects.gravity, scene_.box_size, communicator_,
+        measure_height(own, species_table, scene_.effects.gravity, scene_.box, communicator_,
                        totals);
     return totals.kinetic_energy + totals.rotational_energy + totals.potential_energy;
 }

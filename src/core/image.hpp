@@ -9,10 +9,12 @@
 // scene without periodic sides has none.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
+#include "core/axis.hpp"
 #include "core/disc.hpp"
 #include "core/errors.hpp"
 
@@ -58,6 +60,9 @@ struct Periods {
     double x = 0, y = 0;
 
     bool are_any() const { return x != 0 || y != 0; }
+    /// 0 where there are none.
+    double shortest() const { return x == 0 || y == 0 ? std::max(x, y) : std::min(x, y); }
+    double along(Axis axis) const { return carrom::along(axis, x, y); }
 
     /// Where the disc's image is.
     double x_of(const Disc& disc, double time) const {
@@ -65,6 +70,10 @@ struct Periods {
     }
     double y_of(const Disc& disc, double time) const {
         return is_unshifted(disc) ? disc.y_at(time) : shifted_y(disc, time);
+    }
+
+    double place_of(const Disc& disc, Axis axis, double time) const {
+        return axis == Axis::x ? x_of(disc, time) : y_of(disc, time);
     }
 
     /// How much further the difference of two stored places is for their images: the same number

@@ -74,7 +74,8 @@ TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& str
                                      std::span<const Disc> own, double time, double farthest,
                                      const Periods& periods) {
     TransferPlan plan;
-    const double period = periods.x;
+    const Axis axis = strips.axis();
+    const double period = periods.along(axis);
     double distance = farthest;
     if (period != 0)
         distance = std::min(farthest, period) +
@@ -87,7 +88,7 @@ TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& str
     plan.leaving.resize(plan.partners.size());
     const std::vector<std::size_t> places = places_of(plan.partners, strips.size());
     for (std::size_t i = 0; i < own.size() && strips.size() > 1; ++i) {
-        const int owner = strips.owner(periods.x_of(own[i], time));
+        const int owner = strips.owner(periods.place_of(own[i], axis, time));
         if (owner == rank) continue;
         const std::size_t place = places[static_cast<std::size_t>(owner)];
         ensure(place < plan.partners.size(), "a disc goes to a rank that does not expect it");
@@ -97,41 +98,49 @@ TransferPlan plan_periodic_migration(const Strips& old_strips, const Strips& str
 }
 
 Inside interior(const Strips& strips, int rank, double reach, const Periods& periods) {
-    const Slab mine(strips, rank, periods.x);
-    const Inside box = periods.inside();
-    return {mine.low + reach, mine.high - reach, box.y_low + reach, box.y_high - reach};
+    const Slab mine(strips, rank, periods.along(strips.axis()));
+    Inside inner = periods.inside();
+    auto& [x_low, x_high, y_low, y_high] = inner;
+    (strips.axis() == Axis::x ? x_low : y_low) = mine.low;
+    (strips.axis() == Axis::x ? x_high : y_high) = mine.high;
+    return {x_low + reach, x_high - reach, y_low + reach, y_high - reach};
 }
 
 TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const Disc> own,
                                 std::span<const PlaceRange> looked_at, double time, double reach,
                                 const Periods& periods) {
     TransferPlan plan;
-    const double longest = std::max(periods.x, periods.y);
+    const Axis axis = strips.axis();
+    const double longest = std::max(periods.x, periods.y), period = periods.along(axis);
     for (int other = 0; other < strips.size(); ++other) {
         if (are_near(strips, std::min(rank, other), strips, std::max(rank, other),
-                     reach + margin * longest, periods.x))
+                     reach + margin * longest, period))
             plan.partners.push_back(other);
     }
     plan.leaving.resize(plan.partners.size());
     plan.images.resize(plan.partners.size());
     std::vector<Slab> slabs;
-    for (const int other : plan.partners) slabs.emplace_back(strips, other, periods.x);
+    for (const int other : plan.partners) slabs.emplace_back(strips, other, period);
+    const double period_across = periods.along(other_axis(axis));
     const Inside box = periods.inside();
+    const auto [across_low, across_high] = axis == Axis::x ? std::pair(box.y_low, box.y_high)
+                                                           : std::pair(box.x_low, box.x_high);
     const auto look_at = [&](LocalIndex i) {
-        const double x = periods.x_of(own[i], time), y = periods.y_of(own[i], time);
+        const auto [u, v] = turned(axis, periods.x_of(own[i], time), periods.y_of(own[i], time));
         const Image home = image_of(own[i]);
-        const Shifts along_y(y, reach, box.y_low, box.y_high, periods.y);
+        const Shifts across(v, reach, across_low, across_high, period_across);
         for (std::size_t k = 0; k < slabs.size(); ++k) {
-            const Shifts along_x(x, reach, slabs[k].low, slabs[k].high, periods.x);
-            for (int n = along_x.first; n <= along_x.last; ++n) {
-                const double image_x = x + n * periods.x;
-                if (image_x + reach < slabs[k].low || image_x - reach > slabs[k].high) continue;
-                for (int m = along_y.first; m <= along_y.last; ++m) {
-                    const double image_y = y + m * periods.y;
-                    if (image_y + reach < box.y_low || image_y - reach > box.y_high) continue;
+            const Shifts along(u, reach, slabs[k].low, slabs[k].high, period);
+            for (int n = along.first; n <= along.last; ++n) {
+                const double image_u = u + n * period;
+                if (image_u + reach < slabs[k].low || image_u - reach > slabs[k].high) continue;
+                for (int m = across.first; m <= across.last; ++m) {
+                    const double image_v = v + m * period_across;
+                    if (image_v + reach < across_low || image_v - reach > across_high) continue;
                     if (plan.partners[k] == rank && n == 0 && m == 0) continue;
+                    const auto [by_x, by_y] = turned(axis, n, m);
                     plan.leaving[k].push_back(i);
-                    plan.images[k].push_back({home.x + n, home.y + m});
+                    plan.images[k].push_back({home.x + by_x, home.y + by_y});
                 }
             }
         }

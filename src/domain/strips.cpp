@@ -25,7 +25,7 @@ bool can_move(const Strips& before, const Strips& after, int sender, int receive
 
 } // namespace
 
-Strips::Strips(std::vector<double> cuts) : cuts_(std::move(cuts)) {
+Strips::Strips(std::vector<double> cuts, Axis axis) : cuts_(std::move(cuts)), axis_(axis) {
     ensure(std::is_sorted(cuts_.begin(), cuts_.end()),
            "the cuts between strips are not in ascending order");
     ensure(std::all_of(cuts_.begin(), cuts_.end(), [](double cut) { return std::isfinite(cut); }),
@@ -75,19 +75,18 @@ std::vector<int> movers_between(const Strips& before, const Strips& after, int r
     return partners;
 }
 
-std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double box_size,
+std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double length,
                                   int n_ranks) {
     ensure(n_ranks > 0, "there are no ranks to balance");
     const double total = static_cast<double>(
         std::accumulate(weights.begin(), weights.end(), std::uint64_t{0}));
-    const double bin_width = box_size /
-                             static_cast<double>(std::max<std::size_t>(1, weights.size()));
+    const double bin_width = length / static_cast<double>(std::max<std::size_t>(1, weights.size()));
     std::vector<double> cuts;
     std::size_t bin = 0;
     double below = 0; // weight of the bins below `bin`: whole numbers, exact up to 2^53
     for (int k = 1; k < n_ranks; ++k) {
         const double share = static_cast<double>(k) / n_ranks;
-        double cut = box_size * share;
+        double cut = length * share;
         if (total > 0) {
             const double target = total * share;
             while (bin + 1 < weights.size() && below + static_cast<double>(weights[bin]) < target)
@@ -97,7 +96,7 @@ std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double
                                       : 0;
             cut = bin_width * (static_cast<double>(bin) + std::clamp(in_bin, 0.0, 1.0));
         }
-        cuts.push_back(std::clamp(cut, cuts.empty() ? 0.0 : cuts.back(), box_size));
+        cuts.push_back(std::clamp(cut, cuts.empty() ? 0.0 : cuts.back(), length));
     }
     return cuts;
 }

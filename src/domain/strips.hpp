@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which rank owns which slab of x, and which ranks therefore may exchange discs. Pure arithmetic,
-// no MPI.
+// Which rank owns which slab of the strips' axis, x unless said otherwise, and which ranks
+// therefore may exchange discs. Pure arithmetic, no MPI.
 //
 // All lists follow from numbers that every rank knows, so both partners of an exchange know of it
 // without a message. They are symmetric: a lists b if and only if b lists a. They are complete
@@ -11,6 +11,9 @@
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "core/axis.hpp"
+#include "core/disc.hpp"
 
 namespace carrom {
 
@@ -31,7 +34,13 @@ public:
     Strips() = default;
 
     /// `cuts` ascending, finite, one fewer than strips.
-    explicit Strips(std::vector<double> cuts);
+    explicit Strips(std::vector<double> cuts, Axis axis = Axis::x);
+
+    Axis axis() const { return axis_; }
+    /// The disc's place along that axis.
+    double place_of(const Disc& disc, double time) const {
+        return axis_ == Axis::x ? disc.x_at(time) : disc.y_at(time);
+    }
 
     int size() const { return static_cast<int>(cuts_.size()) + 1; }
     std::span<const double> cuts() const { return cuts_; }
@@ -53,6 +62,7 @@ private:
     bool are_within(int lower, int upper, double reach) const;
 
     std::vector<double> cuts_;
+    Axis axis_ = Axis::x;
 };
 
 /// The other ranks, ascending, that `rank` may have to send discs to or receive discs from. Discs
@@ -62,9 +72,9 @@ std::vector<int> movers_between(const Strips& before, const Strips& after, int r
                                 double distance);
 
 /// Cuts that give `n_ranks` strips equal weight. `weights` are those of equal bins of [0,
-/// box_size]; weight is taken as spread evenly inside a bin. Ascending, within the box, and a
+/// length]; weight is taken as spread evenly inside a bin. Ascending, within the box, and a
 /// function of the arguments alone.
-std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double box_size,
+std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double length,
                                   int n_ranks);
 
 } // namespace carrom

@@ -44,7 +44,7 @@ TransferPlan plan_migration(const Strips& old_strips, const Strips& strips, int 
     const double low = strips.low(rank), high = strips.high(rank);
     for (const PlaceRange range : looked_at) {
         for (std::size_t i = range.begin; i < range.end; ++i) {
-            const double x = own[i].x_at(time);
+            const double x = strips.place_of(own[i], time);
             if (x >= low && x < high) continue;
             const int owner = strips.owner(x);
             if (owner != rank) plan.leaving[places[owner]].push_back(static_cast<LocalIndex>(i));
@@ -62,7 +62,7 @@ TransferPlan plan_halo(const Strips& strips, int rank, std::span<const Disc> own
         const Strip theirs = strips.of(plan.partners[k]);
         for (const PlaceRange range : looked_at) {
             for (std::size_t i = range.begin; i < range.end; ++i) {
-                const double x = own[i].x_at(time);
+                const double x = strips.place_of(own[i], time);
                 if (theirs.meets(x - reach, x + reach))
                     plan.leaving[k].push_back(static_cast<LocalIndex>(i));
             }

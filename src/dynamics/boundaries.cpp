@@ -7,9 +7,9 @@
 
 namespace carrom {
 
-Boundaries::Boundaries(double box_size, double radius, const Effects& effects,
+Boundaries::Boundaries(const Box& box, double radius, const Effects& effects,
                        const SpeciesTable& species_table)
-    : effects_(effects), box_size_(box_size), radius_(radius), species_(species_table),
+    : effects_(effects), box_(box), radius_(radius), species_(species_table),
       gravity_{effects.gravity.x, effects.gravity.y}, fall_(effects.gravity, effects.drag) {
     effects_.obstacles = {}; // each thread has a copy
     effects_.species = {};
@@ -119,7 +119,7 @@ void Boundaries::rebound(Disc& disc, std::size_t side, double restitution, doubl
         // other part Maxwell's. All images of a disc draw the same.
         const std::uint64_t n_before = disc.wall_collisions;
         DiscRandom random(effects_.thermal_seed, Purpose::thermal_wall, disc.id,
-                          4 * n_before + side);
+                          4 * n_before + drawn_side(side));
         const double temperature = effects_.boundaries[side].temperature /
                                    species_.of(disc.id).mass;
         away = std::sqrt(2 * temperature * random_exponential(random)) / fall_.slowing_at(time);

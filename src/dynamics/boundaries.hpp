@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/axis.hpp"
 #include "core/disc.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/gravity.hpp"
@@ -21,12 +22,10 @@
 
 namespace carrom {
 
-enum class Axis : std::size_t { x = 0, y = 1 };
-
 class Boundaries {
 public:
     /// `effects` per micro-step; `radius` is the largest one.
-    Boundaries(double box_size, double radius, const Effects& effects,
+    Boundaries(const Box& box, double radius, const Effects& effects,
                const SpeciesTable& species_table);
 
     /// From now on times count from micro-step `n` of the scene.
@@ -81,9 +80,16 @@ private:
     }
     static double sign_of(std::size_t side) { return side % 2 == 0 ? 1 : -1; }
 
+    /// The length of the axis that the side ends.
+    double length_of(std::size_t side) const { return side / 2 == 0 ? box_.x : box_.y; }
+    /// By which a thermal wall draws: a box that is taller than wide draws as the same one lying
+    /// down.
+    std::size_t drawn_side(std::size_t side) const {
+        return longer_axis(box_) == Axis::x ? side : (side + 2) % 4;
+    }
     double departure_or_touch(std::size_t side, double radius) const {
         const double from_line = is_open(side) ? -radius : radius;
-        return side % 2 == 0 ? from_line : box_size_ - from_line;
+        return side % 2 == 0 ? from_line : length_of(side) - from_line;
     }
     /// For the centre of a disc of that radius that touches, or has just left an open side.
     double wall_at(std::size_t side, double time, double radius) const {
@@ -110,7 +116,8 @@ private:
     void rebound(Disc& disc, std::size_t side, double restitution, double time) const;
 
     Effects effects_;
-    double box_size_, radius_;
+    Box box_;
+    double radius_;
     SpeciesTable species_;
     std::array<double, 4> away_{};             ///< infinite for periodic sides
     std::array<double, 4> moved_{}, speeds_{}; ///< moved: from the scene's start to the last sync

@@ -10,6 +10,7 @@
 #include <concepts>
 #include <cstdint>
 
+#include "core/axis.hpp"
 #include "core/frame.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/obstacles.hpp"
@@ -20,7 +21,7 @@ namespace carrom {
 template <class D>
 concept Dynamics = std::copyable<D> && requires(D changing, const D d, Disc& p, Disc& q,
                                                 const Disc& disc, std::int64_t n, double time,
-                                                double m, double t) {
+                                                double m, double t, Axis axis) {
     // What may happen at all. Kernels leave out what does not.
     { D::is_periodic } -> std::convertible_to<bool>;        // discs have images
     { D::has_species } -> std::convertible_to<bool>;        // radii and masses differ
@@ -38,7 +39,7 @@ concept Dynamics = std::copyable<D> && requires(D changing, const D d, Disc& p, 
     { D::one_time } -> std::convertible_to<double>;
 
     // Sizes. The radius is the largest one.
-    { d.box_size() } -> std::same_as<double>;
+    { d.box() } -> std::same_as<const Box&>;
     { d.radius() } -> std::same_as<double>;
     { d.diameter() } -> std::same_as<double>;
     { d.tolerance() } -> std::same_as<double>;       // a deeper overlap is one
@@ -51,7 +52,7 @@ concept Dynamics = std::copyable<D> && requires(D changing, const D d, Disc& p, 
     { d.micro_steps_at(time) } -> std::same_as<double>;
     { d.frame_at(time) } -> std::same_as<Frame>;
     { d.extent_at(time) } -> std::same_as<Extent>;       // where the walls are
-    { d.jump_at(time) } -> std::same_as<double>;         // how far the frame moves in x at a sync
+    { d.jump_at(axis, time) } -> std::same_as<double>;   // how far the frame moves at a sync
     { d.speed_gained_at(time) } -> std::same_as<double>; // the frame's, at most
     d.restart_frame(p, time); // the state in the frame of the next interval
     D::advance(p, time);      // free flight

@@ -29,13 +29,13 @@ public:
     static constexpr bool may_lose_discs = true;
 
     /// `effects` per micro-step.
-    EffectDynamics(double box_size, double radius, const Effects& effects)
-        : PlainDynamics(box_size, radius), contact_(effects.contact),
+    EffectDynamics(const Box& box, double radius, const Effects& effects)
+        : PlainDynamics(box, radius), contact_(effects.contact),
           has_pairs_(effects.contact.kind != ContactKind::none),
           contact_time_(effects.contact.contact_time), species_(effects.species, radius),
-          fall_(effects.gravity, effects.drag), boundaries_(box_size, radius, effects, species_) {
+          fall_(effects.gravity, effects.drag), boundaries_(box, radius, effects, species_) {
         if (effects.obstacles.are_any())
-            obstacles_ = std::make_shared<const Obstacles>(box_size, radius, effects);
+            obstacles_ = std::make_shared<const Obstacles>(box, radius, effects);
     }
 
     /// False in an ideal gas: discs pass through each other.
@@ -54,7 +54,7 @@ public:
     Frame frame_at(double time) const { return fall_.at(time); }
     double slowing_at(double time) const { return fall_.slowing_at(time); }
     void restart_frame(Disc& disc, double time) const { fall_.restart(disc, time); }
-    double jump_at(double time) const { return fall_.jump_at(time); }
+    double jump_at(Axis axis, double time) const { return fall_.jump_at(axis, time); }
     double speed_gained_at(double time) const { return fall_.speed_gained_at(time); }
     Extent extent_at(double time) const { return boundaries_.extent_at(time); }
 
@@ -110,9 +110,9 @@ public:
         if (ty == t && is_open(disc, Axis::y))
             return boundaries_.depart(disc, Boundaries::side_ahead(disc, Axis::y), m + t);
         const bool x_reverses = tx == t ||
-                                (walls.touches_wall(disc.x, disc.vx) && !is_open(disc, Axis::x));
+                                (walls.touches_wall(Axis::x, disc) && !is_open(disc, Axis::x));
         const bool y_reverses = ty == t ||
-                                (walls.touches_wall(disc.y, disc.vy) && !is_open(disc, Axis::y));
+                                (walls.touches_wall(Axis::y, disc) && !is_open(disc, Axis::y));
         const bool goes_down = disc.vy < 0;
         if (x_reverses) boundaries_.reverse(disc, Axis::x);
         // A thermal wall may have turned the disc away from the other one.
@@ -192,8 +192,8 @@ private:
     /// As in the plain dynamics. Through an open side a disc leaves when its centre is a radius
     /// beyond it.
     double side_time(const Disc& disc, Axis axis, double m) const {
-        const double x = axis == Axis::x ? disc.x : disc.y, v = axis == Axis::x ? disc.vx : disc.vy;
-        if (v == 0 || !is_open(disc, axis)) return wall_dynamics(disc).axis_time(x, v, disc.tau, m);
+        const double x = along(axis, disc.x, disc.y), v = along(axis, disc.vx, disc.vy);
+        if (v == 0 || !is_open(disc, axis)) return wall_dynamics(disc).axis_time(axis, disc, m);
         const double line = boundaries_.departure(disc, Boundaries::side_ahead(disc, axis)),
                      at_end = x + v * ((m + 1) - disc.tau);
         if (v < 0 ? !(at_end < line) : !(at_end > line)) return never;
@@ -203,8 +203,9 @@ private:
         return std::min(side_time(disc, Axis::x, m), side_time(disc, Axis::y, m));
     }
     double side_stop(const Disc& disc, Axis axis, double rest) const {
-        const double x = axis == Axis::x ? disc.x : disc.y, v = axis == Axis::x ? disc.vx : disc.vy;
-        return v == 0 || is_open(disc, axis) ? never : wall_dynamics(disc).axis_stop(x, v, rest);
+        return along(axis, disc.vx, disc.vy) == 0 || is_open(disc, axis)
+                   ? never
+                   : wall_dynamics(disc).axis_stop(axis, disc, rest);
     }
 
     void bounce_off(Disc& disc, double m, double t) const { stop(disc, m, t, rebound_in(disc, m)); }

@@ -118,10 +118,10 @@ std::string description(const Effects& effects) {
     return text;
 }
 
-Extent extent_at(const Effects& effects, double box_size, double time) {
+Extent extent_at(const Effects& effects, const Box& box, double time) {
     const auto& boundaries = effects.boundaries;
-    return {boundaries[0].speed * time, box_size + boundaries[1].speed * time,
-            boundaries[2].speed * time, box_size + boundaries[3].speed * time};
+    return {boundaries[0].speed * time, box.x + boundaries[1].speed * time,
+            boundaries[2].speed * time, box.y + boundaries[3].speed * time};
 }
 
 } // namespace carrom

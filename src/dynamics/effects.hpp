@@ -10,6 +10,9 @@
 #include <string>
 #include <vector>
 
+#include <carrom/box.hpp>
+
+#include "core/extent.hpp"
 #include "core/image.hpp"
 #include "core/side_columns.hpp"
 #include "dynamics/species.hpp"
@@ -98,8 +101,8 @@ struct Effects {
     bool is_periodic_x() const { return boundaries[0].kind == BoundaryKind::periodic; }
     bool is_periodic_y() const { return boundaries[2].kind == BoundaryKind::periodic; }
     bool are_periodic() const { return is_periodic_x() || is_periodic_y(); }
-    Periods periods(double box_size) const {
-        return {is_periodic_x() ? box_size : 0, is_periodic_y() ? box_size : 0};
+    Periods periods(const Box& box) const {
+        return {is_periodic_x() ? box.x : 0, is_periodic_y() ? box.y : 0};
     }
     bool are_any() const {
         return contact.kind != ContactKind::elastic || !have_plain_boundaries() ||
@@ -118,10 +121,7 @@ SideColumnSet side_columns_of(const Effects& effects);
 /// are none.
 std::string description(const Effects& effects);
 
-/// Where the walls are at `time` since the scene's start, in a box that was [0, size]^2 then.
-struct Extent {
-    double x_low = 0, x_high = 0, y_low = 0, y_high = 0;
-};
-Extent extent_at(const Effects& effects, double box_size, double time);
+/// Where the walls are at `time` since the scene's start, in a box that was `box` then.
+Extent extent_at(const Effects& effects, const Box& box, double time);
 
 } // namespace carrom

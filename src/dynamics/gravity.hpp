@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/axis.hpp"
 #include "core/disc.hpp"
 #include "core/frame.hpp"
 #include "dynamics/effects.hpp"
@@ -72,8 +73,10 @@ public:
     Frame at(double time) const;
     /// Turns a state advanced to `time` into one in a frame that starts there at rest in the box.
     void restart(Disc& disc, double time) const { disc = at(time).in_box(disc, time); }
-    /// How far the frame jumps in x at a sync at `time`.
-    double jump_at(double time) const { return std::fabs(fallen(gravity_.x, time)); }
+    /// How far the frame jumps along `axis` at a sync at `time`.
+    double jump_at(Axis axis, double time) const {
+        return std::fabs(fallen(along(axis, gravity_.x, gravity_.y), time));
+    }
     /// The frame's speed at most, in its own clock.
     double speed_gained_at(double time) const {
         return (std::fabs(gravity_.x) + std::fabs(gravity_.y)) * falling_time(time);

@@ -35,10 +35,10 @@ double fall_delay(double distance, double rate, double pull, bool is_on_side) {
 
 } // namespace
 
-Obstacles::Obstacles(double box_size, double largest_radius, const Effects& effects)
+Obstacles::Obstacles(const Box& box, double largest_radius, const Effects& effects)
     : restitution_(effects.obstacles.restitution), contact_time_(effects.contact.contact_time),
       gravity_{effects.gravity.x, effects.gravity.y},
-      n_fixed_discs_(effects.obstacles.discs.size()), periods_(effects.periods(box_size)),
+      n_fixed_discs_(effects.obstacles.discs.size()), periods_(effects.periods(box)),
       largest_radius_(largest_radius) {
     for (const FixedDisc& disc : effects.obstacles.discs)
         bodies_.push_back({disc.x, disc.y, disc.radius});
@@ -50,31 +50,38 @@ Obstacles::Obstacles(double box_size, double largest_radius, const Effects& effe
         bodies_.push_back({segment.x1, segment.y1, 0});
     }
     const auto n = static_cast<double>(bodies_.size());
-    n_rows_ = static_cast<std::int64_t>(std::clamp(std::sqrt(2 * n), 4.0, 4096.0));
-    cell_width_ = box_size / static_cast<double>(n_rows_);
-    margin_ = 1e-6 * cell_width_ + 1e-9 * box_size; // far above the rounding of places and times
+    // Nearly square cells: as many as for a square box, of them more along the longer side.
+    const double stretch = std::sqrt(box.x / box.y);
+    const auto cells = [n](double length, double factor, double period) {
+        const double number = std::floor(std::clamp(std::sqrt(2 * n), 4.0, 4096.0) * factor);
+        const auto count = static_cast<std::int64_t>(std::clamp(number, 1.0, 65536.0));
+        return CellAxis{length / static_cast<double>(count), period, count};
+    };
+    columns_ = cells(box.x, stretch, periods_.x);
+    rows_ = cells(box.y, 1 / stretch, periods_.y);
+    // Far above the rounding of places and times.
+    margin_ = 1e-6 * std::max(columns_.width, rows_.width) + 1e-9 * box.longest();
     sort_into_cells();
 }
 
-std::int64_t Obstacles::cell_of(double place, double period) const {
-    const double cell = place / cell_width_;
+std::int64_t Obstacles::CellAxis::cell_of(double place) const {
+    const double cell = place / width;
     return static_cast<std::int64_t>(
-        period != 0 ? std::floor(cell) : std::clamp(cell, 0.0, static_cast<double>(n_rows_ - 1)));
+        period != 0 ? std::floor(cell) : std::clamp(cell, 0.0, static_cast<double>(n - 1)));
 }
 
-/// How many boxes away from the first one a column or row is.
-std::int64_t Obstacles::box_of(std::int64_t cell, double period) const {
-    if (period == 0 || (cell >= 0 && cell < n_rows_)) return 0;
-    return cell >= 0 ? cell / n_rows_ : -((n_rows_ - 1 - cell) / n_rows_);
+std::int64_t Obstacles::CellAxis::box_of(std::int64_t cell) const {
+    if (period == 0 || (cell >= 0 && cell < n)) return 0;
+    return cell >= 0 ? cell / n : -((n - 1 - cell) / n);
 }
 
-Obstacles::Cells Obstacles::cells_of(const Box& box) const {
-    return {cell_of(box.x_low - margin_, periods_.x), cell_of(box.x_high + margin_, periods_.x),
-            cell_of(box.y_low - margin_, periods_.y), cell_of(box.y_high + margin_, periods_.y)};
+Obstacles::Cells Obstacles::cells_of(const Extent& extent) const {
+    return {columns_.cell_of(extent.x_low - margin_), columns_.cell_of(extent.x_high + margin_),
+            rows_.cell_of(extent.y_low - margin_), rows_.cell_of(extent.y_high + margin_)};
 }
 
 /// Where the centres of discs that touch its image lie.
-Obstacles::Box Obstacles::extent_of(const Body& body, double radius, Shift shift) const {
+Extent Obstacles::extent_of(const Body& body, double radius, Shift shift) const {
     const double reach = body.radius + radius, x = body.x + shift.x, y = body.y + shift.y;
     const double x_end = x + body.length * body.ux, y_end = y + body.length * body.uy;
     return {std::min(x, x_end) - reach, std::max(x, x_end) + reach, std::min(y, y_end) - reach,
@@ -84,24 +91,26 @@ Obstacles::Box Obstacles::extent_of(const Body& body, double radius, Shift shift
 /// False for cells that an oblique line keeps clear of. Those at the border also stand for what
 /// lies beyond.
 bool Obstacles::may_hold(const Body& body, std::int64_t column, std::int64_t row) const {
-    const bool is_at_border = std::min(column, row) == 0 || std::max(column, row) + 1 == n_rows_;
+    const bool is_at_border = std::min(column, row) == 0 || column + 1 == columns_.n ||
+                              row + 1 == rows_.n;
     if (!body.is_line() || is_at_border) return true;
-    const double dx = (static_cast<double>(column) + 0.5) * cell_width_ - body.x,
-                 dy = (static_cast<double>(row) + 0.5) * cell_width_ - body.y;
-    return std::fabs(body.ux * dy - body.uy * dx) <= largest_radius_ + cell_width_ + margin_;
+    const double dx = (static_cast<double>(column) + 0.5) * columns_.width - body.x,
+                 dy = (static_cast<double>(row) + 0.5) * rows_.width - body.y;
+    return std::fabs(body.ux * dy - body.uy * dx) <=
+           largest_radius_ + std::max(columns_.width, rows_.width) + margin_;
 }
 
 void Obstacles::sort_into_cells() {
-    cell_starts_.assign(static_cast<std::size_t>(n_rows_ * n_rows_ + 1), 0);
+    cell_starts_.assign(static_cast<std::size_t>(columns_.n * rows_.n + 1), 0);
     const auto visit = [this](const auto& what) {
         for (std::size_t k = 0; k < bodies_.size(); ++k) {
             const Cells cells = cells_of(extent_of(bodies_[k], largest_radius_, {0, 0}));
             for (std::int64_t column = cells.first_column; column <= cells.last_column; ++column)
                 for (std::int64_t row = cells.first_row; row <= cells.last_row; ++row) {
                     if (!may_hold(bodies_[k], column, row)) continue;
-                    const std::int64_t x = box_of(column, periods_.x), y = box_of(row, periods_.y);
-                    const auto cell = static_cast<std::size_t>((column - x * n_rows_) * n_rows_ +
-                                                               (row - y * n_rows_));
+                    const std::int64_t x = columns_.box_of(column), y = rows_.box_of(row);
+                    const auto cell = static_cast<std::size_t>((column - x * columns_.n) * rows_.n +
+                                                               (row - y * rows_.n));
                     what(cell, Entry{static_cast<std::uint32_t>(k), static_cast<std::int16_t>(-x),
                                      static_cast<std::int16_t>(-y)});
                 }
@@ -118,12 +127,13 @@ void Obstacles::sort_into_cells() {
 /// Calls what(image) for what lies in the cells, perhaps several times for each.
 template <class What> void Obstacles::visit_cells(const Cells& cells, const What& what) const {
     for (std::int64_t column = cells.first_column; column <= cells.last_column; ++column) {
-        const std::int64_t x = box_of(column, periods_.x);
-        const std::uint32_t* const starts = cell_starts_.data() + (column - x * n_rows_) * n_rows_;
-        const std::int64_t last_y = box_of(cells.last_row, periods_.y);
-        for (std::int64_t y = box_of(cells.first_row, periods_.y); y <= last_y; ++y) {
-            const std::int64_t first_row = std::max(cells.first_row - y * n_rows_, std::int64_t{0});
-            const std::int64_t last_row = std::min(cells.last_row - y * n_rows_, n_rows_ - 1);
+        const std::int64_t x = columns_.box_of(column);
+        const std::uint32_t* const starts = cell_starts_.data() +
+                                            (column - x * columns_.n) * rows_.n;
+        const std::int64_t last_y = rows_.box_of(cells.last_row);
+        for (std::int64_t y = rows_.box_of(cells.first_row); y <= last_y; ++y) {
+            const std::int64_t first_row = std::max(cells.first_row - y * rows_.n, std::int64_t{0});
+            const std::int64_t last_row = std::min(cells.last_row - y * rows_.n, rows_.n - 1);
             for (std::uint32_t place = starts[first_row]; place < starts[last_row + 1]; ++place) {
                 Entry image = in_cells_[place];
                 image.x = static_cast<std::int16_t>(image.x + x);
@@ -190,7 +200,7 @@ double Obstacles::contact_time(const Disc& disc, const Body& body, double radius
 }
 
 /// What the flight covers in the box; a parabola keeps within an eighth of its pull from the chord.
-Obstacles::Box Obstacles::path_of(const Disc& disc, double begin, double end) const {
+Extent Obstacles::path_of(const Disc& disc, double begin, double end) const {
     const double x0 = disc.x_at(begin) + fallen(0, begin), x1 = disc.x_at(end) + fallen(0, end);
     const double y0 = disc.y_at(begin) + fallen(1, begin), y1 = disc.y_at(end) + fallen(1, end);
     const double eighth = (end - begin) * (end - begin) / 8;
@@ -205,7 +215,7 @@ double Obstacles::slices_of(const Disc& disc, double begin, double end) const {
         return std::max(std::fabs(v + gravity_[axis] * begin), std::fabs(v + gravity_[axis] * end));
     };
     const double way = std::max(speed(disc.vx, 0), speed(disc.vy, 1)) * (end - begin);
-    return std::clamp(std::ceil(way / cell_width_), 1.0, 1e6);
+    return std::clamp(std::ceil(way / std::min(columns_.width, rows_.width)), 1.0, 1e6);
 }
 
 ObstacleContact Obstacles::first_contact(const Disc& disc, double radius,
@@ -217,11 +227,11 @@ ObstacleContact Obstacles::first_contact(const Disc& disc, double radius,
     double from = begin;
     for (double k = 1; k <= n_slices; ++k) {
         const double to = k == n_slices ? times.to : begin + (times.to - begin) * (k / n_slices);
-        const Box path = path_of(disc, from, to);
+        const Extent path = path_of(disc, from, to);
         visit_cells(cells_of(path), [&](const Entry& image) {
             const Body& body = bodies_[image.body];
             const Shift shift = shift_of(image);
-            const Box extent = extent_of(body, radius, shift);
+            const Extent extent = extent_of(body, radius, shift);
             if (extent.x_low > path.x_high + margin_ || extent.x_high < path.x_low - margin_ ||
                 extent.y_low > path.y_high + margin_ || extent.y_high < path.y_low - margin_)
                 return;

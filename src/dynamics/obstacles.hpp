@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/disc.hpp"
+#include "core/extent.hpp"
 #include "dynamics/effects.hpp"
 
 namespace carrom {
@@ -44,7 +45,7 @@ struct ContactTimes {
 class Obstacles {
 public:
     /// For discs of radius `largest_radius` at most; `effects` per micro-step.
-    Obstacles(double box_size, double largest_radius, const Effects& effects);
+    Obstacles(const Box& box, double largest_radius, const Effects& effects);
 
     bool are_none() const { return bodies_.empty(); }
 
@@ -78,9 +79,6 @@ private:
     struct Shift {
         double x, y;
     };
-    struct Box {
-        double x_low, x_high, y_low, y_high;
-    };
     /// Numbers go on beyond a periodic side.
     struct Cells {
         std::int64_t first_column, last_column, first_row, last_row;
@@ -91,16 +89,24 @@ private:
         std::int16_t x, y;
     };
 
+    /// The box's cells along one axis.
+    struct CellAxis {
+        double width = 1, period = 0;
+        std::int64_t n = 1;
+
+        std::int64_t cell_of(double place) const;
+        /// How many boxes away from the first one a cell is.
+        std::int64_t box_of(std::int64_t cell) const;
+    };
+
     double contact_time(const Disc& disc, const Body& body, double radius, Shift shift) const;
     double line_delay(const Body& line, double radius, double dx, double dy, double wx,
                       double wy) const;
-    Box extent_of(const Body& body, double radius, Shift shift) const;
-    Box path_of(const Disc& disc, double begin, double end) const;
+    Extent extent_of(const Body& body, double radius, Shift shift) const;
+    Extent path_of(const Disc& disc, double begin, double end) const;
     double slices_of(const Disc& disc, double begin, double end) const;
     bool may_hold(const Body& body, std::int64_t column, std::int64_t row) const;
-    std::int64_t cell_of(double place, double period) const;
-    std::int64_t box_of(std::int64_t cell, double period) const;
-    Cells cells_of(const Box& box) const;
+    Cells cells_of(const Extent& extent) const;
     void sort_into_cells();
     template <class What> void visit_cells(const Cells& cells, const What& what) const;
     std::uint32_t code_of(const Entry& image, double x, double y) const;
@@ -118,8 +124,8 @@ private:
     Periods periods_;
     double largest_radius_;    ///< of discs
     std::vector<Body> bodies_; ///< fixed discs, then a line and its two ends for each segment
-    double cell_width_ = 1, margin_ = 0;
-    std::int64_t n_rows_ = 1; ///< and columns
+    CellAxis columns_, rows_;
+    double margin_ = 0;
     std::vector<std::uint32_t> cell_starts_;
     std::vector<Entry> in_cells_;
 };

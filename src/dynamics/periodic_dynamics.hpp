@@ -18,13 +18,13 @@ public:
     static constexpr bool may_lose_discs = false; // a side is periodic or open
 
     /// `effects` per micro-step.
-    PeriodicDynamics(double box_size, double radius, const Effects& effects)
-        : Walled(box_size, radius, effects), periods_(effects.periods(box_size)) {}
+    PeriodicDynamics(const Box& box, double radius, const Effects& effects)
+        : Walled(box, radius, effects), periods_(effects.periods(box)) {}
 
     const Periods& periods() const { return periods_; }
     bool has_walls() const { return periods_.x == 0 || periods_.y == 0 || this->has_obstacles(); }
     /// Places are rounded as coarsely as stored ones are far from the box.
-    double slack() const { return 0x1p-36 * this->box_size(); }
+    double slack() const { return 0x1p-36 * this->box().longest(); }
     double search_diameter() const { return this->diameter() + 2 * slack(); }
 
     Separation separation_at(const Disc& p, const Disc& q, double time) const {
@@ -108,9 +108,8 @@ private:
     }
 
     double side_time(const Disc& disc, double m) const {
-        if (periods_.x == 0)
-            return this->wall_dynamics(disc).axis_time(disc.x, disc.vx, disc.tau, m);
-        return periods_.y == 0 ? this->wall_dynamics(disc).axis_time(disc.y, disc.vy, disc.tau, m)
+        if (periods_.x == 0) return this->wall_dynamics(disc).axis_time(Axis::x, disc, m);
+        return periods_.y == 0 ? this->wall_dynamics(disc).axis_time(Axis::y, disc, m)
                                : Walled::never;
     }
 
@@ -120,8 +119,8 @@ private:
         const double rest = 1 - t;
         const PlainDynamics walls = this->wall_dynamics(disc);
         const double at_wall = !has_sides        ? Walled::never
-                               : periods_.x == 0 ? walls.axis_stop(disc.x, disc.vx, rest)
-                                                 : walls.axis_stop(disc.y, disc.vy, rest);
+                               : periods_.x == 0 ? walls.axis_stop(Axis::x, disc, rest)
+                                                 : walls.axis_stop(Axis::y, disc, rest);
         this->stop_at(disc, m, at_wall, left);
     }
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/axis.hpp"
 #include "core/disc.hpp"
 #include "core/frame.hpp"
 #include "dynamics/effects.hpp"
@@ -41,9 +42,9 @@ public:
     static constexpr bool may_lose_discs = false;
     static constexpr double one_time = 0x1p-40;
 
-    PlainDynamics(double box_size, double radius)
-        : box_size_(box_size), radius_(radius), diameter_(2 * radius), band_(1e-8 * radius),
-          tolerance_(std::max(1e-12 * diameter_, 16 * 0x1p-52 * box_size)) {}
+    PlainDynamics(const Box& box, double radius)
+        : box_(box), radius_(radius), diameter_(2 * radius), band_(1e-8 * radius),
+          tolerance_(std::max(1e-12 * diameter_, 16 * 0x1p-52 * box.longest())) {}
 
     static constexpr bool has_pairs() { return true; }
     static constexpr bool has_walls() { return true; }
@@ -51,7 +52,7 @@ public:
     static constexpr bool has_open_sides() { return false; }
     static constexpr bool parts_overlaps() { return true; }
 
-    double box_size() const { return box_size_; }
+    const Box& box() const { return box_; }
     double radius() const { return radius_; }
     double diameter() const { return diameter_; }
     double tolerance() const { return tolerance_; }
@@ -65,9 +66,9 @@ public:
     static Frame frame_at(double /*time*/) { return {}; }
     static constexpr double slowing_at(double /*time*/) { return 1; }
     static void restart_frame(Disc& /*disc*/, double /*time*/) {}
-    static constexpr double jump_at(double /*time*/) { return 0; }
+    static constexpr double jump_at(Axis /*axis*/, double /*time*/) { return 0; }
     static constexpr double speed_gained_at(double /*time*/) { return 0; }
-    Extent extent_at(double /*time*/) const { return {0, box_size_, 0, box_size_}; }
+    Extent extent_at(double /*time*/) const { return {0, box_.x, 0, box_.y}; }
 
     static void advance(Disc& disc, double time) {
         const double x = disc.x_at(time), y = disc.y_at(time);
@@ -93,8 +94,7 @@ public:
         stop_at_wall(q, m, t);
     }
     double wall_time(const Disc& disc, double m) const {
-        return std::min(axis_time(disc.x, disc.vx, disc.tau, m),
-                        axis_time(disc.y, disc.vy, disc.tau, m));
+        return std::min(axis_time(Axis::x, disc, m), axis_time(Axis::y, disc, m));
     }
     /// A corner reverses both velocities and counts once.
     void bounce(Disc& disc, double m, double t) const {
@@ -119,19 +119,22 @@ public:
         advance(q, time);
         push_apart(p, q, q.x - p.x, q.y - p.y, 1);
     }
-    double x_wall_time(const Disc& disc) const { return disc.tau + walls().delay(disc.x, disc.vx); }
-    double y_wall_time(const Disc& disc) const { return disc.tau + walls().delay(disc.y, disc.vy); }
+    double x_wall_time(const Disc& disc) const {
+        return disc.tau + walls(Axis::x).delay(disc.x, disc.vx);
+    }
+    double y_wall_time(const Disc& disc) const {
+        return disc.tau + walls(Axis::y).delay(disc.y, disc.vy);
+    }
     bool may_meet_wall(const Disc& disc, double time) const {
         const double x = disc.x_at(time), y = disc.y_at(time);
         // The last term: a time is rounded, and a fast disc goes some way in that.
         const double margin = tolerance_ + time_rounding * time *
                                                std::max(std::fabs(disc.vx), std::fabs(disc.vy));
-        const double low = walls().low() + margin, high = walls().high() - margin;
-        return !(x > low && x < high && y > low && y < high);
+        const RestingWalls<double> at_x = walls(Axis::x), at_y = walls(Axis::y);
+        return !(x > at_x.low() + margin && x < at_x.high() - margin && y > at_y.low() + margin &&
+                 y < at_y.high() - margin);
     }
-    Extent walls_between(double /*begin*/, double /*end*/) const {
-        return {0, box_size_, 0, box_size_};
-    }
+    Extent walls_between(double /*begin*/, double /*end*/) const { return {0, box_.x, 0, box_.y}; }
     static void bounce_x_at(Disc& disc, double time) {
         advance(disc, time);
         disc.vx = -disc.vx;
@@ -154,20 +157,23 @@ public:
         return dynamics;
     }
 
-    [[gnu::always_inline]] double axis_time(double x, double v, double tau, double m) const {
-        return walls().time(x, v, tau, m);
+    [[gnu::always_inline]] double axis_time(Axis axis, const Disc& disc, double m) const {
+        return walls(axis).time(along(axis, disc.x, disc.y), along(axis, disc.vx, disc.vy),
+                                disc.tau, m);
     }
-    [[gnu::always_inline]] double axis_stop(double x, double v, double rest) const {
-        return walls().stop(x, v, rest);
+    [[gnu::always_inline]] double axis_stop(Axis axis, const Disc& disc, double rest) const {
+        return walls(axis).stop(along(axis, disc.x, disc.y), along(axis, disc.vx, disc.vy), rest);
     }
-    bool touches_wall(double x, double v) const { return walls().touches(x, v); }
+    bool touches_wall(Axis axis, const Disc& disc) const {
+        return walls(axis).touches(along(axis, disc.x, disc.y), along(axis, disc.vx, disc.vy));
+    }
 
     /// A disc that would leave the box before the micro-step ends waits at the wall. It bounces in
     /// the next one.
     [[gnu::always_inline]] void stop_at_wall(Disc& disc, double m, double t) const {
         const double rest = 1 - t;
-        const double stop = std::min(axis_stop(disc.x, disc.vx, rest),
-                                     axis_stop(disc.y, disc.vy, rest));
+        const double stop = std::min(axis_stop(Axis::x, disc, rest),
+                                     axis_stop(Axis::y, disc, rest));
         if (stop == never) return;
         disc.x = disc.x + disc.vx * stop;
         disc.y = disc.y + disc.vy * stop;
@@ -193,20 +199,20 @@ protected:
         q.pair_collisions += 1;
     }
 
-    [[gnu::always_inline]] RestingWalls<double> walls() const {
-        return {box_size_, radius_, band_};
+    [[gnu::always_inline]] RestingWalls<double> walls(Axis axis) const {
+        return {along(axis, box_), radius_, band_};
     }
 
-    double box_size_, radius_, diameter_, band_, tolerance_;
+    Box box_;
+    double radius_, diameter_, band_, tolerance_;
 
 private:
     /// Brings the disc to in-step time t = wall_time(disc, m).
     [[gnu::always_inline]] MetWalls reach_walls(Disc& disc, double m, double t) const {
-        const double x_time = axis_time(disc.x, disc.vx, disc.tau, m);
-        const double y_time = axis_time(disc.y, disc.vy, disc.tau, m);
+        const double x_time = axis_time(Axis::x, disc, m), y_time = axis_time(Axis::y, disc, m);
         advance(disc, m + t);
-        return {x_time == t || touches_wall(disc.x, disc.vx),
-                y_time == t || touches_wall(disc.y, disc.vy)};
+        return {x_time == t || touches_wall(Axis::x, disc),
+                y_time == t || touches_wall(Axis::y, disc)};
     }
 };
 

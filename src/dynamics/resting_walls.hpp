@@ -16,9 +16,9 @@ template <class Real> class RestingWalls {
 public:
     static constexpr Real never = std::numeric_limits<Real>::infinity();
 
-    /// For the centres of discs of that radius.
-    RestingWalls(Real box_size, Real radius, Real band)
-        : low_(radius), high_(box_size - radius), band_(band) {}
+    /// At 0 and `length`, for the centres of discs of that radius.
+    RestingWalls(Real length, Real radius, Real band)
+        : low_(radius), high_(length - radius), band_(band) {}
 
     Real low() const { return low_; }
     Real high() const { return high_; }

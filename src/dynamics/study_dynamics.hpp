@@ -46,12 +46,13 @@ public:
     /// is not at one time.
     static constexpr double one_time = 0x1p-3;
 
-    StudyDynamics(double box_size, double radius, ContactFormula formula)
-        : PlainDynamics(real(box_size), real(radius)), formula_(formula),
-          walls_(real(box_size), real(radius), static_cast<Real>(1e-8) * real(radius)),
+    StudyDynamics(const Box& box, double radius, ContactFormula formula)
+        : PlainDynamics(Box(real(box.x), real(box.y)), real(radius)), formula_(formula),
+          x_walls_(real(box.x), real(radius), static_cast<Real>(1e-8) * real(radius)),
+          y_walls_(real(box.y), real(radius), static_cast<Real>(1e-8) * real(radius)),
           sigma_(2 * real(radius)),
           overlap_(std::max(static_cast<Real>(1e-12) * sigma_,
-                            16 * std::numeric_limits<Real>::epsilon() * real(box_size))),
+                            16 * std::numeric_limits<Real>::epsilon() * real(box.longest()))),
           slack_(rounding() + (formula == ContactFormula::stable ? 0 : misplacement() * radius_)) {}
 
     bool parts_overlaps() const { return formula_ == ContactFormula::stable; }
@@ -115,11 +116,11 @@ public:
     }
     double x_wall_time(const Disc& disc) const {
         const RoundedState<Real> d(disc);
-        return d.tau + walls_.delay(d.x, d.vx);
+        return d.tau + x_walls_.delay(d.x, d.vx);
     }
     double y_wall_time(const Disc& disc) const {
         const RoundedState<Real> d(disc);
-        return d.tau + walls_.delay(d.y, d.vy);
+        return d.tau + y_walls_.delay(d.y, d.vy);
     }
     bool may_meet_wall(const Disc& disc, double time) const {
         constexpr double rounding_of_time = is_rounded ? 0x1p-21 : time_rounding;
@@ -127,8 +128,8 @@ public:
         const double margin = tolerance() + rounding() +
                               rounding_of_time * time *
                                   std::max(std::fabs(disc.vx), std::fabs(disc.vy));
-        const double low = walls_.low() + margin, high = walls_.high() - margin;
-        return !(x > low && x < high && y > low && y < high);
+        return !(x > x_walls_.low() + margin && x < x_walls_.high() - margin &&
+                 y > y_walls_.low() + margin && y < y_walls_.high() - margin);
     }
     static void bounce_x_at(Disc& disc, double time) {
         advance(disc, time);
@@ -146,14 +147,14 @@ private:
 
     static Real real(double number) { return static_cast<Real>(number); }
 
-    double rounding() const { return is_rounded ? 0x1p-18 * box_size() : 0; }
+    double rounding() const { return is_rounded ? 0x1p-18 * box().longest() : 0; }
 
     /// How far from touching, in diameters, a formula that loses digits finds contacts. At a
     /// distance of d diameters rounding u moves B^2 - 4 A C by some u (2 d v)^2. So a grazing
     /// contact moves along the flight by the root of that over 2 v, and its distance by the square.
     /// Where that is half a diameter and more the contact counts as lost.
     double misplacement() const {
-        const double longest = std::numbers::sqrt2 * box_size() / diameter();
+        const double longest = std::numbers::sqrt2 * box().longest() / diameter();
         return std::min(0.5, 2.5 * std::numeric_limits<Real>::epsilon() * longest * longest);
     }
 
@@ -175,23 +176,23 @@ private:
 
     Real x_time(const Disc& disc, double m) const {
         const RoundedState<Real> d(disc);
-        return walls_.time(d.x, d.vx, d.tau, real(m));
+        return x_walls_.time(d.x, d.vx, d.tau, real(m));
     }
     Real y_time(const Disc& disc, double m) const {
         const RoundedState<Real> d(disc);
-        return walls_.time(d.y, d.vy, d.tau, real(m));
+        return y_walls_.time(d.y, d.vy, d.tau, real(m));
     }
     MetWalls reach_walls(Disc& disc, double m, double t) const {
         const Real to_x = x_time(disc, m), to_y = y_time(disc, m);
         advance(disc, real(m) + real(t));
         const RoundedState<Real> d(disc);
-        return {to_x == real(t) || walls_.touches(d.x, d.vx),
-                to_y == real(t) || walls_.touches(d.y, d.vy)};
+        return {to_x == real(t) || x_walls_.touches(d.x, d.vx),
+                to_y == real(t) || y_walls_.touches(d.y, d.vy)};
     }
     void stop_at_wall(Disc& disc, double m, double t) const {
         const RoundedState<Real> d(disc);
         const Real rest = 1 - real(t);
-        const Real stop = std::min(walls_.stop(d.x, d.vx, rest), walls_.stop(d.y, d.vy, rest));
+        const Real stop = std::min(x_walls_.stop(d.x, d.vx, rest), y_walls_.stop(d.y, d.vy, rest));
         if (stop == RestingWalls<Real>::never) return;
         disc.x = d.x + d.vx * stop;
         disc.y = d.y + d.vy * stop;
@@ -199,7 +200,7 @@ private:
     }
 
     ContactFormula formula_;
-    RestingWalls<Real> walls_;
+    RestingWalls<Real> x_walls_, y_walls_;
     Real sigma_, overlap_;
     double slack_;
 };

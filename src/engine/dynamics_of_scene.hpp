@@ -42,12 +42,12 @@ inline ContactFormula contact_formula_of(const Scene& scene) {
 /// The dynamics with the scene's numbers.
 template <class D> D dynamics_of(const Scene& scene) {
     if constexpr (D::is_for_study)
-        return D(scene.box_size, scene.radius, contact_formula_of(scene));
-    else if constexpr (std::is_constructible_v<D, double, double, const Effects&>)
-        return D(scene.box_size, scene.radius,
+        return D(scene.box, scene.radius, contact_formula_of(scene));
+    else if constexpr (std::is_constructible_v<D, const Box&, double, const Effects&>)
+        return D(scene.box, scene.radius,
                  per_micro_step(scene.effects, static_cast<double>(scene.micro_steps)));
     else
-        return D(scene.box_size, scene.radius);
+        return D(scene.box, scene.radius);
 }
 
 } // namespace carrom

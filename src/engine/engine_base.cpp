@@ -36,8 +36,8 @@ EngineBase<Dynamics>::EngineBase(const Scene& scene, StoredState state,
                                  const Communicator& communicator, const Tuning& tuning)
     : communicator_(communicator), tuning_(tuning), dynamics_(dynamics_of<Dynamics>(scene)),
       micro_steps_(scene.micro_steps), sync_every_(scene.sync_every),
-      discs_(communicator, scene.box_size, std::move(state.discs),
-             scene.effects.periods(scene.box_size), stored_columns<Dynamics>(state)),
+      discs_(communicator, scene.box, std::move(state.discs), scene.effects.periods(scene.box),
+             stored_columns<Dynamics>(state)),
       n_micro_done_(state.micro_steps_done), last_micro_step_(scene.steps * scene.micro_steps) {
     dynamics_.begin_interval(last_sync());
     time_ = dynamics_.clock_at(static_cast<double>(n_micro_done_ % sync_every_));
@@ -61,13 +61,13 @@ template <class Dynamics> void EngineBase<Dynamics>::set_departed_aside() {
 template <class Dynamics> void EngineBase<Dynamics>::redistribute_now(double least_reach) {
     set_departed_aside();
     migrate();
-    const double touching = reach_of({dynamics_.box_size(), dynamics_.radius() + dynamics_.slack(),
+    const double touching = reach_of({dynamics_.box(), dynamics_.radius() + dynamics_.slack(),
                                       static_cast<double>(discs_.n_total()), 0, 0, 0},
                                      0);
     const double reach = std::max(touching, least_reach);
     const Extent seen = discs_.extent_seen(extent(), reach);
-    const GridGeometry geometry = make_sparse_geometry(seen.x_low, seen.x_high, seen.y_low,
-                                                       seen.y_high, reach, discs_.n_own());
+    const GridGeometry geometry = make_sparse_geometry(seen, discs_.strips().axis(), reach,
+                                                       discs_.n_own());
     discs_.sort_cells(geometry, time_, tuning_.threads);
     const PhaseClock::Scope scope(phases_, Phase::exchange);
     discs_.fetch_halo(time_, reach, nullptr);

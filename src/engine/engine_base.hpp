@@ -65,7 +65,9 @@ protected:
     Extent extent() const;
     std::int64_t last_sync() const { return n_micro_done_ / sync_every_ * sync_every_; }
     /// How far rounding can put a disc from its place.
-    double place_margin() const { return 64 * 0x1p-53 * dynamics_.box_size() + dynamics_.slack(); }
+    double place_margin() const {
+        return 64 * 0x1p-53 * dynamics_.box().longest() + dynamics_.slack();
+    }
 
     Communicator communicator_;
     Tuning tuning_;

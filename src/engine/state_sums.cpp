@@ -34,11 +34,11 @@ void measure_collisions(std::span<const Disc> own, const SideSpans& columns,
 
 /// A departed disc stands a radius outside its side, exactly. The coordinate that is furthest out
 /// shows which side it is.
-void measure_departures(std::span<const Disc> own, double box_size,
-                        const Communicator& communicator, Totals& totals) {
+void measure_departures(std::span<const Disc> own, const Box& box, const Communicator& communicator,
+                        Totals& totals) {
     for (const Disc& disc : own) {
         if (!disc.has_departed()) continue;
-        const std::array<double, 4> outside{-disc.x, disc.x - box_size, -disc.y, disc.y - box_size};
+        const std::array<double, 4> outside{-disc.x, disc.x - box.x, -disc.y, disc.y - box.y};
         totals.departed[static_cast<std::size_t>(std::max_element(outside.begin(), outside.end()) -
                                                  outside.begin())] += 1;
     }
@@ -111,18 +111,18 @@ void measure_rotation(std::span<const Disc> own, std::span<const double> spins,
 }
 
 void measure_height(std::span<const Disc> own, const SpeciesTable* species_table,
-                    const Gravity& gravity, double box_size, const Communicator& communicator,
+                    const Gravity& gravity, const Box& box, const Communicator& communicator,
                     Totals& totals) {
-    const auto height = [box_size](double place, double pull) {
-        return pull < 0 ? place : box_size - place;
+    const auto height = [](double place, double pull, double length) {
+        return pull < 0 ? place : length - place;
     };
     const double gx = std::fabs(gravity.x), gy = std::fabs(gravity.y);
     ExactSum energy(2 * static_cast<double>(totals.n_discs) *
-                    largest_mass(own, species_table, communicator) * (gx + gy) * box_size);
+                    largest_mass(own, species_table, communicator) * (gx + gy) * box.longest());
     for (const Disc& disc : own)
         if (!disc.has_departed())
-            energy.add(mass_of(disc, species_table) *
-                       (gx * height(disc.x, gravity.x) + gy * height(disc.y, gravity.y)));
+            energy.add(mass_of(disc, species_table) * (gx * height(disc.x, gravity.x, box.x) +
+                                                       gy * height(disc.y, gravity.y, box.y)));
     communicator.sum(energy);
     totals.potential_energy = energy.value();
 }

@@ -21,8 +21,8 @@ void measure_collisions(std::span<const Disc> own, const SideSpans& columns,
                         const Communicator& communicator, Totals& totals);
 
 /// Fills in how many discs have left through which side. **Collective.**
-void measure_departures(std::span<const Disc> own, double box_size,
-                        const Communicator& communicator, Totals& totals);
+void measure_departures(std::span<const Disc> own, const Box& box, const Communicator& communicator,
+                        Totals& totals);
 
 /// Fills in energy and momentum; `velocity_unit` turns stored velocities into those per step.
 /// `species_table`: null for masses of 1. **Collective.**
@@ -41,7 +41,7 @@ void measure_rotation(std::span<const Disc> own, std::span<const double> spins,
 
 /// Fills in the potential energy of discs as the box sees them. **Collective.**
 void measure_height(std::span<const Disc> own, const SpeciesTable* species_table,
-                    const Gravity& gravity, double box_size, const Communicator& communicator,
+                    const Gravity& gravity, const Box& box, const Communicator& communicator,
                     Totals& totals);
 
 /// When two discs count as overlapping: closer than the diameter by more than the tolerance.

@@ -20,18 +20,30 @@ struct Update {
     std::uint64_t place;
 };
 
-Strips equal_strips(double box_size, int n_ranks) {
+Strips equal_strips(const Box& box, int n_ranks) {
     std::vector<double> cuts;
-    for (int k = 1; k < n_ranks; ++k) cuts.push_back(box_size * k / n_ranks);
-    return Strips(cuts);
+    for (int k = 1; k < n_ranks; ++k) cuts.push_back(box.longest() * k / n_ranks);
+    return Strips(cuts, longer_axis(box));
+}
+
+/// Places further than `reach` from the ends of the strip.
+Inside inner_part(const Strips& strips, int rank, double reach) {
+    const double low = strips.low(rank) + reach, high = strips.high(rank) - reach;
+    return strips.axis() == Axis::x ? Inside{low, high, -infinity, infinity}
+                                    : Inside{-infinity, infinity, low, high};
+}
+
+/// The disc's place in the box along the strips' axis.
+double place_in_box(const Strips& strips, const Periods& periods, const Disc& disc, double time) {
+    return wrapped(strips.place_of(disc, time), periods.along(strips.axis()));
 }
 
 } // namespace
 
-StripDiscs::StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs,
+StripDiscs::StripDiscs(const Communicator& communicator, const Box& box, std::vector<Disc> discs,
                        const Periods& periods, SideColumns columns)
-    : communicator_(communicator), box_size_(box_size), periods_(periods),
-      strips_(equal_strips(box_size, communicator.size())), redistributed_strips_(strips_),
+    : communicator_(communicator), length_(box.longest()), periods_(periods),
+      strips_(equal_strips(box, communicator.size())), redistributed_strips_(strips_),
       exchange_(communicator) {
     columns_ = std::move(columns);
     columns_.resize(discs.size());
@@ -39,7 +51,8 @@ StripDiscs::StripDiscs(const Communicator& communicator, double box_size, std::v
         discs_ = std::move(discs);
     } else {
         const auto owner_of = [&](const Disc& disc) {
-            return static_cast<std::size_t>(strips_.owner(wrapped(disc.x, periods.x)));
+            return static_cast<std::size_t>(
+                strips_.owner(place_in_box(strips_, periods, disc, disc.tau)));
         };
         const auto n_ranks = static_cast<std::size_t>(communicator.size());
         columns_.for_each([&](SideColumn column) {
@@ -103,8 +116,7 @@ TransferPlan StripDiscs::migration_plan(double time, double farthest) const {
     if (periods_.are_any())
         return plan_periodic_migration(redistributed_strips_, strips_, rank, own(), time, farthest,
                                        periods_);
-    const std::vector<PlaceRange> looked_at = places_outside(
-        {strips_.low(rank) + farthest, strips_.high(rank) - farthest, -infinity, infinity});
+    const std::vector<PlaceRange> looked_at = places_outside(inner_part(strips_, rank, farthest));
     return plan_migration(redistributed_strips_, strips_, rank, own(), looked_at, time, farthest);
 }
 
@@ -157,17 +169,22 @@ void StripDiscs::set_home_images(double time, std::vector<Disc>* companion) {
 }
 
 Extent StripDiscs::extent_seen(const Extent& box, double reach) const {
-    Extent seen = box;
-    const double low = strips_.low(communicator_.rank()), high = strips_.high(communicator_.rank());
-    if (periods_.x == 0) {
-        seen.x_low = std::max(box.x_low, low - reach);
-        seen.x_high = std::min(box.x_high, high + reach);
-    } else {
-        seen.x_low = std::max(0.0, low) - reach;
-        seen.x_high = std::min(periods_.x, high) + reach;
-    }
-    if (periods_.y != 0) seen.y_low = -reach, seen.y_high = periods_.y + reach;
-    return seen;
+    const auto all_of = [reach](double box_low, double box_high, double period) {
+        return period == 0 ? std::pair(box_low, box_high) : std::pair(-reach, period + reach);
+    };
+    const auto part_of = [&](double box_low, double box_high, double period) {
+        const double low = strips_.low(communicator_.rank()),
+                     high = strips_.high(communicator_.rank());
+        if (period == 0)
+            return std::pair(std::max(box_low, low - reach), std::min(box_high, high + reach));
+        return std::pair(std::max(0.0, low) - reach, std::min(period, high) + reach);
+    };
+    const bool cut_x = strips_.axis() == Axis::x;
+    const auto [x_low, x_high] = cut_x ? part_of(box.x_low, box.x_high, periods_.x)
+                                       : all_of(box.x_low, box.x_high, periods_.x);
+    const auto [y_low, y_high] = cut_x ? all_of(box.y_low, box.y_high, periods_.y)
+                                       : part_of(box.y_low, box.y_high, periods_.y);
+    return {x_low, x_high, y_low, y_high};
 }
 
 void StripDiscs::forget_images() {
@@ -189,8 +206,7 @@ void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* compan
         std::erase(other_partners_, communicator_.rank());
     } else {
         const int rank = communicator_.rank();
-        const std::vector<PlaceRange> looked_at = places_outside(
-            {strips_.low(rank) + reach, strips_.high(rank) - reach, -infinity, infinity});
+        const std::vector<PlaceRange> looked_at = places_outside(inner_part(strips_, rank, reach));
         halo_plan_ = plan_halo(strips_, rank, own(), looked_at, time, reach);
     }
     Received<Disc> halo;
@@ -287,11 +303,11 @@ void StripDiscs::rebalance(double time, double above) {
     std::vector<std::uint64_t> weights(std::clamp<std::size_t>(256 * n_ranks, 4096, 65536), 0);
     const auto n_bins = static_cast<double>(weights.size());
     for (const Disc& disc : own()) {
-        const double bin = wrapped(disc.x_at(time), periods_.x) / box_size_ * n_bins;
+        const double bin = place_in_box(strips_, periods_, disc, time) / length_ * n_bins;
         weights[static_cast<std::size_t>(std::clamp(bin, 0.0, n_bins - 1))] += 1;
     }
     communicator_.sum(weights);
-    strips_ = Strips(balanced_cuts(weights, box_size_, communicator_.size()));
+    strips_ = Strips(balanced_cuts(weights, length_, communicator_.size()), strips_.axis());
 }
 
 bool StripDiscs::is_valid(double time) const {
@@ -304,8 +320,9 @@ bool StripDiscs::is_valid(double time) const {
     for (const Disc& disc : own()) {
         sums[1] += disc.id;
         sums[2] += disc.id * disc.id;
-        in_strip = in_strip && redistributed_strips_.owner(wrapped(disc.x_at(time), periods_.x)) ==
-                                   communicator_.rank();
+        in_strip = in_strip &&
+                   redistributed_strips_.owner(place_in_box(strips_, periods_, disc, time)) ==
+                       communicator_.rank();
     }
     communicator_.sum(sums);
     std::uint64_t id_sum = 0, square_sum = 0; // modulo 2^64, as the sums

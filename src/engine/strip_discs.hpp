@@ -29,7 +29,7 @@ public:
     /// **Collective.** Where there are periods, own discs get the images in the box when they
     /// migrate, and the halo has images of own discs, too. `columns` run along the discs; what
     /// they leave out is 0.
-    StripDiscs(const Communicator& communicator, double box_size, std::vector<Disc> discs,
+    StripDiscs(const Communicator& communicator, const Box& box, std::vector<Disc> discs,
                const Periods& periods = {}, SideColumns columns = {});
 
     /// Forgets the halo and sends each own disc to the rank whose strip holds it at `time`. No disc
@@ -131,7 +131,7 @@ private:
     Companions companions(std::vector<Disc>* states);
 
     Communicator communicator_;
-    double box_size_;
+    double length_; ///< of the box along the strips' axis
     Periods periods_;
     std::vector<Disc> discs_; ///< own, then halo
     SideColumns columns_;     ///< likewise

@@ -27,8 +27,9 @@ constexpr double discs_in_cache = 200'000; // a rank's, in its share of the last
 
 double cost_per_micro_step(const WindowNeeds& needs, double duration) {
     const Costs& cost = needs.discs_per_rank > discs_in_cache ? in_memory : in_cache;
-    const double reach = std::min(reach_of(needs, duration), needs.box_size);
-    const double in_reach = needs.n_discs * (reach / needs.box_size) * (reach / needs.box_size);
+    const double reach = reach_of(needs, duration);
+    const double in_reach = needs.n_discs * (std::min(reach, needs.box.x) / needs.box.x) *
+                            (std::min(reach, needs.box.y) / needs.box.y);
     const bool is_part = duration < 1;
     const double partner = is_part ? partner_in_part : cost.partner;
     const double once = ((is_part ? disc_in_part : cost.disc) + partner * in_reach) / duration;
@@ -41,11 +42,11 @@ double cost_with_fast_discs(const WindowNeeds& needs, double duration, double us
                             double share) {
     WindowNeeds usual = needs;
     usual.largest_speed = usual_speed;
-    const double reach = reach_of(usual, duration),
-                 density = needs.n_discs / (needs.box_size * needs.box_size);
-    const double side = std::min(
-        needs.box_size, 1.5 * reach + 0.32 * (usual_speed + needs.largest_speed) * duration);
-    const double each = fast_disc + fast_partner * density * side * side +
+    const double reach = reach_of(usual, duration), density = needs.n_discs / needs.box.area();
+    const double side = 1.5 * reach + 0.32 * (usual_speed + needs.largest_speed) * duration;
+    const double each = fast_disc +
+                        fast_partner * density * std::min(needs.box.x, side) *
+                            std::min(needs.box.y, side) +
                         fast_pair * share * needs.discs_per_rank;
     return cost_per_micro_step(usual, duration) + share * each / duration;
 }
@@ -69,7 +70,7 @@ double reach_of(const WindowNeeds& needs, double duration) {
 double reach_of(const WindowNeeds& needs, double duration, double speed) {
     const double from_anchor = duration > 1 ? duration : duration / 2; // see Window::anchor
     return (2 * needs.radius + 2 * speed * from_anchor) * (1 + 1e-6) +
-           64 * 0x1p-53 * needs.box_size;
+           64 * 0x1p-53 * needs.box.longest();
 }
 
 WindowChoice choose_window(const WindowNeeds& needs, int n_left, std::optional<double> wanted) {

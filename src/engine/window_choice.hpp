@@ -4,9 +4,14 @@
 // affects the run's time, not its bits.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
+
+#include <carrom/box.hpp>
+
+#include "core/image.hpp"
 
 namespace carrom {
 
@@ -29,7 +34,8 @@ struct SpeedSpread {
 
 /// What the choice depends on: lengths in the scene's unit, speed in lengths per micro-step.
 struct WindowNeeds {
-    double box_size = 0, radius = 0;
+    Box box;
+    double radius = 0;
     double n_discs = 0;
     double largest_speed = 0;
     double hits_per_micro_step = 0; ///< how often a disc is taken, as far as is known
@@ -54,6 +60,8 @@ WindowChoice choose_window(const WindowNeeds& needs, int n_left, std::optional<d
 
 /// How long a window may be in a box with periodic sides: two discs do not go round it, or each
 /// would be looked for in many images.
-inline double longest_in_period(double box_size, double speed) { return box_size / (2 * speed); }
+inline double longest_in_period(const Periods& periods, double speed) {
+    return periods.shortest() / (2 * speed);
+}
 
 } // namespace carrom

@@ -16,9 +16,9 @@ constexpr std::uint64_t cascade_count = 100000, cascade_count_per_disc = 1000;
 
 } // namespace
 
-double block_reach(const BlockWindow& window, double diameter, double box_size) {
+double block_reach(const BlockWindow& window, double diameter, const Box& box) {
     const double travel = window.speed_bound * window.duration();
-    return (diameter + 2 * travel) * (1 + 1e-6) + 64 * 0x1p-53 * box_size +
+    return (diameter + 2 * travel) * (1 + 1e-6) + 64 * 0x1p-53 * box.longest() +
            0x1p-50 * window.speed_bound * window.end;
 }
 
@@ -68,8 +68,8 @@ template <class Dynamics>
     std::uint32_t slot) const {
     const Disc& disc = discs[slot];
     Flight flight;
-    const double x_now = Dynamics::is_periodic ? x_of(disc, disc.tau) : disc.x,
-                 y_now = Dynamics::is_periodic ? y_of(disc, disc.tau) : disc.y;
+    const auto [x_now, y_now] = turned(axis, Dynamics::is_periodic ? x_of(disc, disc.tau) : disc.x,
+                                       Dynamics::is_periodic ? y_of(disc, disc.tau) : disc.y);
     flight.x = static_cast<float>((x_now - x_corner) * cells_per_length);
     flight.y = static_cast<float>((y_now - y_corner) * cells_per_length);
     flight.vx = vx[slot];
@@ -344,7 +344,7 @@ void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double ti
     const double dx = disc.x - at_start.x_at(window.begin),
                  dy = disc.y - at_start.y_at(window.begin);
     const double away = std::sqrt(dx * dx + dy * dy) * (1 + 1e-12) +
-                        8 * 0x1p-53 * dynamics.box_size();
+                        8 * 0x1p-53 * dynamics.box().longest();
     const double speed = std::sqrt(speed_squared(disc));
     if (speed <= window.speed_bound && away <= window.speed_bound * (time - window.begin)) return;
     const bool will_be_seen = speed > window.speed_bound * (1 + 1e-5); // by its next collision

@@ -37,7 +37,7 @@ struct BlockWindow {
 
 /// How far apart two discs can be at a window's start that meet in it. Cells n_reach wide must
 /// cover it.
-double block_reach(const BlockWindow& window, double diameter, double box_size);
+double block_reach(const BlockWindow& window, double diameter, const Box& box);
 
 /// Cells [first, end) of a grid's frame.
 struct CellBlock {

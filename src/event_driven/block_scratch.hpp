@@ -58,10 +58,12 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     /// Takes over a disc's flight: where it would have been at the window's start, in cells.
     [[gnu::always_inline]] void place(std::uint32_t slot, double start) {
         const Disc& disc = discs[slot];
-        x[slot] = static_cast<float>((x_of(disc, start) - x_corner) * cells_per_length);
-        y[slot] = static_cast<float>((y_of(disc, start) - y_corner) * cells_per_length);
-        vx[slot] = static_cast<float>(disc.vx * cells_per_speed);
-        vy[slot] = static_cast<float>(disc.vy * cells_per_speed);
+        const auto [along, across] = turned(axis, x_of(disc, start), y_of(disc, start));
+        const auto [v_along, v_across] = turned(axis, disc.vx, disc.vy);
+        x[slot] = static_cast<float>((along - x_corner) * cells_per_length);
+        y[slot] = static_cast<float>((across - y_corner) * cells_per_length);
+        vx[slot] = static_cast<float>(v_along * cells_per_speed);
+        vy[slot] = static_cast<float>(v_across * cells_per_speed);
     }
     void predict_all();
     void happen(const Event& event);
@@ -164,8 +166,9 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
 
     Dynamics dynamics;
     BlockGround ground;
-    CellBlock cells; ///< own ones and the halo
-    CellBlock ring;  ///< own ones and those within one reach of them
+    CellBlock cells;     ///< own ones and the halo
+    CellBlock ring;      ///< own ones and those within one reach of them
+    Axis axis = Axis::x; ///< the grid's: corners, lanes and walls in cells have it as x
     double x_corner = 0, y_corner = 0, cells_per_length = 1, cells_per_speed = 1,
            windows_per_time = 1;
     float column_limit = 0, row_limit = 0;

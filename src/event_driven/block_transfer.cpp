@@ -71,8 +71,9 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales() {
     column_limit = static_cast<float>(cells.end_column - cells.first_column - 1);
     row_limit = static_cast<float>(cells.end_row - cells.first_row - 1);
     const BlockWindow& window = ground.window;
-    x_corner = geometry.x_low + cells.first_column * geometry.cell_width;
-    y_corner = geometry.y_low + cells.first_row * geometry.cell_width;
+    axis = geometry.axis;
+    x_corner = geometry.low + cells.first_column * geometry.cell_width;
+    y_corner = geometry.across_low + cells.first_row * geometry.cell_width;
     cells_per_length = 1 / geometry.cell_width;
     cells_per_speed = window.duration() / geometry.cell_width;
     windows_per_time = 1 / window.duration();
@@ -80,7 +81,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales() {
     const double extent = std::max(cells.end_column - cells.first_column,
                                    cells.end_row - cells.first_row) +
                           8.0;
-    const double reach = block_reach(window, dynamics.search_diameter(), dynamics.box_size()) *
+    const double reach = block_reach(window, dynamics.search_diameter(), dynamics.box()) *
                          cells_per_length;
     // Positions carry an error of 2^-23 of the block's size. The rounding of the filter's other
     // terms acts like a longer diameter by 2^-20 d^2 / diameter, with the largest distance d that
@@ -93,10 +94,12 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales() {
     const double inner = dynamics.radius() + dynamics.slack() + 1e-3 * geometry.cell_width +
                          0x1p-18 * extent * geometry.cell_width;
     const Extent walls = dynamics.walls_between(window.begin, window.end);
-    x_inner_low = static_cast<float>((walls.x_low + inner - x_corner) * cells_per_length);
-    y_inner_low = static_cast<float>((walls.y_low + inner - y_corner) * cells_per_length);
-    x_inner_high = static_cast<float>((walls.x_high - inner - x_corner) * cells_per_length);
-    y_inner_high = static_cast<float>((walls.y_high - inner - y_corner) * cells_per_length);
+    const auto [low, across_low] = turned(axis, walls.x_low, walls.y_low);
+    const auto [high, across_high] = turned(axis, walls.x_high, walls.y_high);
+    x_inner_low = static_cast<float>((low + inner - x_corner) * cells_per_length);
+    y_inner_low = static_cast<float>((across_low + inner - y_corner) * cells_per_length);
+    x_inner_high = static_cast<float>((high - inner - x_corner) * cells_per_length);
+    y_inner_high = static_cast<float>((across_high - inner - y_corner) * cells_per_length);
 }
 
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own(const CellBlock& own) {

@@ -30,6 +30,13 @@ constexpr int most_more = 2;   ///< reaches
 constexpr int long_calm = 200; ///< windows after which less is tried
 constexpr double shorter = 0.7, longer = 1.03, least_hits = 0.1;
 
+/// The mean distance of discs.
+double spacing_of(const BlockNeeds& needs) {
+    const double n = needs.n_discs + 1;
+    return needs.box.is_square() ? needs.box.x / std::sqrt(n)
+                                 : std::sqrt(needs.box.x / n) * std::sqrt(needs.box.y);
+}
+
 BlockWindow window_of(const BlockNeeds& needs, double duration) {
     return {needs.time, needs.time + duration, false, needs.speed_bound};
 }
@@ -37,30 +44,35 @@ BlockWindow window_of(const BlockNeeds& needs, double duration) {
 BlockChoice choice_of(const BlockNeeds& needs, double duration) {
     BlockChoice choice;
     choice.duration = duration;
-    choice.reach = block_reach(window_of(needs, duration), 2 * needs.radius, needs.box_size);
-    const double spacing = needs.box_size / std::sqrt(needs.n_discs + 1);
+    choice.reach = block_reach(window_of(needs, duration), 2 * needs.radius, needs.box);
+    const double spacing = spacing_of(needs);
     choice.halo = needs.halo.value_or((2 * needs.radius < thin_gas * choice.reach ? 2 : 3) +
                                       needs.more_halo);
     const double margin = choice.halo * choice.reach;
-    const double side = std::sqrt(discs_in_cache) * spacing - 2 * margin;
-    choice.block_side = needs.is_one_block ? needs.box_size
-                                           : std::min(std::max(side, 1.5 * margin), needs.box_size);
+    double side = std::sqrt(discs_in_cache) * spacing - 2 * margin;
+    if (side > needs.box.shortest()) // blocks as high as the box may be longer
+        side = discs_in_cache * spacing * (spacing / needs.box.shortest()) - 2 * margin;
+    const double longest = needs.box.longest();
+    choice.block_side = needs.is_one_block ? longest
+                                           : std::min(std::max(side, 1.5 * margin), longest);
     return choice;
 }
 
 double cost_per_time(const BlockNeeds& needs, const BlockChoice& choice) {
-    const double side = choice.block_side;
-    const double halo = (needs.is_one_block ? needs.n_periodic_axes == 0 ? 0 : 1 : choice.halo) *
-                        choice.reach;
-    const double walled = (needs.is_one_block ? side : std::min(side + 2 * halo, needs.box_size)) /
-                          side,
-                 around = (side + 2 * halo) / side;
-    // Of discs in the run, halo included, to own ones.
-    const double share = needs.n_periodic_axes == 0   ? walled * walled
-                         : needs.n_periodic_axes == 1 ? walled * around
-                                                      : around * around;
-    const double looked_at = std::min(1.6 * choice.reach, needs.box_size) / needs.box_size;
-    const double partners = needs.n_discs * looked_at * looked_at;
+    const bool has_halo = !needs.is_one_block || needs.goes_round_x || needs.goes_round_y;
+    const double halo = needs.is_one_block ? (has_halo ? 1 : 0) * choice.reach
+                                           : choice.halo * choice.reach;
+    // Of discs in the run, halo included, to own ones, along one axis.
+    const auto share_along = [&](double length, bool goes_round) {
+        const double own = std::min(choice.block_side, length), seen = own + 2 * halo;
+        if (goes_round) return seen / own;
+        return (needs.is_one_block ? own : std::min(seen, length)) / own;
+    };
+    const double share = share_along(needs.box.x, needs.goes_round_x) *
+                         share_along(needs.box.y, needs.goes_round_y);
+    const double around = 1.6 * choice.reach;
+    const double partners = needs.n_discs * (std::min(around, needs.box.x) / needs.box.x) *
+                            (std::min(around, needs.box.y) / needs.box.y);
     const double events = needs.collision_rate * choice.duration;
     const double run_blocks = cost_per_copy + cost_per_partner * partners / 2 +
                               events * (cost_per_event + 2 * cost_per_partner * partners);
@@ -74,7 +86,7 @@ BlockChoice choose_block_window(const BlockNeeds& needs, double longest,
     if (wanted) return choice_of(needs, std::min(*wanted, longest));
     BlockChoice best = choice_of(needs, longest);
     if (!(needs.speed_bound > 0)) return best;
-    const double spacing = needs.box_size / std::sqrt(needs.n_discs + 1);
+    const double spacing = spacing_of(needs);
     double least = cost_per_time(needs, best);
     for (double duration = std::min(longest, 0.02 * spacing / needs.speed_bound);
          duration < longest; duration *= 1.1) {
@@ -102,7 +114,7 @@ void Caution::learn(double repeated, double hits) {
 }
 
 double guessed_collision_rate(const BlockNeeds& needs) {
-    const double number_density = needs.n_discs / (needs.box_size * needs.box_size);
+    const double number_density = needs.n_discs / needs.box.area();
     return number_density * 2 * needs.radius * needs.speed_bound / 3;
 }
 

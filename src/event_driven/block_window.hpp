@@ -9,11 +9,14 @@
 #include <limits>
 #include <optional>
 
+#include <carrom/box.hpp>
+
 namespace carrom {
 
 /// What the choice depends on: lengths in the scene's unit, times in micro-steps.
 struct BlockNeeds {
-    double box_size = 0, radius = 0;
+    Box box;
+    double radius = 0;
     double n_discs = 0;
     double speed_bound = 0;
     double collision_rate = 0; ///< per disc and time
@@ -22,8 +25,8 @@ struct BlockNeeds {
         halo; ///< reaches that blocks look beyond their own cells at first, if that is wanted
     bool is_one_block = false; ///< all discs in one block, whatever their number
     int more_halo = 0;         ///< reaches more than where few runs are repeated
-    int n_periodic_axes = 0;   ///< along which a halo does not end with the box: it has images, if
-                               ///< need be many of each disc
+    bool goes_round_x = false, goes_round_y = false; ///< a halo does not end with the box: it has
+                                                     ///< images, if need be many of each disc
 };
 
 struct BlockChoice {

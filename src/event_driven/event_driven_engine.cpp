@@ -102,7 +102,7 @@ template <class Dynamics> BlockWindow EventDrivenEngine<Dynamics>::choose(double
     const double left = target - time_;
     double longest = left;
     if constexpr (Dynamics::is_periodic)
-        longest = std::min(longest, longest_in_period(dynamics_.box_size(), window.speed_bound));
+        longest = std::min(longest, longest_in_period(discs_.periods(), window.speed_bound));
     if (!tuning_.window) longest = std::min(longest, caution_.most_hits() / needs.collision_rate);
     choice_ = choose_block_window(needs, longest, tuning_.window);
     if (Dynamics::is_periodic && is_one_block_ && !block_tuning_.halo && !block_tuning_.block_side)
@@ -132,14 +132,15 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
                           n < 2 * static_cast<double>(tuning_.discs_per_thread);
     is_one_block_ = communicator_.size() == 1 && is_alone && n <= most_discs_alone;
     BlockNeeds needs;
-    needs.box_size = dynamics_.box_size();
+    needs.box = dynamics_.box();
     needs.radius = dynamics_.radius() + dynamics_.slack();
     needs.n_discs = n;
     needs.speed_bound = speed_bound;
     needs.time = time_;
     needs.halo = block_tuning_.halo;
     needs.is_one_block = is_one_block_;
-    needs.n_periodic_axes = (discs_.periods().x != 0) + (discs_.periods().y != 0);
+    needs.goes_round_x = discs_.periods().x != 0;
+    needs.goes_round_y = discs_.periods().y != 0;
     if (n_windows_ > 0)
         collision_rate_ = static_cast<double>(communicator_.sum(n_events_)) /
                           (std::max(n, 1.0) * last_duration_);
@@ -181,32 +182,38 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
 /// from the strip.
 template <class Dynamics> GridGeometry EventDrivenEngine<Dynamics>::lay_cells(double reach) {
     const Extent box = extent();
-    const double x_from = std::max(box.x_low, discs_.strips().low(communicator_.rank()));
-    const double x_to = std::min(box.x_high, discs_.strips().high(communicator_.rank()));
-    const double spacing = std::sqrt(dynamics_.box_size() * std::max(x_to - x_from, 0.0) /
-                                     static_cast<double>(discs_.n_own() + 16));
+    const Axis axis = discs_.strips().axis();
+    const auto [low, across_low] = turned(axis, box.x_low, box.y_low);
+    const auto [high, across_high] = turned(axis, box.x_high, box.y_high);
+    const double from = std::max(low, discs_.strips().low(communicator_.rank()));
+    const double to = std::min(high, discs_.strips().high(communicator_.rank()));
+    const auto n_cells = static_cast<double>(discs_.n_own() + 16);
+    const double length = std::max(to - from, 0.0);
+    // In a thin tube one cell holds its whole height.
+    const double spacing = std::max(std::sqrt(dynamics_.box().shortest() * length / n_cells),
+                                    length / n_cells);
     const double least_width = std::max(reach / cells_per_reach(reach, spacing), 0.7 * spacing);
-    const double n_whole = std::max(1.0, std::floor((x_to - x_from) / least_width));
+    const double n_whole = std::max(1.0, std::floor((to - from) / least_width));
     GridGeometry geometry;
-    geometry.set_cell_width(std::max(least_width, (x_to - x_from) / n_whole));
+    geometry.axis = axis;
+    geometry.set_cell_width(std::max(least_width, (to - from) / n_whole));
     geometry.n_reach = static_cast<int>(std::ceil(reach / geometry.cell_width * (1 - 1e-9)));
     const int n_halo = halo_depth_ * geometry.n_reach;
-    const bool goes_round_x = discs_.periods().x != 0, goes_round_y = discs_.periods().y != 0;
-    const auto n_beside = [&](double length) { // columns of other strips, or of images
-        if (goes_round_x) return n_halo;
-        return communicator_.size() > 1 ? std::min(n_halo, cells_along(length, geometry.cell_width))
+    const bool goes_round_across = discs_.periods().along(other_axis(axis)) != 0;
+    const auto n_beside = [&](double beside) { // columns of other strips, or of images
+        if (discs_.periods().along(axis) != 0) return n_halo;
+        return communicator_.size() > 1 ? std::min(n_halo, cells_along(beside, geometry.cell_width))
                                         : 0;
     };
-    own_cells_.first_column = n_beside(x_from - box.x_low);
-    own_cells_.end_column = own_cells_.first_column +
-                            cells_along(x_to - x_from, geometry.cell_width);
-    geometry.n_columns = own_cells_.end_column + n_beside(box.x_high - x_to);
-    own_cells_.first_row = goes_round_y ? n_halo : 0;
+    own_cells_.first_column = n_beside(from - low);
+    own_cells_.end_column = own_cells_.first_column + cells_along(to - from, geometry.cell_width);
+    geometry.n_columns = own_cells_.end_column + n_beside(high - to);
+    own_cells_.first_row = goes_round_across ? n_halo : 0;
     own_cells_.end_row = own_cells_.first_row +
-                         cells_along(box.y_high - box.y_low, geometry.cell_width);
+                         cells_along(across_high - across_low, geometry.cell_width);
     geometry.n_rows = own_cells_.end_row + own_cells_.first_row;
-    geometry.x_low = x_from - own_cells_.first_column * geometry.cell_width;
-    geometry.y_low = box.y_low - own_cells_.first_row * geometry.cell_width;
+    geometry.low = from - own_cells_.first_column * geometry.cell_width;
+    geometry.across_low = across_low - own_cells_.first_row * geometry.cell_width;
     return geometry;
 }
 
@@ -250,13 +257,15 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::block_side() const
     const GridGeometry& geometry = discs_.grid().geometry();
     const double width = (own_cells_.end_column - own_cells_.first_column) * geometry.cell_width,
                  height = (own_cells_.end_row - own_cells_.first_row) * geometry.cell_width;
+    const double n_blocks = blocks_per_thread * tuning_.threads;
     double side = choice_.block_side;
     if (block_tuning_.block_side)
         side = *block_tuning_.block_side * geometry.cell_width * geometry.n_reach;
     else if (is_one_block_)
         side = 2 * std::max(width, height);
     if (tuning_.threads > 1 && !is_one_block_)
-        side = std::min(side, std::sqrt(width * height / (blocks_per_thread * tuning_.threads)));
+        side = std::min(side, std::max(std::sqrt(width * height / n_blocks),
+                                       std::max(width, height) / n_blocks));
     return side;
 }
 
@@ -334,7 +343,7 @@ void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome& outcome) {
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::finish_sync(double largest_speed) {
     largest_speed_ = largest_speed;
-    jumped_ += dynamics_.jump_at(time_);
+    jumped_ += dynamics_.jump_at(discs_.strips().axis(), time_);
     for (BlockRun<Dynamics>& block_run : block_runs_) block_run.change_dynamics(dynamics_);
 }
 

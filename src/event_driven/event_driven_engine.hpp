@@ -90,11 +90,11 @@ private:
         return Dynamics::is_periodic && is_one_block_ ? choice_.halo : 2 * choice_.halo;
     }
     double reach() const {
-        return block_reach(window_, dynamics_.search_diameter(), dynamics_.box_size());
+        return block_reach(window_, dynamics_.search_diameter(), dynamics_.box());
     }
 
     BlockTuning block_tuning_;
-    double jumped_ = 0;         ///< the frame's motion in x since the last migration
+    double jumped_ = 0; ///< the frame's motion along the strips' axis since the last migration
     double collision_rate_ = 0; ///< per disc and time, of the last window, on all ranks
     double last_duration_ = 1;  ///< of the last window
     double repeated_ = 0; ///< block runs of the last window that were repeated, as a share of all

@@ -114,7 +114,7 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
         deepest = std::max(deepest, halo_depth_for(block));
     }
     if (discs_.periods().are_any()) { // once around there is nothing new
-        const int around = static_cast<int>(std::ceil(dynamics_.box_size() / reach())) + 3;
+        const int around = static_cast<int>(std::ceil(dynamics_.box().longest() / reach())) + 3;
         deepest = std::max(halo_depth_, std::min(deepest, around));
     }
     ensure(communicator_.sum(n_widened) > 0, "blocks that have seen the whole box disagree");
@@ -129,19 +129,21 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
 template <class Dynamics>
 int EventDrivenEngine<Dynamics>::halo_depth_for(const Block& block) const {
     const int n_reach = discs_.grid().geometry().n_reach;
-    const Periods& periods = discs_.periods();
+    const Axis axis = discs_.strips().axis();
+    const bool goes_round = discs_.periods().along(axis) != 0,
+               goes_round_across = discs_.periods().along(other_axis(axis)) != 0;
     int depth = 0;
     const auto look = [&](bool is_open, int n_cells_inside) {
         if (is_open)
             depth = std::max(depth,
                              (block.halo * n_reach - n_cells_inside + n_reach - 1) / n_reach);
     };
-    look(periods.x != 0 || communicator_.rank() > 0,
+    look(goes_round || communicator_.rank() > 0,
          block.cells.first_column - own_cells_.first_column);
-    look(periods.x != 0 || communicator_.rank() + 1 < communicator_.size(),
+    look(goes_round || communicator_.rank() + 1 < communicator_.size(),
          own_cells_.end_column - block.cells.end_column);
-    look(periods.y != 0, block.cells.first_row - own_cells_.first_row);
-    look(periods.y != 0, own_cells_.end_row - block.cells.end_row);
+    look(goes_round_across, block.cells.first_row - own_cells_.first_row);
+    look(goes_round_across, own_cells_.end_row - block.cells.end_row);
     return depth;
 }
 
@@ -154,9 +156,8 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::sees_all(const Block
                                block.cells.first_row <= halo &&
                                block.cells.end_row + halo >= geometry.n_rows;
     const double reach = this->reach();
-    const Extent box = extent();
-    const bool rank_has_all = communicator_.size() == 1 ||
-                              halo_depth_ * reach > box.x_high - box.x_low;
+    const double length = along(discs_.strips().axis(), extent().size());
+    const bool rank_has_all = communicator_.size() == 1 || halo_depth_ * reach > length;
     return has_all_cells && rank_has_all;
 }
 
@@ -166,10 +167,11 @@ bool EventDrivenEngine<Dynamics>::sees_all_images(const Block& block) const {
     const GridGeometry& geometry = discs_.grid().geometry();
     const int halo = block.halo * geometry.n_reach;
     const double reach = this->reach();
-    const int around = static_cast<int>(std::ceil(dynamics_.box_size() / geometry.cell_width)) + 1 +
+    const Axis axis = discs_.strips().axis();
+    const double length = dynamics_.box().longest();
+    const int around = static_cast<int>(std::ceil(length / geometry.cell_width)) + 1 +
                        geometry.n_reach;
-    const bool rank_has_all = communicator_.size() == 1 ||
-                              halo_depth_ * reach > dynamics_.box_size() + 2 * reach;
+    const bool rank_has_all = communicator_.size() == 1 || halo_depth_ * reach > length + 2 * reach;
     const auto has_all = [&](int first, int end, int first_own, int end_own, int n_cells,
                              bool goes_round, bool own_is_all) {
         const int seen_first = std::max(0, first - halo), seen_end = std::min(n_cells, end + halo);
@@ -180,10 +182,11 @@ bool EventDrivenEngine<Dynamics>::sees_all_images(const Block& block) const {
     };
     return rank_has_all &&
            has_all(block.cells.first_column, block.cells.end_column, own_cells_.first_column,
-                   own_cells_.end_column, geometry.n_columns, discs_.periods().x != 0,
+                   own_cells_.end_column, geometry.n_columns, discs_.periods().along(axis) != 0,
                    communicator_.size() == 1) &&
            has_all(block.cells.first_row, block.cells.end_row, own_cells_.first_row,
-                   own_cells_.end_row, geometry.n_rows, discs_.periods().y != 0, true);
+                   own_cells_.end_row, geometry.n_rows,
+                   discs_.periods().along(other_axis(axis)) != 0, true);
 }
 
 /// Ends the run on all ranks if a block that has seen the whole box has found no end.

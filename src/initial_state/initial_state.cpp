@@ -78,7 +78,7 @@ std::uint64_t mixing_stride(std::uint64_t n) {
 }
 
 std::vector<InputDisc> lattice_discs(const Scene& scene, const Communicator& communicator) {
-    const auto lattice = widest_lattice(scene.n_discs, scene.box_size, scene.radius);
+    const auto lattice = widest_lattice(scene.n_discs, scene.box, scene.radius);
     ensure(lattice.has_value(), "the scene was checked, yet its lattice does not fit");
     const auto [first, last] = share_of(scene, communicator);
     std::vector<InputDisc> discs;
@@ -124,9 +124,9 @@ void refuse_in_obstacles(const Scene& scene, const std::vector<InputDisc>& discs
                          const Communicator& communicator) {
     constexpr std::size_t most_named = 5;
     if (!scene.effects.obstacles.are_any()) return;
-    const Obstacles obstacles(scene.box_size, scene.radius, scene.effects);
+    const Obstacles obstacles(scene.box, scene.radius, scene.effects);
     const SpeciesTable species_table(scene.effects.species, scene.radius);
-    const double least = 2 * std::max(2e-12 * scene.radius, 32 * 0x1p-53 * scene.box_size);
+    const double least = 2 * std::max(2e-12 * scene.radius, 32 * 0x1p-53 * scene.box.longest());
     std::vector<Problem> problems;
     for (const InputDisc& disc : discs) {
         const auto overlap = obstacles.deepest_overlap(disc.x, disc.y,

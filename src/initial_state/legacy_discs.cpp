@@ -23,9 +23,8 @@ double LegacyRandom::uniform(double low, double high) {
 }
 
 std::optional<std::vector<Point>> legacy_positions(const Scene& scene, LegacyRandom& random) {
-    const double low = scene.radius, high = scene.box_size - scene.radius,
-                 diameter = 2 * scene.radius;
-    PointGrid grid(0, scene.box_size, scene.box_size, diameter, static_cast<double>(scene.n_discs));
+    const double low = scene.radius, high = scene.box.x - scene.radius, diameter = 2 * scene.radius;
+    PointGrid grid(0, scene.box.x, scene.box.x, diameter, static_cast<double>(scene.n_discs));
     std::vector<Point> places;
     places.reserve(scene.n_discs);
     std::uint64_t draws_left = most_draws_of_a_disc + mean_draws_of_all * scene.n_discs;
@@ -49,7 +48,7 @@ std::optional<std::vector<Point>> legacy_positions(const Scene& scene, LegacyRan
 }
 
 InputDisc legacy_disc(const Scene& scene, LegacyRandom& random, DiscId id, Point place) {
-    const double speed = random.uniform(scene.box_size / (8 * scene.radius), scene.box_size / 4);
+    const double speed = random.uniform(scene.box.x / (8 * scene.radius), scene.box.x / 4);
     const double angle = random.uniform(0, 2 * std::numbers::pi);
     return {id, place.x, place.y, speed * std::cos(angle), speed * std::sin(angle)};
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -33,15 +34,17 @@ struct Notice {
     std::uint32_t is_placed = 0;
 };
 
+/// Works in the box lying down: x is along its longer side, where the strips are.
 class Insertion {
 public:
     Insertion(const Scene& scene, const Communicator& communicator, std::uint64_t start)
         : scene_(scene), communicator_(communicator), start_(start), diameter_(2 * scene.radius),
-          species_(scene.effects.species, scene.radius),
-          periods_(scene.effects.periods(scene.box_size)), placed_grid_(grid()),
+          species_(scene.effects.species, scene.radius), axis_(longer_axis(scene.box)),
+          box_(scene.box.longest(), scene.box.shortest()),
+          periods_(lying(scene.effects.periods(scene.box))), placed_grid_(grid()),
           proposal_grid_(grid()) {
         if (scene.effects.obstacles.are_any())
-            obstacles_.emplace(scene.box_size, scene.radius, scene.effects);
+            obstacles_.emplace(scene.box, scene.radius, scene.effects);
         placed_.reserve(static_cast<std::size_t>(1.1 * share()) + 100);
     }
 
@@ -58,10 +61,16 @@ public:
         placed_.erase(std::remove_if(placed_.begin(), placed_.end(),
                                      [](const InputDisc& d) { return (d.id & copy_mark) != 0; }),
                       placed_.end());
+        for (InputDisc& disc : placed_) std::tie(disc.x, disc.y) = turned(axis_, disc.x, disc.y);
         return std::move(placed_);
     }
 
 private:
+    Periods lying(const Periods& periods) const {
+        const auto [x, y] = turned(axis_, periods.x, periods.y);
+        return {x, y};
+    }
+
     /// False where the discs have jammed. **Collective.**
     bool place_all_of(double radius) {
         const std::uint64_t n = scene_.n_discs;
@@ -84,16 +93,16 @@ private:
     double share() const { return static_cast<double>(scene_.n_discs) / communicator_.size(); }
 
     PointGrid grid() const {
-        const double strip = scene_.box_size / communicator_.size();
+        const double strip = box_.x / communicator_.size();
         const double low = strip * communicator_.rank() - margin(),
                      high = strip * (communicator_.rank() + 1) + margin();
-        return {low, high, scene_.box_size, diameter_, share()};
+        return {low, high, box_.y, diameter_, share()};
     }
 
     double margin() const { return diameter_ * (1 + 1e-9); }
 
     std::size_t owner(double x) const {
-        const double strip = x / scene_.box_size * communicator_.size();
+        const double strip = x / box_.x * communicator_.size();
         return static_cast<std::size_t>(
             std::clamp(static_cast<int>(strip), 0, communicator_.size() - 1));
     }
@@ -101,12 +110,13 @@ private:
     Point proposal(DiscId id, std::uint64_t round) const {
         const auto words = random_words(scene_.seed, Purpose::position, id, round, start_);
         const double radius = species_.of(id).radius;
-        const auto place = [this, radius](double period, double number) {
+        const auto place = [radius](double period, double length, double number) {
             const double low = period == 0 ? radius : 0,
-                         high = period == 0 ? scene_.box_size - radius : period;
+                         high = period == 0 ? length - radius : period;
             return std::min(low + (high - low) * number, high);
         };
-        return {place(periods_.x, unit_number(words[0])), place(periods_.y, unit_number(words[1]))};
+        return {place(periods_.x, box_.x, unit_number(words[0])),
+                place(periods_.y, box_.y, unit_number(words[1]))};
     }
 
     /// Calls `visit(rank)` for each rank whose strip is within the margin of `x` or one of its
@@ -171,9 +181,10 @@ private:
     /// Whether discs accepted earlier in this round are seen here makes no difference: they have
     /// lower ids and overlap, or they do not overlap.
     bool is_refused(const Notice& notice) const {
+        const auto [x, y] = turned(axis_, notice.x, notice.y);
         if (obstacles_ &&
-            obstacles_->deepest_overlap(notice.x, notice.y, species_.of(notice.id).radius, 0)
-                    .body != ObstacleContact::no_body)
+            obstacles_->deepest_overlap(x, y, species_.of(notice.id).radius, 0).body !=
+                ObstacleContact::no_body)
             return true;
         if (is_refused_at({notice.x, notice.y}, notice)) return true;
         if (!periods_.are_any()) return false;
@@ -182,8 +193,8 @@ private:
         for (const double dx : {-periods_.x, 0.0, periods_.x}) {
             for (const double dy : {-periods_.y, 0.0, periods_.y}) {
                 const Point image{notice.x + dx, notice.y + dy};
-                const bool is_near = image.x > -margin() && image.x < scene_.box_size + margin() &&
-                                     image.y > -margin() && image.y < scene_.box_size + margin();
+                const bool is_near = image.x > -margin() && image.x < box_.x + margin() &&
+                                     image.y > -margin() && image.y < box_.y + margin();
                 if ((dx != 0 || dy != 0) && is_near && is_refused_at(image, notice)) return true;
             }
         }
@@ -226,6 +237,8 @@ private:
     std::uint64_t start_;
     double diameter_; ///< the largest
     SpeciesTable species_;
+    Axis axis_;
+    Box box_;
     Periods periods_;
     PointGrid placed_grid_, proposal_grid_;
     std::vector<InputDisc>

@@ -20,6 +20,8 @@
 #include <string>
 #include <vector>
 
+#include <carrom/box.hpp>
+
 #include "core/disc.hpp"
 #include "core/frame.hpp"
 #include "core/side_columns.hpp"
@@ -37,8 +39,9 @@ struct CheckpointHeader {
     std::int64_t scene_lines_before_discs = 0;
     std::int64_t scene_discs_follow = 0;
 
-    double box_size = 0, radius = 0;
-    std::string method; ///< "time-stepped" or "event-driven"
+    double box_size = 0, radius = 0; ///< box_size: along x
+    double box_height = 0;           ///< along y; in the file only where it is another one
+    std::string method;              ///< "time-stepped" or "event-driven"
     std::int64_t micro_steps = 1, sync_every = 1;
 
     std::int64_t step = 0, micro_steps_done = 0;
@@ -51,6 +54,9 @@ struct CheckpointHeader {
         species; ///< where a file of discs had them, for the scene's text has not; else empty
     SideColumnSet columns; ///< what discs have beside their states; the state hash covers it
     RecordedSystem shown;  ///< what other programs see. Not read.
+
+    Box box() const { return {box_size, box_height}; }
+    void set_box(const Box& box) { box_size = box.x, box_height = box.y; }
 
     /// Micro-steps since the last sync, or what the frame's clock makes of them: the time that the
     /// discs' own times belong to.

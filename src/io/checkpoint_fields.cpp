@@ -18,6 +18,7 @@ void write_header(hid_t group, const CheckpointHeader& header) {
     for (const HeaderField& entry : checkpoint_header)
         std::visit([&](auto field) { h5::write_scalar(group, entry.name, header.*field); },
                    entry.field);
+    if (!header.box().is_square()) h5::write_scalar(group, box_height_name, header.box_height);
     if (!header.frame.is_moving) return;
     for (const FrameField& entry : checkpoint_frame)
         h5::write_scalar(group, entry.name, header.frame.*entry.field);
@@ -36,6 +37,9 @@ CheckpointHeader read_header(hid_t file) {
     for (const HeaderField& entry : checkpoint_header)
         std::visit([&](auto field) { h5::read_scalar(group.id(), entry.name, header.*field); },
                    entry.field);
+    header.box_height = header.box_size;
+    if (H5Lexists(group.id(), box_height_name, H5P_DEFAULT) > 0)
+        h5::read_scalar(group.id(), box_height_name, header.box_height);
     header.frame.is_moving = H5Lexists(group.id(), checkpoint_frame[0].name, H5P_DEFAULT) > 0;
     if (header.frame.is_moving) read_frame(checkpoint_frame);
     if (H5Lexists(group.id(), checkpoint_periods[0].name, H5P_DEFAULT) > 0)
@@ -84,6 +88,7 @@ std::vector<Species> read_species(hid_t file, const std::string& path, std::uint
 void broadcast(CheckpointHeader& header, const Communicator& communicator) {
     for (const HeaderField& entry : checkpoint_header)
         std::visit([&](auto field) { communicator.broadcast(header.*field); }, entry.field);
+    communicator.broadcast(header.box_height);
     communicator.broadcast(header.frame);
     communicator.broadcast(header.columns);
     communicator.broadcast(header.species);

@@ -56,6 +56,9 @@ inline constexpr std::array<HeaderField, 17> checkpoint_header = {
      {"pair_collisions", &H::pair_collisions},
      {"state_hash", &H::state_hash}}};
 
+/// The same for a rectangle.
+inline constexpr const char* box_height_name = "box_height";
+
 /// The same for a frame that moves.
 struct FrameField {
     const char* name;

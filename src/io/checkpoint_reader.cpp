@@ -43,7 +43,7 @@ void check_header(const CheckpointHeader& header) {
                           header.n_discs > 0 &&
                           header.micro_steps_done / header.micro_steps == header.step &&
                           header.micro_steps_done % header.micro_steps == 0 &&
-                          std::isfinite(header.box_size) && header.box_size > 0 &&
+                          std::isfinite(header.box().longest()) && header.box().shortest() > 0 &&
                           std::isfinite(header.radius) && header.radius > 0 &&
                           std::all_of(finite.begin(), finite.end(),
                                       [](double x) { return std::isfinite(x); });
@@ -270,7 +270,7 @@ std::vector<FirstPlace> read_places(const WholeFile& file, const Share& share) {
         file.read(column.path(), std::span(numbers), share.begin, H5T_NATIVE_DOUBLE);
         const double most = column.is_of_periodic_boxes
                                 ? most_lengths
-                                : farthest_place * file.contents.header.box_size;
+                                : farthest_place * file.contents.header.box().longest();
         for (std::size_t i = 0; i < places.size(); ++i) {
             if (!(std::fabs(numbers[i]) <= most))
                 throw FileError(column.path() + " holds what is no place");

@@ -87,7 +87,8 @@ FileDifference compare_files(const std::string& a, const std::string& b) {
         return differences.result;
     }
     differences.compare_counts(one.n_rows, other.n_rows, "number of discs");
-    differences.compare(one.box_size, other.box_size, "box", [] { return "the files"; });
+    for (const auto edge : {&Box::x, &Box::y})
+        differences.compare(one.box.*edge, other.box.*edge, "box", [] { return "the files"; });
     if (one.n_rows == other.n_rows) compare_frames(first, second, differences);
     if (differences.result.is_same && one.state_hash != other.state_hash)
         differences.note("state hash", "the files", one.state_hash + " and " + other.state_hash, 0);

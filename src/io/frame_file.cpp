@@ -150,7 +150,7 @@ void FrameFile::open() {
         header.columns.for_each(
             [&](SideColumn column) { summary_.columns.push_back(info_of(column).shown); });
         summary_.n_rows = header.n_discs;
-        summary_.box_size = header.box_size;
+        summary_.box = header.box();
         summary_.steps = {header.step};
         summary_.state_hash = header.state_hash;
     } else if (h5::has(file, "/carrom/collisions")) {
@@ -185,7 +185,7 @@ void FrameFile::open_trajectory() {
     if (summary_.steps.empty()) return;
     std::vector<double> edges;
     read_block(file, {"", h5md::edges_path}, summary_.steps.size() - 1, 0, 3, edges);
-    summary_.box_size = edges[0];
+    summary_.box = {edges[0], edges[1]};
 }
 
 /// The first row of each segment, or of a checkpoint.

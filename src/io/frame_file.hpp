@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include <carrom/box.hpp>
+
 #include "dynamics/species.hpp"
 
 namespace carrom {
@@ -23,7 +25,8 @@ struct FileSummary {
     /// pair_collisions, wall_collisions, then the columns beside the states (side_columns.hpp).
     std::vector<std::string> columns;
     std::uint64_t n_rows = 0;              ///< discs, or collisions
-    double box_size = 0, radius = 0;       ///< of the last frame; the largest radius
+    Box box;                               ///< of the last frame
+    double radius = 0;                     ///< the largest one
     std::vector<Species> species;          ///< empty where all discs have that radius and mass 1
     std::size_t bytes_per_number = 8;      ///< of a trajectory's positions and velocities
     std::vector<std::int64_t> steps;       ///< of the frames

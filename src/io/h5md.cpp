@@ -86,7 +86,7 @@ void write_bodies(hid_t file, const RecordedSystem& system) {
 }
 
 std::array<double, 3> edges_of(const RecordedSystem& system) {
-    return {system.box_size, system.box_size, 1};
+    return {system.box.x, system.box.y, 1};
 }
 
 } // namespace carrom::h5md

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <carrom/box.hpp>
+
 #include "dynamics/species.hpp"
 
 namespace carrom {
@@ -14,8 +16,9 @@ namespace carrom {
 struct RecordedSystem {
     std::string program_version;
     std::uint64_t n_discs = 0;
-    double box_size = 0, radius = 0; ///< the largest radius
-    std::vector<Species> species;    ///< empty where all discs have that radius and mass 1
+    Box box;
+    double radius = 0;            ///< the largest one
+    std::vector<Species> species; ///< empty where all discs have that radius and mass 1
     bool is_periodic_x = false, is_periodic_y = false;
     std::array<bool, 4> open_boundaries{}; ///< left, right, bottom, top: discs may lie beyond these
 };

@@ -108,7 +108,7 @@ SceneFacts Scene::check() const { return facts_of(read(text_of(source_), *this))
 
 SceneFacts facts_of(const carrom::Scene& scene) {
     SceneFacts facts;
-    facts.box_size = scene.box_size;
+    facts.box = scene.box;
     facts.radius = scene.radius;
     facts.packing = scene.packing();
     facts.n_discs = scene.n_discs;

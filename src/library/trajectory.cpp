@@ -102,7 +102,7 @@ FrameReader::~FrameReader() = default;
 
 const std::vector<std::int64_t>& FrameReader::steps() const { return state_->file.summary().steps; }
 std::uint64_t FrameReader::n_discs() const { return state_->file.summary().n_rows; }
-double FrameReader::box_size() const { return state_->file.summary().box_size; }
+Box FrameReader::box() const { return state_->file.summary().box; }
 std::string FrameReader::state_hash() const { return state_->file.summary().state_hash; }
 
 std::vector<Disc> FrameReader::read(std::size_t frame) const { return read(frame, 0, n_discs()); }

@@ -35,7 +35,7 @@ double thermal_speed(const Scene& scene, const Totals& totals) {
 double driven_speed(const Scene& scene) {
     double speed = std::sqrt(
         2 * (std::fabs(scene.effects.gravity.x) + std::fabs(scene.effects.gravity.y)) *
-        scene.box_size);
+        scene.box.longest());
     for (const Boundary& side : scene.effects.boundaries)
         speed = std::max(speed, std::fabs(side.speed));
     return speed;
@@ -191,7 +191,7 @@ void Sampler::look() {
 void Sampler::sample(std::int64_t step) {
     const std::span<const Disc> discs = simulation_.shown();
     const std::uint64_t n_discs = ranks_.sum(std::uint64_t{discs.size()});
-    const Extent box = extent_at(scene_.effects, scene_.box_size, static_cast<double>(step));
+    const Extent box = extent_at(scene_.effects, scene_.box, static_cast<double>(step));
     const bool is_first = sums_.n_samples == 0;
     std::vector<Disc> kept;
     const std::span<const Disc> inside = discs_in_box(discs, scene_.effects, box,
@@ -259,9 +259,10 @@ void Sampler::sample_distances(const Extent& box) {
                goes_round_y = scene_.effects.is_periodic_y();
     const auto share = [&](double distance) {
         if (goes_round_x && goes_round_y)
-            return share_of_ideal_pairs_around(scene_.box_size, distance);
+            return share_of_ideal_pairs_around(scene_.box.area(), distance);
         if (goes_round_x || goes_round_y)
-            return share_of_ideal_pairs_around_x(scene_.box_size, goes_round_x ? b : a, distance);
+            return share_of_ideal_pairs_around_x(goes_round_x ? scene_.box.x : scene_.box.y,
+                                                 goes_round_x ? b : a, distance);
         return share_of_ideal_pairs(a, b, distance);
     };
     for (std::size_t second = 0; second < species.size(); ++second) {
@@ -302,8 +303,7 @@ void Sampler::sample_displacement(std::span<const Disc> discs, std::uint64_t n_d
         place_first(places);
     }
     take_crossings();
-    const double length = scene_.box_size,
-                 farthest = (scene_.effects.are_periodic() ? 0x1p22 : 4) * length;
+    const double farthest = (scene_.effects.are_periodic() ? 0x1p22 : 4) * scene_.box.longest();
     const double bound = static_cast<double>(n_discs) * farthest * farthest;
     ExactSum x(bound), y(bound);
     PieceStream stream(ranks_, discs, n_discs, [](const Disc& disc) { return disc.id; });
@@ -312,8 +312,8 @@ void Sampler::sample_displacement(std::span<const Disc> discs, std::uint64_t n_d
             const auto& [x0, y0] = first_places_[disc.id - first_id_];
             double dx = disc.x_at(time) - x0, dy = disc.y_at(time) - y0;
             if (!lengths_.empty())
-                dx += lengths_[disc.id - first_id_][0] * length,
-                    dy += lengths_[disc.id - first_id_][1] * length;
+                dx += lengths_[disc.id - first_id_][0] * scene_.box.x,
+                    dy += lengths_[disc.id - first_id_][1] * scene_.box.y;
             ensure(std::fabs(dx) <= farthest && std::fabs(dy) <= farthest,
                    "a disc has gone round a periodic box millions of times; measure "
                    "\"displacement\" over fewer steps");

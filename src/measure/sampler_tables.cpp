@@ -100,11 +100,11 @@ MeasuredTable speeds(const SampleSums& s) {
 
 /// Where walls move, places are shares of the box as it is at each sample.
 MeasuredTable density(const SampleSums& s, const Scene& scene,
-                      const std::vector<std::uint64_t>& counts, const char* axis) {
+                      const std::vector<std::uint64_t>& counts, const char* axis, double length) {
     bool is_moving = false;
     for (const Boundary& side : scene.effects.boundaries) is_moving = is_moving || side.speed != 0;
     const std::size_t n = counts.size();
-    const double size = is_moving ? 1 : scene.box_size, area = s.area / static_cast<double>(n);
+    const double size = is_moving ? 1 : length, area = s.area / static_cast<double>(n);
     MeasuredTable table{
         fmt::format("density_{}", axis),
         {fmt::format("density: discs' centres per area, in strips from `from` to `to` along {}",
@@ -122,7 +122,7 @@ MeasuredTable density(const SampleSums& s, const Scene& scene,
 
 /// The length of a side, at a step.
 double length_of(const Scene& scene, std::size_t side, double step) {
-    const Extent box = extent_at(scene.effects, scene.box_size, step);
+    const Extent box = extent_at(scene.effects, scene.box, step);
     return side < 2 ? box.y_high - box.y_low : box.x_high - box.x_low;
 }
 
@@ -250,8 +250,8 @@ std::vector<MeasuredTable> tables_of(const SampleSums& sums, const Scene& scene)
         tables.push_back(speeds(sums));
     }
     if (output.density) {
-        tables.push_back(density(sums, scene, sums.x, "x"));
-        tables.push_back(density(sums, scene, sums.y, "y"));
+        tables.push_back(density(sums, scene, sums.x, "x", scene.box.x));
+        tables.push_back(density(sums, scene, sums.y, "y", scene.box.y));
     }
     if (output.displacement) tables.push_back(displacement(sums));
     if (output.pressure && !sums.pressures.empty()) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/box_text.hpp"
 #include "scene/check.hpp"
 #include "scene/lattice.hpp"
 #include "scene/limits.hpp"
@@ -92,7 +93,7 @@ void fill_count(const Check& check) {
 /// The widths that positions and numbers of a precision allow.
 void check_width(const Check& check, double smallest_radius) {
     Scene& scene = check.scene;
-    const double l = scene.box_size, r = smallest_radius;
+    const double l = scene.box.longest(), r = smallest_radius;
     if (l / r > largest_box_in_radii) {
         const std::string text = fmt::format("discs of radius {} in a box of side {}: it is {:.4g} "
                                              "radii wide, and above {:.0e} positions "
@@ -116,19 +117,21 @@ void check_sizes(const Check& check) {
     const auto& species = scene.effects.species;
     double smallest = scene.radius;
     for (const Species& one : species) smallest = std::min(smallest, one.radius);
-    const double l = scene.box_size, r = scene.radius;
+    const double r = scene.radius;
     const double densest = species.empty() ? largest_packing : 1;
-    if (l < 2 * r)
+    if (scene.box.shortest() < 2 * r)
         check.refuse_first(size_keys,
-                           fmt::format("a disc of radius {} does not fit into a box of side "
-                                       "{}: L < 2 r",
-                                       r, l));
+                           fmt::format("a disc of radius {} does not fit into a box of {}: "
+                                       "{} < 2 r",
+                                       r, sides_text(scene.box),
+                                       scene.box.is_square() ? "L" : "the shorter one"));
     else if (scene.packing() > densest)
         check.refuse_first(size_keys,
-                           fmt::format("{} discs of radius {} cannot fit into a box of side "
-                                       "{}: they would cover {:.4g} of it, and no packing "
+                           fmt::format("{} discs of radius {} cannot fit into a box of {}: "
+                                       "they would cover {:.4g} of it, and no packing "
                                        "covers more than {}",
-                                       scene.n_discs, r, l, scene.packing(), densest));
+                                       scene.n_discs, r, sides_text(scene.box), scene.packing(),
+                                       densest));
     check_width(check, smallest);
 }
 
@@ -138,14 +141,14 @@ bool fill_sizes(const Check& check) {
     const Settings& settings = check.settings;
     const std::size_t n_problems = check.problems.size();
     const bool has_radius = settings.has("discs.radius");
-    if (scene.box_size == 0 || scene.n_discs == 0) return false;
+    if (scene.box == Box() || scene.n_discs == 0) return false;
     for (const std::string_view key : size_keys) {
         const bool may_have_wrong_rows = key == "discs.list" && scene.effects.species.empty();
         if (settings.has(key) && !settings.is_right(key) && !may_have_wrong_rows) return false;
     }
     if (settings.has("discs.packing") && has_radius) return false;
     if (settings.has("discs.packing"))
-        scene.radius = scene.box_size *
+        scene.radius = std::sqrt(scene.box.area()) *
                        std::sqrt(std::get<double>(settings.find("discs.packing")->value.data) /
                                  (static_cast<double>(scene.n_discs) * std::numbers::pi));
     for (const Species& one : scene.effects.species)
@@ -167,11 +170,11 @@ void check_generator(const Check& check) {
                         largest_random_packing, scene.n_discs, scene.packing()));
     }
     if (scene.generator == Generator::lattice &&
-        !widest_lattice(scene.n_discs, scene.box_size, scene.radius))
+        !widest_lattice(scene.n_discs, scene.box, scene.radius))
         check.refuse_first(
             size_keys,
-            fmt::format("no lattice of {} discs of radius {} fits into a box of side {}{}",
-                        scene.n_discs, scene.radius, scene.box_size,
+            fmt::format("no lattice of {} discs of radius {} fits into a box of {}{}",
+                        scene.n_discs, scene.radius, sides_text(scene.box),
                         scene.effects.species.empty()
                             ? ""
                             : " (a lattice has room for the largest disc everywhere); list them"));
@@ -224,7 +227,7 @@ bool check_discs(const Check& check) {
     check_velocities(check);
     if (!is_right) {
         scene.radius = 0;
-        if (!are_radii_unknown(check)) scene.box_size = 0;
+        if (!are_radii_unknown(check)) scene.box = {};
         return false;
     }
     const SpeciesTable species(scene.effects.species, scene.radius);

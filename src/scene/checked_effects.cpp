@@ -55,8 +55,8 @@ void check_fall(const Check& check) {
     const double fall = drag > 0 ? dragged_fall(drag, drag_clock(drag, time)) : 0.5 * time * time;
     for (const auto& [key, g] : {std::pair("effects.gravity.x", scene.effects.gravity.x),
                                  {"effects.gravity.y", scene.effects.gravity.y}}) {
-        if (std::fabs(g) * fall <= 0.5 * scene.box_size) continue;
-        const double longest = std::floor(std::sqrt(scene.box_size / std::fabs(g)) *
+        if (std::fabs(g) * fall <= 0.5 * scene.box.longest()) continue;
+        const double longest = std::floor(std::sqrt(scene.box.longest() / std::fabs(g)) *
                                           static_cast<double>(scene.micro_steps));
         check.refuse({key},
                      fmt::format("'{}' = {} makes discs fall further than half the box "
@@ -69,20 +69,22 @@ void check_fall(const Check& check) {
 }
 
 void check_obstacles(const Check& check) {
-    const double size = check.scene.box_size, radius = check.scene.radius;
+    const Box box = check.scene.box;
+    const double size = box.longest(), radius = check.scene.radius;
     const bool is_periodic = check.scene.effects.are_periodic();
-    const auto is_inside = [size](double x, double y) {
-        return x >= 0 && x <= size && y >= 0 && y <= size;
+    const double period = check.scene.effects.periods(box).shortest();
+    const auto is_inside = [box](double x, double y) {
+        return x >= 0 && x <= box.x && y >= 0 && y <= box.y;
     };
     check.refuse_rows("effects.obstacles.discs", [&](const Numbers& n, std::size_t) -> std::string {
         if (!is_inside(n[0], n[1]))
             return fmt::format("the centre ({}, {}) is not in the box", n[0], n[1]);
         if (!(n[2] >= 0 && n[2] <= size))
             return fmt::format("the radius must be from 0 to {}, not {}", size, n[2]);
-        if (is_periodic && !(n[2] + radius <= largest_in_period * size))
+        if (is_periodic && !(n[2] + radius <= largest_in_period * period))
             return fmt::format("the radius must be at most {:g}, not {}: with a disc's it would "
                                "reach through a periodic box and into itself",
-                               largest_in_period * size - radius, n[2]);
+                               largest_in_period * period - radius, n[2]);
         return {};
     });
     check.refuse_rows(
@@ -101,11 +103,13 @@ void check_obstacles(const Check& check) {
 
 void check_periodic_box(const Check& check) {
     const Scene& scene = check.scene;
-    if (!scene.effects.are_periodic() || scene.box_size >= 4 * scene.radius * (1 + 1e-6)) return;
-    check.refuse({side_key(scene.effects.is_periodic_x() ? 0 : 2, "kind")},
+    const Periods periods = scene.effects.periods(scene.box);
+    const double period = periods.shortest();
+    if (!periods.are_any() || period >= 4 * scene.radius * (1 + 1e-6)) return;
+    check.refuse({side_key(periods.x == period ? 0 : 2, "kind")},
                  fmt::format("a box of side {} is too small to be periodic: up to two diameters "
                              "({}) a disc could touch another one on both sides at once",
-                             scene.box_size, 4 * scene.radius));
+                             period, 4 * scene.radius));
 }
 
 void check_thermal_walls(const Check& check) {
@@ -121,10 +125,10 @@ void check_thermal_walls(const Check& check) {
 void check_moving_walls(const Check& check) {
     const Scene& scene = check.scene;
     const auto& boundaries = scene.effects.boundaries;
-    const Extent end = extent_at(scene.effects, scene.box_size, static_cast<double>(scene.steps));
+    const Extent end = extent_at(scene.effects, scene.box, static_cast<double>(scene.steps));
     const double width = end.x_high - end.x_low, height = end.y_high - end.y_low;
-    const double largest = std::max(end.x_high, end.y_high);
-    const double covered = scene.packing() * scene.box_size * scene.box_size;
+    const bool is_long = end.x_high > 2 * scene.box.x || end.y_high > 2 * scene.box.y;
+    const double covered = scene.packing() * scene.box.x * scene.box.y;
     const bool is_full = scene.effects.contact.kind != ContactKind::none &&
                          covered > largest_packing * width * height;
     for (std::size_t side = 0; side < boundaries.size(); ++side) {
@@ -134,7 +138,7 @@ void check_moving_walls(const Check& check) {
                          fmt::format("after {} steps the box would be {} by {}: too small for its "
                                      "discs",
                                      scene.steps, width, height));
-        else if (largest > 2 * scene.box_size)
+        else if (is_long)
             check.refuse({side_key(side, "speed")},
                          fmt::format("after {} steps the box would be more than twice as long as "
                                      "at the start",
@@ -172,9 +176,9 @@ void check_samples(const Check& check) {
 void check_distance(const Check& check) {
     Scene& scene = check.scene;
     if (!scene.measurements || !scene.measurements->radial_distribution) return;
-    const Extent end = extent_at(scene.effects, scene.box_size, static_cast<double>(scene.steps));
-    const double wide = std::min(scene.box_size, end.x_high - end.x_low);
-    const double high = std::min(scene.box_size, end.y_high - end.y_low);
+    const Extent end = extent_at(scene.effects, scene.box, static_cast<double>(scene.steps));
+    const double wide = std::min(scene.box.x, end.x_high - end.x_low);
+    const double high = std::min(scene.box.y, end.y_high - end.y_low);
     const double margin = 2 * scene.radius;
     const double largest = std::min(wide - (scene.effects.is_periodic_x() ? 0 : margin),
                                     high - (scene.effects.is_periodic_y() ? 0 : margin)) /

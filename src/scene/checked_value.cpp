@@ -40,6 +40,7 @@ public:
     void check() {
         switch (key_.kind) {
         case Kind::number: return check_number();
+        case Kind::lengths: return check_lengths();
         case Kind::integer: return check_integer();
         case Kind::flag: return check_type<bool>();
         case Kind::text: return check_text();
@@ -79,6 +80,24 @@ private:
         if (!std::isfinite(*number))
             return refuse(fmt::format("'{}' must be a finite number, not {}", key_.name, *number));
         check_range(*number);
+    }
+    /// One number, or two that follow each other.
+    void check_lengths() {
+        const auto* list = std::get_if<Values>(&setting_.value.data);
+        if (!list) return check_number();
+        Numbers numbers;
+        for (const Value& one : *list) {
+            const auto number = as_number(one);
+            if (!number || !std::isfinite(*number) || list->size() != 2)
+                return refuse(fmt::format("'{}' must be {}, not {}", key_.name, kind_text(key_),
+                                          list->size() != 2
+                                              ? fmt::format("an array of {}", list->size())
+                                              : fmt::format("[..., {}, ...]", value_text(one))));
+            check_range(*number);
+            numbers.push_back(*number);
+        }
+        if (setting_.is_wrong) return;
+        setting_.value.data = std::move(numbers);
     }
     /// 1e5 counts as whole.
     void check_integer() {
@@ -245,6 +264,7 @@ std::string words_text(const std::vector<std::string_view>& words) {
 std::string kind_text(const Key& key) {
     switch (key.kind) {
     case Kind::number: return "a number";
+    case Kind::lengths: return "a number, or two, [Lx, Ly]";
     case Kind::integer: return "a whole number";
     case Kind::flag: return "true or false";
     case Kind::text: return "text";

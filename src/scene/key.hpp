@@ -21,6 +21,7 @@ namespace carrom {
 
 enum class Kind {
     number,
+    lengths, ///< a number, or two of them, [Lx, Ly]
     integer,
     flag,
     text,

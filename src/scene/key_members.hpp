@@ -71,6 +71,8 @@ template <class Row> using RowNumbers = std::array<double, sizeof(Row) / sizeof(
 template <class Member> constexpr Kind kind_of() {
     if constexpr (std::same_as<Member, bool>)
         return Kind::flag;
+    else if constexpr (std::same_as<Member, Box>)
+        return Kind::lengths;
     else if constexpr (std::is_enum_v<Member>)
         return Kind::choice;
     else if constexpr (std::integral<Member>)
@@ -91,6 +93,9 @@ template <class Member> void assign(Member& member, const Value& value) {
     if constexpr (std::is_enum_v<Member>) {
         for (const auto& word : words_of<Member>)
             if (word.name == std::get<std::string>(value.data)) member = word.value;
+    } else if constexpr (std::same_as<Member, Box>) {
+        const auto* edges = std::get_if<Numbers>(&value.data);
+        member = edges ? Box((*edges)[0], (*edges)[1]) : Box(std::get<double>(value.data));
     } else if constexpr (is_optional<Member>) {
         assign(member.emplace(), value);
     } else if constexpr (is_list<Member>) {
@@ -117,6 +122,8 @@ template <class Member> Value value_of(const Member& member) {
         for (const auto& word : words_of<Member>)
             if (word.value == member) return {std::string(word.name)};
         return {};
+    } else if constexpr (std::same_as<Member, Box>) {
+        return member.is_square() ? Value{member.x} : Value{Numbers{member.x, member.y}};
     } else if constexpr (is_optional<Member>) {
         return member ? value_of(*member) : Value{};
     } else if constexpr (is_list<Member>) {

@@ -124,7 +124,8 @@ Key species_key() {
 
 /// A wish for a radius, which the reader works out: nothing stays of it in the scene.
 Key packing_key() {
-    Key key = named_key("discs.packing", "1", "Packing fraction N pi r^2 / L^2; sets the radius.")
+    Key key = named_key("discs.packing", "1",
+                        "Packing fraction, N pi r^2 over the box's area; sets the radius.")
                   .by_default("none")
                   .within(
                       {0, largest_packing, true, false, "equal discs cover no more of the plane"})
@@ -210,8 +211,10 @@ std::vector<Key> keys_of_other_runs() {
 
 std::vector<Key> keys_of_discs() {
     std::vector<Key> all = {
-        key("box.size", "length", "L, the side of the square box; the walls are at 0 and L.",
-            [](auto& s) -> auto& { return s.box_size; })
+        key("box.size", "length",
+            "L, the side of a square box, or [Lx, Ly], the edges of a rectangle; "
+            "walls are at 0 and there.",
+            [](auto& s) -> auto& { return s.box; })
             .within(lengths)
             .required(),
         count_key(),

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -41,7 +42,8 @@ std::string velocity_problem(double component) {
 }
 
 std::string speed_problem(double speed, const Scene& scene) {
-    const double most = most_crossings * scene.box_size * static_cast<double>(scene.micro_steps);
+    const double most = most_crossings * scene.box.shortest() *
+                        static_cast<double>(scene.micro_steps);
     if (scene.method != Method::event_driven || !(std::fabs(speed) > most) || most == 0) return {};
     if (std::fabs(speed) > largest_size) return {}; // velocity_problem has it
     return fmt::format("the speed {} crosses the box more than 2^40 times in a micro-step; take "
@@ -71,31 +73,47 @@ std::string column_problem(DiscColumn column, double number) {
     return {};
 }
 
+namespace {
+
+/// Where centres of discs of that radius may be.
+std::string room_text(const Scene& scene, double radius) {
+    const Box& box = scene.box;
+    const std::string room = box.is_square()
+                                 ? fmt::format("L - r = {}", box.x - radius)
+                                 : fmt::format("Lx - r = {} along x, Ly - r = {} along y",
+                                               box.x - radius, box.y - radius);
+    const std::string periods = box.is_square() ? fmt::format("L = {}", box.x)
+                                                : fmt::format("Lx = {}, Ly = {}", box.x, box.y);
+    return fmt::format("centres lie between r = {} and {}{}", radius, room,
+                       scene.effects.are_periodic() ? ", between periodic sides 0 and " + periods
+                                                    : "");
+}
+
+} // namespace
+
 std::string disc_problem(const InputDisc& disc, const Scene& scene, double radius) {
     std::string all;
     const auto add = [&all](const std::string& text) {
         if (!text.empty()) all += (all.empty() ? "" : "; ") + text;
     };
-    // L - r and whatever wrote the input round to within an ulp of L, at most 2^-52 L.
-    const double slack = 0x1p-52 * scene.box_size;
+    const Box& box = scene.box;
     bool is_finite = true, is_inside = true;
-    for (const auto& [centre, is_periodic] : {std::pair(disc.x, scene.effects.is_periodic_x()),
-                                              {disc.y, scene.effects.is_periodic_y()}}) {
+    for (const auto& [centre, length, is_periodic] :
+         {std::tuple(disc.x, box.x, scene.effects.is_periodic_x()),
+          std::tuple(disc.y, box.y, scene.effects.is_periodic_y())}) {
+        // L - r and whatever wrote the input round to within an ulp of L, at most 2^-52 L.
+        const double slack = 0x1p-52 * length;
         const double low = is_periodic ? 0 : radius - slack,
-                     high = is_periodic ? scene.box_size : (scene.box_size - radius) + slack;
+                     high = is_periodic ? length : (length - radius) + slack;
         if (!std::isfinite(centre))
             add(fmt::format("the position {} is not a finite number", centre));
         is_finite = is_finite && std::isfinite(centre);
         is_inside = is_inside && centre >= low && centre <= high;
     }
-    const bool is_box_known = scene.box_size > 0;
+    const bool is_box_known = box != Box();
     if (is_finite && !is_inside && is_box_known)
-        add(fmt::format("disc {} at ({}, {}) is not inside the box: centres lie between r = {} and "
-                        "L - r = {}{}",
-                        disc.id, disc.x, disc.y, radius, scene.box_size - radius,
-                        scene.effects.are_periodic()
-                            ? fmt::format(", between periodic sides 0 and L = {}", scene.box_size)
-                            : ""));
+        add(fmt::format("disc {} at ({}, {}) is not inside the box: {}", disc.id, disc.x, disc.y,
+                        room_text(scene, radius)));
     for (const double component : {disc.vx, disc.vy}) {
         add(velocity_problem(component));
         add(speed_problem(component, scene));

@@ -101,6 +101,9 @@ std::vector<Rule> rules_of_effects() {
         rule("gravity along y", "periodic sides bottom and top",
              "discs would fall for ever, faster and faster", {"effects.gravity.y"},
              [](const Scene& s) { return s.effects.gravity.y != 0 && s.effects.is_periodic_y(); }),
+        rule("discs.generator = \"legacy\"", "box.size = [Lx, Ly]",
+             "the course program's box is a square", {"box.size"},
+             [](const Scene& s) { return s.generator == Generator::legacy && !s.box.is_square(); }),
         rule("several species", "effects.contact.kind = \"none\"",
              "this version does not have both", {"effects.contact.kind"},
              [](const Scene& s) {

@@ -11,12 +11,11 @@ double Scene::packing() const {
     if (!effects.species.empty()) {
         double sum = 0;
         for (const Species& one : effects.species)
-            sum += static_cast<double>(one.count) * std::numbers::pi * (one.radius / box_size) *
-                   (one.radius / box_size);
+            sum += static_cast<double>(one.count) * std::numbers::pi * (one.radius / box.x) *
+                   (one.radius / box.y);
         return sum;
     }
-    const double share = radius / box_size;
-    return static_cast<double>(n_discs) * std::numbers::pi * share * share;
+    return static_cast<double>(n_discs) * std::numbers::pi * (radius / box.x) * (radius / box.y);
 }
 
 double first_spin(const Scene& scene, DiscId id) {

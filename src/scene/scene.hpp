@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include <carrom/box.hpp>
+
 #include "core/disc.hpp"
 #include "dynamics/effects.hpp"
 
@@ -104,8 +106,8 @@ struct Scene {
     bool discs_follow = false;          ///< legacy text goes on with lines of discs
     std::vector<std::string> overrides; ///< `key=value`, what was set on top of the text
 
-    double box_size = 0; ///< L
-    double radius = 0;   ///< r; the largest one where there are several species
+    Box box;           ///< its edges; 0 where they are not known
+    double radius = 0; ///< r; the largest one where there are several species
     std::uint64_t n_discs = 0;
 
     Generator generator = Generator::random;

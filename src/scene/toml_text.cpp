@@ -149,7 +149,8 @@ std::string numbers_text(Numbers::const_iterator first, std::size_t n) {
 }
 
 std::string row_text(const Key& key, const Numbers& numbers) {
-    if (key.kind == Kind::rows) return '[' + numbers_text(numbers.begin(), numbers.size()) + ']';
+    if (key.kind == Kind::rows || key.kind == Kind::lengths)
+        return '[' + numbers_text(numbers.begin(), numbers.size()) + ']';
     std::string text;
     auto next = numbers.begin();
     for (const Field& field : key.fields) {

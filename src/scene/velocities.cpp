@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/axis.hpp"
 #include "core/random_numbers.hpp"
 
 namespace carrom {
@@ -14,7 +15,9 @@ Velocity generated_velocity(const Scene& scene, DiscId id) {
     const double speed = scene.velocities == VelocityKind::maxwell
                              ? scene.speed * std::sqrt(random_exponential(random))
                              : scene.speed * (std::numbers::sqrt3 * random.uniform());
-    return {speed * direction.x, speed * direction.y};
+    // A box that is taller than wide has the gas of the same one lying down.
+    const auto [vx, vy] = turned(longer_axis(scene.box), speed * direction.x, speed * direction.y);
+    return {vx, vy};
 }
 
 Velocity stream_velocity(const Scene& scene, Point place) {

@@ -74,7 +74,7 @@ double usual_speed(const Scene& scene, std::span<const Disc> own, const Communic
         fastest = std::max({fastest, std::fabs(disc.vx), std::fabs(disc.vy)});
     fastest = ranks.max(fastest) * static_cast<double>(scene.micro_steps);
     const double pull = std::fabs(effects.gravity.x) + std::fabs(effects.gravity.y);
-    fastest = std::max(fastest, std::sqrt(2 * pull * scene.box_size));
+    fastest = std::max(fastest, std::sqrt(2 * pull * scene.box.longest()));
     for (const Boundary& side : effects.boundaries)
         fastest = std::max({fastest, std::fabs(side.speed), std::sqrt(side.temperature)});
     return (fastest > 0 ? fastest : scene.radius) / static_cast<double>(scene.micro_steps);
@@ -89,7 +89,7 @@ double heaviest_of(const Scene& scene) {
 AveragedSystem averaged_system(const Scene& scene, std::uint64_t n_discs) {
     AveragedSystem system;
     system.n_discs = static_cast<double>(n_discs);
-    system.box_size = scene.box_size;
+    system.box = scene.box;
     system.radius = scene.radius;
     system.velocity_unit = static_cast<double>(scene.micro_steps);
     system.micro_steps = scene.micro_steps;
@@ -111,7 +111,7 @@ Simulation::Simulation(const Scene& scene, std::vector<InputDisc> discs,
 Simulation::Simulation(const Scene& scene, StoredState state, const Communicator& communicator,
                        const Tuning& tuning)
     : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)),
-      effects_(scene.effects), box_size_(scene.box_size), n_threads_(tuning.threads),
+      effects_(scene.effects), box_(scene.box), n_threads_(tuning.threads),
       heaviest_(heaviest_of(scene)), averages_from_(scene.averages_from),
       engine_(engine_for(scene, std::move(state), communicator, tuning)),
       averages_(std::make_unique<BlockAverages>(averaged_system(scene, engine_->n_discs()))) {
@@ -155,7 +155,7 @@ Look Simulation::look() const {
     Look look = look_at(in_motion(), species_table, heaviest_, engine_->n_discs(), n_threads_,
                         communicator_);
     look.virial = sum_of(*virial_, communicator_);
-    const Extent box = extent_at(effects_, box_size_, static_cast<double>(step()));
+    const Extent box = extent_at(effects_, box_, static_cast<double>(step()));
     look.area = (box.x_high - box.x_low) * (box.y_high - box.y_low);
     return look;
 }
@@ -276,7 +276,7 @@ Totals Simulation::totals() const {
     Totals totals;
     totals.n_discs = engine_->n_discs();
     measure_collisions(discs(), side_columns(), communicator_, totals);
-    measure_departures(discs(), box_size_, communicator_, totals);
+    measure_departures(discs(), box_, communicator_, totals);
     const SpeciesTable* const species_table = effects_.species.empty() ? nullptr
                                                                        : engine_->species_table();
     measure_motion(in_motion(), species_table, velocity_unit_, communicator_, totals);
@@ -284,7 +284,7 @@ Totals Simulation::totals() const {
         measure_rotation(discs(), spins(), *engine_->species_table(), effects_.contact.inertia,
                          velocity_unit_, communicator_, totals);
     if (effects_.gravity.is_any())
-        measure_height(shown(), species_table, effects_.gravity, box_size_, communicator_, totals);
+        measure_height(shown(), species_table, effects_.gravity, box_, communicator_, totals);
     engine_->add_to(totals);
     return totals;
 }

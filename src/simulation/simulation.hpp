@@ -129,7 +129,7 @@ private:
     Communicator communicator_;
     double velocity_unit_;
     Effects effects_; ///< times in steps
-    double box_size_;
+    Box box_;
     int n_threads_;
     double heaviest_ = 1; ///< mass of a disc
     double virial_bound_ = 1;

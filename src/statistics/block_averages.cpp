@@ -288,14 +288,15 @@ void BlockAverages::fill_pressures(Averages& result, const Block& whole) const {
 /// squares of all velocities, kT = R^2 / (2 N).
 void BlockAverages::fill_counted_pressures(Averages& result, const Block& whole,
                                            const Look& look) const {
-    const double n = system_.n_discs, area = system_.box_size * system_.box_size;
+    const double n = system_.n_discs, area = system_.box.area();
     const double square = look.mean_square * std::pow(look.speed_unit * system_.velocity_unit, 2);
     const double sqrt_pi_g_over_r = square > 0 ? std::sqrt(std::numbers::pi / (n * square)) *
                                                      gamma_ratio(n)
                                                : 0;
     const double temperature = square / 2;
     result.wall_pressure = estimate(whole, [=, this](const Block& block) {
-        return temperature * sqrt_pi_g_over_r * block.walls / (2 * system_.box_size * block.steps);
+        return temperature * sqrt_pi_g_over_r * block.walls /
+               ((system_.box.x + system_.box.y) * block.steps);
     });
     result.virial_pressure = estimate(whole, [=, this](const Block& block) {
         const double rate = (block.walls + std::numbers::sqrt2 * block.pairs) / block.steps;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <carrom/averages.hpp>
+#include <carrom/box.hpp>
 
 #include "core/disc.hpp"
 #include "dynamics/species.hpp"
@@ -62,7 +63,8 @@ struct MotionNow {
 
 /// The scene's constants that averages need.
 struct AveragedSystem {
-    double n_discs = 0, box_size = 0, radius = 0;
+    Box box;
+    double n_discs = 0, radius = 0;
     double velocity_unit = 1; ///< turns stored velocities into those per step
     std::int64_t micro_steps = 1, sync_every = 1;
     bool is_plain = true;    ///< elastic discs between elastic walls; else pressures from counts

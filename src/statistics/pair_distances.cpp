@@ -68,8 +68,8 @@ double share_of_ideal_pairs_around_x(double period, double b, double distance) {
     return r * r / (period * b * b) * (std::numbers::pi * b - 4 * r / 3);
 }
 
-double share_of_ideal_pairs_around(double period, double distance) {
-    return std::numbers::pi * distance * distance / (period * period);
+double share_of_ideal_pairs_around(double area, double distance) {
+    return std::numbers::pi * distance * distance / area;
 }
 
 } // namespace carrom

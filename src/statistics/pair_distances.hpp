@@ -34,6 +34,6 @@ double share_of_ideal_pairs(double a, double b, double distance);
 /// the side b ...
 double share_of_ideal_pairs_around_x(double period, double b, double distance);
 /// ... and without walls.
-double share_of_ideal_pairs_around(double period, double distance);
+double share_of_ideal_pairs_around(double area, double distance);
 
 } // namespace carrom

@@ -20,7 +20,7 @@ CheckpointHeader header_of(const Scene& scene) {
     for (const std::string& override : scene.overrides) header.scene_overrides += override + '\n';
     header.scene_lines_before_discs = scene.lines_before_discs;
     header.scene_discs_follow = scene.discs_follow ? 1 : 0;
-    header.box_size = scene.box_size;
+    header.set_box(scene.box);
     header.radius = scene.radius;
     header.method = scene.method == Method::time_stepped ? "time-stepped" : "event-driven";
     header.micro_steps = scene.micro_steps;
@@ -88,8 +88,9 @@ RecordedSystem system_of(const Scene& scene) {
     RecordedSystem system;
     system.program_version = version();
     system.n_discs = scene.n_discs;
-    const Extent end = extent_at(scene.effects, scene.box_size, static_cast<double>(scene.steps));
-    system.box_size = std::max({scene.box_size, end.x_high, end.y_high}); // walls may move
+    const Extent end = extent_at(scene.effects, scene.box, static_cast<double>(scene.steps));
+    system.box = {std::max(scene.box.x, end.x_high), std::max(scene.box.y, end.y_high)};
+    if (scene.box.is_square()) system.box = system.box.longest(); // walls may move
     system.radius = scene.radius;
     system.species = scene.effects.species;
     system.is_periodic_x = scene.effects.is_periodic_x();

@@ -63,7 +63,7 @@ void MicroStepList::drop_stale(std::span<const WindowState> states) {
 }
 
 /// What rejects in single precision: pairs by distance, walls by the position at the window's end,
-/// in cells.
+/// in cells along the grid's axis (x) and across it.
 template <class Dynamics> struct Search<Dynamics>::Bounds {
     float touching_squared;
     float x_low, x_high, y_low, y_high;
@@ -76,11 +76,12 @@ template <class Dynamics> struct Search<Dynamics>::Bounds {
         const auto cells = [&](double length, double origin) {
             return (length - origin) / geometry.cell_width;
         };
-        const double high = dynamics.box_size() - dynamics.radius();
-        x_low = static_cast<float>(cells(dynamics.radius(), geometry.x_low) + margin);
-        x_high = static_cast<float>(cells(high, geometry.x_low) - margin);
-        y_low = static_cast<float>(cells(dynamics.radius(), geometry.y_low) + margin);
-        y_high = static_cast<float>(cells(high, geometry.y_low) - margin);
+        const double radius = dynamics.radius();
+        const auto [length, height] = turned(geometry.axis, dynamics.box().x, dynamics.box().y);
+        x_low = static_cast<float>(cells(radius, geometry.low) + margin);
+        x_high = static_cast<float>(cells(length - radius, geometry.low) - margin);
+        y_low = static_cast<float>(cells(radius, geometry.across_low) + margin);
+        y_high = static_cast<float>(cells(height - radius, geometry.across_low) - margin);
     }
 
     bool reaches_wall(const FlightLanes& lanes, std::uint32_t slot) const {

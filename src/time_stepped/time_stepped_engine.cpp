@@ -34,8 +34,7 @@ TimeSteppedEngine<Dynamics>::TimeSteppedEngine(const Scene& scene, StoredState s
                                                const Tuning& tuning)
     : Base(scene, std::move(state), communicator, with_useful_threads(tuning, scene, communicator)),
       search_(dynamics_, tuning_.threads), local_(tuning_.threads), across_strips_(communicator) {
-    const double density = static_cast<double>(discs_.n_total()) /
-                           (dynamics_.box_size() * dynamics_.box_size());
+    const double density = static_cast<double>(discs_.n_total()) / dynamics_.box().area();
     hits_per_micro_step_ = std::min(1.0, 2 * density * dynamics_.diameter() *
                                              communicator_.max(largest_speed_)); // a first guess
     this->distribute();
@@ -104,9 +103,8 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::add_to(Totals& total
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::sort(const Window& window, double reach, double usual_reach) {
     const Extent seen = discs_.extent_seen(extent(), reach);
-    const GridGeometry geometry = make_geometry(seen.x_low, seen.x_high, seen.y_low, seen.y_high,
-                                                usual_reach, discs_.n_own(),
-                                                tuning_.cell_width.value_or(0));
+    const GridGeometry geometry = make_geometry(seen, discs_.strips().axis(), usual_reach,
+                                                discs_.n_own(), tuning_.cell_width.value_or(0));
     discs_.sort(geometry, window.anchor(), window.begin(), std::max(window.duration(), 1e-6),
                 tuning_.threads, companion());
 }
@@ -120,7 +118,7 @@ template <class Dynamics> Window TimeSteppedEngine<Dynamics>::choose(int n_left)
         WindowChoice choice = choose_window(window_needs(), std::min(n_left, longest_window),
                                             tuning_.window);
         if constexpr (Dynamics::is_periodic) {
-            const double longest = longest_in_period(dynamics_.box_size(), window_speed_);
+            const double longest = longest_in_period(discs_.periods(), window_speed_);
             if (choice.n_micro > longest * choice.n_parts)
                 choice = choose_window(window_needs(), std::min(n_left, longest_window), longest);
         }
@@ -139,7 +137,7 @@ template <class Dynamics> Window TimeSteppedEngine<Dynamics>::choose(int n_left)
 }
 
 template <class Dynamics> WindowNeeds TimeSteppedEngine<Dynamics>::window_needs() const {
-    return {dynamics_.box_size(),
+    return {dynamics_.box(),
             dynamics_.radius() + dynamics_.slack(),
             static_cast<double>(discs_.n_total()),
             window_speed_,

@@ -66,7 +66,7 @@ void write_sample_checkpoint(const std::string& path, const Communicator& world)
     header.scene_text =
         "[box]\nsize = 10\n[discs]\ncount = 12\nradius = 0.5\n[time]\nsteps = 100\n"
         "[effects.contact]\nkind = \"rough\"\nrestitution = 0.9\ntangential_restitution = 0.5\n";
-    header.box_size = 10;
+    header.set_box(10);
     header.radius = 0.5;
     header.method = "time-stepped";
     header.sync_every = 64;
@@ -81,7 +81,7 @@ TrajectoryLayout sample_layout(bool is_double) {
     TrajectoryLayout layout;
     layout.system.program_version = "0.1.0";
     layout.system.n_discs = some_discs().size();
-    layout.system.box_size = 10;
+    layout.system.box = 10;
     layout.system.radius = 0.5;
     layout.has_collisions = true;
     layout.is_single = !is_double;

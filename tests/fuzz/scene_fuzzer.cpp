@@ -21,10 +21,10 @@ void demand(bool claim) {
 
 void check(const carrom::Scene& scene) {
     demand(scene.n_discs > 0 && scene.steps >= 0 && scene.micro_steps > 0 && scene.sync_every > 0);
-    demand(std::isfinite(scene.box_size) && scene.radius > 0 && scene.box_size >= 2 * scene.radius);
+    demand(std::isfinite(scene.box.x) && scene.radius > 0 && scene.box.x >= 2 * scene.radius);
     for (const carrom::InputDisc& disc : scene.listed_discs) {
         demand(disc.id < scene.n_discs && std::isfinite(disc.vx) && std::isfinite(disc.vy));
-        demand(disc.x > 0 && disc.x < scene.box_size && disc.y > 0 && disc.y < scene.box_size);
+        demand(disc.x > 0 && disc.x < scene.box.x && disc.y > 0 && disc.y < scene.box.x);
     }
 }
 

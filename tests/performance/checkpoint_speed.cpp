@@ -178,7 +178,8 @@ int compare(const std::string& folder, std::uint64_t n_discs, int rounds, int n_
             const Communicator& communicator) {
     const std::vector<Disc> discs = own_discs(n_discs, communicator);
     CheckpointHeader header;
-    header.box_size = header.radius = 1;
+    header.set_box(1);
+    header.radius = 1;
     const std::string path = folder + "/checkpoint_speed.h5";
     std::vector<double> ratios;
     for (int round = 0; round < rounds; ++round) {

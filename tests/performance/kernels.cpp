@@ -63,7 +63,7 @@ struct Gas {
         grid.sort(discs, geometry(reach), 0, 0, duration, 1);
     }
     GridGeometry geometry(double reach) const {
-        return make_geometry(0, size, 0, size, reach, discs.size(), 0);
+        return make_geometry({0, size, 0, size}, Axis::x, reach, discs.size(), 0);
     }
     Population population() const { return {discs, discs.size()}; }
 };

@@ -93,7 +93,7 @@ std::vector<InputDisc> discs_of_strip(Job& job, int rank, const Scene& scene,
     const auto n_ranks = static_cast<double>(job.dealt.size());
     for (const InputDisc& disc : initial_state(scene, nullptr, world))
         job.dealt[static_cast<std::size_t>(
-                      std::clamp(disc.x / scene.box_size * n_ranks, 0.0, n_ranks - 1))]
+                      std::clamp(disc.x / scene.box.x * n_ranks, 0.0, n_ranks - 1))]
             .push_back(disc);
     world.barrier();
     return std::move(job.dealt[static_cast<std::size_t>(rank)]);

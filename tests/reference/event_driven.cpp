@@ -102,7 +102,7 @@ EventDrivenReference::Wall EventDrivenReference::wall_at(DiscId disc, DiscId axi
     const bool is_open = setting_.effects.boundaries[2 * axis + (is_high ? 1 : 0)].kind ==
                          BoundaryKind::open;
     const double from_line = is_open ? -setting_.radius_of(disc) : setting_.radius_of(disc);
-    const double start = is_high ? setting_.box_size - from_line : from_line;
+    const double start = is_high ? setting_.edge(2 * axis) - from_line : from_line;
     const double at_sync = start + speed * static_cast<double>(micro_step_ / setting_.sync_every *
                                                                setting_.sync_every);
     const double pull = g - setting_.effects.drag / k * speed;
@@ -203,7 +203,7 @@ void EventDrivenReference::predict_pair(DiscId p, DiscId q) {
     const auto look = [&](Copy copy) {
         const Contact found = contact(
             discs_[p], discs_[q], setting_.radius_of(p) + setting_.radius_of(q),
-            std::numeric_limits<double>::infinity(), copy, setting_.box_size);
+            std::numeric_limits<double>::infinity(), copy, setting_.box());
         if (found.delay < 0) return;
         const double time = found.base + found.delay;
         if (history_of_[p].partner == q && history_of_[q].partner == p &&
@@ -280,10 +280,10 @@ void EventDrivenReference::carry_out(const Event& event) {
         advance(q, event.time);
         if (setting_.are_rough())
             collide_rough(setting_, p, q, spins_[event.p], spins_[event.q], is_touched, event.copy,
-                          setting_.box_size);
+                          setting_.box());
         else
             exchange_momentum(setting_, p, q, is_touched ? 1 : setting_.restitution(), event.copy,
-                              setting_.box_size);
+                              setting_.box());
         p.pair_collisions += 1;
         q.pair_collisions += 1;
         pair_collisions_ += 1;

@@ -30,17 +30,16 @@ FixedBodies::FixedBodies(const Setting& setting) : setting_(setting) {
 
 /// All those that the flight comes near, and more.
 std::vector<Copy> FixedBodies::copies(const Disc& disc, const Body& body, double until) const {
-    const double length = setting_.box_size;
-    const auto range = [&](bool is_periodic, double from, double to) {
+    const auto range = [&](bool is_periodic, double length, double from, double to) {
         if (!is_periodic) return std::pair(0, 0);
         const double away = 1.5 * (body.radius + setting_.radius) + body.length;
         return std::pair(static_cast<int>(std::floor((std::min(from, to) - away) / length)) - 1,
                          static_cast<int>(std::ceil((std::max(from, to) + away) / length)));
     };
     const double time = until - disc.tau;
-    const auto [x_low, x_high] = range(setting_.effects.is_periodic_x(), disc.x,
+    const auto [x_low, x_high] = range(setting_.effects.is_periodic_x(), setting_.box().x, disc.x,
                                        disc.x + disc.vx * time);
-    const auto [y_low, y_high] = range(setting_.effects.is_periodic_y(), disc.y,
+    const auto [y_low, y_high] = range(setting_.effects.is_periodic_y(), setting_.box().y, disc.y,
                                        disc.y + disc.vy * time);
     std::vector<Copy> all;
     for (int x = x_low; x <= x_high; ++x)
@@ -51,9 +50,10 @@ std::vector<Copy> FixedBodies::copies(const Disc& disc, const Body& body, double
 /// Where the disc would be in the box at its own time, and how fast; then the distance from there
 /// on.
 double FixedBodies::meeting_time(const Disc& disc, const Body& body, Copy copy) const {
-    const double length = setting_.box_size, reach = body.radius + setting_.radius_of(disc.id);
-    const double x = ((disc.x + (0.5 * gx_ * disc.tau) * disc.tau) - body.x) - copy.x * length;
-    const double y = ((disc.y + (0.5 * gy_ * disc.tau) * disc.tau) - body.y) - copy.y * length;
+    const Box box = setting_.box();
+    const double reach = body.radius + setting_.radius_of(disc.id);
+    const double x = ((disc.x + (0.5 * gx_ * disc.tau) * disc.tau) - body.x) - copy.x * box.x;
+    const double y = ((disc.y + (0.5 * gy_ * disc.tau) * disc.tau) - body.y) - copy.y * box.y;
     const double vx = disc.vx + gx_ * disc.tau, vy = disc.vy + gy_ * disc.tau;
     if (body.length == 0 && (gx_ != 0 || gy_ != 0))
         return disc.tau + setting_.falling_contact(x, y, vx, vy, gx_, gy_, reach);
@@ -108,9 +108,9 @@ BodyMeeting FixedBodies::first_meeting(const Disc& disc, double from, double unt
 
 void FixedBodies::reflect(Disc& disc, const BodyMeeting& at, double time, bool is_touched) const {
     const Body& body = species_[at.body];
-    const double length = setting_.box_size;
-    const double x = ((disc.x + (0.5 * gx_ * time) * time) - body.x) - at.copy.x * length;
-    const double y = ((disc.y + (0.5 * gy_ * time) * time) - body.y) - at.copy.y * length;
+    const Box box = setting_.box();
+    const double x = ((disc.x + (0.5 * gx_ * time) * time) - body.x) - at.copy.x * box.x;
+    const double y = ((disc.y + (0.5 * gy_ * time) * time) - body.y) - at.copy.y * box.y;
     const bool is_line = body.length > 0, is_left = body.ux * y - body.uy * x >= 0;
     const double distance = std::sqrt(x * x + y * y);
     const double nx = is_line ? (is_left ? -body.uy : body.uy) : x / distance,

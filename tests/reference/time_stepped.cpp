@@ -26,11 +26,11 @@ bool before(const Collision& a, const Collision& b) {
 } // namespace
 
 Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance, Copy copy,
-                double period) {
+                const Box& box) {
     const double base = p.tau > q.tau ? p.tau : q.tau;
     const double px = p.x + p.vx * (base - p.tau), py = p.y + p.vy * (base - p.tau);
     const double qx = q.x + q.vx * (base - q.tau), qy = q.y + q.vy * (base - q.tau);
-    const double dx = (qx - px) + copy.x * period, dy = (qy - py) + copy.y * period;
+    const double dx = (qx - px) + copy.x * box.x, dy = (qy - py) + copy.y * box.y;
     const double wx = q.vx - p.vx, wy = q.vy - p.vy;
 
     const double b = dx * wx + dy * wy;
@@ -54,7 +54,7 @@ bool has_left(const Disc& disc) { return disc.is_departed != 0; }
 
 void set_left(const Setting& setting, Disc& disc, std::size_t side) {
     const double radius = setting.radius_of(disc.id),
-                 line = side % 2 == 0 ? -radius : setting.box_size + radius;
+                 line = side % 2 == 0 ? -radius : setting.edge(side) + radius;
     (side < 2 ? disc.x : disc.y) = line;
     disc.vx = disc.vy = disc.tau = 0;
     disc.is_departed = 1;
@@ -69,20 +69,22 @@ void advance(Disc& disc, double time) {
 
 std::vector<Copy> copies_near(const Setting& setting, const Disc& p, const Disc& q, double begin,
                               double end) {
-    const double length = setting.box_size, sigma = 2 * setting.radius;
+    const double sigma = 2 * setting.radius;
     const bool is_x = setting.effects.is_periodic_x(), is_y = setting.effects.is_periodic_y();
     const double away = (std::fabs(p.vx) + std::fabs(q.vx) + std::fabs(p.vy) + std::fabs(q.vy)) *
                             (end - begin) +
                         1.01 * sigma;
-    const auto range = [&](bool is_periodic,
+    const auto range = [&](bool is_periodic, double length,
                            double distance) { // of n with |distance + n L| within reach
         if (!is_periodic) return std::pair(0, 0);
         return std::pair(static_cast<int>(std::floor((-away - distance) / length)),
                          static_cast<int>(std::ceil((away - distance) / length)));
     };
     const auto place = [begin](double x, double v, double tau) { return x + v * (begin - tau); };
-    const auto [x_low, x_high] = range(is_x, place(q.x, q.vx, q.tau) - place(p.x, p.vx, p.tau));
-    const auto [y_low, y_high] = range(is_y, place(q.y, q.vy, q.tau) - place(p.y, p.vy, p.tau));
+    const auto [x_low, x_high] = range(is_x, setting.box().x,
+                                       place(q.x, q.vx, q.tau) - place(p.x, p.vx, p.tau));
+    const auto [y_low, y_high] = range(is_y, setting.box().y,
+                                       place(q.y, q.vy, q.tau) - place(p.y, p.vy, p.tau));
     std::vector<Copy> copies;
     for (int x = x_low; x <= x_high; ++x)
         for (int y = y_low; y <= y_high; ++y) copies.push_back({x, y});
@@ -90,8 +92,7 @@ std::vector<Copy> copies_near(const Setting& setting, const Disc& p, const Disc&
 }
 
 void bring_inside(const Setting& setting, Disc& disc) {
-    const double length = setting.box_size;
-    const auto inside = [length](double place) {
+    const auto inside = [](double place, double length) {
         if (place >= 0 && place < length) return place;
         const double periods = std::floor(place / length);
         double rest = std::fma(-periods, length, place); // exactly rounded once
@@ -99,13 +100,13 @@ void bring_inside(const Setting& setting, Disc& disc) {
         if (rest >= length) rest = rest - length;
         return rest;
     };
-    if (setting.effects.is_periodic_x()) disc.x = inside(disc.x);
-    if (setting.effects.is_periodic_y()) disc.y = inside(disc.y);
+    if (setting.effects.is_periodic_x()) disc.x = inside(disc.x, setting.box().x);
+    if (setting.effects.is_periodic_y()) disc.y = inside(disc.y, setting.box().y);
 }
 
 void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitution, Copy copy,
-                       double period) {
-    const double ex = (q.x - p.x) + copy.x * period, ey = (q.y - p.y) + copy.y * period;
+                       const Box& box) {
+    const double ex = (q.x - p.x) + copy.x * box.x, ey = (q.y - p.y) + copy.y * box.y;
     const double wx = q.vx - p.vx, wy = q.vy - p.vy;
     const double k = (1 + restitution) / 2 * ((wx * ex + wy * ey) / (ex * ex + ey * ey));
     const double mp = setting.mass_of(p.id), mq = setting.mass_of(q.id), mean = (mp + mq) / 2;
@@ -116,9 +117,9 @@ void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitut
 }
 
 void collide_rough(const Setting& setting, Disc& p, Disc& q, double& p_spin, double& q_spin,
-                   bool is_touched, Copy copy, double period) {
+                   bool is_touched, Copy copy, const Box& box) {
     const ContactEffect& contact = setting.effects.contact;
-    const double ex = (q.x - p.x) + copy.x * period, ey = (q.y - p.y) + copy.y * period;
+    const double ex = (q.x - p.x) + copy.x * box.x, ey = (q.y - p.y) + copy.y * box.y;
     const double wx = q.vx - p.vx, wy = q.vy - p.vy;
     const double rp = setting.radius_of(p.id), rq = setting.radius_of(q.id);
     const double mp = setting.mass_of(p.id), mq = setting.mass_of(q.id), mean = (mp + mq) / 2;
@@ -185,7 +186,7 @@ std::vector<double> stored_spins(const Setting& setting, std::size_t n_discs) {
 TimeSteppedReference::TimeSteppedReference(const Setting& setting, std::span<const InputDisc> discs)
     : setting_(setting), species_(std::make_shared<FixedBodies>(setting)),
       band_(1e-8 * setting.radius),
-      tolerance_(std::max(1e-12 * (2 * setting.radius), 32 * 0x1p-53 * setting.box_size)),
+      tolerance_(std::max(1e-12 * (2 * setting.radius), 32 * 0x1p-53 * setting.longest())),
       discs_(stored_states(setting, discs)), spins_(stored_spins(setting, discs.size())) {}
 
 void TimeSteppedReference::run_micro_steps(std::int64_t count) {
@@ -225,7 +226,7 @@ void TimeSteppedReference::find_candidates(double m) {
             const auto look = [&](Copy copy) {
                 const Contact found = contact(p, discs_[id],
                                               setting_.radius_of(p.id) + setting_.radius_of(id),
-                                              tolerance_, copy, setting_.box_size);
+                                              tolerance_, copy, setting_.box());
                 if (found.delay < 0) return;
                 const double in_step = (found.base - m) + found.delay;
                 if (in_step >= 0 && in_step <= 1)
@@ -257,10 +258,9 @@ void TimeSteppedReference::keep(const Collision& candidate, double m) {
     advance(q, m + candidate.t);
     if (setting_.are_rough())
         collide_rough(setting_, p, q, spins_[p.id], spins_[q.id], false, candidate.copy,
-                      setting_.box_size);
+                      setting_.box());
     else
-        exchange_momentum(setting_, p, q, setting_.restitution(), candidate.copy,
-                          setting_.box_size);
+        exchange_momentum(setting_, p, q, setting_.restitution(), candidate.copy, setting_.box());
     p.pair_collisions += 1;
     q.pair_collisions += 1;
     counters_.pair_collisions += 1;
@@ -293,13 +293,13 @@ double TimeSteppedReference::axis_time(DiscId id, double x, double v, double tau
                                        std::size_t low_side) const {
     double wall = 0;
     if (leads_out(v, low_side)) {
-        wall = v < 0 ? -setting_.radius_of(id) : setting_.box_size + setting_.radius_of(id);
+        wall = v < 0 ? -setting_.radius_of(id) : setting_.edge(low_side) + setting_.radius_of(id);
         const double at_end = x + v * ((m + 1) - tau);
         if (v < 0 ? at_end >= wall : at_end <= wall) return never;
     } else if (v < 0 && x + v * ((m + 1) - tau) < low(id) + band_) {
         wall = low(id);
-    } else if (v > 0 && x + v * ((m + 1) - tau) > high(id) - band_) {
-        wall = high(id);
+    } else if (v > 0 && x + v * ((m + 1) - tau) > high(id, low_side) - band_) {
+        wall = high(id, low_side);
     } else {
         return never;
     }
@@ -333,7 +333,8 @@ void TimeSteppedReference::bounce(Disc& disc, double m, double t) const {
     if (y_is_due && leads_out(disc.vy, 2)) return set_left(setting_, disc, disc.vy < 0 ? 2 : 3);
     const auto is_at_wall = [&](double x, double v, std::size_t low_side) {
         if (leads_out(v, low_side)) return false;
-        return (v < 0 && x <= low(disc.id) + band_) || (v > 0 && x >= high(disc.id) - band_);
+        return (v < 0 && x <= low(disc.id) + band_) ||
+               (v > 0 && x >= high(disc.id, low_side) - band_);
     };
     const bool x_reverses = x_is_due || (has_x && is_at_wall(disc.x, disc.vx, 0));
     const bool y_reverses = y_is_due || (has_y && is_at_wall(disc.y, disc.vy, 2));
@@ -359,7 +360,7 @@ double TimeSteppedReference::stop_time(DiscId id, double x, double v, double t,
     double ts = never;
     if (leads_out(v, low_side)) return never;
     if (v < 0 && x + v * (1 - t) < low(id)) ts = (low(id) - x) / v;
-    if (v > 0 && x + v * (1 - t) > high(id)) ts = (high(id) - x) / v;
+    if (v > 0 && x + v * (1 - t) > high(id, low_side)) ts = (high(id, low_side) - x) / v;
     return ts < 0 ? 0 : ts;
 }
 

@@ -14,6 +14,8 @@
 #include <span>
 #include <vector>
 
+#include <carrom/box.hpp>
+
 #include "core/disc.hpp"
 #include "dynamics/effects.hpp"
 #include "scene/scene.hpp"
@@ -22,11 +24,12 @@ namespace carrom::reference {
 
 /// The box and the clock of a run. Inputs give velocities per step; `micro_steps` divides them.
 struct Setting {
-    double box_size = 0;
+    double box_size = 0; ///< along x
     double radius = 0;
     std::int64_t micro_steps = 1;
     std::int64_t sync_every = 64;
-    Effects effects{}; ///< times in steps
+    Effects effects{};     ///< times in steps
+    double box_height = 0; ///< along y; 0: a square
     std::vector<double>
         first_spins{}; ///< of rough discs by id, per step; empty where all begin without
     /// What leaves a thermal wall: the velocity away from it and along it, in the unit of the
@@ -47,6 +50,10 @@ struct Setting {
     std::function<double(double dx, double dy, double wx, double wy, double gx, double gy,
                          double reach)>
         falling_contact{};
+    Box box() const { return {box_size, box_height == 0 ? box_size : box_height}; }
+    double longest() const { return box().x > box().y ? box().x : box().y; }
+    /// Of the axis that the side ends.
+    double edge(std::size_t side) const { return side < 2 ? box().x : box().y; }
     double clock_at(std::int64_t count) const {
         const auto time = static_cast<double>(count);
         return drag_clock ? drag_clock(time) : time;
@@ -110,10 +117,10 @@ struct Contact {
     double delay = -1;
 };
 
-/// The predicate of section 4, of p and that copy of q in a box of the given periods. `tolerance`
-/// is the deepest overlap that still collides; infinity in the event-driven method.
+/// The predicate of section 4, of p and that copy of q in that box, if it repeats itself.
+/// `tolerance` is the deepest overlap that still collides; infinity in the event-driven method.
 Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance, Copy copy = {},
-                double period = 0);
+                const Box& box = {});
 
 /// The copies of q that p may come near until `end`, both flying on from their states: all others
 /// stay farther than sigma.
@@ -131,10 +138,10 @@ void set_left(const Setting& setting, Disc& disc, std::size_t side);
 /// The two states' positions at `time`, the impulse of a pair; p has the lower id.
 void advance(Disc& disc, double time);
 void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitution, Copy copy = {},
-                       double period = 0);
+                       const Box& box = {});
 /// The same of rough discs, by the page's formulas; `is_touched` ones part as elastic and smooth.
 void collide_rough(const Setting& setting, Disc& p, Disc& q, double& p_spin, double& q_spin,
-                   bool is_touched, Copy copy = {}, double period = 0);
+                   bool is_touched, Copy copy = {}, const Box& box = {});
 
 /// Numbers the discs 0 .. N-1 as given (ids must be a permutation of that) and divides velocities
 /// by `micro_steps`.
@@ -177,7 +184,9 @@ private:
     Setting setting_;
     std::shared_ptr<const FixedBodies> species_;
     double low(DiscId id) const { return setting_.radius_of(id); }
-    double high(DiscId id) const { return setting_.box_size - setting_.radius_of(id); }
+    double high(DiscId id, std::size_t side) const {
+        return setting_.edge(side) - setting_.radius_of(id);
+    }
 
     double band_, tolerance_;
     std::vector<Disc> discs_;

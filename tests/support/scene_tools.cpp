@@ -34,7 +34,7 @@ std::string number(double value) {
 Scene scene_of(const TestScene& test_scene) {
     Scene scene;
     scene.name = test_scene.name;
-    scene.box_size = test_scene.setting.box_size;
+    scene.box = test_scene.setting.box();
     scene.radius = test_scene.setting.radius;
     scene.n_discs = test_scene.discs.size();
     scene.generator = Generator::file;
@@ -56,6 +56,25 @@ TestScene transposed(const TestScene& scene) {
         std::swap(disc.x, disc.y);
         std::swap(disc.vx, disc.vy);
     }
+    reference::Setting& setting = result.setting;
+    const Box box = setting.box();
+    if (!box.is_square()) setting.box_size = box.y, setting.box_height = box.x;
+    Effects& effects = setting.effects;
+    std::swap(effects.boundaries[0], effects.boundaries[2]);
+    std::swap(effects.boundaries[1], effects.boundaries[3]);
+    std::swap(effects.gravity.x, effects.gravity.y);
+    for (FixedDisc& body : effects.obstacles.discs) std::swap(body.x, body.y);
+    for (Segment& body : effects.obstacles.segments) {
+        std::swap(body.x0, body.y0);
+        std::swap(body.x1, body.y1);
+    }
+    for (double& spin : setting.first_spins) spin = -spin;
+    // A box that stands draws at its walls as the one that lies.
+    if (const auto draw = setting.thermal_draw; draw && !box.is_square())
+        setting.thermal_draw = [draw](const Boundary& side, DiscId id, std::uint64_t count,
+                                      std::size_t number) {
+            return draw(side, id, count, (number + 2) % 4);
+        };
     return result;
 }
 
@@ -64,6 +83,7 @@ TestScene scaled(const TestScene& scene, int exponent) {
     result.name += ", times 2^" + std::to_string(exponent);
     const auto scale = [exponent](double& value) { value = std::ldexp(value, exponent); };
     scale(result.setting.box_size);
+    scale(result.setting.box_height);
     scale(result.setting.radius);
     for (InputDisc& disc : result.discs) {
         scale(disc.x);

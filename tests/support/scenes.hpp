@@ -34,7 +34,7 @@ struct TestScene {
 /// The same scene in the engine's own input type, spins included.
 Scene scene_of(const TestScene& scene);
 
-/// x and y exchanged: states must come out exchanged, bit for bit.
+/// x and y exchanged, of the box and its effects too: states must come out exchanged, bit for bit.
 TestScene transposed(const TestScene& scene);
 /// Lengths and speeds times 2^exponent: states must come out scaled, bit for bit.
 TestScene scaled(const TestScene& scene, int exponent);

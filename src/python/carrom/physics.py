@@ -99,22 +99,15 @@ def compressibility(run: Run) -> Measured:
     effects = scene.get("effects", {})
     if "species" in scene.get("discs", {}) or effects or set(kinds) - {"wall", "periodic"}:
         raise NoDataError(f"{run.name}: compressibility is of equal discs without effects alone")
-    energy = float(report["kinetic_energy"])
+    energy, area = float(report["kinetic_energy"]), float(np.prod(report["box"]))
     if set(kinds) == {"wall"}:
         pressure = average(run, "virial_pressure")
-        area = float(scene["box"]["size"]) ** 2 if "box" in scene else _area(run)
         return Measured(pressure.value * area / energy, pressure.error * area / energy)
     if set(kinds) != {"periodic"}:
         raise NoDataError(f"{run.name}: compressibility needs four walls or four periodic sides")
     frequency = average(run, "collision_frequency")
-    size = float(scene["box"]["size"])
-    diameter = 2 * size * math.sqrt(float(report["packing"]) / (math.pi * n))
+    diameter = 2 * math.sqrt(area * float(report["packing"]) / (math.pi * n))
     momentum = np.asarray(report["momentum"], dtype=float)
     temperature = (2 * energy - float(momentum @ momentum) / n) / (2 * max(n - 1, 1))
     factor = diameter / 4 * math.sqrt(math.pi / temperature)
     return Measured(1 + factor * frequency.value, factor * frequency.error)
-
-
-def _area(run: Run) -> float:
-    """The area of the box of legacy text, which has no keys."""
-    return float(np.prod(run.checkpoints[-1].box))

@@ -38,6 +38,8 @@ SCENES: dict[str, Scene] = {
     "rough": gas() | {"effects": ROUGH},
     "species": gas(**PERIODIC) | {"discs": {"species": SPECIES}},
     "open": gas(right={"kind": "open"}),
+    "rectangle": gas(size=[40, 10]),
+    "periodic rectangle": gas(size=[8, 50], **PERIODIC),
 }
 
 SCENES["gravity"]["time"]["sync_every"] = 16
@@ -118,7 +120,7 @@ def test_bodies_are_those_of_the_scene(recorded: carrom.Run) -> None:
 def test_boxes_and_sides_are_those_of_the_scene(recorded: carrom.Run) -> None:
     is_periodic = "left" in recorded.scene["box"]
     for frame in (recorded.frames[0], recorded.checkpoints[-1]):
-        assert frame.box.tolist() == [20, 20]
+        assert frame.box.tolist() == np.broadcast_to(recorded.scene["box"]["size"], 2).tolist()
         assert frame.periodic == (is_periodic, is_periodic)
 
 

@@ -21,7 +21,7 @@ Scene narrow_room() {
     Scene scene = read_scene(
         "[box]\nsize = 3\n[discs]\nradius = 1\nlist = [[1, 1, 1, 0]]\n[time]\nsteps = 1\n",
         "narrow.toml");
-    scene.box_size = 2 + room;
+    scene.box = 2 + room;
     return scene;
 }
 

@@ -26,7 +26,7 @@ Scene known_gas(double packing, double frequency, std::uint64_t seed) {
     scene.name = "known gas";
     scene.n_discs = 256;
     scene.radius = 0.5;
-    scene.box_size = std::sqrt(256 * std::numbers::pi / 4 / packing);
+    scene.box = std::sqrt(256 * std::numbers::pi / 4 / packing);
     scene.speed = std::numbers::sqrt2 * 0.25 / frequency;
     scene.seed = seed;
     return scene;

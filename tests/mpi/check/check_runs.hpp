@@ -148,7 +148,7 @@ public:
         }
         return nullptr;
     }
-    void sort_into_cells() { local_view.sort_into_cells(scene_.box_size, scene_.radius); }
+    void sort_into_cells() { local_view.sort_into_cells(scene_.box.x, scene_.radius); }
     const Scene& scene() const { return scene_; }
     const Communicator& world() const { return world_; }
 

@@ -90,7 +90,7 @@ TEST_CASE("check: with effects, what is wrong is found all the same") {
     piston.boundaries[1] = {BoundaryKind::moving, 1, 0, -0.5};
     CHECK(found_in(piston, [](OneStep& step) { // inside the box as it was, outside as it is
               if (Disc* const disc = step.own(7))
-                  disc->x += step.scene().box_size - step.scene().radius - 0.2 -
+                  disc->x += step.scene().box.x - step.scene().radius - 0.2 -
                              disc->x_at(step.local_view.time);
           }) == Invariant::in_box);
     Effects falling;

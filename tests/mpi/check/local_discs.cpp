@@ -6,8 +6,9 @@ namespace carrom::test {
 void LocalDiscs::sort_into_cells(double box_size, double radius) {
     const double reach = 2 * radius * (1 + 1e-6);
     const std::span<Disc> all(discs);
-    grid.sort(all.first(n_own), make_geometry(0, box_size, 0, box_size, reach, discs.size(), 0),
-              time, time, 1, 1);
+    grid.sort(all.first(n_own),
+              make_geometry({0, box_size, 0, box_size}, Axis::x, reach, discs.size(), 0), time,
+              time, 1, 1);
     grid.add_halo(all.subspan(n_own));
 }
 

@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
     return run_on_all(Communicator::world(), [&](const Communicator& world) {
         Scene scene;
         scene.name = "thirty discs";
-        scene.box_size = 60;
+        scene.box = 60;
         scene.radius = 1;
         scene.n_discs = 30;
         scene.method = argc > 1 && std::string(argv[1]) == "event-driven" ? Method::event_driven
@@ -54,8 +54,7 @@ int main(int argc, char** argv) {
         }
         const std::vector<Disc> discs = thirty_discs();
         const auto at = [&](double time) {
-            return view_by_hand(discs, time, scene.box_size, scene.radius, world.rank(),
-                                world.size());
+            return view_by_hand(discs, time, scene.box.x, scene.radius, world.rank(), world.size());
         };
         const LocalDiscs start = at(0);
         const auto spins_of = [&](const LocalDiscs& local_view) {

@@ -29,7 +29,7 @@ struct Passing {
 
     Passing(Method method, double x, double speed) {
         scene.name = "two discs";
-        scene.box_size = 20;
+        scene.box = 20;
         scene.radius = 1;
         scene.n_discs = 2;
         scene.method = method;

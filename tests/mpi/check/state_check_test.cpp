@@ -66,7 +66,7 @@ TEST_CASE("check: a disc that does not exist") {
 
 TEST_CASE("check: a disc outside the box, by little") {
     expect(Invariant::in_box, [](OneStep& step) {
-        const double size = step.scene().box_size;
+        const double size = step.scene().box.x;
         if (Disc* const disc = step.own(7))
             disc->y += (size - step.scene().radius) * (1 + 1e-12) -
                        disc->y_at(step.local_view.time);
@@ -79,7 +79,7 @@ TEST_CASE("check: a disc in another rank's strip") {
     expect(Invariant::in_strip, [](OneStep& step) {
         if (Disc* const disc = step.own(7)) {
             const double from_left = step.scene().radius,
-                         from_right = step.scene().box_size - step.scene().radius;
+                         from_right = step.scene().box.x - step.scene().radius;
             const bool is_left = step.local_view.strips.owner(from_left) == step.world().rank();
             disc->x += (is_left ? from_right : from_left) - disc->x_at(step.local_view.time);
         }
@@ -92,7 +92,7 @@ TEST_CASE("check: a disc in another cell than it is filed under") {
         if (Disc* const disc = step.own(7)) {
             const double y = disc->y_at(step.local_view.time),
                          width = step.local_view.grid.geometry().cell_width;
-            disc->y += y > step.scene().box_size / 2 ? -width : width;
+            disc->y += y > step.scene().box.x / 2 ? -width : width;
         }
         return 7;
     });

@@ -44,7 +44,7 @@ void advance_to(Simulation& simulation, std::int64_t step) {
 
 void make_room_for_obstacles(TestScene& scene) {
     const reference::Setting& setting = scene.setting;
-    const Obstacles obstacles(setting.box_size, setting.radius, setting.effects);
+    const Obstacles obstacles(setting.box(), setting.radius, setting.effects);
     for (const InputDisc& disc : std::exchange(scene.discs, {}))
         if (obstacles.deepest_overlap(disc.x, disc.y, setting.radius, 0).body ==
             ObstacleContact::no_body)

@@ -77,14 +77,13 @@ void check_arrangement(const Discs& mine, const Scene& scene) {
     for (std::size_t i = 0; i < all.size(); ++i) {
         ids_are_right = ids_are_right && all[i].id == i;
         for (const double c : {all[i].x, all[i].y})
-            all_are_inside = all_are_inside && c >= scene.radius &&
-                             c <= scene.box_size - scene.radius;
+            all_are_inside = all_are_inside && c >= scene.radius && c <= scene.box.x - scene.radius;
     }
     CHECK(ids_are_right);
     CHECK(all_are_inside);
     std::sort(all.begin(), all.end(),
               [](const InputDisc& a, const InputDisc& b) { return a.x < b.x; });
-    double nearest = scene.box_size;
+    double nearest = scene.box.x;
     for (std::size_t i = 0; i < all.size(); ++i)
         for (std::size_t j = i + 1; j < all.size() && all[j].x - all[i].x < nearest; ++j)
             nearest = std::min(nearest, std::hypot(all[j].x - all[i].x, all[j].y - all[i].y));
@@ -94,7 +93,7 @@ void check_arrangement(const Discs& mine, const Scene& scene) {
 /// The rule of random insertion, word for word: all pairs, round after round. Where sides are
 /// periodic, with all images.
 Discs inserted_by_the_rule(const Scene& scene) {
-    const double r = scene.radius, l = scene.box_size;
+    const double r = scene.radius, l = scene.box.x;
     const double lx = scene.effects.is_periodic_x() ? l : 0,
                  ly = scene.effects.is_periodic_y() ? l : 0;
     const auto place = [r, l](double period, double number) {
@@ -220,7 +219,7 @@ TEST_CASE("Random discs are shared out evenly") {
 TEST_CASE("A lattice is its sites, shaken") {
     const Scene scene = scene_of(
         {"discs.packing=0.8", "discs.count=3000", "discs.generator=lattice"});
-    const auto lattice = widest_lattice(scene.n_discs, scene.box_size, scene.radius);
+    const auto lattice = widest_lattice(scene.n_discs, scene.box, scene.radius);
     REQUIRE(lattice.has_value());
     Discs reference;
     for (DiscId id = 0; id < scene.n_discs; ++id) {

@@ -88,7 +88,7 @@ TEST_CASE("the header comes back whole") {
         CHECK(header.scene_overrides == wanted.scene_overrides);
         CHECK(header.scene_lines_before_discs == wanted.scene_lines_before_discs);
         CHECK(header.scene_discs_follow == wanted.scene_discs_follow);
-        CHECK(header.box_size == wanted.box_size);
+        CHECK(header.box() == wanted.box());
         CHECK(header.radius == wanted.radius);
         CHECK(header.method == wanted.method);
         CHECK(header.micro_steps == wanted.micro_steps);
@@ -98,6 +98,29 @@ TEST_CASE("the header comes back whole") {
         CHECK(header.micro_steps_done == wanted.micro_steps_done);
         CHECK(header.clock() == 4.0);
     }
+}
+
+TEST_CASE("a rectangle's edges come back, and a square's file has one edge as ever") {
+    const Communicator world = Communicator::world();
+    const TestFolder folder(world);
+    const auto has_height = [&](const std::string& path) {
+        return h5::has(h5::open_file(path, h5::Access::read).id(), "/carrom/run/box_height");
+    };
+    for (const Box& box : {Box(0.1), Box(0.1, 0.3), Box(0.3, 0.1)}) {
+        CheckpointHeader wanted = some_header();
+        wanted.set_box(box);
+        const std::string path = folder.file("a.h5");
+        write_checkpoint(path, wanted, share(3, world, 0), world);
+        CHECK(read_checkpoint_header(path, world).box() == box);
+        CHECK(read_checkpoint(path, world).header.box() == box);
+        if (world.is_root()) CHECK(has_height(path) == !box.is_square());
+        world.barrier();
+    }
+    CheckpointHeader flat = some_header();
+    flat.set_box({0.1, 0});
+    write_checkpoint(folder.file("flat.h5"), flat, share(3, world, 0), world);
+    CHECK(problem_of(folder.file("flat.h5"), world).find("numbers contradict each other") !=
+          std::string::npos);
 }
 
 TEST_CASE("the file does not depend on who holds which disc, and nothing else is left") {

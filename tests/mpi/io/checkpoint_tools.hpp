@@ -103,7 +103,7 @@ inline CheckpointHeader some_header() {
     header.scene_overrides = "time.steps=5\ndiscs.seed=1";
     header.scene_lines_before_discs = 3;
     header.scene_discs_follow = 1;
-    header.box_size = 0.1;
+    header.set_box(0.1);
     header.radius = 0x1p-1000;
     header.method = "time-stepped";
     header.micro_steps = 4;

@@ -79,7 +79,7 @@ TrajectoryLayout layout_of(std::uint64_t n) {
     TrajectoryLayout layout;
     layout.system.program_version = "0.0.1";
     layout.system.n_discs = n;
-    layout.system.box_size = 64;
+    layout.system.box = 64;
     layout.velocity_unit = 4;
     layout.has_collisions = true;
     return layout;
@@ -95,7 +95,7 @@ bool holds(const std::string& path, std::uint64_t n, const std::vector<std::int6
         is_right = file.summary().kind == FileKind::trajectory && file.summary().n_rows == n &&
                    file.summary().steps == steps &&
                    file.summary().has("angular_velocity") == are_turning &&
-                   (steps.empty() || file.summary().box_size == box_size) &&
+                   (steps.empty() || file.summary().box == Box(box_size)) &&
                    file.summary().program_version == "0.0.1";
         Rows rows;
         is_right = is_right && file.summary().columns.size() == (are_turning ? 7u : 6u);
@@ -191,7 +191,7 @@ TEST_CASE("going on to another last step gives its frames the box of that step")
     const std::string path = folder.file("t.h5");
     const auto layout_with = [](double box_size) {
         TrajectoryLayout layout = layout_of(40);
-        layout.system.box_size = box_size;
+        layout.system.box = box_size;
         return layout;
     };
     Trajectory first(path, layout_with(64), world);

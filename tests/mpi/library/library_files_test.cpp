@@ -97,7 +97,7 @@ TEST_CASE("a checkpoint is read as a file of one frame") {
     const FrameReader file(session, folder.file("state.h5"));
     CHECK(file.steps() == std::vector<std::int64_t>{25});
     CHECK(file.n_discs() == 300);
-    CHECK(file.box_size() == 60);
+    CHECK(file.box() == Box(60));
     CHECK(file.state_hash() == hash_of(simulation));
     if (!session.is_root()) return;
     CHECK(file.read(0) == discs);

@@ -120,7 +120,7 @@ TEST_CASE("a scene's text and the same keys set in code are one scene") {
     CHECK(hash_of(a) == hash_of(b));
     const SceneFacts facts = text.check();
     CHECK(facts.n_discs == 300);
-    CHECK(facts.box_size == 60);
+    CHECK(facts.box == Box(60));
     CHECK(facts.steps == 20);
     CHECK_FALSE(facts.is_event_driven);
     CHECK(facts.packing == Approx(300 * 3.14159265358979 * 0.75 * 0.75 / 3600));

@@ -91,8 +91,7 @@ TEST_CASE("measurements: a gas has Maxwell's velocities, one pressure on all sid
 
     // Bulk discs at this packing, and walls: Z_box = Z_bulk + 0.98 / sqrt(N)
     // (docs/understanding/validation.md).
-    const double pressure = n * kT / (scene.box_size * scene.box_size) *
-                            (1.57036 + 0.98 / std::sqrt(n));
+    const double pressure = n * kT / (scene.box.x * scene.box.x) * (1.57036 + 0.98 / std::sqrt(n));
     for (const char* side : {"left", "right", "bottom", "top"}) {
         const double measured_pressure = column_of(tables, "wall_pressure", side)[0],
                      error = column_of(tables, "wall_pressure", std::string(side) + "_error")[0];
@@ -124,7 +123,7 @@ TEST_CASE("measurements: the density over a thermal floor falls as the barometri
     Simulation simulation = simulation_of(scene, test, world);
     Sampler sampler(scene, simulation, world);
     advance_to(simulation, sampler, 6000);
-    const double low = scene.radius, span = scene.box_size - 2 * scene.radius;
+    const double low = scene.radius, span = scene.box.x - 2 * scene.radius;
     const auto barometric = [&](double y) {
         const double h = std::clamp(y - low, 0.0, span) * height;
         return (1 - std::exp(-h)) / (1 - std::exp(-3.0));

@@ -111,7 +111,7 @@ TEST_CASE("measurements: tables are what all discs and pairs give") {
         for (std::int64_t step = 5; step <= 60; step += 9) {
             advance_to(simulation, sampler, step);
             expected.look(all_of(simulation, world),
-                          extent_at(scene.effects, scene.box_size, static_cast<double>(step)),
+                          extent_at(scene.effects, scene.box, static_cast<double>(step)),
                           scene.measurements->largest_distance, 1);
         }
         const std::vector<MeasuredTable> tables = sampler.tables();
@@ -142,7 +142,7 @@ TEST_CASE("measurements: with open sides, velocities and places of discs that ar
         Simulation simulation = simulation_of(scene, test, world);
         Sampler sampler(scene, simulation, world);
         ByHand expected;
-        const double size = scene.box_size;
+        const double size = scene.box.x;
         std::size_t n_seen = 0;
         for (std::int64_t step = 5; step <= 60; step += 9) {
             advance_to(simulation, sampler, step);
@@ -187,7 +187,7 @@ TEST_CASE("measurements: what walls have got is what discs have lost") {
             for (std::size_t k = 0; k < pressures.size(); ++k) {
                 const double middle = 8 * static_cast<double>(k) + 4;
                 sum += pressures[k] * 8 *
-                       (scene.box_size +
+                       (scene.box.x +
                         (is_upright ? 0 : scene.effects.boundaries[1].speed * middle));
             }
             return sum;

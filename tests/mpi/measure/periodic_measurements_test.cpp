@@ -137,7 +137,7 @@ void check_g(const Scene& scene, const std::vector<MeasuredTable>& tables,
     const double n_a = count_of(species[0]), n_b = count_of(species[2]),
                  n_pairs = species[0] == species[2] ? n_a * (n_a - 1) / 2 : n_a * n_b,
                  width = scene.measurements->largest_distance / 20,
-                 area = scene.box_size * scene.box_size;
+                 area = scene.box.x * scene.box.x;
     const std::vector<double> g = column_of(tables, "radial_distribution", "g_" + species);
     for (std::size_t k = 0; k < 20; ++k) {
         const double ring = std::numbers::pi * width * width * static_cast<double>(2 * k + 1) /
@@ -157,8 +157,8 @@ TEST_CASE("measurements: in periodic boxes, distances of nearest images and disp
         INFO(each.name);
         const TestScene test = fast_gas(each.effects);
         const Scene scene = measured_around(test, each.method, 9, 5);
-        const double period_y = scene.effects.is_periodic_y() ? scene.box_size : 0;
-        ByHand by_hand{scene.box_size, period_y, scene.measurements->largest_distance};
+        const double period_y = scene.effects.is_periodic_y() ? scene.box.x : 0;
+        ByHand by_hand{scene.box.x, period_y, scene.measurements->largest_distance};
         Simulation simulation = simulation_of(scene, test, world);
         Sampler sampler(scene, simulation, world);
         for (std::int64_t step = 5; step <= 64; ++step) {
@@ -166,7 +166,7 @@ TEST_CASE("measurements: in periodic boxes, distances of nearest images and disp
             by_hand.look(all_of(simulation, world), (step - 5) % 9 == 0);
         }
         const std::vector<double>& squares = by_hand.squares;
-        CHECK(by_hand.farthest > scene.box_size);
+        CHECK(by_hand.farthest > scene.box.x);
         const std::vector<MeasuredTable> tables = sampler.tables();
         CHECK(column_of(tables, "radial_distribution", "pairs") == by_hand.pairs);
         const bool are_distinguished = scene.effects.species.size() == 3;

@@ -12,7 +12,7 @@ namespace {
 Scene small_scene() {
     Scene scene;
     scene.name = "small \xff.toml"; // a file's name need not be UTF-8
-    scene.box_size = 10;
+    scene.box = 10;
     scene.radius = 1;
     scene.n_discs = 4;
     scene.method = Method::time_stepped;

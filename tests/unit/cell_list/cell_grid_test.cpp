@@ -75,10 +75,10 @@ void check_cells(const CellGrid& grid, const std::vector<Disc>& discs, double ti
 
 void check_flight(const GridGeometry& geometry, const carrom::FlightLanes& lanes,
                   std::uint32_t slot, const Disc& disc, double time, double duration) {
-    CHECK(lanes.x[slot] == Approx((disc.x_at(time) - geometry.x_low) / geometry.cell_width)
-                               .epsilon(1e-5)
-                               .margin(1e-5));
-    CHECK(lanes.y[slot] == Approx((disc.y_at(time) - geometry.y_low) / geometry.cell_width)
+    CHECK(
+        lanes.x[slot] ==
+        Approx((disc.x_at(time) - geometry.low) / geometry.cell_width).epsilon(1e-5).margin(1e-5));
+    CHECK(lanes.y[slot] == Approx((disc.y_at(time) - geometry.across_low) / geometry.cell_width)
                                .epsilon(1e-5)
                                .margin(1e-5));
     CHECK(lanes.vx[slot] ==
@@ -113,7 +113,8 @@ TEST_CASE("side columns and companions go where discs go") {
             for (std::size_t i = 0; i < discs.size(); ++i)
                 columns[carrom::SideColumn::spin][i] = number_of(discs[i]);
             CellGrid grid;
-            const GridGeometry geometry = carrom::make_geometry(0, box, 0, box, 4, discs.size(), 0);
+            const GridGeometry geometry = carrom::make_geometry({0, box, 0, box}, Axis::x, 4,
+                                                                discs.size(), 0);
             grid.sort_cells(discs, geometry, time, n_threads, {}, {companions, &columns});
             for (std::size_t i = 0; i < discs.size(); ++i) {
                 REQUIRE(companions[i].id == discs[i].id);
@@ -133,7 +134,8 @@ TEST_CASE("threads bring discs into the order of the cells in which they are") {
             for (const int n_threads : {1, 2, 3, 5, 16}) {
                 std::vector<Disc> discs = gas(random, n);
                 std::vector<Disc> before = discs;
-                const GridGeometry geometry = carrom::make_geometry(0, box, 0, box, reach, n, 0);
+                const GridGeometry geometry = carrom::make_geometry({0, box, 0, box}, Axis::x,
+                                                                    reach, n, 0);
                 CellGrid grid;
                 grid.sort(discs, geometry, time, time, duration, n_threads); // in no order
                 check_cells(grid, discs, time, before);
@@ -167,8 +169,8 @@ TEST_CASE(
         for (const double reach : {2.0, 30.0}) {
             std::vector<Disc> discs = gas(random, 1000);
             const std::vector<Disc> halo = gas(random, n);
-            const GridGeometry geometry = carrom::make_geometry(0, box, 0, box, reach, discs.size(),
-                                                                0);
+            const GridGeometry geometry = carrom::make_geometry({0, box, 0, box}, Axis::x, reach,
+                                                                discs.size(), 0);
             CellGrid grid;
             grid.sort(discs, geometry, time, time, duration, 1);
             for (const Disc& disc : halo) {
@@ -196,7 +198,8 @@ TEST_CASE("no disc outside of an inner part is left out of those that are listed
     for (const double reach : {1.0, 7.0, 90.0, 500.0}) {
         std::vector<Disc> discs = gas(random, 3000);
         CellGrid grid;
-        grid.sort(discs, carrom::make_geometry(0, box, 0, box, reach, discs.size(), 0), 1, 1, 1, 1);
+        grid.sort(discs, carrom::make_geometry({0, box, 0, box}, Axis::x, reach, discs.size(), 0),
+                  1, 1, 1, 1);
         for (int k = 0; k < 200; ++k) {
             carrom::Inside inner{edge(random), edge(random), edge(random), edge(random)};
             if (k % 3 == 0) inner.y_low = -infinity, inner.y_high = infinity;
@@ -216,7 +219,8 @@ TEST_CASE("no disc outside of an inner part is left out of those that are listed
     }
     std::vector<Disc> discs = gas(random, 100'000);
     CellGrid grid;
-    grid.sort(discs, carrom::make_geometry(0, box, 0, box, 2, discs.size(), 0), 0, 0, 1, 1);
+    grid.sort(discs, carrom::make_geometry({0, box, 0, box}, Axis::x, 2, discs.size(), 0), 0, 0, 1,
+              1);
     std::size_t n_listed = 0;
     for (const carrom::SlotRange range : grid.outside({20, 180, -infinity, infinity}))
         n_listed += range.end - range.begin;

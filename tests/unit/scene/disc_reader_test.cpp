@@ -27,7 +27,7 @@ Scene scene_of(std::uint64_t n_discs) {
     scene.name = "t.in";
     scene.lines_before_discs = 5;
     scene.generator = Generator::file;
-    scene.box_size = 10;
+    scene.box = 10;
     scene.radius = 1;
     scene.n_discs = n_discs;
     return scene;
@@ -129,7 +129,7 @@ TEST_CASE("Missing ids are summed up as ranges") {
 TEST_CASE("A centre may be off the range of centres by the rounding of L, not more") {
     Scene scene = scene_of(1);
     scene.radius = 0.1;
-    const double high = scene.box_size - scene.radius;
+    const double high = scene.box.x - scene.radius;
     const auto n_problems = [&](double x) {
         return read_all(fmt::format("0 {:.17g} 5 0 0\n", x), scene).problems.size();
     };
@@ -231,7 +231,8 @@ TEST_CASE("Lines of a scene that is wrong itself are looked at as far as it is k
     scene.n_discs = 0; // ids are all that fit, none is missing
     CHECK(places(text, scene) ==
           Texts{"t.in:6", "t.in:7", "t.in:8", "t.in:11", "t.in:12", "t.in:13"});
-    scene.box_size = scene.radius = 0; // any finite place
+    scene.box = {};
+    scene.radius = 0; // any finite place
     CHECK(places(text, scene) == Texts{"t.in:6", "t.in:8", "t.in:11", "t.in:12", "t.in:13"});
     CHECK(places("1 4 4 0 0\n0 3 3 0 0\n", scene).empty());
 }

@@ -26,7 +26,7 @@ std::vector<Problem> problems_in(const std::string& text, const Texts& overrides
 TEST_CASE("A header alone asks for the legacy generator") {
     const Scene scene = read_scene("1000\n20000\n1\n500\nperf\n", "t.in");
     CHECK(scene.n_discs == 1000);
-    CHECK(scene.box_size == 20000);
+    CHECK(scene.box.x == 20000);
     CHECK(scene.radius == 1);
     CHECK(scene.steps == 500);
     CHECK(scene.text_output == TextOutput::first_and_last);
@@ -58,7 +58,7 @@ TEST_CASE("Overrides work on the legacy text format") {
     const Scene scene = read_scene(
         "100\n20000\n1\n500\nperf\n", "t.in",
         {"box.size=3", "discs.packing=0.25", "time.steps=7", "output.text=none", "discs.seed=5"});
-    CHECK(scene.box_size == 3);
+    CHECK(scene.box.x == 3);
     CHECK(scene.packing() == Approx(0.25));
     CHECK(scene.steps == 7);
     CHECK(scene.text_output == TextOutput::none);

@@ -45,7 +45,7 @@ TEST_CASE("A double written with 17 digits is read back bit for bit, in text and
                       4 * size, size);
         const Scene scene = read_scene(scene_text, "s.toml");
         CHECK(scene.radius == size);
-        CHECK(scene.box_size == 4 * size);
+        CHECK(scene.box.x == 4 * size);
     }
 }
 

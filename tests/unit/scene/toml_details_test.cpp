@@ -103,8 +103,7 @@ TEST_CASE("A wrong scene keeps what its lines of discs can be held to") {
         CHECK(problems.size() >= 1);
         CHECK(scene.reads_disc_lines());
         CHECK(scene.discs_file == "d");
-        return std::vector<double>{static_cast<double>(scene.n_discs), scene.box_size,
-                                   scene.radius};
+        return std::vector<double>{static_cast<double>(scene.n_discs), scene.box.x, scene.radius};
     };
     CHECK(partly("count = 2\nradius = 1\n[box]\nsize = 10") == std::vector<double>{2, 10, 1});
     CHECK(partly("count = 0\nradius = 1\n[box]\nsize = 10") == std::vector<double>{0, 0, 0});

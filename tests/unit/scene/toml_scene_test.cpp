@@ -10,7 +10,7 @@ TEST_CASE("A scene has what its text says and the defaults for the rest") {
     const Scene scene = read_scene(good, "folder/s.toml");
     CHECK(scene.name == "folder/s.toml");
     CHECK(scene.text == good);
-    CHECK(scene.box_size == 100);
+    CHECK(scene.box.x == 100);
     CHECK(scene.n_discs == 50);
     CHECK(scene.radius == 1);
     CHECK(scene.steps == 10);
@@ -110,7 +110,7 @@ TEST_CASE("Overrides replace what the text says, and what excludes them there") 
                                    {"box.size=30", "discs.packing = 0.2", "output.text=ends",
                                     "discs.speed=2.5", "time.steps=5", "time.steps=6",
                                     "discs.velocities='uniform'"});
-    CHECK(scene.box_size == 30);
+    CHECK(scene.box.x == 30);
     CHECK(scene.radius == Approx(30 * std::sqrt(0.2 / (50 * 3.14159265358979))));
     CHECK(scene.text_output == TextOutput::first_and_last);
     CHECK(scene.speed == 2.5);

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The two axes. Strips cut the box's longer side, that of x in a square; cells follow each other
+// along it. Code of strips and cells asks for places along that axis and across it. No decision
+// depends on which one it is.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+
+#include <carrom/box.hpp>
+
+namespace carrom {
+
+enum class Axis : std::size_t { x = 0, y = 1 };
+
+constexpr Axis other_axis(Axis axis) { return axis == Axis::x ? Axis::y : Axis::x; }
+
+/// The axis that strips cut.
+constexpr Axis longer_axis(const Box& box) { return box.y > box.x ? Axis::y : Axis::x; }
+
+constexpr double along(Axis axis, double x, double y) { return axis == Axis::x ? x : y; }
+constexpr double along(Axis axis, const Box& box) { return along(axis, box.x, box.y); }
+
+/// (x, y) as (along, across), and the other way round.
+template <class Number> constexpr std::pair<Number, Number> turned(Axis axis, Number x, Number y) {
+    return axis == Axis::x ? std::pair(x, y) : std::pair(y, x);
+}
+
+} // namespace carrom
