@@ -68,6 +68,7 @@ for size in '[1]' '[1, 2, 3]' '"wide"' '[80, "wide"]' '[80, -20]' '-3'; do
     run 3 run wide.toml --set "box.size=$size"
     expect_code 2 "box.size = $size"
     expect_told "'box.size' must be" "box.size = $size"
-    [ "$(wc -l <"$test_folder/err")" -eq 1 ] || complain "not one line for box.size = $size"
+    [ "$(grep -c 'box\.size' "$test_folder/err")" -eq 1 ] ||
+        complain "not one line for box.size = $size"
 done
 finish

@@ -118,7 +118,7 @@ std::vector<Case> cases() {
         add(all, base, "periodic along x", {elastic, along_x, {}});
         add(all, base, "periodic along y", {elastic, along_y, {}});
     }
-    for (const double height : {2.0001, 2.5, 3.9}) {
+    for (const double height : {2.2, 2.5, 3.9}) {
         const TestScene base = tube(40, height, 3, 907);
         add(all, base, "walls", {});
         add(all, base, "periodic along x", {elastic, along_x, {}});

@@ -11,6 +11,7 @@
 
 #include "catch.hpp"
 
+using carrom::Axis;
 using carrom::CellGrid;
 using carrom::Disc;
 using carrom::GridGeometry;
