@@ -311,17 +311,6 @@ def crossover_table(errors, large):
     return as_table(["packing", "discs", "starts", "event-driven, µs", "time-stepped K = 1, µs", "its error of the rate, %", "equal cost at"], rows)
 
 
-def length_table(errors, long):
-    """Errors of the same gases in runs of other lengths."""
-    rows = []
-    for gas, points in long.items():
-        others = dict(default_curve(errors.get(gas, {})))
-        for k, p in default_curve(points):
-            if k in (1, 16, 32, 256) and k in others:
-                rows.append([f"{gas[0]:.3g}", str(k), percent(others[k].rate), percent(p.rate)])
-    return as_table(["packing", "K", "100 collisions a disc, 8 starts", "400 collisions a disc, 4 starts"], rows)
-
-
 def put(text, name, part):
     begin, end = f"<!-- {name} -->", f"<!-- end of {name} -->"
     if begin not in text or end not in text:
@@ -350,7 +339,7 @@ def main():
     write_points({"error": errors, **named}, options.output / "points.csv")
     if options.page:
         text = put(options.page.read_text(encoding="utf-8"), "crossover", crossover_table(errors, named["large"]))
-        options.page.write_text(put(text, "lengths", length_table(errors, named["long"])), encoding="utf-8")
+        options.page.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":
