@@ -20,12 +20,13 @@ def test_theories_agree_where_both_hold() -> None:
     assert slope == pytest.approx(2, rel=1e-5)  # the second virial coefficient of discs
 
 
-def test_virial_equation_is_that_of_known_simulations() -> None:
-    """Erpenbeck and Luban (1985), by area over that of close packing."""
-    known = {3.0: 2.0772, 2.0: 3.4243, 1.8: 4.1715, 1.6: 5.4963, 1.5: 6.6074}
-    for area, z in known.items():
-        packing = np.pi / (2 * np.sqrt(3)) / area
-        assert carrom.virial_equation(packing) == pytest.approx(z, rel=6e-4)
+def test_virial_equation_is_that_of_other_fits() -> None:
+    """Liu, arXiv:2010.10624, and Luding, Phys. Rev. E 63, 042201 (2001)."""
+    eta = np.linspace(0, 0.6, 25)
+    liu = (1 + eta**2 / 8 + eta**3 / 18 - 4 * eta**4 / 21) / (1 - eta) ** 2
+    contact = (1 - 7 * eta / 16) / (1 - eta) ** 2 - eta**3 / 16 / (8 * (1 - eta) ** 4)
+    assert carrom.virial_equation(eta) == pytest.approx(liu, rel=1e-3)
+    assert carrom.virial_equation(eta) == pytest.approx(1 + 2 * eta * contact, rel=1e-3)
 
 
 def test_compressibility_is_that_of_the_virial(program: Path, tmp_path: Path) -> None:
