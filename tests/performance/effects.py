@@ -2,15 +2,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What effects cost, against the same gas without: instructions, and time as interleaved ratios.
 
-  tests/performance/effects.py STEP_SCENE [--repeats 9] [--packing 0.1 0.3] [--only gravity ...]
+  tests/performance/effects.py STEP_SCENE --repeats 9 --output docs/performance/effects.csv
 
 STEP_SCENE is the program of that name that is compiled with the tests (build/tests/step_scene).
 Instructions are those that valgrind counts below Simulation::advance_towards, divided by those of
-the plain gas; time is the processor time of a whole run ten times as long, plain and with the
-effect in turns, and the median of their ratios with the quartiles. Prints a table of Markdown.
+the plain gas. With --repeats N there is time, too: the processor time of a whole run ten times as
+long, plain and with the effect in turns, and the median of their ratios with the quartiles. That
+needs an idle machine.
 """
 
 import argparse
+import csv
+import itertools
 import math
 import os
 import resource
@@ -45,69 +48,65 @@ ROUGH = (
 )
 COUNT, SIZE, STEPS = 3000, 300, 300
 
-# name: (method, lines that the scene has more, what the cost should stay below)
+# times as many discs and as large a box, in fewer steps: images are of discs near the sides
+SCALES = {"periodic sides": (1, 33)}
+COLUMNS = ("effect", "method", "packing", "discs", "instructions_ratio")
+TIME_COLUMNS = ("time_ratio", "time_lower_quartile", "time_upper_quartile")
+
+# name: (method, lines that the scene has more)
 EFFECTS = {
     "restitution 0.999 of discs": (
         "event-driven",
         '[effects.contact]\nkind = "restitution"\nrestitution = 0.999\n',
-        1.1,
     ),
     "restitution 0.999 of discs, time-stepped": (
         "time-stepped",
         '[effects.contact]\nkind = "restitution"\nrestitution = 0.999\n',
-        1.1,
     ),
     "two walls of restitution 0.99": (
         "event-driven",
         "[box.left]\nrestitution = 0.99\n[box.right]\nrestitution = 0.99\n",
-        1.1,
     ),
-    "a thermal wall": ("event-driven", '[box.left]\nkind = "thermal"\ntemperature = 0.045\n', 1.1),
+    "a thermal wall": ("event-driven", '[box.left]\nkind = "thermal"\ntemperature = 0.045\n'),
     "a thermal wall, time-stepped": (
         "time-stepped",
         '[box.left]\nkind = "thermal"\ntemperature = 0.045\n',
-        1.1,
     ),
-    "gravity": ("event-driven", "[effects.gravity]\ny = -0.0001\n", 1.15),
-    "drag": ("event-driven", "[effects.drag]\nrate = 0.0001\n", 1.1),
+    "gravity": ("event-driven", "[effects.gravity]\ny = -0.0001\n"),
+    "drag": ("event-driven", "[effects.drag]\nrate = 0.0001\n"),
     "gravity and drag": (
         "event-driven",
         "[effects.gravity]\ny = -0.0001\n[effects.drag]\nrate = 0.0001\n",
-        1.15,
     ),
     "obstacles, 25 discs and 2 segments": (
         "event-driven",
         "[effects.obstacles]\ndiscs = "
         + str([[x, y, 2] for x in range(30, 300, 60) for y in range(30, 300, 60)])
         + "\nsegments = [[60, 0, 60, 150], [240, 150, 240, 300]]\n",
-        None,
     ),
-    "a moving wall": ("event-driven", '[box.right]\nkind = "moving"\nspeed = -0.0005\n', 1.1),
+    "a moving wall": ("event-driven", '[box.right]\nkind = "moving"\nspeed = -0.0005\n'),
     "periodic sides": (
         "event-driven",
         "".join(
             f'[box.{side}]\nkind = "periodic"\n' for side in ("left", "right", "bottom", "top")
         ),
-        1.1,
     ),
     "periodic sides, time-stepped": (
         "time-stepped",
         "".join(
             f'[box.{side}]\nkind = "periodic"\n' for side in ("left", "right", "bottom", "top")
         ),
-        1.1,
     ),
-    "discs that do not meet": ("event-driven", '[effects.contact]\nkind = "none"\n', None),
-    "two radii and masses": ("event-driven", classes(2), 1.4),
-    "two radii and masses, time-stepped": ("time-stepped", classes(2), 1.4),
-    "each disc of a radius and a mass of its own": ("event-driven", classes(COUNT), 1.4),
+    "discs that do not meet": ("event-driven", '[effects.contact]\nkind = "none"\n'),
+    "two radii and masses": ("event-driven", classes(2)),
+    "two radii and masses, time-stepped": ("time-stepped", classes(2)),
+    "each disc of a radius and a mass of its own": ("event-driven", classes(COUNT)),
     "each disc of a radius and a mass of its own, time-stepped": (
         "time-stepped",
         classes(COUNT),
-        1.4,
     ),
-    "rough discs": ("event-driven", ROUGH, 1.5),
-    "rough discs, time-stepped": ("time-stepped", ROUGH, 1.5),
+    "rough discs": ("event-driven", ROUGH),
+    "rough discs, time-stepped": ("time-stepped", ROUGH),
 }
 
 
@@ -147,53 +146,64 @@ def ratios_of_times(program, plain, scene, repeats):
     return statistics.quantiles(ratios, n=4)
 
 
+class Comparison:
+    """Of scenes with an effect and the same gases without, in a folder for scenes."""
+
+    def __init__(self, program, folder, repeats):
+        self.program, self.folder, self.repeats = program, folder, repeats
+        self.plain_counts = {}
+
+    def stored(self, name, text):
+        path = os.path.join(self.folder, name)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return path
+
+    def count(self, gas, lines):
+        packing, method, scale = gas
+        text = scene_text(packing, method, lines, STEPS, scale)
+        return counted(self.program, self.stored("scene.toml", text))
+
+    def row(self, name, gas, lines):
+        """The ratios, as COLUMNS and TIME_COLUMNS say."""
+        packing, method, scale = gas
+        if gas not in self.plain_counts:
+            self.plain_counts[gas] = self.count(gas, "")
+        ratio = self.count(gas, lines) / self.plain_counts[gas]
+        row = [name.split(", time-stepped")[0], method, packing, scale * COUNT, f"{ratio:.3f}"]
+        if self.repeats:
+            plain, scene = (
+                self.stored(file, scene_text(packing, method, more, 10 * STEPS, scale))
+                for file, more in (("plain.toml", ""), ("effect.toml", lines))
+            )
+            low, median, high = ratios_of_times(self.program, plain, scene, self.repeats)
+            row += [f"{median:.2f}", f"{low:.2f}", f"{high:.2f}"]
+        return row
+
+
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("program", metavar="STEP_SCENE")
-    parser.add_argument("--repeats", type=int, default=9)
+    parser.add_argument("--output", default="/dev/stdout", metavar="CSV")
+    parser.add_argument("--repeats", type=int, default=0, help="of runs whose time is taken")
     parser.add_argument("--packing", type=float, nargs="+", default=[0.1, 0.3])
-    parser.add_argument("--only", nargs="+", help="effects whose name begins so")
-    parser.add_argument(
-        "--scale",
-        type=int,
-        default=1,
-        help="times as many discs and as large a box, in fewer steps; not for radii and obstacles",
-    )
+    parser.add_argument("--only", nargs="+", default=[""], help="effects whose name begins so")
     options = parser.parse_args()
-    print(
-        "| effect | packing | instructions | time: median | quartiles | should stay below"
-        " |\n|---|---|---|---|---|---|"
-    )
-    with tempfile.TemporaryDirectory() as folder:
-        plain_counts = {}
-
-        def stored(name, text):
-            path = os.path.join(folder, name)
-            with open(path, "w", encoding="utf-8") as file:
-                file.write(text)
-            return path
-
-        for name, (method, lines, bound) in EFFECTS.items():
-            if options.only and not any(name.startswith(word) for word in options.only):
+    with tempfile.TemporaryDirectory() as folder, open(
+        options.output, "w", encoding="utf-8", newline=""
+    ) as file:
+        comparison = Comparison(options.program, folder, options.repeats)
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(COLUMNS + (TIME_COLUMNS if options.repeats else ()))
+        for name, (method, lines) in EFFECTS.items():
+            if not name.startswith(tuple(options.only)):
                 continue
-            for packing in options.packing:
-                plain = stored("plain.toml", scene_text(packing, method, "", STEPS, options.scale))
-                scene = stored(
-                    "effect.toml", scene_text(packing, method, lines, STEPS, options.scale)
-                )
-                if (method, packing) not in plain_counts:
-                    plain_counts[method, packing] = counted(options.program, plain)
-                count = counted(options.program, scene) / plain_counts[method, packing]
-                plain, scene = (
-                    stored(name, scene_text(packing, method, more, 10 * STEPS, options.scale))
-                    for name, more in (("plain.toml", ""), ("effect.toml", lines))
-                )
-                low, median, high = ratios_of_times(options.program, plain, scene, options.repeats)
-                print(
-                    f"| {name} | {packing} | {count:.3f} | {median:.2f} | {low:.2f} to {high:.2f} |"
-                    f" {bound or ''} |",
-                    flush=True,
-                )
+            scales = SCALES.get(name.split(", time-stepped")[0], (1,))
+            for packing, scale in itertools.product(options.packing, scales):
+                table.writerow(comparison.row(name, (packing, method, scale), lines))
+                file.flush()
     return 0
 
 

@@ -3,8 +3,8 @@
 """Measure how fast checkpoints are written, beside what `dd conv=fdatasync` of the same size
 reaches on the same disk.
 
-  tests/performance/measure_checkpoints.py --program build/carrom --folder /scratch/me --discs
-  10000000 --shapes 1x1 2x1
+  tests/performance/measure_checkpoints.py --program build/carrom --folder /scratch/me
+      --shapes 1x1 1x2 2x1 2x2 --output docs/performance/checkpoints.csv
 
 In each round dd and the program take turns, so that a disk that others use too treats both alike;
 the ratio of a round is what counts, and the median of the rounds is told. A shape is ranks x
@@ -13,6 +13,7 @@ that the step loop waits for. Needs Python, dd and mpirun, and twice a checkpoin
 """
 
 import argparse
+import csv
 import json
 import os
 import shutil
@@ -25,6 +26,8 @@ import time
 from measure import MPI_SETTINGS
 
 CHECKPOINTS = 2
+COLUMNS = ("discs", "ranks_x_threads", "checkpoint_MB_per_s", "dd_MB_per_s", "ratio_median",
+           "ratio_least", "ratio_most")
 
 
 def checkpoint_rate(program, n_discs, shape, folder):
@@ -35,8 +38,8 @@ def checkpoint_rate(program, n_discs, shape, folder):
         file.write(
             f"[box]\nsize = {(n_discs * 10.0) ** 0.5!r}\n[discs]\ncount = {n_discs}\nradius ="
             f" 0.5\ngenerator = \"lattice\"\nspeed = 0.01\n[time]\nsteps = {CHECKPOINTS}\nmethod ="
-            f" \"time-stepped\"\n[output.checkpoint]\nfolder = \"{kept}\"\nevery_steps = 1\nkeep"
-            " = 1\n"
+            f" \"time-stepped\"\n[output]\nfolder = \"{kept}\"\n[output.checkpoint]\n"
+            "every_steps = 1\nkeep = 1\n"
         )
     n_ranks, n_threads = shape.split("x")
     subprocess.run(
@@ -56,7 +59,8 @@ def checkpoint_rate(program, n_discs, shape, folder):
         check=True,
         env=os.environ | MPI_SETTINGS,
     )
-    size = os.path.getsize(os.path.join(kept, os.listdir(kept)[0]))
+    checkpoints = os.path.join(kept, "checkpoints")
+    size = os.path.getsize(os.path.join(checkpoints, os.listdir(checkpoints)[0]))
     shutil.rmtree(kept)
     with open(report) as file:
         seconds = json.load(file)["phase_seconds"]["output"]
@@ -95,6 +99,7 @@ def main():
     parser.add_argument("--discs", type=int, default=10_000_000)
     parser.add_argument("--shapes", nargs="+", default=["1x1", "2x1"], metavar="RANKSxTHREADS")
     parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--output", default="/dev/stdout", metavar="CSV")
     options = parser.parse_args()
     program = os.path.abspath(options.program)
 
@@ -110,17 +115,15 @@ def main():
                     f" {plain / 1e6:.0f} MB/s, ratio {rate / plain:.2f}",
                     file=sys.stderr,
                 )
-    print(
-        "| discs | ranks x threads | checkpoint, MB/s | dd, MB/s | ratio: median | least | most"
-        " |\n|---|---|---|---|---|---|---|"
-    )
-    for shape, found in rates.items():
-        rate, plain, ratios = zip(*found)
-        print(
-            f"| {options.discs:.0e} | {shape} | {statistics.median(rate) / 1e6:.0f} |"
-            f" {statistics.median(plain) / 1e6:.0f} | {statistics.median(ratios):.2f} |"
-            f" {min(ratios):.2f} | {max(ratios):.2f} |"
-        )
+    with open(options.output, "w", encoding="utf-8", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(COLUMNS)
+        for shape, found in rates.items():
+            rate, plain, ratios = zip(*found)
+            megabytes = (f"{statistics.median(rates) / 1e6:.0f}" for rates in (rate, plain))
+            numbers = (statistics.median(ratios), min(ratios), max(ratios))
+            table.writerow([options.discs, shape.replace("x", " x "), *megabytes,
+                            *(f"{number:.2f}" for number in numbers)])
 
 
 if __name__ == "__main__":
