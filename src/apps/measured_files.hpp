@@ -14,9 +14,25 @@ namespace carrom {
 
 std::string csv_of(const MeasuredTable& table, const std::string& scene_name);
 
-/// Writes each table as a whole file in the scene's folder for measurements, by rank 0. If one
-/// cannot be written every rank throws CollectiveError, code 4. **Collective.**
+/// Writes each table but "thermo" as a whole file in the scene's folder for measurements, by rank
+/// 0. If one cannot be written every rank throws CollectiveError, code 4. **Collective.**
 void write_tables(const Scene& scene, const std::vector<MeasuredTable>& tables,
                   const Communicator& ranks);
+
+/// The file of the table "thermo". It grows by a line at each sample, in the file by the end of
+/// that step. Ends with whole lines, unless the machine goes down.
+class ThermoFile {
+public:
+    ThermoFile(const Scene& scene, const Communicator& ranks) : scene_(scene), ranks_(ranks) {}
+
+    /// Writes the rows that are not there yet, by rank 0; the first time, a whole new file. Throws
+    /// as `write_tables` does. **Collective.**
+    void add_rows_of(const Sampler& sampler);
+
+private:
+    const Scene& scene_;
+    const Communicator& ranks_;
+    std::size_t n_written_ = 0;
+};
 
 } // namespace carrom

@@ -7,7 +7,6 @@
 #include <tuple>
 #include <utility>
 
-#include "apps/measured_files.hpp"
 #include "apps/standard_streams.hpp"
 #include "machine/machine.hpp"
 #include "parallel/sample_sort.hpp"
@@ -46,7 +45,7 @@ LoggedCollision logged(const Collision& collision, std::int64_t micro_steps) {
 
 Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_restart,
                        StoredSamples samples, const Communicator& ranks)
-    : scene_(scene), ranks_(ranks) {
+    : scene_(scene), ranks_(ranks), thermo_(scene, ranks) {
     const std::int64_t step = simulation.step();
     if (scene_.trajectory) {
         trajectory_.emplace(scene_.trajectory->file, layout_of(scene_, *scene_.trajectory), ranks_);
@@ -67,7 +66,7 @@ Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_resta
     if (scene_.measurements) {
         sampler_.emplace(scene_, simulation, ranks_);
         if (is_restart) sampler_->go_on(std::move(samples));
-        sampler_->look();
+        sample();
     }
     if (!is_restart) record(simulation);
 }
@@ -93,11 +92,16 @@ std::int64_t Recordings::next_due(std::int64_t step) const {
 void Recordings::record(const Simulation& simulation) {
     const std::int64_t step = simulation.step();
     if (log_) record_collisions();
-    if (sampler_) sampler_->look();
+    if (sampler_) sample();
     if (trajectory_ && step % scene_.trajectory->every_steps == 0)
         trajectory_->append(step, simulation.shown(), simulation.clock(),
                             simulation.side_columns());
     commit_now_and_then();
+}
+
+void Recordings::sample() {
+    sampler_->look();
+    thermo_.add_rows_of(*sampler_);
 }
 
 void Recordings::commit_now_and_then() {

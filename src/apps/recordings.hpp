@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a run records as it goes on, if its scene asks for it: a trajectory, the collisions in their
-// total order, and measurements, whose tables are written with each checkpoint and at the end.
+// total order, and measurements, whose tables are written with each checkpoint and at the end. The
+// table "thermo" is written as it grows.
 //
 // Recordings are committed before each checkpoint, and every few seconds, so that readers see a run
 // that goes on.
@@ -10,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "apps/measured_files.hpp"
 #include "apps/stopwatch.hpp"
 #include "io/collision_log.hpp"
 #include "io/trajectory.hpp"
@@ -54,6 +56,7 @@ public:
 private:
     void report_missing_frames(std::int64_t last, std::int64_t step) const;
     void record_collisions();
+    void sample();
     void commit_now_and_then();
 
     const Scene& scene_;
@@ -61,6 +64,7 @@ private:
     std::optional<Trajectory> trajectory_;
     std::optional<CollisionLog> log_;
     std::optional<Sampler> sampler_;
+    ThermoFile thermo_;
     Stopwatch since_look_;
     double seconds_uncommitted_ = 0, commit_seconds_ = 0; ///< on rank 0's clock
     std::vector<Collision> collisions_; ///< of this rank since they were last recorded

@@ -34,7 +34,7 @@ PressureSampler PressureSampler::going_on(Simulation& simulation, const Communic
                            "the checkpoint's measurements of "
                            "\"pressure\" are not whole"}});
     const std::vector<double>& m = sums.last_motion;
-    sampler.last_ = {{m[0], m[1], m[2]}, m[3], m[4]};
+    sampler.last_ = {{m[0], m[1], m[2]}, m[3], m[4], 0};
     if (ranks.is_root()) {
         PairVirial pending(sums.virial_bound);
         std::size_t next = 0;

@@ -25,6 +25,8 @@ public:
 
     /// Adds an interval, of so many steps, to `sums`. **Collective.**
     void sample(SampleSums& sums, double steps);
+    /// Of the last sample. Without collisions where sampling goes on from a checkpoint.
+    const MotionNow& last() const { return last_; }
     /// Fills in what has happened since the last sample. **Collective.**
     void store(SampleSums& sums) const;
 

@@ -22,6 +22,7 @@ template <class Sums, class Visit> void visit_all(Sums& s, const Visit& visit) {
          {&s.ideal_pairs, &s.impulses, &s.displacements, &s.pressures, &s.last_motion})
         visit(*numbers);
     visit(s.virial_bound), visit(s.pending_virial);
+    if (s.quantities & thermo_bit) visit(s.thermo);
 }
 
 } // namespace

@@ -10,6 +10,9 @@
 
 namespace carrom {
 
+/// Bits of `quantities` whose sums are in a checkpoint only where they are asked for.
+inline constexpr std::uint64_t thermo_bit = 64;
+
 /// Sums over all samples so far, of all ranks together. Plain numbers: what a checkpoint keeps.
 struct SampleSums {
     // What was asked for; sums of other keys are of no use.
@@ -31,7 +34,8 @@ struct SampleSums {
     double virial_bound = 0;                   ///< the unit of the virial
     std::vector<double> pressures;             ///< of each interval: xx, xy, yy, kT and N kT / A
     std::vector<std::uint64_t> pending_virial; ///< since the last sample
-    std::vector<double> last_motion;           ///< at the last sample: the sum of m v v, N and A
+    std::vector<double> thermo;      ///< of each sample: energy, kT, discs, collisions of pairs
+    std::vector<double> last_motion; ///< at the last sample: the sum of m v v, N and A
 };
 
 std::vector<std::int64_t> packed(const SampleSums& sums);

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "engine/state_sums.hpp"
-#include "parallel/pieces.hpp"
 
 namespace carrom {
 
@@ -17,7 +16,8 @@ namespace {
 std::uint64_t quantities_of(const MeasurementOutput& output) {
     return (output.wall_pressure ? 1u : 0u) | (output.radial_distribution ? 2u : 0u) |
            (output.velocities ? 4u : 0u) | (output.density ? 8u : 0u) |
-           (output.displacement ? 16u : 0u) | (output.pressure ? 32u : 0u);
+           (output.displacement ? 16u : 0u) | (output.pressure ? 32u : 0u) |
+           (output.thermo ? thermo_bit : 0u);
 }
 
 /// A component's root mean square, as the discs and the thermal walls have it; 0 where all is at
@@ -39,16 +39,6 @@ double driven_speed(const Scene& scene) {
     for (const Boundary& side : scene.effects.boundaries)
         speed = std::max(speed, std::fabs(side.speed));
     return speed;
-}
-
-/// The own discs where they would be had nothing brought them back since the last sync.
-std::vector<Disc> flown_on(const Simulation& simulation) {
-    Frame frame = simulation.frame();
-    frame.period_x = frame.period_y = 0;
-    std::vector<Disc> discs;
-    for (const Disc& disc : simulation.discs())
-        discs.push_back(frame.in_box(disc, simulation.clock()));
-    return discs;
 }
 
 void count(std::vector<std::uint64_t>& counts, double place) {
@@ -110,7 +100,7 @@ void Sampler::begin() {
     has_begun_ = true;
     follow_walls();
     follow_crossings();
-    if (output_.pressure) pressure_.emplace(simulation_, ranks_, sums_);
+    if (output_.pressure || output_.thermo) pressure_.emplace(simulation_, ranks_, sums_);
 }
 
 void Sampler::follow_walls() {
@@ -118,13 +108,6 @@ void Sampler::follow_walls() {
     impulses_.emplace(sums_.speed_scale *
                       0x1p62); // more than a run comes to, and 2^-63 of a speed is seen
     simulation_.add_impulses_to(&*impulses_);
-}
-
-/// Where discs fly on through periodic boundaries, syncs bring them back. That is part of their
-/// displacement.
-void Sampler::follow_crossings() {
-    if (output_.displacement && scene_.effects.are_periodic())
-        simulation_.note_crossings_in(&crossings_);
 }
 
 void Sampler::go_on(StoredSamples stored) {
@@ -169,7 +152,8 @@ void Sampler::go_on(StoredSamples stored) {
         }
     }
     sums_.pending.clear();
-    if (output_.pressure) pressure_ = PressureSampler::going_on(simulation_, ranks_, sums_);
+    if (output_.pressure || output_.thermo)
+        pressure_ = PressureSampler::going_on(simulation_, ranks_, sums_);
     if (output_.displacement) place_first(stored.first_places);
 }
 
@@ -200,13 +184,10 @@ void Sampler::sample(std::int64_t step) {
     sums_.area += (box.x_high - box.x_low) * (box.y_high - box.y_low);
     if (output_.velocities) sample_velocities(inside);
     if (output_.density) sample_density(inside, box);
-    if (output_.displacement)
-        sample_displacement(
-            scene_.effects.are_periodic() ? std::span<const Disc>(flown_on(simulation_)) : discs,
-            n_discs, is_first);
+    if (output_.displacement) sample_displacement(discs, n_discs, is_first);
     if (output_.wall_pressure && !is_first) sample_impulses(step);
-    if (output_.pressure && !is_first)
-        pressure_->sample(sums_, static_cast<double>(output_.every_steps));
+    if (pressure_ && !is_first) pressure_->sample(sums_, static_cast<double>(output_.every_steps));
+    if (output_.thermo) sample_thermo();
     if (output_.radial_distribution) sample_distances(box); // moves discs in memory: last
     ++sums_.n_samples;
     sums_.last_step = step;
@@ -292,74 +273,13 @@ void Sampler::sample_impulses(std::int64_t /*step*/) {
     *impulses_ = WallImpulses(sums_.speed_scale * 0x1p62);
 }
 
-void Sampler::sample_displacement(std::span<const Disc> discs, std::uint64_t n_discs,
-                                  bool is_first) {
-    const double time = simulation_.clock();
-    if (is_first) {
-        std::vector<FirstPlace> places;
-        for (const Disc& disc : discs)
-            places.push_back({disc.id, disc.x_at(time), disc.y_at(time)});
-        crossings_.clear(); // of before
-        place_first(places);
-    }
-    take_crossings();
-    const double farthest = (scene_.effects.are_periodic() ? 0x1p22 : 4) * scene_.box.longest();
-    const double bound = static_cast<double>(n_discs) * farthest * farthest;
-    ExactSum x(bound), y(bound);
-    PieceStream stream(ranks_, discs, n_discs, [](const Disc& disc) { return disc.id; });
-    for (std::uint64_t round = 0; round < stream.pieces().n_rounds(); ++round) {
-        for (const Disc& disc : stream.next()) {
-            const auto& [x0, y0] = first_places_[disc.id - first_id_];
-            double dx = disc.x_at(time) - x0, dy = disc.y_at(time) - y0;
-            if (!lengths_.empty())
-                dx += lengths_[disc.id - first_id_][0] * scene_.box.x,
-                    dy += lengths_[disc.id - first_id_][1] * scene_.box.y;
-            ensure(std::fabs(dx) <= farthest && std::fabs(dy) <= farthest,
-                   "a disc has gone round a periodic box millions of times; measure "
-                   "\"displacement\" over fewer steps");
-            x.add(dx * dx);
-            y.add(dy * dy);
-        }
-    }
-    for (ExactSum* sum : {&x, &y}) {
-        ranks_.sum(*sum);
-        sums_.displacements.push_back(sum->value() / static_cast<double>(n_discs));
-    }
-}
-
-/// Brings each first place to the rank whose run of ids has it.
-void Sampler::place_first(std::span<const FirstPlace> places) {
-    const std::uint64_t n = ranks_.sum(std::uint64_t{places.size()});
-    PieceStream stream(ranks_, places, n, [](const FirstPlace& place) { return place.id; });
-    const Pieces& pieces = stream.pieces();
-    first_id_ = pieces.begin(pieces.first_of(ranks_.rank()));
-    first_places_.clear();
-    lengths_.clear();
-    for (std::uint64_t round = 0; round < pieces.n_rounds(); ++round) {
-        for (const FirstPlace& place : stream.next()) {
-            first_places_.push_back({place.x, place.y});
-            if (scene_.effects.are_periodic())
-                lengths_.push_back({place.lengths_x, place.lengths_y});
-        }
-    }
-}
-
-/// Reports to the ranks that keep first places how far discs have been brought back. Whole numbers:
-/// their order does not matter. **Collective.**
-void Sampler::take_crossings() const {
-    if (!output_.displacement || !scene_.effects.are_periodic()) return;
-    const Pieces pieces(scene_.n_discs, ranks_.size());
-    std::vector<std::vector<Crossing>> out(static_cast<std::size_t>(ranks_.size()));
-    for (const Crossing& crossing : crossings_)
-        out[static_cast<std::size_t>(
-                slab_of(pieces.of(crossing.disc), pieces.count(), ranks_.size()))]
-            .push_back(crossing);
-    crossings_.clear();
-    for (const Crossing& crossing : send_to_owners(ranks_, out).items) {
-        std::array<double, 2>& lengths = lengths_[crossing.disc - first_id_];
-        lengths[0] += crossing.x;
-        lengths[1] += crossing.y;
-    }
+void Sampler::sample_thermo() {
+    const Totals totals = simulation_.energies();
+    const MotionNow& now = pressure_->last();
+    sums_.thermo.insert(sums_.thermo.end(),
+                        {totals.kinetic_energy + totals.rotational_energy + totals.potential_energy,
+                         (now.flux.xx + now.flux.yy) / (2 * now.n_discs), now.n_discs,
+                         static_cast<double>(now.pair_collisions)});
 }
 
 StoredSamples Sampler::stored() const {
@@ -392,6 +312,11 @@ StoredSamples Sampler::stored() const {
 std::vector<MeasuredTable> Sampler::tables() const {
     return has_begun_ && sums_.n_samples > 0 ? tables_of(sums_, scene_)
                                              : std::vector<MeasuredTable>{};
+}
+
+std::optional<MeasuredTable> Sampler::thermo_from(std::size_t first) const {
+    if (!output_.thermo || sums_.n_samples <= first) return std::nullopt;
+    return thermo(sums_, first);
 }
 
 } // namespace carrom

@@ -57,6 +57,8 @@ public:
     StoredSamples stored() const;
     /// Of what has been sampled; none before the first sample. The same on every rank.
     std::vector<MeasuredTable> tables() const;
+    /// The table "thermo" from its row number `first` on; nothing where there are no such rows.
+    std::optional<MeasuredTable> thermo_from(std::size_t first) const;
 
 private:
     void begin();
@@ -65,7 +67,8 @@ private:
     void sample_density(std::span<const Disc> discs, const Extent& box);
     void sample_distances(const Extent& box);
     void sample_impulses(std::int64_t step);
-    void sample_displacement(std::span<const Disc> discs, std::uint64_t n_discs, bool is_first);
+    void sample_thermo();
+    void sample_displacement(std::span<const Disc> shown, std::uint64_t n_discs, bool is_first);
     void place_first(std::span<const FirstPlace> places);
     void follow_walls();
     void follow_crossings();
@@ -90,6 +93,9 @@ private:
 /// The species whose pairs are counted apart: the scene's, or one of all discs where they are alike
 /// or of more than eight species.
 std::vector<Species> species_apart(const Scene& scene);
+
+/// The table "thermo" from a row on. Its bytes do not change as it grows.
+MeasuredTable thermo(const SampleSums& sums, std::size_t first = 0);
 
 /// The tables of sums.
 std::vector<MeasuredTable> tables_of(const SampleSums& sums, const Scene& scene);

@@ -236,6 +236,34 @@ MeasuredTable displacement(const SampleSums& s) {
 
 } // namespace
 
+MeasuredTable thermo(const SampleSums& s, std::size_t first) {
+    MeasuredTable table{
+        "thermo",
+        {fmt::format("one row every {} steps from step {}", s.every_steps, s.first_step),
+         "energy: of motion, spin and height; temperature: kT; collision_rate: collisions with "
+         "other discs per disc and step",
+         "xx, xy, yy (pressure tensor), collision_rate: since the row before; times in steps"},
+        {"step", "time", "energy", "temperature", "xx", "xy", "yy", "collision_rate"},
+        {}};
+    for (std::size_t k = first; k < s.thermo.size() / 4; ++k) {
+        const double* const now = s.thermo.data() + 4 * k;
+        const double step = static_cast<double>(s.first_step +
+                                                static_cast<std::int64_t>(k) * s.every_steps);
+        std::vector<double> row = {step, step, now[0], now[1]};
+        if (k == 0) {
+            row.resize(table.columns.size(), std::nan(""));
+        } else {
+            const double* const before = now - 4;
+            const double* const p = s.pressures.data() + 5 * (k - 1);
+            const double steps = static_cast<double>(s.every_steps),
+                         n_discs = (before[2] + now[2]) / 2;
+            row.insert(row.end(), {p[0], p[1], p[2], 2 * (now[3] - before[3]) / (n_discs * steps)});
+        }
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
 std::vector<MeasuredTable> tables_of(const SampleSums& sums, const Scene& scene) {
     const MeasurementOutput& output = *scene.measurements;
     std::vector<MeasuredTable> tables;
@@ -262,6 +290,7 @@ std::vector<MeasuredTable> tables_of(const SampleSums& sums, const Scene& scene)
     const std::string what = fmt::format("{} samples, steps {} to {}, one every {}", sums.n_samples,
                                          sums.first_step, sums.last_step, sums.every_steps);
     for (MeasuredTable& table : tables) table.remarks.insert(table.remarks.begin(), what);
+    if (output.thermo) tables.push_back(thermo(sums));
     return tables;
 }
 

@@ -162,12 +162,13 @@ void check_samples(const Check& check) {
     check_first_sample(check, "output.measurements.from_step", output.from_step);
     const std::int64_t steps = check.scene.steps - output.from_step;
     const std::int64_t n_samples = steps / output.every_steps;
-    const bool has_history = output.wall_pressure || output.displacement || output.pressure;
+    const bool has_history = output.wall_pressure || output.displacement || output.pressure ||
+                             output.thermo;
     if (!has_history || n_samples <= most_samples_of_histories) return;
     check.refuse(
         {"output.measurements.every_steps", quantities},
-        fmt::format("{} samples of \"wall_pressure\", \"pressure\" or \"displacement\" are "
-                    "more than {}; take output.measurements.every_steps = {}",
+        fmt::format("{} samples of \"wall_pressure\", \"pressure\", \"thermo\" or "
+                    "\"displacement\" are more than {}; take output.measurements.every_steps = {}",
                     n_samples, most_samples_of_histories, steps / most_samples_of_histories + 1));
 }
 

@@ -125,7 +125,8 @@ std::vector<Key> keys_of_measurements() {
         {"velocities", &Output::velocities},
         {"density", &Output::density},
         {"displacement", &Output::displacement},
-        {"pressure", &Output::pressure}};
+        {"pressure", &Output::pressure},
+        {"thermo", &Output::thermo}};
     return {
         flags_key(
             "output.measurements.quantities", "", "What is measured.",

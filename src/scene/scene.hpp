@@ -89,7 +89,7 @@ struct MeasurementOutput {
     std::string folder; ///< in the run's folder
     std::int64_t every_steps = 10, from_step = 0;
     bool wall_pressure = false, radial_distribution = false, velocities = false, density = false,
-         displacement = false, pressure = false;
+         displacement = false, pressure = false, thermo = false;
     std::size_t bins = 100;
     double largest_distance = 0; ///< of the radial distribution
     bool is_distance_default =

@@ -146,7 +146,7 @@ const PairVirial& Simulation::virial() const { return *virial_; }
 
 MotionNow Simulation::motion() const {
     const Look now = look();
-    return {averages_->motion_of(now), now.n_discs, now.area};
+    return {averages_->motion_of(now), now.n_discs, now.area, now.pair_collisions};
 }
 
 Look Simulation::look() const {
@@ -273,10 +273,16 @@ void Simulation::count_pair_distances(double bin_width, std::span<const DiscId> 
 }
 
 Totals Simulation::totals() const {
-    Totals totals;
-    totals.n_discs = engine_->n_discs();
+    Totals totals = energies();
     measure_collisions(discs(), side_columns(), communicator_, totals);
     measure_departures(discs(), box_, communicator_, totals);
+    engine_->add_to(totals);
+    return totals;
+}
+
+Totals Simulation::energies() const {
+    Totals totals;
+    totals.n_discs = engine_->n_discs();
     const SpeciesTable* const species_table = effects_.species.empty() ? nullptr
                                                                        : engine_->species_table();
     measure_motion(in_motion(), species_table, velocity_unit_, communicator_, totals);
@@ -285,7 +291,6 @@ Totals Simulation::totals() const {
                          velocity_unit_, communicator_, totals);
     if (effects_.gravity.is_any())
         measure_height(shown(), species_table, effects_.gravity, box_, communicator_, totals);
-    engine_->add_to(totals);
     return totals;
 }
 

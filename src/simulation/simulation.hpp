@@ -117,6 +117,8 @@ public:
 
     /// **Collective.**
     Totals totals() const;
+    /// Number, energies and momentum alone: two passes over the discs. **Collective.**
+    Totals energies() const;
     RollbackCounts rollback_counts() const;
     PhaseSeconds phase_seconds() const;
 

@@ -59,6 +59,7 @@ Tensor sum_of(const PairVirial& virial, const Communicator& communicator);
 struct MotionNow {
     Tensor flux; ///< the sum of m v v per step, as BlockAverages::motion_of has it
     double n_discs = 0, area = 0;
+    std::uint64_t pair_collisions = 0; ///< since the scene's start
 };
 
 /// The scene's constants that averages need.

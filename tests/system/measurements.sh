@@ -6,13 +6,14 @@ source "$CARROM_SOURCE_DIR/tests/system/common.sh"
 
 gas_scene 40 400 0.3 1 90 >gas.toml
 quantities='"wall_pressure","radial_distribution","velocities","density","displacement","pressure"'
+quantities+=',"thermo"'
 asked=(--set "output.measurements.quantities=[$quantities]"
        --set output.measurements.every_steps=7 --set output.measurements.from_step=10)
 for method in time-stepped event-driven; do
     run 1 run gas.toml --quiet --set time.method=$method "${asked[@]}" -o whole_$method \
         --report $method.json
     expect_code 0 "$method, one rank"
-    [ "$(ls whole_$method/measurements | wc -l)" -eq 10 ] ||
+    [ "$(ls whole_$method/measurements | wc -l)" -eq 11 ] ||
         complain "$method: $(ls whole_$method | tr '\n' ' ')"
     grep -q '"radial_distribution": {' $method.json || complain "$method: no tables in the report"
     run 3 run gas.toml --quiet --threads 2 --steps 50 --set time.method=$method "${asked[@]}" \
@@ -26,6 +27,22 @@ for method in time-stepped event-driven; do
 done
 run 1 verify kept_event-driven/checkpoints/checkpoint-000000000050.h5
 expect_code 0 'a checkpoint with measurements'
+
+# The table of the usual quantities grows as the run goes on.
+[ "$(grep -vc '#' whole_event-driven/measurements/thermo.csv)" -eq 13 ] || complain 'rows of thermo'
+"$CARROM_PROGRAM" run gas.toml --quiet --steps 900000 -o endless \
+    --set 'output.measurements.quantities=["thermo"]' 2>"$test_folder/err" &
+program=$!
+for try in $(seq 300); do
+    n_rows=$(grep -vc '#' endless/measurements/thermo.csv 2>/dev/null)
+    [ "${n_rows:-0}" -gt 4 ] && break
+    sleep 0.1
+done
+kill -TERM $program
+wait $program
+code=$?
+expect_code 75 'a run that was told to stop'
+[ "${n_rows:-0}" -gt 4 ] || complain 'no rows of thermo while the run went on'
 
 run 1 run gas.toml --quiet --steps 50 --set time.method=event-driven -o plain
 grep -q measurements plain/checkpoints/checkpoint-000000000050.h5 &&

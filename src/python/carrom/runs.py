@@ -125,6 +125,11 @@ class Run:
         return Tables(None if self.folder is None else self.folder / "measurements", self.name)
 
     @property
+    def thermo(self) -> Table:
+        """The usual quantities over time, so far: the table of the quantity `"thermo"`."""
+        return self.tables["thermo"]
+
+    @property
     def frames(self) -> Frames:
         """The frames of the trajectory so far; without one, none. See `carrom.Frames`."""
         path = self._file("trajectory")

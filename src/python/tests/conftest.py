@@ -71,6 +71,7 @@ def run(program: Path, tmp_path_factory: pytest.TempPathFactory) -> carrom.Run:
                     "wall_pressure",
                     "velocities",
                     "displacement",
+                    "thermo",
                 ],
                 "every_steps": 2,
             },

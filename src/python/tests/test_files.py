@@ -190,6 +190,15 @@ def test_tables_are_those_of_the_report(run: carrom.Run) -> None:
     assert run.tables.get("speed") is None
 
 
+def test_thermo_has_the_energy_of_the_checkpoints(run: carrom.Run) -> None:
+    thermo = run.thermo
+    assert thermo["step"].tolist() == list(range(0, 21, 2))
+    for checkpoint in run.checkpoints:
+        energy = np.sum(checkpoint.v**2) / 2
+        assert thermo["energy"][checkpoint.step // 2] == pytest.approx(energy, rel=1e-12)
+    assert np.all(thermo["collision_rate"][1:] >= 0)
+
+
 def test_tables_go_to_pandas(run: carrom.Run) -> None:
     pandas = pytest.importorskip("pandas", reason="pandas is not installed")
     frame = run.tables["displacement"].to_pandas()

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The table of the usual quantities over time, against totals of the run and sums over all discs.
+#include <cmath>
+#include <vector>
+
+#include "catch.hpp"
+
+#include "measured_runs.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+struct Case {
+    const char* name;
+    Method method;
+    Effects effects;
+};
+
+std::vector<Case> cases() {
+    Effects none, around, falling, rough;
+    around.boundaries.fill({BoundaryKind::periodic, 1, 0, 0});
+    falling.gravity = {0.001, -0.003};
+    rough.contact = {ContactKind::rough, 0.9, 0.001, 1, 0.8, 0.5};
+    rough.species = {{100, 1, 2}, {100, 0.7, 1}};
+    return {{"time-stepped", Method::time_stepped, none},
+            {"periodic", Method::event_driven, around},
+            {"gravity", Method::event_driven, falling},
+            {"rough discs of two species", Method::event_driven, rough}};
+}
+
+TestScene test_of(const Case& each) {
+    TestScene test = gas(200, 0.2, 0.5, 77);
+    test.setting.effects = each.effects;
+    test.setting.micro_steps = 2;
+    test.setting.sync_every = 24;
+    test.steps = 60;
+    return test;
+}
+
+Scene with_thermo(const TestScene& test, const Case& each) {
+    Scene scene = measured(test, each.method, 9, 5);
+    MeasurementOutput& output = *scene.measurements;
+    output.wall_pressure = output.velocities = output.density = output.displacement = false;
+    output.radial_distribution = false;
+    output.pressure = output.thermo = true;
+    return scene;
+}
+
+} // namespace
+
+TEST_CASE("measurements: thermo has the run's energy, collisions and pressure at each sample") {
+    const Communicator world = Communicator::world();
+    for (const Case& each : cases()) {
+        INFO(each.name);
+        const TestScene test = test_of(each);
+        const Scene scene = with_thermo(test, each);
+        Simulation simulation = simulation_of(scene, test, world);
+        Sampler sampler(scene, simulation, world);
+        std::vector<double> energies, pairs;
+        for (std::int64_t step = 5; step <= 60; step += 9) {
+            advance_to(simulation, sampler, step);
+            const Totals totals = simulation.totals();
+            energies.push_back(totals.kinetic_energy + totals.rotational_energy +
+                               totals.potential_energy);
+            pairs.push_back(static_cast<double>(totals.pair_collisions));
+            const std::size_t n_rows = energies.size();
+            REQUIRE(sampler.thermo_from(n_rows - 1));
+            CHECK(sampler.thermo_from(n_rows - 1)->rows.size() == 1);
+            CHECK(!sampler.thermo_from(n_rows));
+        }
+        const std::vector<MeasuredTable> tables = sampler.tables();
+        CHECK(column_of(tables, "thermo", "energy") == energies);
+        CHECK(column_of(tables, "thermo", "step")[2] == 23);
+        const std::vector<double> rates = column_of(tables, "thermo", "collision_rate");
+        CHECK(pairs.back() > pairs.front());
+        for (std::size_t k = 1; k < pairs.size(); ++k)
+            CHECK(rates[k] == Approx(2 * (pairs[k] - pairs[k - 1]) / (200 * 9)).epsilon(1e-14));
+        for (const char* part : {"xx", "xy", "yy"}) {
+            std::vector<double> after_first = column_of(tables, "thermo", part);
+            CHECK(std::isnan(after_first[0]));
+            after_first.erase(after_first.begin());
+            CHECK(after_first == column_of(tables, "pressure_history", part));
+        }
+        // kT of an interval is the mean of that at both ends.
+        const std::vector<double> kt = column_of(tables, "thermo", "temperature"),
+                                  means = column_of(tables, "pressure_history", "kT");
+        for (std::size_t k = 0; k < means.size(); ++k)
+            CHECK(means[k] == Approx((kt[k] + kt[k + 1]) / 2).epsilon(1e-13));
+    }
+}
+
+TEST_CASE("measurements: thermo goes on from what was stored, to the same rows") {
+    const Communicator world = Communicator::world();
+    for (const Case& each : cases()) {
+        if (each.effects.contact.kind == ContactKind::rough) continue; // spins take more to store
+        INFO(each.name);
+        const TestScene test = test_of(each);
+        Scene scene = with_thermo(test, each);
+        scene.measurements->pressure = false;
+        Simulation whole = simulation_of(scene, test, world);
+        Sampler whole_sampler(scene, whole, world);
+        advance_to(whole, whole_sampler, 60);
+
+        Simulation first = simulation_of(scene, test, world);
+        Sampler first_sampler(scene, first, world);
+        advance_to(first, first_sampler, 33);
+        StoredState state = {{first.discs().begin(), first.discs().end()},
+                             first.micro_steps_done(),
+                             SideColumns(first.side_columns())};
+        Simulation second(scene, std::move(state), world, {});
+        Sampler sampler(scene, second, world);
+        sampler.go_on(first_sampler.stored());
+        advance_to(second, sampler, 60);
+        const MeasuredTable expected = *whole_sampler.thermo_from(1);
+        CHECK(expected.rows.size() == 6);
+        CHECK(sampler.thermo_from(1)->rows == expected.rows);
+        CHECK(sampler.thermo_from(0)->remarks == expected.remarks);
+    }
+}
