@@ -23,6 +23,9 @@ template <class Sums, class Visit> void visit_all(Sums& s, const Visit& visit) {
         visit(*numbers);
     visit(s.virial_bound), visit(s.pending_virial);
     if (s.quantities & thermo_bit) visit(s.thermo);
+    if (s.quantities & psi6_bit)
+        visit(s.psi6), visit(s.neighbours), visit(s.moduli), visit(s.psi6_pairs),
+            visit(s.psi6_products);
 }
 
 } // namespace

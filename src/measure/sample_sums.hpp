@@ -11,7 +11,7 @@
 namespace carrom {
 
 /// Bits of `quantities` whose sums are in a checkpoint only where they are asked for.
-inline constexpr std::uint64_t thermo_bit = 64;
+inline constexpr std::uint64_t thermo_bit = 64, psi6_bit = 128;
 
 /// Sums over all samples so far, of all ranks together. Plain numbers: what a checkpoint keeps.
 struct SampleSums {
@@ -34,7 +34,11 @@ struct SampleSums {
     double virial_bound = 0;                   ///< the unit of the virial
     std::vector<double> pressures;             ///< of each interval: xx, xy, yy, kT and N kT / A
     std::vector<std::uint64_t> pending_virial; ///< since the last sample
-    std::vector<double> thermo;      ///< of each sample: energy, kT, discs, collisions of pairs
+    std::vector<double> thermo; ///< of each sample: energy, kT, discs, collisions of pairs
+    std::vector<double> psi6;   ///< of each sample: sums of real and imaginary part and modulus,
+                                ///< discs of 5, 6, 7 neighbours, discs
+    std::vector<std::uint64_t> neighbours, moduli, psi6_pairs; ///< as HexaticSums has them
+    std::vector<double> psi6_products;                         ///< likewise
     std::vector<double> last_motion; ///< at the last sample: the sum of m v v, N and A
 };
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/state_sums.hpp"
+#include "statistics/hexatic_order.hpp"
 
 namespace carrom {
 
@@ -17,7 +18,7 @@ std::uint64_t quantities_of(const MeasurementOutput& output) {
     return (output.wall_pressure ? 1u : 0u) | (output.radial_distribution ? 2u : 0u) |
            (output.velocities ? 4u : 0u) | (output.density ? 8u : 0u) |
            (output.displacement ? 16u : 0u) | (output.pressure ? 32u : 0u) |
-           (output.thermo ? thermo_bit : 0u);
+           (output.thermo ? thermo_bit : 0u) | (output.psi6 ? psi6_bit : 0u);
 }
 
 /// A component's root mean square, as the discs and the thermal walls have it; 0 where all is at
@@ -86,6 +87,11 @@ SampleSums Sampler::wanted() const {
         if (output_.velocities) counts->assign(output_.bins, 0);
     for (auto* counts : {&sums.x, &sums.y})
         if (output_.density) counts->assign(output_.bins, 0);
+    if (output_.psi6) {
+        sums.neighbours.assign(HexaticSums::most_neighbours + 1, 0);
+        for (auto* counts : {&sums.moduli, &sums.psi6_pairs}) counts->assign(output_.bins, 0);
+        sums.psi6_products.assign(output_.bins, 0);
+    }
     return sums;
 }
 
@@ -133,7 +139,8 @@ void Sampler::go_on(StoredSamples stored) {
         found->largest_distance == asked.largest_distance &&
         (!output_.largest_velocity || found->largest_velocity == asked.largest_velocity) &&
         found->pairs.size() == asked.pairs.size() && found->vx.size() == asked.vx.size() &&
-        found->x.size() == asked.x.size() && stored.have_first_places == output_.displacement &&
+        found->x.size() == asked.x.size() && found->moduli.size() == asked.moduli.size() &&
+        stored.have_first_places == output_.displacement &&
         stored.have_lengths == (output_.displacement && scene_.effects.are_periodic());
     if (!is_same)
         throw InputError(
@@ -189,6 +196,7 @@ void Sampler::sample(std::int64_t step) {
     if (pressure_ && !is_first) pressure_->sample(sums_, static_cast<double>(output_.every_steps));
     if (output_.thermo) sample_thermo();
     if (output_.radial_distribution) sample_distances(box); // moves discs in memory: last
+    if (output_.psi6) sample_psi6();                        // likewise
     ++sums_.n_samples;
     sums_.last_step = step;
 }

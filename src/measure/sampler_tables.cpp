@@ -6,26 +6,15 @@
 
 #include <fmt/format.h>
 
+#include "measure/order_tables.hpp"
 #include "measure/sampler.hpp"
+#include "measure/table_parts.hpp"
 #include "statistics/block_averages.hpp"
 #include "statistics/pair_distances.hpp"
 
 namespace carrom {
 
 namespace {
-
-double edge(double low, double high, std::size_t k, std::size_t n) {
-    return low + (high - low) * static_cast<double>(k) / static_cast<double>(n);
-}
-
-/// A density of probability: counts over all that were looked at, per unit of the bins' width.
-double share(std::uint64_t count, std::uint64_t all, double width) {
-    return static_cast<double>(count) / (static_cast<double>(all) * width);
-}
-
-std::uint64_t total(const std::vector<std::uint64_t>& counts) {
-    return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
-}
 
 MeasuredTable radial_distribution(const SampleSums& s, const Scene& scene) {
     MeasuredTable table{"radial_distribution",
@@ -245,13 +234,18 @@ MeasuredTable thermo(const SampleSums& s, std::size_t first) {
          "xx, xy, yy (pressure tensor), collision_rate: since the row before; times in steps"},
         {"step", "time", "energy", "temperature", "xx", "xy", "yy", "collision_rate"},
         {}};
+    const bool with_psi6 = !s.psi6.empty();
+    if (with_psi6) {
+        table.columns.push_back("psi6");
+        table.remarks.push_back("psi6: of all discs together");
+    }
     for (std::size_t k = first; k < s.thermo.size() / 4; ++k) {
         const double* const now = s.thermo.data() + 4 * k;
         const double step = static_cast<double>(s.first_step +
                                                 static_cast<std::int64_t>(k) * s.every_steps);
         std::vector<double> row = {step, step, now[0], now[1]};
         if (k == 0) {
-            row.resize(table.columns.size(), std::nan(""));
+            row.resize(row.size() + 4, std::nan(""));
         } else {
             const double* const before = now - 4;
             const double* const p = s.pressures.data() + 5 * (k - 1);
@@ -259,6 +253,7 @@ MeasuredTable thermo(const SampleSums& s, std::size_t first) {
                          n_discs = (before[2] + now[2]) / 2;
             row.insert(row.end(), {p[0], p[1], p[2], 2 * (now[3] - before[3]) / (n_discs * steps)});
         }
+        if (with_psi6) row.push_back(psi6_at(s, k));
         table.rows.push_back(std::move(row));
     }
     return table;
@@ -287,6 +282,7 @@ std::vector<MeasuredTable> tables_of(const SampleSums& sums, const Scene& scene)
         tables.push_back(pressure(sums, history));
         tables.push_back(std::move(history));
     }
+    if (output.psi6) add_psi6_tables(sums, tables);
     const std::string what = fmt::format("{} samples, steps {} to {}, one every {}", sums.n_samples,
                                          sums.first_step, sums.last_step, sums.every_steps);
     for (MeasuredTable& table : tables) table.remarks.insert(table.remarks.begin(), what);

@@ -163,20 +163,21 @@ void check_samples(const Check& check) {
     const std::int64_t steps = check.scene.steps - output.from_step;
     const std::int64_t n_samples = steps / output.every_steps;
     const bool has_history = output.wall_pressure || output.displacement || output.pressure ||
-                             output.thermo;
+                             output.thermo || output.psi6;
     if (!has_history || n_samples <= most_samples_of_histories) return;
-    check.refuse(
-        {"output.measurements.every_steps", quantities},
-        fmt::format("{} samples of \"wall_pressure\", \"pressure\", \"thermo\" or "
-                    "\"displacement\" are more than {}; take output.measurements.every_steps = {}",
-                    n_samples, most_samples_of_histories, steps / most_samples_of_histories + 1));
+    check.refuse({"output.measurements.every_steps", quantities},
+                 fmt::format("{} samples of quantities that have a history are more than {}; take "
+                             "output.measurements.every_steps = {}",
+                             n_samples, most_samples_of_histories,
+                             steps / most_samples_of_histories + 1));
 }
 
-/// How far the radial distribution may look: half the room of centres, in the smallest box there
+/// How far g(r) and g6(r) may look: half the room of centres, in the smallest box there
 /// will be.
 void check_distance(const Check& check) {
     Scene& scene = check.scene;
-    if (!scene.measurements || !scene.measurements->radial_distribution) return;
+    if (!scene.measurements) return;
+    if (!scene.measurements->radial_distribution && !scene.measurements->psi6) return;
     const Extent end = extent_at(scene.effects, scene.box, static_cast<double>(scene.steps));
     const double wide = std::min(scene.box.x, end.x_high - end.x_low);
     const double high = std::min(scene.box.y, end.y_high - end.y_low);
@@ -188,7 +189,7 @@ void check_distance(const Check& check) {
     if (scene.measurements->is_distance_default) distance = std::min(10 * scene.radius, largest);
     if (distance <= largest && distance > 0) return;
     check.refuse({"output.measurements.largest_distance", quantities},
-                 fmt::format("the radial distribution cannot reach {:g}: half the width of the box "
+                 fmt::format("distances of pairs cannot reach {:g}: half the width of the box "
                              "that centres of discs have is {:g}",
                              distance, largest));
 }

@@ -104,12 +104,13 @@ std::vector<Key> keys_of_recordings() {
 /// The distance is worked out where it is not named.
 Key largest_distance() {
     Key distance = key("output.measurements.largest_distance", "length",
-                       "Reach of the radial distribution; at most half the box of centres.",
+                       "Reach of g(r) and of g6(r); at most half the box of centres.",
                        [](auto& s) -> auto& { return s.measurements->largest_distance; })
                        .by_default("5 diameters")
                        .within({.low = 0, .excludes_low = true})
-                       .needs(quantity("\"radial_distribution\"",
-                                       [](const auto& m) { return m.radial_distribution; }));
+                       .needs(quantity("\"radial_distribution\" or \"psi6\"", [](const auto& m) {
+                           return m.radial_distribution || m.psi6;
+                       }));
     distance.get = [](const Scene& s) {
         const MeasurementOutput& output = *s.measurements;
         return output.is_distance_default ? Value{} : value_of(output.largest_distance);
@@ -126,7 +127,8 @@ std::vector<Key> keys_of_measurements() {
         {"density", &Output::density},
         {"displacement", &Output::displacement},
         {"pressure", &Output::pressure},
-        {"thermo", &Output::thermo}};
+        {"thermo", &Output::thermo},
+        {"psi6", &Output::psi6}};
     return {
         flags_key(
             "output.measurements.quantities", "", "What is measured.",
@@ -144,9 +146,9 @@ std::vector<Key> keys_of_measurements() {
             "Bins of each table of distances, velocities or places.",
             [](auto& s) -> auto& { return s.measurements->bins; })
             .within({1, 10000})
-            .needs(quantity("\"radial_distribution\", \"velocities\" or \"density\"",
+            .needs(quantity("\"radial_distribution\", \"velocities\", \"density\" or \"psi6\"",
                             [](const Output& m) {
-                                return m.radial_distribution || m.velocities || m.density;
+                                return m.radial_distribution || m.velocities || m.density || m.psi6;
                             })),
         largest_distance(),
         key("output.measurements.largest_velocity", "length/step",

@@ -89,9 +89,9 @@ struct MeasurementOutput {
     std::string folder; ///< in the run's folder
     std::int64_t every_steps = 10, from_step = 0;
     bool wall_pressure = false, radial_distribution = false, velocities = false, density = false,
-         displacement = false, pressure = false, thermo = false;
+         displacement = false, pressure = false, thermo = false, psi6 = false;
     std::size_t bins = 100;
-    double largest_distance = 0; ///< of the radial distribution
+    double largest_distance = 0; ///< of the radial distribution and of psi6's correlation
     bool is_distance_default =
         false; ///< not named: as far as a box allows whose walls come in until the last step
     std::optional<double> largest_velocity; ///< of a component, per step; else five times its root

@@ -12,6 +12,7 @@
 #include "engine/state_sums.hpp"
 #include "event_driven/event_driven_engine.hpp"
 #include "statistics/block_averages.hpp"
+#include "statistics/hexatic_order.hpp"
 #include "statistics/pair_distances.hpp"
 #include "time_stepped/time_stepped_engine.hpp"
 
@@ -270,6 +271,29 @@ void Simulation::count_pair_distances(double bin_width, std::span<const DiscId> 
         bin_width * static_cast<double>(counts.size() / n_pair_kinds(species_ends.size())));
     carrom::count_pair_distances(now, bin_width, species_ends, n_threads_, counts);
     engine_->forget_images();
+}
+
+HexaticSums Simulation::hexatic_order(double largest_distance, std::size_t n_bins) const {
+    const Extent box = extent_at(effects_, box_, static_cast<double>(step()));
+    const double area = (box.x_high - box.x_low) * (box.y_high - box.y_low);
+    HexaticSums sums(engine_->n_discs(), n_bins);
+    std::vector<BondOrder> orders;
+    bool are_whole = false;
+    // Cells of a fluid are whole within three times the mean distance of neighbours.
+    for (double reach = 3 * std::sqrt(area / static_cast<double>(engine_->n_discs())); !are_whole;
+         reach *= 2) {
+        const LocalView now = engine_->local_view(largest_distance + reach);
+        are_whole = communicator_.all(find_bond_orders(now, box, reach, n_threads_, orders));
+        if (are_whole)
+            add_order(now, orders, largest_distance / static_cast<double>(n_bins), n_threads_,
+                      sums);
+        engine_->forget_images();
+    }
+    for (auto* counts : {&sums.neighbours, &sums.moduli, &sums.pairs})
+        communicator_.sum(std::span(*counts));
+    for (ExactSum* sum : {&sums.real, &sums.imaginary, &sums.modulus}) communicator_.sum(*sum);
+    for (ExactSum& product : sums.products) communicator_.sum(product);
+    return sums;
 }
 
 Totals Simulation::totals() const {

@@ -27,6 +27,7 @@ namespace carrom {
 class BlockAverages;
 class Engine;
 class StateCheck;
+struct HexaticSums;
 struct Look;
 struct MotionNow;
 struct PairVirial;
@@ -97,6 +98,10 @@ public:
     /// and so on. **Collective.**
     void count_pair_distances(double bin_width, std::span<const DiscId> species_ends,
                               std::span<std::uint64_t> counts) const;
+
+    /// psi6 of all discs together, and of their pairs up to that distance, of all ranks.
+    /// **Collective.**
+    HexaticSums hexatic_order(double largest_distance, std::size_t n_bins) const;
 
     /// From now on every step is held to the invariants of check_failure.hpp: `advance_towards`
     /// goes one step at a time and throws CheckFailure on every rank when one is broken. `scene`

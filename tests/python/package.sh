@@ -10,7 +10,7 @@ for needed in 'h5py h5py' 'numpy numpy' 'pytest pytest'; do
     read -r module name <<<"$needed"
     has "$module" "$name" || skip_test "$name is not to be had: $(said)"
 done
-for wanted in 'matplotlib matplotlib' 'PIL pillow' 'imageio_ffmpeg imageio-ffmpeg' 'pandas pandas' \
+for wanted in 'matplotlib matplotlib' 'PIL pillow' 'scipy.spatial scipy' 'imageio_ffmpeg imageio-ffmpeg' 'pandas pandas' \
     'freud freud-analysis' 'MDAnalysis MDAnalysis' 'ase ase' 'ovito ovito' 'gsd.hoomd gsd'; do
     read -r module name <<<"$wanted"
     has "$module" "$name" ||

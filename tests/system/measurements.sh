@@ -6,14 +6,14 @@ source "$CARROM_SOURCE_DIR/tests/system/common.sh"
 
 gas_scene 40 400 0.3 1 90 >gas.toml
 quantities='"wall_pressure","radial_distribution","velocities","density","displacement","pressure"'
-quantities+=',"thermo"'
+quantities+=',"thermo","psi6"'
 asked=(--set "output.measurements.quantities=[$quantities]"
        --set output.measurements.every_steps=7 --set output.measurements.from_step=10)
 for method in time-stepped event-driven; do
     run 1 run gas.toml --quiet --set time.method=$method "${asked[@]}" -o whole_$method \
         --report $method.json
     expect_code 0 "$method, one rank"
-    [ "$(ls whole_$method/measurements | wc -l)" -eq 11 ] ||
+    [ "$(ls whole_$method/measurements | wc -l)" -eq 16 ] ||
         complain "$method: $(ls whole_$method | tr '\n' ' ')"
     grep -q '"radial_distribution": {' $method.json || complain "$method: no tables in the report"
     run 3 run gas.toml --quiet --threads 2 --steps 50 --set time.method=$method "${asked[@]}" \

@@ -16,7 +16,7 @@ from carrom.errors import FileError, MissingPackageError, NoDataError
 if TYPE_CHECKING:
     import pandas
 
-_WHOLE = ("count", "pairs", "steps", "step", "collisions")
+_WHOLE = ("count", "neighbours", "pairs", "steps", "step", "collisions")
 
 
 class Table(np.ndarray[Any, np.dtype[np.void]]):

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""psi6 and neighbours of the program against SciPy and freud."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+from conftest import PERIODIC, gas
+
+import carrom
+
+Numbers = npt.NDArray[Any]
+
+BOXES: dict[str, dict[str, Any]] = {
+    "walls": {},
+    "periodic along x": {side: PERIODIC[side] for side in ("left", "right")},
+    "periodic": PERIODIC,
+}
+
+
+def ordered(folder: Path, box: dict[str, Any], quantities: list[str]) -> carrom.Run:
+    """A gas, measured at the steps of its frames."""
+    scene = gas(count=300, steps=40, **box)
+    scene["discs"]["speed"] = 0.5
+    scene["output"] = {
+        "trajectory": {"every_steps": 10, "precision": "double"},
+        "measurements": {"quantities": quantities, "every_steps": 10, "bins": 40},
+    }
+    return carrom.run(scene, threads=1, folder=folder)
+
+
+def with_images(x: Numbers, size: float, periodic: tuple[bool, bool]) -> Numbers:
+    """Points and, behind them, their images: shifted ones, and reflected ones at walls."""
+    images = [x]
+    for i in (-1, 0, 1):
+        for j in (-1, 0, 1):
+            image = x.copy()
+            for axis, k in enumerate((i, j)):
+                if periodic[axis]:
+                    image[:, axis] += k * size
+                elif k != 0:
+                    image[:, axis] = (1 + k) * size - image[:, axis]
+            if (i, j) != (0, 0):
+                images.append(image)
+    return np.concatenate(images)
+
+
+def bonds(x: Numbers, size: float, periodic: tuple[bool, bool]) -> tuple[Numbers, Numbers]:
+    """psi6 and numbers of neighbours by SciPy's Voronoi diagram."""
+    spatial = pytest.importorskip("scipy.spatial", reason="SciPy is not installed")
+    n = len(x)
+    points = with_images(x, size, periodic)
+    # A reflected point is the wall; what is shifted along a periodic axis alone is a disc.
+    is_disc = np.concatenate(
+        [
+            np.full(n, all(periodic[a] or k == 0 for a, k in enumerate((i, j))))
+            for i, j in [(0, 0)]
+            + [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0)]
+        ]
+    )
+    sums, counts = np.zeros(n, dtype=complex), np.zeros(n, dtype=int)
+    for pair in spatial.Voronoi(points).ridge_points:
+        for a, b in (pair, pair[::-1]):
+            if a < n and is_disc[b]:
+                dx, dy = points[b] - points[a]
+                sums[a] += np.exp(6j * np.arctan2(dy, dx))
+                counts[a] += 1
+    return sums / np.maximum(counts, 1), counts
+
+
+@pytest.mark.parametrize("name", BOXES)
+def test_psi6_is_that_of_scipy(program: Path, tmp_path: Path, name: str) -> None:
+    run = ordered(tmp_path / "run", BOXES[name], ["psi6"])
+    size, periodic = float(run.frames[0].box[0]), run.frames[0].periodic
+    tables, history = run.tables, run.tables["psi6_history"]
+    n_neighbours, moduli = np.zeros(13, dtype=int), np.zeros(40, dtype=int)
+    pairs, products = np.zeros(40, dtype=int), np.zeros(40)
+    reach = tables["psi6_correlation"]["to"][-1]
+    for k, frame in enumerate(run.frames):
+        psi6, counts = bonds(frame.x, size, periodic)
+        n_neighbours += np.bincount(counts, minlength=13)
+        moduli += np.histogram(np.abs(psi6), bins=40, range=(0, 1 + 1e-12))[0]
+        assert history["psi6"][k] == pytest.approx(abs(np.mean(psi6)), abs=1e-12)
+        assert history["real"][k] == pytest.approx(np.mean(psi6).real, abs=1e-12)
+        assert history["imaginary"][k] == pytest.approx(np.mean(psi6).imag, abs=1e-12)
+        assert history["local"][k] == pytest.approx(np.mean(np.abs(psi6)), abs=1e-12)
+        assert history["fivefold"][k] == pytest.approx(np.mean(counts == 5), abs=1e-15)
+        first, second = np.triu_indices(len(psi6), 1)
+        apart = frame.x[first] - frame.x[second]
+        apart -= np.where(periodic, size * np.round(apart / size), 0)
+        bins = np.floor(np.hypot(*apart.T) / reach * 40).astype(int)
+        near = bins < 40
+        pairs += np.bincount(bins[near], minlength=40)
+        values = (np.conj(psi6[first]) * psi6[second]).real[near]
+        products += np.bincount(bins[near], weights=values, minlength=40)
+    assert tables["neighbours"]["count"].tolist() == n_neighbours.tolist()
+    assert tables["psi6_distribution"]["count"].tolist() == moduli.tolist()
+    assert tables["psi6_correlation"]["pairs"].tolist() == pairs.tolist()
+    assert tables["psi6_correlation"]["g6"] * pairs == pytest.approx(products, abs=1e-9)
+
+
+def test_psi6_is_that_of_freud(program: Path, tmp_path: Path) -> None:
+    freud = pytest.importorskip("freud", reason="freud is not installed")
+    run = ordered(tmp_path / "run", PERIODIC, ["psi6"])
+    for k, frame in enumerate(run.frames):
+        box, points = frame.to_freud()
+        voronoi = freud.locality.Voronoi().compute((box, points))
+        order = freud.order.Hexatic(k=6).compute((box, points), neighbors=voronoi.nlist)
+        mean = abs(np.mean(order.particle_order))
+        assert run.tables["psi6_history"]["psi6"][k] == pytest.approx(mean, abs=2e-5)  # single

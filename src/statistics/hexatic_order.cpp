@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "statistics/hexatic_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "engine/near_pairs.hpp"
+#include "statistics/voronoi_cell.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// Sides shorter than this, over the distance of the two discs, are a corner where more than three
+/// cells meet, as in a square lattice.
+constexpr double shortest_side = 1e-9;
+
+/// Another disc as one disc sees it.
+struct Seen {
+    double dx = 0, dy = 0, squared = 0;
+    DiscId id = 0;
+
+    friend bool operator<(const Seen& a, const Seen& b) {
+        return std::tie(a.squared, a.id, a.dx, a.dy) < std::tie(b.squared, b.id, b.dx, b.dy);
+    }
+};
+
+/// Finds cells one by one. A thread has one.
+class CellFinder {
+public:
+    CellFinder(const LocalView& local_view, const Extent& box, double reach)
+        : view_(local_view), box_(box), reach_(reach) {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        if (view_.periods.x != 0) box_.x_low = -infinity, box_.x_high = infinity;
+        if (view_.periods.y != 0) box_.y_low = -infinity, box_.y_high = infinity;
+    }
+
+    /// Whether the cell is whole: nothing beyond the reach could cut it.
+    bool find(LocalIndex index, BondOrder& order) {
+        const Disc& disc = view_.population.discs[index];
+        const double x = x_in_box(disc), y = y_in_box(disc);
+        order = {};
+        if (!is_in_box(disc)) return true;
+        look_around(index);
+        cell_.begin(std::max(-reach_, box_.x_low - x), std::min(reach_, box_.x_high - x),
+                    std::max(-reach_, box_.y_low - y), std::min(reach_, box_.y_high - y));
+        double radius = cell_.squared_radius();
+        for (std::size_t k = 0; k < seen_.size() && seen_[k].squared < 4 * radius; ++k) {
+            cell_.cut(seen_[k].dx, seen_[k].dy, static_cast<int>(k));
+            radius = cell_.squared_radius();
+        }
+        order = order_of_cell();
+        return 4 * radius <= reach_ * reach_;
+    }
+
+private:
+    double x_in_box(const Disc& disc) const { return disc.x_at(view_.time) + view_.frame.x; }
+    double y_in_box(const Disc& disc) const { return disc.y_at(view_.time) + view_.frame.y; }
+    bool is_in_box(const Disc& disc) const {
+        const double x = x_in_box(disc), y = y_in_box(disc);
+        return x >= box_.x_low && x <= box_.x_high && y >= box_.y_low && y <= box_.y_high;
+    }
+
+    void look_around(LocalIndex index) {
+        const CellGrid& grid = *view_.grid;
+        const GridGeometry& geometry = grid.geometry();
+        const Disc& disc = view_.population.discs[index];
+        const double x = view_.periods.x_of(disc, view_.time),
+                     y = view_.periods.y_of(disc, view_.time), far = reach_ * (1 + 1e-6);
+        const int low = geometry.row_of(y - far), high = geometry.row_of(y + far);
+        seen_.clear();
+        for (int column = geometry.column_of(x - far); column <= geometry.column_of(x + far);
+             ++column) {
+            const SlotRange own = grid.run(column, low, high),
+                            halo = grid.halo_run(column, low, high);
+            for (LocalIndex other = own.begin; other < own.end; ++other)
+                if (other != index) see(disc, view_.population.discs[other]);
+            for (std::uint32_t slot = halo.begin; slot < halo.end; ++slot)
+                if (const LocalIndex other = grid.halo_index(slot); other != index)
+                    see(disc, view_.population.discs[other]);
+        }
+        std::sort(seen_.begin(), seen_.end());
+    }
+
+    void see(const Disc& disc, const Disc& other) {
+        Seen seen{other.x_at(view_.time) - disc.x_at(view_.time),
+                  other.y_at(view_.time) - disc.y_at(view_.time), 0, other.id};
+        if (view_.periods.are_any())
+            seen.dx += view_.periods.x_between(disc, other),
+                seen.dy += view_.periods.y_between(disc, other);
+        seen.squared = seen.dx * seen.dx + seen.dy * seen.dy;
+        if (seen.squared < reach_ * reach_ && is_in_box(other)) seen_.push_back(seen);
+    }
+
+    BondOrder order_of_cell() const {
+        BondOrder order{0, 0, 0};
+        cell_.for_each_side([&](int point, double squared_length) {
+            if (point == VoronoiCell::no_point) return;
+            const Seen& other = seen_[static_cast<std::size_t>(point)];
+            if (squared_length <= shortest_side * shortest_side * other.squared) return;
+            const double c = (other.dx * other.dx - other.dy * other.dy) / other.squared,
+                         s = 2 * other.dx * other.dy / other.squared; // of twice the angle
+            order.real += c * (c * c - 3 * s * s);
+            order.imaginary += s * (3 * c * c - s * s);
+            ++order.n_neighbours;
+        });
+        const double n = std::max(order.n_neighbours, 1);
+        order.real /= n;
+        order.imaginary /= n;
+        return order;
+    }
+
+    const LocalView& view_;
+    Extent box_; ///< without end where it repeats itself
+    double reach_;
+    std::vector<Seen> seen_;
+    VoronoiCell cell_;
+};
+
+} // namespace
+
+bool find_bond_orders(const LocalView& local_view, const Extent& box, double reach, int n_threads,
+                      std::vector<BondOrder>& orders) {
+    const auto n = static_cast<std::int64_t>(local_view.population.discs.size()),
+               n_own = static_cast<std::int64_t>(local_view.population.n_own);
+    orders.resize(static_cast<std::size_t>(n));
+    bool are_whole = true;
+#pragma omp parallel num_threads(n_threads)
+    {
+        CellFinder finder(local_view, box, reach);
+#pragma omp for schedule(dynamic, 256) reduction(&& : are_whole)
+        for (std::int64_t i = 0; i < n; ++i) {
+            const bool is_whole = finder.find(static_cast<LocalIndex>(i),
+                                              orders[static_cast<std::size_t>(i)]);
+            are_whole = are_whole && (is_whole || i >= n_own);
+        }
+    }
+    return are_whole;
+}
+
+HexaticSums::HexaticSums(std::uint64_t n_discs, std::size_t n_bins)
+    : real(2 * static_cast<double>(n_discs)), imaginary(real), modulus(real),
+      neighbours(most_neighbours + 1, 0), moduli(n_bins, 0), pairs(n_bins, 0),
+      products(n_bins, ExactSum(2 * static_cast<double>(n_discs) * static_cast<double>(n_discs))) {}
+
+namespace {
+
+/// Pairs whose first disc is in that column of cells.
+void add_pairs_of(int column, const LocalView& view, std::span<const BondOrder> orders,
+                  double bins_per_length, HexaticSums& sums) {
+    const double n_bins = static_cast<double>(sums.pairs.size());
+    const std::span<const Disc> discs = view.population.discs;
+    visit_near_pairs_of(*view.grid, column, [&](LocalIndex a, LocalIndex b) {
+        if (discs[b].id < discs[a].id) std::swap(a, b);
+        if (a >= view.population.n_own || !orders[a].has_cell() || !orders[b].has_cell()) return;
+        const Disc &p = discs[a], &q = discs[b];
+        double dx = q.x_at(view.time) - p.x_at(view.time),
+               dy = q.y_at(view.time) - p.y_at(view.time);
+        if (view.periods.are_any())
+            dx += view.periods.x_between(p, q), dy += view.periods.y_between(p, q);
+        const double bin = std::sqrt(dx * dx + dy * dy) * bins_per_length;
+        if (!(bin < n_bins)) return;
+        ++sums.pairs[static_cast<std::size_t>(bin)];
+        sums.products[static_cast<std::size_t>(bin)].add(orders[a].real * orders[b].real +
+                                                         orders[a].imaginary * orders[b].imaginary);
+    });
+}
+
+void add_discs(std::span<const BondOrder> orders, HexaticSums& sums) {
+    for (const BondOrder& order : orders) {
+        if (!order.has_cell()) continue;
+        const double modulus = std::sqrt(order.real * order.real +
+                                         order.imaginary * order.imaginary);
+        const std::size_t bin = static_cast<std::size_t>(modulus *
+                                                         static_cast<double>(sums.moduli.size()));
+        sums.real.add(order.real);
+        sums.imaginary.add(order.imaginary);
+        sums.modulus.add(modulus);
+        ++sums.moduli[std::min(bin, sums.moduli.size() - 1)];
+        ++sums.neighbours[std::min(static_cast<std::size_t>(order.n_neighbours),
+                                   HexaticSums::most_neighbours)];
+    }
+}
+
+} // namespace
+
+void add_order(const LocalView& local_view, std::span<const BondOrder> orders, double bin_width,
+               int n_threads, HexaticSums& sums) {
+    add_discs(orders.first(local_view.population.n_own), sums);
+    const int n_columns = local_view.grid->geometry().n_columns;
+#pragma omp parallel num_threads(n_threads)
+    {
+        HexaticSums mine = sums;
+        std::fill(mine.pairs.begin(), mine.pairs.end(), 0);
+        for (ExactSum& product : mine.products) product.clear();
+#pragma omp for schedule(dynamic, 1)
+        for (int column = 0; column < n_columns; ++column)
+            add_pairs_of(column, local_view, orders, 1 / bin_width, mine);
+#pragma omp critical(hexatic_order)
+        for (std::size_t k = 0; k < mine.pairs.size(); ++k) {
+            sums.pairs[k] += mine.pairs[k];
+            sums.products[k] += mine.products[k];
+        }
+    }
+}
+
+} // namespace carrom

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The Voronoi cell of one point, which is the origin: a polygon that the bisectors to other points
+// cut smaller. Plain arithmetic in a fixed order: the same points in the same order give the same
+// bits.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace carrom {
+
+class VoronoiCell {
+public:
+    static constexpr int no_point = -1;
+
+    /// A rectangle around the origin, whose sides are no point's.
+    void begin(double left, double right, double bottom, double top);
+    /// Keeps what is closer to the origin than to the point (dx, dy). `point` is its number.
+    void cut(double dx, double dy, int point);
+    /// Square of the distance to the farthest corner. Points at twice that distance cut nothing.
+    double squared_radius() const;
+
+    /// Calls `visit(point, squared_length)` for each side, in their order around the cell.
+    template <class Visit> void for_each_side(const Visit& visit) const {
+        for (std::size_t k = 0; k < corners_.size(); ++k) {
+            const Corner &a = corners_[k], &b = corners_[k + 1 < corners_.size() ? k + 1 : 0];
+            visit(a.point, (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+        }
+    }
+
+private:
+    struct Corner {
+        double x = 0, y = 0;
+        int point = no_point; ///< of the side from here to the next corner, counterclockwise
+    };
+
+    std::vector<Corner> corners_, before_;
+};
+
+} // namespace carrom

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// psi6 and Voronoi neighbours, against bisectors of all pairs and against lattices.
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "catch.hpp"
+
+#include "measured_runs.hpp"
+#include "parallel/exchange.hpp"
+#include "statistics/hexatic_order.hpp"
+#include "statistics/voronoi_cell.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+constexpr Boundary repeated{BoundaryKind::periodic, 1, 0, 0};
+
+struct Case {
+    const char* name;
+    Method method;
+    Effects effects;
+    std::size_t n_discs = 120;
+    double height = 1; ///< of the box, over its width
+};
+
+std::vector<Case> cases() {
+    Effects none, around, along_y, piston, apart;
+    around.boundaries.fill(repeated);
+    along_y.boundaries[2] = along_y.boundaries[3] = repeated;
+    along_y.gravity = {-0.003, 0};
+    piston.boundaries[1] = {BoundaryKind::moving, 1, 0, -0.05};
+    piston.species = {{60, 1, 2}, {60, 0.5, 1}};
+    apart = around;
+    apart.contact.kind = ContactKind::none;
+    return {{"walls", Method::time_stepped, none},
+            {"periodic", Method::event_driven, around},
+            {"periodic along y, with gravity", Method::event_driven, along_y},
+            {"a piston, two species", Method::event_driven, piston},
+            {"discs that overlap", Method::time_stepped, apart},
+            {"four discs", Method::event_driven, around, 4},
+            {"a flat box", Method::event_driven, around, 121, 1.5}};
+}
+
+TestScene test_of(const Case& each) {
+    TestScene test = gas(each.n_discs, 0.3, 0.7, 78);
+    test.setting.effects = each.effects;
+    test.setting.box_height = each.height * test.setting.box_size; // room above the discs
+    test.setting.micro_steps = 2;
+    test.setting.sync_every = 24;
+    test.steps = 60;
+    return test;
+}
+
+Scene with_psi6(const TestScene& test, Method method) {
+    Scene scene = measured(test, method, 9, 5);
+    MeasurementOutput& output = *scene.measurements;
+    output.wall_pressure = output.velocities = output.density = output.displacement = false;
+    output.psi6 = output.thermo = true;
+    output.largest_distance = std::min({output.largest_distance, scene.box.x / 2, scene.box.y / 2});
+    return scene;
+}
+
+struct Point {
+    DiscId id = 0;
+    double x = 0, y = 0;
+};
+
+std::vector<Point> all_points(const Simulation& simulation, const Communicator& world) {
+    std::vector<Point> mine;
+    for (const Disc& disc : simulation.shown())
+        mine.push_back({disc.id, disc.x_at(simulation.clock()), disc.y_at(simulation.clock())});
+    std::vector<std::vector<Point>> out(static_cast<std::size_t>(world.size()), mine);
+    std::vector<Point> all = send_to_owners(world, out).items;
+    std::sort(all.begin(), all.end(), [](const Point& a, const Point& b) { return a.id < b.id; });
+    return all;
+}
+
+/// Neighbours by the definition: some of the two points' bisector is in the box, and closer to them
+/// than to all others.
+class Bisectors {
+public:
+    Bisectors(std::vector<Point> points, const Extent& box, bool is_periodic_x, bool is_periodic_y)
+        : points_(std::move(points)), box_(box) {
+        const int across = is_periodic_x ? 2 : 0, along = is_periodic_y ? 2 : 0;
+        for (const Point& p : points_)
+            for (int n = -across; n <= across; ++n)
+                for (int m = -along; m <= along; ++m)
+                    images_.push_back({p.id, p.x + n * (box.x_high - box.x_low),
+                                       p.y + m * (box.y_high - box.y_low)});
+        if (is_periodic_x) box_.x_low = -1e9, box_.x_high = 1e9;
+        if (is_periodic_y) box_.y_low = -1e9, box_.y_high = 1e9;
+    }
+
+    std::vector<std::complex<double>> psi6(std::vector<double>& counts) const {
+        std::vector<std::complex<double>> result;
+        for (const Point& p : points_) {
+            std::complex<double> sum = 0;
+            int n = 0;
+            for (const Point& q : images_) {
+                if ((q.x == p.x && q.y == p.y) || !are_neighbours(p, q)) continue;
+                sum += std::polar(1.0, 6 * std::atan2(q.y - p.y, q.x - p.x));
+                ++n;
+            }
+            counts[static_cast<std::size_t>(std::min(n, 12))] += 1;
+            result.push_back(n > 0 ? sum / static_cast<double>(n) : 0);
+        }
+        return result;
+    }
+
+private:
+    bool are_neighbours(const Point& p, const Point& q) const {
+        const double x = (p.x + q.x) / 2, y = (p.y + q.y) / 2, along_x = p.y - q.y,
+                     along_y = q.x - p.x;
+        double low = -1e9, high = 1e9;
+        const auto keep = [&](double slope, double limit) { // slope t <= limit
+            if (slope > 0) high = std::min(high, limit / slope);
+            if (slope < 0) low = std::max(low, limit / slope);
+            if (slope == 0 && limit < 0) high = low;
+        };
+        keep(along_x, box_.x_high - x), keep(-along_x, x - box_.x_low);
+        keep(along_y, box_.y_high - y), keep(-along_y, y - box_.y_low);
+        for (const Point& other : images_) {
+            if ((other.x == p.x && other.y == p.y) || (other.x == q.x && other.y == q.y)) continue;
+            const double ex = other.x - p.x, ey = other.y - p.y;
+            keep(ex * along_x + ey * along_y,
+                 (ex * ex + ey * ey) / 2 - ex * (x - p.x) - ey * (y - p.y));
+            if (high - low < 1e-9) return false;
+        }
+        return true;
+    }
+
+    std::vector<Point> points_, images_;
+    Extent box_;
+};
+
+/// What the tables should have.
+struct ByHand {
+    std::vector<double> psi6, neighbours = std::vector<double>(13, 0),
+                              moduli = std::vector<double>(20, 0), pairs = moduli, g6 = moduli;
+
+    void look(const std::vector<Point>& points, const Extent& box, const Scene& scene) {
+        const bool x = scene.effects.is_periodic_x(), y = scene.effects.is_periodic_y();
+        const auto orders = Bisectors(points, box, x, y).psi6(neighbours);
+        std::complex<double> all = 0;
+        for (std::size_t i = 0; i < orders.size(); ++i) {
+            all += orders[i];
+            moduli[std::min<std::size_t>(static_cast<std::size_t>(20 * std::abs(orders[i])), 19)] +=
+                1;
+            for (std::size_t j = 0; j < i; ++j) {
+                const auto nearest = [](double d, double length, bool is_periodic) {
+                    return is_periodic ? std::remainder(d, length) : d;
+                };
+                const double bin = 20 / scene.measurements->largest_distance *
+                                   std::hypot(nearest(points[i].x - points[j].x, scene.box.x, x),
+                                              nearest(points[i].y - points[j].y, scene.box.y, y));
+                if (!(bin < 20)) continue;
+                pairs[static_cast<std::size_t>(bin)] += 1;
+                g6[static_cast<std::size_t>(bin)] += (std::conj(orders[i]) * orders[j]).real();
+            }
+        }
+        psi6.push_back(std::abs(all) / static_cast<double>(orders.size()));
+    }
+};
+
+} // namespace
+
+TEST_CASE("measurements: psi6 and neighbours are those of bisectors of all pairs") {
+    const Communicator world = Communicator::world();
+    for (const Case& each : cases()) {
+        INFO(each.name);
+        const TestScene test = test_of(each);
+        const Scene scene = with_psi6(test, each.method);
+        Simulation simulation = simulation_of(scene, test, world);
+        Sampler sampler(scene, simulation, world);
+        ByHand expected;
+        for (std::int64_t step = 5; step <= 60; step += 9) {
+            advance_to(simulation, sampler, step);
+            expected.look(all_points(simulation, world),
+                          extent_at(scene.effects, scene.box, static_cast<double>(step)), scene);
+        }
+        const std::vector<MeasuredTable> tables = sampler.tables();
+        CHECK(column_of(tables, "neighbours", "count") == expected.neighbours);
+        CHECK(column_of(tables, "psi6_distribution", "count") == expected.moduli);
+        CHECK(column_of(tables, "psi6_correlation", "pairs") == expected.pairs);
+        const std::vector<double> psi6 = column_of(tables, "psi6_history", "psi6"),
+                                  g6 = column_of(tables, "psi6_correlation", "g6");
+        REQUIRE(psi6.size() == 7);
+        CHECK(psi6 == column_of(tables, "thermo", "psi6"));
+        for (std::size_t k = 0; k < psi6.size(); ++k)
+            CHECK(psi6[k] == Approx(expected.psi6[k]).margin(1e-12));
+        for (std::size_t k = 0; k < g6.size(); ++k)
+            CHECK(g6[k] * expected.pairs[k] == Approx(expected.g6[k]).margin(1e-9));
+        if (scene.effects.is_periodic_x() && scene.effects.is_periodic_y()) {
+            double sum = 0; // Euler: six neighbours on average
+            const std::vector<double> counts = column_of(tables, "neighbours", "count");
+            for (std::size_t k = 0; k < counts.size(); ++k)
+                sum += counts[k] * static_cast<double>(k);
+            CHECK(sum == 6.0 * 7 * static_cast<double>(each.n_discs));
+        }
+    }
+}
+
+TEST_CASE("measurements: psi6 goes on from what was stored, to the same tables") {
+    const Communicator world = Communicator::world();
+    const Case each = cases()[1];
+    const TestScene test = test_of(each);
+    const Scene scene = with_psi6(test, each.method);
+    Simulation whole = simulation_of(scene, test, world);
+    Sampler whole_sampler(scene, whole, world);
+    advance_to(whole, whole_sampler, 60);
+
+    Simulation first = simulation_of(scene, test, world);
+    Sampler first_sampler(scene, first, world);
+    advance_to(first, first_sampler, 33);
+    StoredState state = {{first.discs().begin(), first.discs().end()},
+                         first.micro_steps_done(),
+                         SideColumns(first.side_columns())};
+    Simulation second(scene, std::move(state), world, {});
+    Sampler sampler(scene, second, world);
+    sampler.go_on(first_sampler.stored());
+    advance_to(second, sampler, 60);
+    for (const char* name :
+         {"psi6", "psi6_history", "psi6_distribution", "psi6_correlation", "neighbours"})
+        CHECK(table_of(sampler.tables(), name).rows == table_of(whole_sampler.tables(), name).rows);
+}
+
+TEST_CASE("measurements: in a square lattice psi6 is 0, each disc with four neighbours") {
+    const Communicator world = Communicator::world();
+    TestScene test = lattice(12, 1.5);
+    test.setting.effects.boundaries.fill(repeated);
+    test.setting.box_size = 12 * 1.5;
+    const Scene scene = scene_of(test);
+    const Simulation simulation = simulation_of(scene, test, world);
+    const HexaticSums sums = simulation.hexatic_order(5, 10);
+    CHECK(sums.neighbours[4] == 144);
+    CHECK(sums.modulus.value() == Approx(0).margin(1e-12));
+}
+
+TEST_CASE("measurements: in a triangular lattice without end psi6 is 1") {
+    const Communicator world = Communicator::world();
+    TestScene test = empty_scene("triangular", 12, 0.25, 0);
+    test.setting.effects.boundaries.fill(repeated);
+    test.setting.box_height = 14 * std::sqrt(0.75);
+    for (int row = 0; row < 14; ++row)
+        for (int k = 0; k < 12; ++k)
+            add_disc(test, 0.1 + k + 0.5 * (row % 2), 0.1 + row * std::sqrt(0.75));
+    const Scene scene = scene_of(test);
+    const Simulation simulation = simulation_of(scene, test, world);
+    const HexaticSums sums = simulation.hexatic_order(5, 10);
+    CHECK(sums.neighbours[6] == 12 * 14);
+    CHECK(sums.real.value() == Approx(12 * 14).epsilon(1e-13));
+    CHECK(sums.imaginary.value() == Approx(0).margin(1e-10));
+    for (std::size_t k = 2; k < 10; ++k) // from the first neighbours on
+        CHECK(sums.products[k].value() ==
+              Approx(static_cast<double>(sums.pairs[k])).epsilon(1e-12));
+}
+
+TEST_CASE("measurements: in a piece of a triangular lattice psi6 is 1 inside") {
+    const Communicator world = Communicator::world();
+    TestScene test = empty_scene("triangular", 400, 0.5, 0);
+    test.setting.effects.boundaries.fill(repeated);
+    for (int row = 0; row < 11; ++row)
+        for (int k = 0; k < 11; ++k)
+            add_disc(test, 20 + k + 0.5 * (row % 2), 20 + row * std::sqrt(0.75));
+    const Scene scene = scene_of(test);
+    const Simulation simulation = simulation_of(scene, test, world);
+    const HexaticSums sums = simulation.hexatic_order(1.5, 1000);
+    CHECK(sums.neighbours[6] >= 81); // those inside
+    CHECK(sums.moduli.back() >= 81); // from 0.999 on
+    std::vector<Point> points;
+    for (const InputDisc& disc : test.discs) points.push_back({disc.id, disc.x, disc.y});
+    std::vector<double> counts(13, 0);
+    const auto orders = Bisectors(points, {0, 400, 0, 400}, true, true).psi6(counts);
+    std::complex<double> all = 0;
+    for (const auto& order : orders) all += order;
+    for (std::size_t k = 0; k < counts.size(); ++k)
+        CHECK(static_cast<double>(sums.neighbours[k]) == counts[k]);
+    CHECK(sums.real.value() == Approx(all.real()).margin(1e-9));
+    CHECK(std::abs(orders[60] - 1.0) < 1e-13); // the middle one
+}
+
+TEST_CASE("measurements: a Voronoi cell of six equal neighbours is a hexagon") {
+    VoronoiCell cell;
+    cell.begin(-5, 5, -5, 5);
+    for (int k = 0; k < 6; ++k)
+        cell.cut(std::cos(k * std::numbers::pi / 3), std::sin(k * std::numbers::pi / 3), k);
+    cell.cut(0, std::sqrt(3.0), 6);
+    int n_sides = 0;
+    cell.for_each_side([&](int point, double squared_length) {
+        if (point == 6) return; // touches a corner at most
+        CHECK(squared_length == Approx(1.0 / 3));
+        ++n_sides;
+    });
+    CHECK(n_sides == 6);
+    CHECK(cell.squared_radius() == Approx(1.0 / 3));
+}
