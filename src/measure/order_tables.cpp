@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "measure/order_tables.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -97,6 +99,46 @@ MeasuredTable neighbours(const SampleSums& s) {
 }
 
 } // namespace
+
+std::vector<WaveVector> wave_vectors_of(const Scene& scene) {
+    const double lx = scene.box.x, ly = scene.box.y;
+    return wave_vectors(lx, ly, scene.measurements->largest_wavenumber);
+}
+
+void add_structure_tables(const SampleSums& s, const Scene& scene,
+                          std::vector<MeasuredTable>& tables) {
+    const double lx = scene.box.x, ly = scene.box.y, n_samples = static_cast<double>(s.n_samples);
+    const std::vector<WaveVector> vectors = wave_vectors_of(scene);
+    const std::size_t n = scene.measurements->bins;
+    std::vector<double> sums(n, 0), counts(n, 0);
+    std::size_t highest = 0;
+    for (std::size_t k = 0; k < vectors.size(); ++k) {
+        const double place = wavenumber(vectors[k], lx, ly) / s.largest_wavenumber *
+                             static_cast<double>(n);
+        const std::size_t bin = std::min(static_cast<std::size_t>(place), n - 1);
+        sums[bin] += s.structure_factor[k];
+        counts[bin] += 1;
+        if (s.structure_factor[k] > s.structure_factor[highest]) highest = k;
+    }
+    MeasuredTable table{"structure_factor",
+                        {"S: mean square of the sum of exp(i k r) over discs, per disc, over the "
+                         "box's wave vectors of lengths from `from` to `to`; nan without any",
+                         "of each two opposite vectors one counts; wavenumbers in radians per "
+                         "length"},
+                        {"from", "to", "count", "S"},
+                        {}};
+    for (std::size_t bin = 0; bin < n; ++bin)
+        table.rows.push_back(
+            {edge(0, s.largest_wavenumber, bin, n), edge(0, s.largest_wavenumber, bin + 1, n),
+             counts[bin], counts[bin] > 0 ? sums[bin] / (counts[bin] * n_samples) : std::nan("")});
+    tables.push_back(std::move(table));
+    const WaveVector& peak = vectors[highest];
+    tables.push_back({"structure_factor_peak",
+                      {"the wave vector of the largest mean S of all"},
+                      {"kx", "ky", "k", "S"},
+                      {{2 * std::numbers::pi * peak.n / lx, 2 * std::numbers::pi * peak.m / ly,
+                        wavenumber(peak, lx, ly), s.structure_factor[highest] / n_samples}}});
+}
 
 double psi6_at(const SampleSums& s, std::size_t sample) {
     const double* const now = s.psi6.data() + per_sample * sample;

@@ -26,6 +26,7 @@ template <class Sums, class Visit> void visit_all(Sums& s, const Visit& visit) {
     if (s.quantities & psi6_bit)
         visit(s.psi6), visit(s.neighbours), visit(s.moduli), visit(s.psi6_pairs),
             visit(s.psi6_products);
+    if (s.quantities & structure_factor_bit) visit(s.largest_wavenumber), visit(s.structure_factor);
 }
 
 } // namespace

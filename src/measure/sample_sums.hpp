@@ -11,7 +11,7 @@
 namespace carrom {
 
 /// Bits of `quantities` whose sums are in a checkpoint only where they are asked for.
-inline constexpr std::uint64_t thermo_bit = 64, psi6_bit = 128;
+inline constexpr std::uint64_t thermo_bit = 64, psi6_bit = 128, structure_factor_bit = 256;
 
 /// Sums over all samples so far, of all ranks together. Plain numbers: what a checkpoint keeps.
 struct SampleSums {
@@ -39,7 +39,9 @@ struct SampleSums {
                                 ///< discs of 5, 6, 7 neighbours, discs
     std::vector<std::uint64_t> neighbours, moduli, psi6_pairs; ///< as HexaticSums has them
     std::vector<double> psi6_products;                         ///< likewise
-    std::vector<double> last_motion; ///< at the last sample: the sum of m v v, N and A
+    double largest_wavenumber = 0;
+    std::vector<double> structure_factor; ///< of each wave vector, over all samples
+    std::vector<double> last_motion;      ///< at the last sample: the sum of m v v, N and A
 };
 
 std::vector<std::int64_t> packed(const SampleSums& sums);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/state_sums.hpp"
+#include "measure/order_tables.hpp"
 #include "statistics/hexatic_order.hpp"
 
 namespace carrom {
@@ -18,7 +19,8 @@ std::uint64_t quantities_of(const MeasurementOutput& output) {
     return (output.wall_pressure ? 1u : 0u) | (output.radial_distribution ? 2u : 0u) |
            (output.velocities ? 4u : 0u) | (output.density ? 8u : 0u) |
            (output.displacement ? 16u : 0u) | (output.pressure ? 32u : 0u) |
-           (output.thermo ? thermo_bit : 0u) | (output.psi6 ? psi6_bit : 0u);
+           (output.thermo ? thermo_bit : 0u) | (output.psi6 ? psi6_bit : 0u) |
+           (output.structure_factor ? structure_factor_bit : 0u);
 }
 
 /// A component's root mean square, as the discs and the thermal walls have it; 0 where all is at
@@ -92,6 +94,10 @@ SampleSums Sampler::wanted() const {
         for (auto* counts : {&sums.moduli, &sums.psi6_pairs}) counts->assign(output_.bins, 0);
         sums.psi6_products.assign(output_.bins, 0);
     }
+    if (output_.structure_factor) {
+        sums.largest_wavenumber = output_.largest_wavenumber;
+        sums.structure_factor.assign(wave_vectors_of(scene_).size(), 0);
+    }
     return sums;
 }
 
@@ -140,6 +146,8 @@ void Sampler::go_on(StoredSamples stored) {
         (!output_.largest_velocity || found->largest_velocity == asked.largest_velocity) &&
         found->pairs.size() == asked.pairs.size() && found->vx.size() == asked.vx.size() &&
         found->x.size() == asked.x.size() && found->moduli.size() == asked.moduli.size() &&
+        found->largest_wavenumber == asked.largest_wavenumber &&
+        found->structure_factor.size() == asked.structure_factor.size() &&
         stored.have_first_places == output_.displacement &&
         stored.have_lengths == (output_.displacement && scene_.effects.are_periodic());
     if (!is_same)
@@ -195,6 +203,7 @@ void Sampler::sample(std::int64_t step) {
     if (output_.wall_pressure && !is_first) sample_impulses(step);
     if (pressure_ && !is_first) pressure_->sample(sums_, static_cast<double>(output_.every_steps));
     if (output_.thermo) sample_thermo();
+    if (output_.structure_factor) sample_structure_factor(discs, box);
     if (output_.radial_distribution) sample_distances(box); // moves discs in memory: last
     if (output_.psi6) sample_psi6();                        // likewise
     ++sums_.n_samples;

@@ -6,6 +6,7 @@
 // for every machine shape, and a restart goes on with them. Price of a sample:
 //   velocities, density   some nanoseconds a disc
 //   radial distribution   a halo, and a look at all pairs within its distance
+//   structure factor      some nanoseconds for each disc and wave vector
 //   psi6                  the same, and some microseconds a disc for its Voronoi cell
 //   displacement          each disc sent once to where its first place is kept, 16 bytes a disc, as
 //                         many again in a periodic box
@@ -70,6 +71,7 @@ private:
     void sample_impulses(std::int64_t step);
     void sample_thermo();
     void sample_psi6();
+    void sample_structure_factor(std::span<const Disc> discs, const Extent& box);
     void sample_displacement(std::span<const Disc> shown, std::uint64_t n_discs, bool is_first);
     void place_first(std::span<const FirstPlace> places);
     void follow_walls();

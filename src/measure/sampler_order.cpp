@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How discs are ordered: psi6 and numbers of Voronoi neighbours.
+// How discs are ordered: psi6, numbers of Voronoi neighbours, the structure factor.
+#include "measure/order_tables.hpp"
 #include "measure/sampler.hpp"
 #include "statistics/hexatic_order.hpp"
 
@@ -20,6 +21,17 @@ void Sampler::sample_psi6() {
         sums_.psi6_pairs[k] += now.pairs[k];
         sums_.psi6_products[k] += now.products[k].value();
     }
+}
+
+void Sampler::sample_structure_factor(std::span<const Disc> discs, const Extent& box) {
+    const std::vector<WaveVector> vectors = wave_vectors_of(scene_);
+    DensityModes modes = density_modes(discs, simulation_.clock(), scene_.n_discs,
+                                       box.x_high - box.x_low, box.y_high - box.y_low, vectors,
+                                       simulation_.n_threads());
+    ranks_.sum(std::span(modes.real));
+    ranks_.sum(std::span(modes.imaginary));
+    for (std::size_t k = 0; k < vectors.size(); ++k)
+        sums_.structure_factor[k] += modes.squared_modulus(k) / static_cast<double>(scene_.n_discs);
 }
 
 } // namespace carrom

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "dynamics/drag.hpp"
 #include "dynamics/gravity.hpp"
@@ -194,6 +195,26 @@ void check_distance(const Check& check) {
                              distance, largest));
 }
 
+/// A wave vector at least, and no more than a million: each is looked at with each disc.
+void check_wavenumber(const Check& check) {
+    constexpr double most_vectors = 1e6, most_by_default = 1e5;
+    Scene& scene = check.scene;
+    if (!scene.measurements || !scene.measurements->structure_factor) return;
+    const double lx = scene.box.x, ly = scene.box.y;
+    const auto reach = [=](double n_vectors) {
+        return std::sqrt(8 * std::numbers::pi * n_vectors / (lx * ly));
+    };
+    double& largest = scene.measurements->largest_wavenumber;
+    if (!check.settings.has("output.measurements.largest_wavenumber"))
+        largest = std::min(2 * std::numbers::pi / scene.radius, reach(most_by_default));
+    const double least = 2 * std::numbers::pi / std::max(lx, ly);
+    if (largest >= least && largest <= reach(most_vectors)) return;
+    check.refuse({"output.measurements.largest_wavenumber", quantities},
+                 fmt::format("'output.measurements.largest_wavenumber' must be from {:.6g}, the "
+                             "box's first, to {:.6g}, where a million are, not {:g}",
+                             least, reach(most_vectors), largest));
+}
+
 } // namespace
 
 void check_times(const Check& check) {
@@ -230,6 +251,7 @@ void check_room(const Check& check) {
     check_moving_walls(check);
     check_obstacles(check);
     check_distance(check);
+    check_wavenumber(check);
 }
 
 } // namespace carrom

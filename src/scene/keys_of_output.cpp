@@ -128,7 +128,8 @@ std::vector<Key> keys_of_measurements() {
         {"displacement", &Output::displacement},
         {"pressure", &Output::pressure},
         {"thermo", &Output::thermo},
-        {"psi6", &Output::psi6}};
+        {"psi6", &Output::psi6},
+        {"structure_factor", &Output::structure_factor}};
     return {
         flags_key(
             "output.measurements.quantities", "", "What is measured.",
@@ -146,11 +147,20 @@ std::vector<Key> keys_of_measurements() {
             "Bins of each table of distances, velocities or places.",
             [](auto& s) -> auto& { return s.measurements->bins; })
             .within({1, 10000})
-            .needs(quantity("\"radial_distribution\", \"velocities\", \"density\" or \"psi6\"",
+            .needs(quantity("\"radial_distribution\", \"velocities\", \"density\", \"psi6\" or "
+                            "\"structure_factor\"",
                             [](const Output& m) {
-                                return m.radial_distribution || m.velocities || m.density || m.psi6;
+                                return m.radial_distribution || m.velocities || m.density ||
+                                       m.psi6 || m.structure_factor;
                             })),
         largest_distance(),
+        key("output.measurements.largest_wavenumber", "1/length",
+            "Reach of the structure factor; at most a million wave vectors.",
+            [](auto& s) -> auto& { return s.measurements->largest_wavenumber; })
+            .by_default("4 pi over the diameter, or 100,000 vectors")
+            .within({.low = 0, .excludes_low = true})
+            .needs(
+                quantity("\"structure_factor\"", [](const auto& m) { return m.structure_factor; })),
         key("output.measurements.largest_velocity", "length/step",
             "Largest component in the table of velocities.",
             [](auto& s) -> auto& { return s.measurements->largest_velocity; })

@@ -137,6 +137,12 @@ std::vector<Rule> rules_of_outputs() {
         rule("\"wall_pressure\"", "a box that is periodic all round", "it has no walls",
              {quantities},
              [](const Scene& s) { return measured(s).wall_pressure && is_periodic_all_round(s); }),
+        rule("\"structure_factor\"", "a side that is not periodic",
+             "wave vectors are those of a box that repeats itself; make all four sides periodic",
+             {quantities},
+             [](const Scene& s) {
+                 return measured(s).structure_factor && !is_periodic_all_round(s);
+             }),
         rule("\"wall_pressure\", \"radial_distribution\" and \"displacement\"", "an open side",
              "with open sides velocities and densities alone are measured", {quantities},
              [](const Scene& s) {

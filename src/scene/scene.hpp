@@ -89,8 +89,11 @@ struct MeasurementOutput {
     std::string folder; ///< in the run's folder
     std::int64_t every_steps = 10, from_step = 0;
     bool wall_pressure = false, radial_distribution = false, velocities = false, density = false,
-         displacement = false, pressure = false, thermo = false, psi6 = false;
+         displacement = false, pressure = false, thermo = false, psi6 = false,
+         structure_factor = false;
     std::size_t bins = 100;
+    double largest_wavenumber =
+        0;                       ///< of the structure factor; 0: by diameter and number of vectors
     double largest_distance = 0; ///< of the radial distribution and of psi6's correlation
     bool is_distance_default =
         false; ///< not named: as far as a box allows whose walls come in until the last step

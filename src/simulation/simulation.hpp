@@ -85,6 +85,7 @@ public:
     /// `virial_bound()`.
     const PairVirial& virial() const;
     double virial_bound() const { return virial_bound_; }
+    int n_threads() const { return n_threads_; }
     /// What the kinetic part of the pressure follows from, now. **Collective.**
     MotionNow motion() const;
     /// Begins the sum anew in another unit, as a checkpoint's measurements need it; before any

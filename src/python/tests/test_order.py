@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""psi6 and neighbours of the program against SciPy and freud."""
+"""psi6, neighbours and structure factor of the program against SciPy, freud and NumPy."""
 
 from __future__ import annotations
 
@@ -112,3 +112,26 @@ def test_psi6_is_that_of_freud(program: Path, tmp_path: Path) -> None:
         order = freud.order.Hexatic(k=6).compute((box, points), neighbors=voronoi.nlist)
         mean = abs(np.mean(order.particle_order))
         assert run.tables["psi6_history"]["psi6"][k] == pytest.approx(mean, abs=2e-5)  # single
+
+
+def test_structure_factor_is_the_sum_over_discs(program: Path, tmp_path: Path) -> None:
+    run = ordered(tmp_path / "run", PERIODIC, ["structure_factor"])
+    size = float(run.frames[0].box[0])
+    table, peak = run.tables["structure_factor"], run.tables["structure_factor_peak"]
+    largest = table["to"][-1]
+    assert largest == pytest.approx(2 * np.pi / run.frames[0].radius[0])
+    n_most = int(largest * size / (2 * np.pi)) + 1
+    n, m = np.meshgrid(np.arange(-n_most, n_most + 1), np.arange(n_most + 1), indexing="ij")
+    wanted = ((m > 0) | (n > 0)) & (2 * np.pi / size * np.hypot(n, m) <= largest)
+    k = 2 * np.pi / size * np.stack([n[wanted], m[wanted]], axis=1)
+    s = np.mean(
+        [np.abs(np.exp(1j * frame.x @ k.T).sum(axis=0)) ** 2 / 300 for frame in run.frames], axis=0
+    )
+    bins = np.minimum((np.hypot(*k.T) / largest * 40).astype(int), 39)
+    counts = np.bincount(bins, minlength=40)
+    sums = np.bincount(bins, weights=s, minlength=40)
+    assert table["count"].tolist() == counts.tolist()
+    assert np.all(np.isnan(table["S"]) == (counts == 0))
+    assert table["S"][counts > 0] == pytest.approx((sums / np.maximum(counts, 1))[counts > 0])
+    assert peak["S"][0] == pytest.approx(np.max(s))
+    assert peak["k"][0] == pytest.approx(np.hypot(*k[np.argmax(s)]))

@@ -205,6 +205,42 @@ TEST_CASE("measurements: psi6 and neighbours are those of bisectors of all pairs
     }
 }
 
+TEST_CASE("measurements: the structure factor is that of sums over all discs") {
+    const Communicator world = Communicator::world();
+    const Case each = cases().back();
+    const TestScene test = test_of(each);
+    Scene scene = with_psi6(test, each.method);
+    scene.measurements->psi6 = false;
+    scene.measurements->structure_factor = true;
+    const double kx = 2 * std::numbers::pi / scene.box.x, ky = 2 * std::numbers::pi / scene.box.y,
+                 largest = 8.7 * kx, n_discs = static_cast<double>(each.n_discs);
+    scene.measurements->largest_wavenumber = largest;
+    Simulation simulation = simulation_of(scene, test, world);
+    Sampler sampler(scene, simulation, world);
+    std::vector<double> sums(20, 0), counts(20, 0);
+    double highest = 0;
+    advance_to(simulation, sampler, 5);
+    const std::vector<Point> points = all_points(simulation, world);
+    for (int n = -9; n <= 9; ++n) {
+        for (int m = -14; m <= 14; ++m) {
+            const double k = std::hypot(kx * n, ky * m);
+            if (k > largest || k == 0) continue;
+            std::complex<double> mode = 0;
+            for (const Point& p : points) mode += std::polar(1.0, kx * n * p.x + ky * m * p.y);
+            sums[static_cast<std::size_t>(k / largest * 20)] += std::norm(mode) / 2;
+            counts[static_cast<std::size_t>(k / largest * 20)] += 0.5;
+            highest = std::max(highest, std::norm(mode) / n_discs);
+        }
+    }
+    const std::vector<MeasuredTable> tables = sampler.tables();
+    CHECK(column_of(tables, "structure_factor", "count") == counts);
+    CHECK(column_of(tables, "structure_factor_peak", "S")[0] == Approx(highest).epsilon(1e-10));
+    const std::vector<double> s = column_of(tables, "structure_factor", "S");
+    for (std::size_t k = 0; k < 20; ++k)
+        CHECK((counts[k] == 0 ? std::isnan(s[k])
+                              : s[k] == Approx(sums[k] / counts[k] / n_discs).epsilon(1e-10)));
+}
+
 TEST_CASE("measurements: psi6 goes on from what was stored, to the same tables") {
     const Communicator world = Communicator::world();
     const Case each = cases()[1];
