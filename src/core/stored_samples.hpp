@@ -10,10 +10,11 @@
 
 namespace carrom {
 
-/// Where a disc was when sampling began.
+/// Where a disc was when sampling, or a window of it, began.
 struct FirstPlace {
     DiscId id = 0;
     double x = 0, y = 0;
+    double vx = 0, vy = 0;               ///< per step
     double lengths_x = 0, lengths_y = 0; ///< in a periodic box: how many box lengths it has been
                                          ///< brought back by since then
 };
@@ -23,6 +24,7 @@ struct StoredSamples {
     std::vector<std::int64_t> sums;     ///< the same on all ranks; empty where nothing is measured
     bool have_first_places = false;     ///< the same on all ranks
     bool have_lengths = false;          ///< likewise
+    bool have_velocities = false;       ///< likewise
     /// A run of ids without gaps: to be written, of this rank's pieces (pieces.hpp); as read, of
     /// its slab (slabs.hpp).
     std::vector<FirstPlace> first_places;

@@ -75,18 +75,18 @@ inline constexpr std::array<FrameField, 6> checkpoint_frame = {{{"frame_x", &Fra
 struct SampleColumn {
     const char* name;
     double FirstPlace::* field;
-    bool is_of_periodic_boxes = false;
+    bool StoredSamples::* is_there;
 
     std::string path() const { return std::string("/carrom/measurements/") + name; }
-    bool is_in(const StoredSamples& samples) const {
-        return is_of_periodic_boxes ? samples.have_lengths : samples.have_first_places;
-    }
+    bool is_in(const StoredSamples& samples) const { return samples.*is_there; }
 };
-inline constexpr std::array<SampleColumn, 4> sample_columns = {
-    {{"first_x", &FirstPlace::x},
-     {"first_y", &FirstPlace::y},
-     {"lengths_x", &FirstPlace::lengths_x, true},
-     {"lengths_y", &FirstPlace::lengths_y, true}}};
+inline constexpr std::array<SampleColumn, 6> sample_columns = {
+    {{"first_x", &FirstPlace::x, &StoredSamples::have_first_places},
+     {"first_y", &FirstPlace::y, &StoredSamples::have_first_places},
+     {"lengths_x", &FirstPlace::lengths_x, &StoredSamples::have_lengths},
+     {"lengths_y", &FirstPlace::lengths_y, &StoredSamples::have_lengths},
+     {"first_vx", &FirstPlace::vx, &StoredSamples::have_velocities},
+     {"first_vy", &FirstPlace::vy, &StoredSamples::have_velocities}}};
 /// And for one of a periodic box.
 inline constexpr std::array<FrameField, 2> checkpoint_periods = {
     {{"period_x", &Frame::period_x}, {"period_y", &Frame::period_y}}};

@@ -64,9 +64,8 @@ bool is_listed(const Checksums& sums, const std::string& path) {
 
 StoredSamples samples_of(hid_t file, const Checksums& sums) {
     StoredSamples samples;
-    const auto has = [&](const SampleColumn& column) { return is_listed(sums, column.path()); };
-    samples.have_first_places = has(sample_columns[0]) || has(sample_columns[1]);
-    samples.have_lengths = has(sample_columns[2]) || has(sample_columns[3]);
+    for (const SampleColumn& column : sample_columns)
+        if (is_listed(sums, column.path())) samples.*column.is_there = true;
     if (h5::has(file, averages_path))
         samples.averages = h5::read_column<std::int64_t>(file, averages_path);
     if (!h5::has(file, measurements_path)) return samples;
@@ -155,11 +154,10 @@ void broadcast(Contents& contents, const Communicator& communicator) {
     }
     communicator.broadcast(contents.samples.averages);
     communicator.broadcast(contents.samples.sums);
-    std::array<std::uint64_t, 2> flags = {contents.samples.have_first_places ? 1u : 0u,
-                                          contents.samples.have_lengths ? 1u : 0u};
-    communicator.broadcast(flags);
-    contents.samples.have_first_places = flags[0] == 1;
-    contents.samples.have_lengths = flags[1] == 1;
+    for (const SampleColumn& column : sample_columns) {
+        bool& is_there = contents.samples.*column.is_there;
+        is_there = communicator.any(is_there);
+    }
 }
 
 /// A checkpoint whose bytes have their checksums, open on all ranks.
@@ -258,6 +256,13 @@ std::vector<Disc> read_discs(const WholeFile& file, const Share& share) {
     return discs;
 }
 
+double most_of(const SampleColumn& column, double longest_side) {
+    if (column.is_there == &StoredSamples::have_velocities)
+        return std::numeric_limits<double>::max();
+    return column.is_there == &StoredSamples::have_lengths ? most_lengths
+                                                           : farthest_place * longest_side;
+}
+
 /// Throws FileError.
 std::vector<FirstPlace> read_places(const WholeFile& file, const Share& share) {
     const StoredSamples& samples = file.contents.samples;
@@ -268,9 +273,7 @@ std::vector<FirstPlace> read_places(const WholeFile& file, const Share& share) {
     for (const SampleColumn& column : sample_columns) {
         if (!column.is_in(samples)) continue;
         file.read(column.path(), std::span(numbers), share.begin, H5T_NATIVE_DOUBLE);
-        const double most = column.is_of_periodic_boxes
-                                ? most_lengths
-                                : farthest_place * file.contents.header.box().longest();
+        const double most = most_of(column, file.contents.header.box().longest());
         for (std::size_t i = 0; i < places.size(); ++i) {
             if (!(std::fabs(numbers[i]) <= most))
                 throw FileError(column.path() + " holds what is no place");

@@ -27,6 +27,7 @@ template <class Sums, class Visit> void visit_all(Sums& s, const Visit& visit) {
         visit(s.psi6), visit(s.neighbours), visit(s.moduli), visit(s.psi6_pairs),
             visit(s.psi6_products);
     if (s.quantities & structure_factor_bit) visit(s.largest_wavenumber), visit(s.structure_factor);
+    if (s.quantities & diffusion_bit) visit(s.correlation_steps), visit(s.flights);
 }
 
 } // namespace

@@ -11,7 +11,8 @@
 namespace carrom {
 
 /// Bits of `quantities` whose sums are in a checkpoint only where they are asked for.
-inline constexpr std::uint64_t thermo_bit = 64, psi6_bit = 128, structure_factor_bit = 256;
+inline constexpr std::uint64_t thermo_bit = 64, psi6_bit = 128, structure_factor_bit = 256,
+                               diffusion_bit = 512;
 
 /// Sums over all samples so far, of all ranks together. Plain numbers: what a checkpoint keeps.
 struct SampleSums {
@@ -41,7 +42,10 @@ struct SampleSums {
     std::vector<double> psi6_products;                         ///< likewise
     double largest_wavenumber = 0;
     std::vector<double> structure_factor; ///< of each wave vector, over all samples
-    std::vector<double> last_motion;      ///< at the last sample: the sum of m v v, N and A
+    std::int64_t correlation_steps = 0;
+    std::vector<double> flights;     ///< of each time in each window: mean squares of displacements
+                                     ///< along x, along y, and the mean product of velocities
+    std::vector<double> last_motion; ///< at the last sample: the sum of m v v, N and A
 };
 
 std::vector<std::int64_t> packed(const SampleSums& sums);

@@ -20,7 +20,8 @@ std::uint64_t quantities_of(const MeasurementOutput& output) {
            (output.velocities ? 4u : 0u) | (output.density ? 8u : 0u) |
            (output.displacement ? 16u : 0u) | (output.pressure ? 32u : 0u) |
            (output.thermo ? thermo_bit : 0u) | (output.psi6 ? psi6_bit : 0u) |
-           (output.structure_factor ? structure_factor_bit : 0u);
+           (output.structure_factor ? structure_factor_bit : 0u) |
+           (output.diffusion ? diffusion_bit : 0u);
 }
 
 /// A component's root mean square, as the discs and the thermal walls have it; 0 where all is at
@@ -94,6 +95,7 @@ SampleSums Sampler::wanted() const {
         for (auto* counts : {&sums.moduli, &sums.psi6_pairs}) counts->assign(output_.bins, 0);
         sums.psi6_products.assign(output_.bins, 0);
     }
+    if (output_.diffusion) sums.correlation_steps = output_.correlation_steps;
     if (output_.structure_factor) {
         sums.largest_wavenumber = output_.largest_wavenumber;
         sums.structure_factor.assign(wave_vectors_of(scene_).size(), 0);
@@ -139,17 +141,21 @@ void Sampler::go_on(StoredSamples stored) {
                               found->largest_distance, asked.largest_distance, step)}});
         asked.largest_distance = found->largest_distance;
     }
-    const bool is_same =
-        found && found->quantities == asked.quantities && found->every_steps == asked.every_steps &&
-        found->wanted_from == asked.wanted_from &&
-        found->largest_distance == asked.largest_distance &&
-        (!output_.largest_velocity || found->largest_velocity == asked.largest_velocity) &&
-        found->pairs.size() == asked.pairs.size() && found->vx.size() == asked.vx.size() &&
-        found->x.size() == asked.x.size() && found->moduli.size() == asked.moduli.size() &&
-        found->largest_wavenumber == asked.largest_wavenumber &&
-        found->structure_factor.size() == asked.structure_factor.size() &&
-        stored.have_first_places == output_.displacement &&
-        stored.have_lengths == (output_.displacement && scene_.effects.are_periodic());
+    const bool is_same = found && found->quantities == asked.quantities &&
+                         found->every_steps == asked.every_steps &&
+                         found->wanted_from == asked.wanted_from &&
+                         found->largest_distance == asked.largest_distance &&
+                         (!output_.largest_velocity ||
+                          found->largest_velocity == asked.largest_velocity) &&
+                         found->pairs.size() == asked.pairs.size() &&
+                         found->vx.size() == asked.vx.size() && found->x.size() == asked.x.size() &&
+                         found->moduli.size() == asked.moduli.size() &&
+                         found->largest_wavenumber == asked.largest_wavenumber &&
+                         found->structure_factor.size() == asked.structure_factor.size() &&
+                         stored.have_first_places == follows_flights() &&
+                         stored.have_lengths == follows_lengths() &&
+                         stored.have_velocities == output_.diffusion &&
+                         found->correlation_steps == asked.correlation_steps;
     if (!is_same)
         throw InputError(
             {{"[output.measurements]", 0,
@@ -169,7 +175,7 @@ void Sampler::go_on(StoredSamples stored) {
     sums_.pending.clear();
     if (output_.pressure || output_.thermo)
         pressure_ = PressureSampler::going_on(simulation_, ranks_, sums_);
-    if (output_.displacement) place_first(stored.first_places);
+    if (follows_flights()) place_first(stored.first_places);
 }
 
 std::int64_t Sampler::next_due(std::int64_t step) const {
@@ -199,7 +205,7 @@ void Sampler::sample(std::int64_t step) {
     sums_.area += (box.x_high - box.x_low) * (box.y_high - box.y_low);
     if (output_.velocities) sample_velocities(inside);
     if (output_.density) sample_density(inside, box);
-    if (output_.displacement) sample_displacement(discs, n_discs, is_first);
+    if (follows_flights()) sample_displacement(discs, n_discs, is_first);
     if (output_.wall_pressure && !is_first) sample_impulses(step);
     if (pressure_ && !is_first) pressure_->sample(sums_, static_cast<double>(output_.every_steps));
     if (output_.thermo) sample_thermo();
@@ -316,11 +322,14 @@ StoredSamples Sampler::stored() const {
     }
     if (pressure_) pressure_->store(sums);
     stored.sums = packed(sums);
-    stored.have_first_places = output_.displacement;
-    stored.have_lengths = output_.displacement && scene_.effects.are_periodic();
+    stored.have_first_places = follows_flights();
+    stored.have_lengths = follows_lengths();
+    stored.have_velocities = output_.diffusion;
     for (std::size_t i = 0; i < first_places_.size(); ++i) {
         FirstPlace& place = stored.first_places.emplace_back(
             FirstPlace{first_id_ + i, first_places_[i][0], first_places_[i][1]});
+        if (stored.have_velocities)
+            place.vx = first_velocities_[i][0], place.vy = first_velocities_[i][1];
         if (stored.have_lengths) place.lengths_x = lengths_[i][0], place.lengths_y = lengths_[i][1];
     }
     return stored;

@@ -73,6 +73,11 @@ private:
     void sample_psi6();
     void sample_structure_factor(std::span<const Disc> discs, const Extent& box);
     void sample_displacement(std::span<const Disc> shown, std::uint64_t n_discs, bool is_first);
+    std::array<double, 3> flights_of(std::span<const Disc> discs, std::uint64_t n_discs);
+    double fastest_of(std::span<const Disc> discs) const;
+    void begin_flights(std::span<const Disc> discs);
+    bool follows_flights() const { return output_.displacement || output_.diffusion; }
+    bool follows_lengths() const { return follows_flights() && scene_.effects.are_periodic(); }
     void place_first(std::span<const FirstPlace> places);
     void follow_walls();
     void follow_crossings();
@@ -89,6 +94,7 @@ private:
     std::optional<PressureSampler> pressure_;
     std::uint64_t first_id_ = 0;
     std::vector<std::array<double, 2>> first_places_; ///< of this rank's run of ids, see pieces.hpp
+    std::vector<std::array<double, 2>> first_velocities_; ///< along them, for "diffusion"
     mutable std::vector<Crossing> crossings_; ///< of a periodic box's own discs, not yet reported
     mutable std::vector<std::array<double, 2>>
         lengths_; ///< along the first places, there: what discs have been brought back by

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "measure/diffusion_tables.hpp"
 #include "measure/order_tables.hpp"
 #include "measure/sampler.hpp"
 #include "measure/table_parts.hpp"
@@ -283,6 +284,7 @@ std::vector<MeasuredTable> tables_of(const SampleSums& sums, const Scene& scene)
         tables.push_back(std::move(history));
     }
     if (output.psi6) add_psi6_tables(sums, tables);
+    if (output.diffusion) add_diffusion_tables(sums, tables);
     if (output.structure_factor) add_structure_tables(sums, scene, tables);
     const std::string what = fmt::format("{} samples, steps {} to {}, one every {}", sums.n_samples,
                                          sums.first_step, sums.last_step, sums.every_steps);

@@ -164,7 +164,7 @@ void check_samples(const Check& check) {
     const std::int64_t steps = check.scene.steps - output.from_step;
     const std::int64_t n_samples = steps / output.every_steps;
     const bool has_history = output.wall_pressure || output.displacement || output.pressure ||
-                             output.thermo || output.psi6;
+                             output.thermo || output.psi6 || output.diffusion;
     if (!has_history || n_samples <= most_samples_of_histories) return;
     check.refuse({"output.measurements.every_steps", quantities},
                  fmt::format("{} samples of quantities that have a history are more than {}; take "
@@ -215,6 +215,19 @@ void check_wavenumber(const Check& check) {
                              least, reach(most_vectors), largest));
 }
 
+void check_window(const Check& check) {
+    Scene& scene = check.scene;
+    if (!scene.measurements || !scene.measurements->diffusion) return;
+    const std::int64_t every = scene.measurements->every_steps;
+    std::int64_t& window = scene.measurements->correlation_steps;
+    if (!check.settings.has("output.measurements.correlation_steps")) window = 64 * every;
+    if (window >= 2 * every && window % every == 0) return;
+    check.refuse({"output.measurements.correlation_steps", quantities},
+                 fmt::format("'output.measurements.correlation_steps' must be a multiple of "
+                             "'output.measurements.every_steps' = {}, from {} on, not {}",
+                             every, 2 * every, window));
+}
+
 } // namespace
 
 void check_times(const Check& check) {
@@ -252,6 +265,7 @@ void check_room(const Check& check) {
     check_obstacles(check);
     check_distance(check);
     check_wavenumber(check);
+    check_window(check);
 }
 
 } // namespace carrom

@@ -129,7 +129,8 @@ std::vector<Key> keys_of_measurements() {
         {"pressure", &Output::pressure},
         {"thermo", &Output::thermo},
         {"psi6", &Output::psi6},
-        {"structure_factor", &Output::structure_factor}};
+        {"structure_factor", &Output::structure_factor},
+        {"diffusion", &Output::diffusion}};
     return {
         flags_key(
             "output.measurements.quantities", "", "What is measured.",
@@ -161,6 +162,12 @@ std::vector<Key> keys_of_measurements() {
             .within({.low = 0, .excludes_low = true})
             .needs(
                 quantity("\"structure_factor\"", [](const auto& m) { return m.structure_factor; })),
+        key("output.measurements.correlation_steps", "steps",
+            "Longest time of diffusion and velocity autocorrelation; then they begin anew.",
+            [](auto& s) -> auto& { return s.measurements->correlation_steps; })
+            .by_default("64 samples")
+            .within(every)
+            .needs(quantity("\"diffusion\"", [](const auto& m) { return m.diffusion; })),
         key("output.measurements.largest_velocity", "length/step",
             "Largest component in the table of velocities.",
             [](auto& s) -> auto& { return s.measurements->largest_velocity; })

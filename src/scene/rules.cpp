@@ -137,18 +137,23 @@ std::vector<Rule> rules_of_outputs() {
         rule("\"wall_pressure\"", "a box that is periodic all round", "it has no walls",
              {quantities},
              [](const Scene& s) { return measured(s).wall_pressure && is_periodic_all_round(s); }),
+        rule("\"diffusion\"", "\"displacement\"",
+             "a run keeps one first place of each disc; diffusion has displacements in its table",
+             {quantities},
+             [](const Scene& s) { return measured(s).diffusion && measured(s).displacement; }),
         rule("\"structure_factor\"", "a side that is not periodic",
              "wave vectors are those of a box that repeats itself; make all four sides periodic",
              {quantities},
              [](const Scene& s) {
                  return measured(s).structure_factor && !is_periodic_all_round(s);
              }),
-        rule("\"wall_pressure\", \"radial_distribution\" and \"displacement\"", "an open side",
-             "with open sides velocities and densities alone are measured", {quantities},
+        rule("\"wall_pressure\", \"radial_distribution\", \"displacement\" and \"diffusion\"",
+             "an open side", "with open sides velocities and densities alone are measured",
+             {quantities},
              [](const Scene& s) {
                  const MeasurementOutput output = measured(s);
-                 return has_open(s) &&
-                        (output.wall_pressure || output.radial_distribution || output.displacement);
+                 return has_open(s) && (output.wall_pressure || output.radial_distribution ||
+                                        output.displacement || output.diffusion);
              }),
         rule("\"radial_distribution\" of several species", "a wall",
              "centres of large discs have less room between walls; it needs a box that is periodic "

@@ -90,8 +90,9 @@ struct MeasurementOutput {
     std::int64_t every_steps = 10, from_step = 0;
     bool wall_pressure = false, radial_distribution = false, velocities = false, density = false,
          displacement = false, pressure = false, thermo = false, psi6 = false,
-         structure_factor = false;
+         structure_factor = false, diffusion = false;
     std::size_t bins = 100;
+    std::int64_t correlation_steps = 0; ///< of a window of "diffusion"
     double largest_wavenumber =
         0;                       ///< of the structure factor; 0: by diameter and number of vectors
     double largest_distance = 0; ///< of the radial distribution and of psi6's correlation

@@ -28,25 +28,29 @@ done
 run 1 verify kept_event-driven/checkpoints/checkpoint-000000000050.h5
 expect_code 0 'a checkpoint with measurements'
 
-# In a periodic box, where there are wave vectors.
+# In a periodic box, where there are wave vectors; the restart comes within a window of flights.
 around=(--set box.left.kind=periodic --set box.right.kind=periodic --set box.bottom.kind=periodic
         --set box.top.kind=periodic --set output.measurements.every_steps=7)
-waves=(--set 'output.measurements.quantities=["psi6","structure_factor"]')
-run 1 run gas.toml --quiet "${around[@]}" "${waves[@]}" -o whole_around
+flights=(--set 'output.measurements.quantities=["psi6","structure_factor","diffusion"]'
+         --set output.measurements.correlation_steps=21)
+run 1 run gas.toml --quiet "${around[@]}" "${flights[@]}" -o whole_around
 expect_code 0 'all round, one rank'
-run 3 run gas.toml --quiet --threads 2 --steps 50 "${around[@]}" "${waves[@]}" -o kept_around
+run 3 run gas.toml --quiet --threads 2 --steps 50 "${around[@]}" "${flights[@]}" -o kept_around
 expect_code 0 'all round, three ranks'
-run 2 run gas.toml --quiet "${around[@]}" "${waves[@]}" -o kept_around --restart latest
+run 2 run gas.toml --quiet "${around[@]}" "${flights[@]}" -o kept_around --restart latest
 expect_code 0 'all round, the second stretch'
 diff -r whole_around/measurements kept_around/measurements >/dev/null ||
     complain "all round: $(diff -rq {whole,kept}_around/measurements)"
-run 1 run gas.toml -o x "${around[@]}" "${waves[@]}" \
-    --set output.measurements.largest_wavenumber=1e4
-expect_code 2 'wrong wavenumbers'
+run 1 run gas.toml -o x "${around[@]}" "${flights[@]}" \
+    --set output.measurements.correlation_steps=20 --set output.measurements.largest_wavenumber=1e4
+expect_code 2 'wrong windows and wavenumbers'
+expect_told "must be a multiple of 'output.measurements.every_steps' = 7, from 14 on" 'windows'
 expect_told 'where a million are, not 10000' 'wavenumbers'
-run 1 run gas.toml -o x "${waves[@]}"
-expect_code 2 'wave vectors between walls'
+run 1 run gas.toml -o x \
+    --set 'output.measurements.quantities=["structure_factor","diffusion","displacement"]'
+expect_code 2 'quantities that exclude each other, and walls'
 expect_told 'make all four sides periodic' 'wave vectors between walls'
+expect_told 'one first place of each disc' 'diffusion and displacement'
 
 # The table of the usual quantities grows as the run goes on.
 [ "$(grep -vc '#' whole_event-driven/measurements/thermo.csv)" -eq 13 ] || complain 'rows of thermo'

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Displacements and products of velocities in windows, against sums over all discs; diffusion in a
+// gas against Enskog's theory.
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "catch.hpp"
+
+#include "measured_runs.hpp"
+#include "parallel/exchange.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+constexpr Boundary seam{BoundaryKind::periodic, 1, 0, 0};
+
+struct Case {
+    const char* name;
+    Method method;
+    Effects effects;
+};
+
+std::vector<Case> cases() {
+    Effects none, around, falling;
+    around.boundaries.fill(seam);
+    falling.boundaries[0] = falling.boundaries[1] = seam;
+    falling.gravity = {0, -0.003};
+    return {{"walls, time-stepped", Method::time_stepped, none},
+            {"all round", Method::event_driven, around},
+            {"along x, with gravity", Method::event_driven, falling}};
+}
+
+/// Samples at 5, 9, 13 ... Windows of three times four steps.
+Scene with_diffusion(const TestScene& test, Method method) {
+    Scene scene = measured(test, method, 4, 5);
+    MeasurementOutput& output = *scene.measurements;
+    output.wall_pressure = output.velocities = output.density = output.displacement = false;
+    output.radial_distribution = false;
+    output.diffusion = true;
+    output.correlation_steps = 12;
+    return scene;
+}
+
+TestScene test_of(const Case& each) {
+    TestScene test = gas(150, 0.15, 2, 79);
+    test.setting.effects = each.effects;
+    test.setting.box_height = 1.2 * test.setting.box_size;
+    test.setting.micro_steps = 2;
+    test.setting.sync_every = 12;
+    test.steps = 60;
+    return test;
+}
+
+struct Flying {
+    DiscId id = 0;
+    double x = 0, y = 0, vx = 0, vy = 0;
+};
+
+std::vector<Flying> all_flying(const Simulation& simulation, const Communicator& world) {
+    std::vector<Flying> mine;
+    const double unit = simulation.velocity_unit(), time = simulation.clock();
+    for (const Disc& disc : simulation.shown())
+        mine.push_back({disc.id, disc.x_at(time), disc.y_at(time), disc.vx * unit, disc.vy * unit});
+    std::vector<std::vector<Flying>> out(static_cast<std::size_t>(world.size()), mine);
+    std::vector<Flying> all = send_to_owners(world, out).items;
+    std::sort(all.begin(), all.end(), [](const Flying& a, const Flying& b) { return a.id < b.id; });
+    return all;
+}
+
+/// By hand: the run is looked at every step, in which no disc gets as far as half the box.
+struct ByHand {
+    double period_x, period_y;
+    std::vector<Flying> before{}, first{};
+    std::vector<std::array<double, 2>> flown{};
+    std::array<std::vector<double>, 4> squares{}, products{}; ///< of each time, over windows
+
+    void look(const std::vector<Flying>& now, std::size_t step) {
+        const auto nearest = [](double d, double period) {
+            return period == 0 ? d : std::remainder(d, period);
+        };
+        flown.resize(now.size());
+        for (std::size_t i = 0; !before.empty() && i < now.size(); ++i) {
+            flown[i][0] += nearest(now[i].x - before[i].x, period_x);
+            flown[i][1] += nearest(now[i].y - before[i].y, period_y);
+        }
+        before = now;
+        if (step % 4 != 0) return;
+        if (step > 0) add(now, (step / 4 - 1) % 3 + 1);
+        if (step % 12 != 0) return;
+        first = now;
+        for (auto& one : flown) one = {0, 0};
+        add(now, 0);
+    }
+    void add(const std::vector<Flying>& now, std::size_t time) {
+        double square = 0, product = 0;
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            square += flown[i][0] * flown[i][0] + flown[i][1] * flown[i][1];
+            product += first[i].vx * now[i].vx + first[i].vy * now[i].vy;
+        }
+        squares[time].push_back(square / static_cast<double>(now.size()));
+        products[time].push_back(product / static_cast<double>(now.size()));
+    }
+};
+
+double mean_of(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double value : values) sum += value;
+    return sum / static_cast<double>(values.size());
+}
+
+} // namespace
+
+TEST_CASE("measurements: diffusion has the flights of all discs in windows") {
+    const Communicator world = Communicator::world();
+    for (const Case& each : cases()) {
+        INFO(each.name);
+        const TestScene test = test_of(each);
+        const Scene scene = with_diffusion(test, each.method);
+        Simulation simulation = simulation_of(scene, test, world);
+        Sampler sampler(scene, simulation, world);
+        ByHand expected{scene.effects.is_periodic_x() ? scene.box.x : 0,
+                        scene.effects.is_periodic_y() ? scene.box.y : 0};
+        for (std::int64_t step = 5; step <= 60; ++step) {
+            advance_to(simulation, sampler, step);
+            expected.look(all_flying(simulation, world), static_cast<std::size_t>(step - 5));
+        }
+        const std::vector<MeasuredTable> tables = sampler.tables();
+        const std::vector<double> squares = column_of(tables, "velocity_autocorrelation",
+                                                      "squares"),
+                                  products = column_of(tables, "velocity_autocorrelation",
+                                                       "velocities");
+        CHECK(column_of(tables, "velocity_autocorrelation", "steps") ==
+              std::vector<double>{0, 4, 8, 12});
+        CHECK(column_of(tables, "velocity_autocorrelation", "count") ==
+              std::vector<double>{5, 5, 4, 4});
+        for (std::size_t time = 0; time < 4; ++time) {
+            CHECK(squares[time] == Approx(mean_of(expected.squares[time])).epsilon(1e-12));
+            CHECK(products[time] == Approx(mean_of(expected.products[time])).epsilon(1e-11));
+        }
+        double growth = 0;
+        for (std::size_t k = 0; k < 4; ++k)
+            growth += (expected.squares[3][k] - expected.squares[1][k]) / 4;
+        CHECK(column_of(tables, "diffusion", "D")[0] == Approx(growth / (4 * 8)).epsilon(1e-11));
+        CHECK(column_of(tables, "diffusion", "D_error")[0] > 0);
+    }
+}
+
+TEST_CASE("measurements: diffusion goes on from what was stored, within a window") {
+    const Communicator world = Communicator::world();
+    for (const Case& each : cases()) {
+        INFO(each.name);
+        const TestScene test = test_of(each);
+        const Scene scene = with_diffusion(test, each.method);
+        Simulation whole = simulation_of(scene, test, world);
+        Sampler whole_sampler(scene, whole, world);
+        advance_to(whole, whole_sampler, 60);
+
+        Simulation first = simulation_of(scene, test, world);
+        Sampler first_sampler(scene, first, world);
+        advance_to(first, first_sampler, 24);
+        StoredState state = {{first.discs().begin(), first.discs().end()},
+                             first.micro_steps_done(),
+                             SideColumns(first.side_columns())};
+        Simulation second(scene, std::move(state), world, {});
+        Sampler sampler(scene, second, world);
+        sampler.go_on(first_sampler.stored());
+        advance_to(second, sampler, 60);
+        for (const char* name : {"velocity_autocorrelation", "diffusion"})
+            CHECK(table_of(sampler.tables(), name).rows ==
+                  table_of(whole_sampler.tables(), name).rows);
+    }
+}
+
+// Enskog: C(t) / C(0) begins as 1 - nu t, nu = 2 sqrt(pi) rho sigma g sqrt(kT), and D = kT / nu. It
+// holds within some percent at this packing; g by Henderson (Mol. Phys. 30, 971 (1975)).
+TEST_CASE("measurements: a gas diffuses as Enskog's theory says") {
+    const Communicator world = Communicator::world();
+    const double eta = 0.1;
+    TestScene test = gas(800, eta, 0.1, 80);
+    test.setting.effects.boundaries.fill(seam);
+    test.steps = 6100;
+    Scene scene = with_diffusion(test, Method::event_driven);
+    scene.measurements->every_steps = 2;
+    scene.measurements->from_step = 100;
+    scene.measurements->correlation_steps = 400;
+    Simulation simulation = simulation_of(scene, test, world);
+    Sampler sampler(scene, simulation, world);
+    advance_to(simulation, sampler, 6100);
+    const std::vector<MeasuredTable> tables = sampler.tables();
+    const std::vector<double> products = column_of(tables, "velocity_autocorrelation",
+                                                   "velocities");
+    const double kt = products[0] / 2, diameter = 2,
+                 g = (1 - 7 * eta / 16) / ((1 - eta) * (1 - eta)),
+                 density = 4 * eta / (std::numbers::pi * diameter * diameter),
+                 nu = 2 * std::sqrt(std::numbers::pi) * density * diameter * g * std::sqrt(kt);
+    for (std::size_t k = 1; k < 4; ++k) {
+        const double t = 2 * static_cast<double>(k);
+        CHECK(products[k] / products[0] == Approx(std::exp(-nu * t)).margin(0.012));
+    }
+    const double d = column_of(tables, "diffusion", "D")[0],
+                 error = column_of(tables, "diffusion", "D_error")[0];
+    CHECK(error < 0.04 * d);
+    CHECK(std::fabs(d - kt / nu) < 4 * error + 0.05 * kt / nu);
+}
