@@ -85,14 +85,15 @@ private:
     void check_lengths() {
         const auto* list = std::get_if<Values>(&setting_.value.data);
         if (!list) return check_number();
+        const auto refuse_list = [&](const std::string& found) {
+            refuse(fmt::format("'{}' must be {}, not {}", key_.name, kind_text(key_), found));
+        };
+        if (list->size() != 2) return refuse_list(fmt::format("an array of {}", list->size()));
         Numbers numbers;
         for (const Value& one : *list) {
             const auto number = as_number(one);
-            if (!number || !std::isfinite(*number) || list->size() != 2)
-                return refuse(fmt::format("'{}' must be {}, not {}", key_.name, kind_text(key_),
-                                          list->size() != 2
-                                              ? fmt::format("an array of {}", list->size())
-                                              : fmt::format("[..., {}, ...]", value_text(one))));
+            if (!number || !std::isfinite(*number))
+                return refuse_list(fmt::format("[..., {}, ...]", value_text(one)));
             check_range(*number);
             numbers.push_back(*number);
         }

@@ -68,12 +68,13 @@ private:
         const CellGrid& grid = *view_.grid;
         const GridGeometry& geometry = grid.geometry();
         const Disc& disc = view_.population.discs[index];
-        const double x = view_.periods.x_of(disc, view_.time),
-                     y = view_.periods.y_of(disc, view_.time), far = reach_ * (1 + 1e-6);
-        const int low = geometry.row_of(y - far), high = geometry.row_of(y + far);
+        const auto [along, across] = turned(geometry.axis, view_.periods.x_of(disc, view_.time),
+                                            view_.periods.y_of(disc, view_.time));
+        const double far = reach_ * (1 + 1e-6);
+        const int low = geometry.row_of(across - far), high = geometry.row_of(across + far),
+                  last = geometry.column_of(along + far);
         seen_.clear();
-        for (int column = geometry.column_of(x - far); column <= geometry.column_of(x + far);
-             ++column) {
+        for (int column = geometry.column_of(along - far); column <= last; ++column) {
             const SlotRange own = grid.run(column, low, high),
                             halo = grid.halo_run(column, low, high);
             for (LocalIndex other = own.begin; other < own.end; ++other)
