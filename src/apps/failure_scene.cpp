@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/failure_scene.hpp"
 
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -24,6 +26,13 @@ std::string text_around(const Scene& scene, const CheckFailure& failure,
     if (has_boundary(scene.effects, BoundaryKind::moving))
         text += "\n# Moving walls begin at the box's sides here; they have moved there.";
     Scene around = scene;
+    constexpr double turn = 2 * std::numbers::pi;
+    for (Boundary& side : around.effects.boundaries)
+        if (side.kind == BoundaryKind::oscillating)
+            side.phase = turn *
+                         std::remainder(side.phase / turn +
+                                            static_cast<double>(failure.step - 1) / side.period,
+                                        1);
     around.n_discs = failure.discs_around.size();
     around.generator = Generator::file;
     around.discs_file = discs_file;

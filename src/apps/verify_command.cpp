@@ -135,7 +135,7 @@ bool is_possible(const NamedRows& rows, std::size_t i, const FileSummary& summar
         has_left |= summary.open_boundaries[side] && is_at_rest && beyond[side] > 0 &&
                     beyond[side] <= reach; // smaller discs than the largest leave before
     for (std::size_t side = 0; side < beyond.size(); ++side) {
-        if (beyond[side] <= 0) continue;
+        if (beyond[side] <= summary.amplitudes[side]) continue;
         if (!summary.open_boundaries[side]) return false;
         // Without velocities nobody knows how far it flies; pushed out over a corner it leaves by
         // one side and keeps its place along it.

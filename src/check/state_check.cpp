@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -22,6 +23,7 @@ struct Part {
     DiscId disc = 0;
     std::int64_t end_of_micro_step = 0;
     std::uint64_t is_wall = 0;
+    double impulse = 0; ///< of a wall
 };
 
 bool is_finite(const Disc& disc) {
@@ -53,7 +55,10 @@ StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64
       tolerance_(PlainDynamics(scene.box, scene.radius).tolerance()) {
     may_lose_energy_ = may_lose_in_contacts() || effects_.obstacles.restitution < 1 ||
                        (effects_.gravity.is_any() && effects_.drag != 0);
+    wall_speed_ = largest_wall_speed(effects_);
     for (const Boundary& side : effects_.boundaries) {
+        const double turning = 2 * std::numbers::pi / side.period;
+        wall_pull_ = std::max(wall_pull_, side.amplitude * turning * turning);
         may_lose_energy_ = may_lose_energy_ || side.restitution < 1;
         walls_give_energy_ = walls_give_energy_ || side.kind == BoundaryKind::thermal ||
                              side.speed != 0;
@@ -77,7 +82,9 @@ StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64
             square, mass_of(own[i].id) / smallest_mass_ *
                         (squared_speed_of(own[i]) + effects_.contact.inertia * turning * turning));
     }
-    fastest_ = std::sqrt(communicator_.max(square)) * std::sqrt(static_cast<double>(scene.n_discs));
+    fastest_ = std::sqrt(communicator_.max(square)) *
+                   std::sqrt(static_cast<double>(scene.n_discs)) +
+               wall_speed_;
     energy_ = energy_of(own);
 }
 
@@ -129,22 +136,32 @@ void StateCheck::fail_if_found(const Finding& mine, Log log) {
                        std::move(spins));
 }
 
+/// At the last look; moving walls are where they began.
+Extent StateCheck::walls_before() const {
+    Effects effects = effects_;
+    for (Boundary& side : effects.boundaries) side.speed = 0;
+    return extent_at(effects, scene_.box_size, static_cast<double>(micro_steps_before_));
+}
+
 /// The discs of this rank's slab at the last look.
 std::vector<SceneDisc> StateCheck::discs_before() const {
     const auto clock = static_cast<double>(micro_steps_before_ % scene_.sync_every);
     const auto unit = static_cast<double>(scene_.micro_steps);
     const Periods periods = scene_.effects.periods(scene_.box);
-    const auto inside = [](double x, double period, double length, double radius) {
-        return period != 0 ? wrapped(x, period) : std::clamp(x, radius, length - radius);
+    const auto inside = [&](double x, double period, double low, double high) {
+        return period != 0 ? wrapped(x, period) : std::clamp(x, low, high);
     };
+    const Extent walls = walls_before();
     std::vector<SceneDisc> discs;
     for (const Known& known : before_) {
         const Disc& disc = known.disc;
         const double radius = species_.of(disc.id).radius;
-        discs.push_back({{disc.id, inside(disc.x_at(clock), periods.x, scene_.box.x, radius),
-                          inside(disc.y_at(clock), periods.y, scene_.box.y, radius), disc.vx * unit,
-                          disc.vy * unit},
-                         known.spin * unit});
+        discs.push_back(
+            {{disc.id,
+              inside(disc.x_at(clock), periods.x, walls.x_low + radius, walls.x_high - radius),
+              inside(disc.y_at(clock), periods.y, walls.y_low + radius, walls.y_high - radius),
+              disc.vx * unit, disc.vy * unit},
+             known.spin * unit});
     }
     return discs;
 }
@@ -182,7 +199,7 @@ Finding StateCheck::take_records(std::span<const Disc> own, std::span<const doub
             known_[in.items[i].id - first_id_].spin = spins_in.items[i];
     }
     std::vector<int> n_owners(known_.size(), 0);
-    for (Known& known : known_) known.walls = known.pairs = 0;
+    for (Known& known : known_) known.walls = known.pairs = 0, known.wall_impulse = 0;
     for (std::size_t k = 0; k < in.n_senders(); ++k) {
         for (const Disc& disc : in.from(k)) {
             const std::size_t i = disc.id - first_id_;
@@ -214,13 +231,14 @@ void StateCheck::take_log(Log log) {
         for (const DiscId id : {collision.p, is_wall ? collision.p : collision.q}) {
             ensure(id < scene_.n_discs, "the log of collisions names a disc that does not exist");
             out[static_cast<std::size_t>(slab_of_disc(id))].push_back(
-                {id, collision.micro_step + 1, is_wall ? 1u : 0u});
+                {id, collision.micro_step + 1, is_wall ? 1u : 0u, is_wall ? collision.impulse : 0});
             if (is_wall) break;
         }
     }
     for (const Part& part : send_to_owners(communicator_, out).items) {
         Known& known = known_[part.disc - first_id_];
         ++(part.is_wall == 1 ? known.walls : known.pairs);
+        known.wall_impulse += part.impulse;
         known.free_from = std::max(known.free_from, part.end_of_micro_step);
     }
     n_pair_collisions_ += communicator_.sum(n_pairs);

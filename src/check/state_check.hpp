@@ -13,7 +13,8 @@
 // Effects are allowed for. Discs are looked at as the box sees them. They fall and slow down as
 // they should, may overlap where they do not meet, and lose energy in collisions that take some.
 // The check does not know beforehand what thermal and moving walls give, so it does not hold the
-// energy of discs there that have met a wall. Energies include masses and spins. Price: 128 bytes a
+// energy of discs there that have met a wall. Oscillating walls give or take at most the impulse
+// times their largest speed. Energies include masses and spins. Price: 128 bytes a
 // disc, every disc and collision sent once a step, collisions to rank 0.
 #pragma once
 
@@ -56,6 +57,7 @@ private:
         std::int64_t free_from =
             0; ///< the end of the last micro-step in which it had a collision, or the check's begin
         std::uint64_t walls = 0, pairs = 0; ///< collisions since the last look
+        double wall_impulse = 0;            ///< in these, all of them added up
         int owner = -1;
     };
     struct Suspect {
@@ -93,6 +95,9 @@ private:
         return species_.of(p.id).radius + species_.of(q.id).radius;
     }
     double resting_gain(const Known& known) const;
+    double work_of_walls(const Known& known) const;
+    double work_of_walls() const;
+    Extent walls_before() const;
     /// What is left of a velocity after the last look's stretch of time, and how long that was.
     double slowing() const;
     double energy_left() const;
@@ -109,6 +114,8 @@ private:
     std::optional<Obstacles> obstacles_;
     SpeciesTable species_;
     double total_mass_ = 0, smallest_mass_ = 1;
+    double wall_speed_ = 0, wall_pull_ = 0; ///< of oscillating walls: the largest, and by which
+                                            ///< acceleration one presses a disc
     bool may_lose_energy_ = false, walls_give_energy_ = false;
     Communicator communicator_;
     std::uint64_t first_id_ = 0;

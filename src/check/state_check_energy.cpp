@@ -113,7 +113,7 @@ Finding StateCheck::first_other_total(std::span<const Disc> own,
         const double fall = std::fabs(effects_.gravity.x) + std::fabs(effects_.gravity.y);
         expected = energy_ * energy_left();
         scale = energy_ + total_mass_ * k * k * fall * scene_.box.longest();
-        allowed = bound * scale + n * k * k * communicator_.max(gain);
+        allowed = bound * scale + n * k * k * communicator_.max(gain) + k * k * work_of_walls();
         energy_ = energy;
     }
     const double drift = may_lose_energy_ ? energy - expected : std::fabs(energy - expected);
@@ -133,7 +133,7 @@ SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     const Known& known = known_[i];
     SharedEnergy energy = {first_id_ + i, twice_energy(before_[i]) * energy_left(),
                            twice_energy(known)};
-    energy.allowance = resting_gain(known);
+    energy.allowance = resting_gain(known) + 2 * work_of_walls(known);
     if (obstacles_) energy.n_reflections = static_cast<double>(known.walls);
     if (effects_.drag != 0) energy.allowance += energy_bound * energy.before;
     if (walls_give_energy_ && known.walls > 0)
@@ -146,7 +146,7 @@ void StateCheck::note_speeds() {
     if (!scene_.effects.are_any()) return;
     double square = 0;
     for (const Known& known : known_) square = std::max(square, squared_speed_of(known.disc));
-    fastest_ = std::max(fastest_, std::sqrt(communicator_.max(square)));
+    fastest_ = std::max(fastest_, std::sqrt(communicator_.max(square)) + wall_speed_);
 }
 
 /// Under gravity with that of height, counted from far enough below that roundings of places are
@@ -170,10 +170,27 @@ double StateCheck::twice_energy(const Known& known) const {
 /// The guard of discs at rest: one that is pulled to a wall leaves it with half of what gravity
 /// gives in a contact time, at least.
 double StateCheck::resting_gain(const Known& known) const {
-    const double leaving = 0.5 *
-                           std::max(std::fabs(effects_.gravity.x), std::fabs(effects_.gravity.y)) *
-                           effects_.contact.contact_time;
+    const double pull = std::max(std::fabs(effects_.gravity.x), std::fabs(effects_.gravity.y));
+    const double leaving = 0.5 * (pull + wall_pull_) * effects_.contact.contact_time;
     return 1.01 * mass_of(known.disc.id) * leaving * leaving * static_cast<double>(known.walls);
+}
+
+/// What oscillating walls have given at most, or taken. A disc that comes with v and leaves with v'
+/// gets m (v' - v) (v' + v) / 2. Seen from the wall it leaves no faster than it came, so that is
+/// the impulse times the wall's speed, less what the restitution takes. Of the rest's guard see
+/// resting_gain.
+double StateCheck::work_of_walls(const Known& known) const {
+    return 1.01 * wall_speed_ * known.wall_impulse / static_cast<double>(scene_.micro_steps);
+}
+
+/// On all discs. **Collective.**
+double StateCheck::work_of_walls() const {
+    if (wall_speed_ == 0) return 0;
+    double work = 0;
+    for (const Known& known : known_) work += work_of_walls(known);
+    double sum = 0;
+    for (const double part : communicator_.all_gather(work)) sum += part;
+    return sum;
 }
 
 double StateCheck::slowing() const {

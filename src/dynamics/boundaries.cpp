@@ -17,28 +17,49 @@ Boundaries::Boundaries(const Box& box, double radius, const Effects& effects,
         speeds_[side] = effects.boundaries[side].speed;
         if (effects.boundaries[side].kind == BoundaryKind::periodic)
             away_[side] = -sign_of(side) * never;
+        oscillations_[side] = Oscillation(effects.boundaries[side], sign_of(side),
+                                          gravity_[side / 2], 8 * 0x1p-52 * box.longest());
     }
     moved_ = away_;
 }
 
 void Boundaries::begin_interval(std::int64_t n) {
-    for (std::size_t side = 0; side < 4; ++side)
-        moved_[side] = away_[side] + speeds_[side] * static_cast<double>(n);
+    const auto time = static_cast<double>(n);
+    for (std::size_t side = 0; side < 4; ++side) {
+        moved_[side] = away_[side] + speeds_[side] * time;
+        oscillations_[side].begin_interval(time);
+    }
 }
 
 Extent Boundaries::extent_at(double time) const {
+    Extent box = extent_of_lines(time);
+    const auto move = [&](std::size_t side, double& line) {
+        if (oscillations_[side].is_any()) line += oscillations_[side].at(time).place;
+    };
+    move(0, box.x_low);
+    move(1, box.x_high);
+    move(2, box.y_low);
+    move(3, box.y_high);
+    return box;
+}
+
+Extent Boundaries::extent_of_lines(double time) const {
     return {wall_at(0, time, radius_) - radius_, wall_at(1, time, radius_) + radius_,
             wall_at(2, time, radius_) - radius_, wall_at(3, time, radius_) + radius_};
 }
 
 Extent Boundaries::walls_between(double begin, double end) const {
-    const Extent first = extent_at(begin), last = extent_at(end);
+    const Extent first = extent_of_lines(begin), last = extent_of_lines(end);
     // A chord is no further from its curve than that times the largest acceleration in between, the
     // last.
     const double eighth = std::pow((end - begin) / fall_.slowing_at(end), 2) / 8;
     // And a small disc departs before a large one does.
+    // What an oscillating wall hits is as fast as the wall at most, and no further than that takes
+    // it from the wall's highest place.
     const auto bend = [&](std::size_t side) {
-        return std::fabs(pull_at(side)) * eighth + (is_open(side) ? radius_ : 0);
+        const Oscillation& wall = oscillations_[side];
+        return std::fabs(pull_at(side)) * eighth + (is_open(side) ? radius_ : 0) +
+               (wall.amplitude() + wall.largest_speed() * (end - begin));
     };
     // A wall that moves in, and that all falls away from, may have hit discs that are far from it
     // at the end, but none that is further than its first velocity would have taken it: discs are
@@ -59,11 +80,19 @@ double Boundaries::delay_of(const Approach& approach, double time) const {
     return slowing * dragged_fall_delay(distance, slowing * rate, pull, effects_.drag);
 }
 
+double Boundaries::delay_to(const Disc& disc, std::size_t side) const {
+    const Approach line = approach(disc, side);
+    if (!oscillations_[side].is_any()) [[likely]]
+        return delay_of(line, disc.tau);
+    const double from_wall = sign_of(side) *
+                             (velocity_of(disc, side / 2) - oscillating_velocity(side, disc.tau));
+    return oscillations_[side].contact_delay(line.distance, line.rate, from_wall, disc.tau);
+}
+
 Boundaries::Meeting Boundaries::meeting(const Disc& disc, Axis axis) const {
     if (disc.has_departed()) return {};
     const std::size_t low = 2 * static_cast<std::size_t>(axis);
-    const double to_low = delay_of(approach(disc, low), disc.tau),
-                 to_high = delay_of(approach(disc, low + 1), disc.tau);
+    const double to_low = delay_to(disc, low), to_high = delay_to(disc, low + 1);
     if (to_low <= to_high) return {disc.tau + to_low, low};
     return {disc.tau + to_high, low + 1};
 }
@@ -74,10 +103,15 @@ bool Boundaries::may_meet(const Disc& disc, double time, double margin) const {
     if (disc.has_departed()) return false;
     const double rest = time - disc.tau, fallen_for = rest / fall_.slowing_at(disc.tau);
     for (std::size_t side = 0; side < 4; ++side) {
-        const auto [distance, rate, pull] = approach(disc, side);
+        auto [distance, rate, pull] = approach(disc, side);
         const double towards = std::min(pull, 0.0);
+        const bool oscillates = oscillations_[side].is_any();
+        if (oscillates) [[unlikely]] { // from its highest place, which may come at once
+            distance -= oscillations_[side].amplitude();
+            rate = std::min(rate, 0.0);
+        }
         if (!(distance + (rate * rest + fall_.fallen(towards, fallen_for)) > margin) &&
-            (rate < 0 || towards < 0))
+            (rate < 0 || towards < 0 || oscillates))
             return true;
     }
     return false;
@@ -112,7 +146,9 @@ void Boundaries::reverse(Disc& disc, Axis axis) const {
 void Boundaries::rebound(Disc& disc, std::size_t side, double restitution, double time) const {
     double& normal = side / 2 == 0 ? disc.vx : disc.vy;
     double& along = side / 2 == 0 ? disc.vy : disc.vx;
-    const double sign = sign_of(side), wall = wall_velocity(side, time);
+    const bool oscillates = oscillations_[side].is_any();
+    const double sign = sign_of(side),
+                 wall = oscillates ? oscillating_velocity(side, time) : wall_velocity(side, time);
     double away = restitution * std::fabs(normal - wall);
     if (effects_.boundaries[side].kind == BoundaryKind::thermal) {
         // What leaves a wall of temperature T: v_n with the density v_n / T exp(-v_n^2 / 2 T), the
@@ -129,9 +165,10 @@ void Boundaries::rebound(Disc& disc, std::size_t side, double restitution, doubl
     }
     // A disc that is pulled back stays away for the contact time at least: else one at rest would
     // bounce without end.
-    const double pull = -sign * pull_at(side);
-    if (pull > 0)
-        away = std::max(away, 0.5 * pull * effects_.contact.contact_time / fall_.slowing_at(time));
+    const double contact_time = effects_.contact.contact_time;
+    const double pull = oscillates ? oscillations_[side].pressure_at(time, time + contact_time)
+                                   : -sign * pull_at(side);
+    if (pull > 0) away = std::max(away, 0.5 * pull * contact_time / fall_.slowing_at(time));
     normal = wall + sign * away;
 }
 

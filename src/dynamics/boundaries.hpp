@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The four sides of a box with effects: walls that lose energy, heat or move, and open sides.
-// Periodic sides are walls infinitely far away.
+// The four sides of a box with effects: walls that lose energy, heat, move or oscillate, and open
+// sides. Periodic sides are walls infinitely far away.
 //
 // Times and places are those of the falling frame (gravity.hpp). In it a wall at w0 that moves with
 // u is at w(t) = (w0 + u t) - (g/2 t) t, with the velocity u - g t. Its distance to a disc is a
 // quadratic, solved without subtracting like numbers. For g = 0 and u = 0 the plain dynamics'
 // formulas are left, bit for bit. With drag in the clock s, t = s + c F(s), the wall is at
-// (w0 + u s) - (g - c u) F(s).
+// (w0 + u s) - (g - c u) F(s). The line of an oscillating wall is such a wall (oscillation.hpp).
 #pragma once
 
 #include <array>
@@ -19,6 +19,7 @@
 #include "dynamics/effects.hpp"
 #include "dynamics/gravity.hpp"
 #include "dynamics/never.hpp"
+#include "dynamics/oscillation.hpp"
 
 namespace carrom {
 
@@ -91,7 +92,8 @@ private:
         const double from_line = is_open(side) ? -radius : radius;
         return side % 2 == 0 ? from_line : length_of(side) - from_line;
     }
-    /// For the centre of a disc of that radius that touches, or has just left an open side.
+    /// For the centre of a disc of that radius that touches, or has just left an open side; of an
+    /// oscillating wall its line, here and in the next two.
     double wall_at(std::size_t side, double time, double radius) const {
         const double place = departure_or_touch(side, radius) + moved_[side];
         return (place + speeds_[side] * time) - fall_.fallen(pull_at(side), time);
@@ -104,6 +106,10 @@ private:
     double wall_velocity(std::size_t side, double time) const {
         return speeds_[side] - pull_at(side) * fall_.falling_time(time);
     }
+    double oscillating_velocity(std::size_t side, double time) const {
+        return wall_velocity(side, time) + oscillations_[side].at(time).velocity;
+    }
+    Extent extent_of_lines(double time) const;
     Approach approach(const Disc& disc, std::size_t side) const {
         const double sign = sign_of(side);
         return {sign * (place_of(disc, side / 2) -
@@ -112,6 +118,7 @@ private:
                 sign * pull_at(side)};
     }
     double delay_of(const Approach& approach, double time) const;
+    double delay_to(const Disc& disc, std::size_t side) const;
     Meeting meeting(const Disc& disc, Axis axis) const;
     void rebound(Disc& disc, std::size_t side, double restitution, double time) const;
 
@@ -123,6 +130,7 @@ private:
     std::array<double, 4> moved_{}, speeds_{}; ///< moved: from the scene's start to the last sync
     std::array<double, 2> gravity_;
     FallingFrame fall_;
+    std::array<Oscillation, 4> oscillations_{};
 };
 
 } // namespace carrom

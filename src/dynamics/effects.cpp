@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
+
+#include "dynamics/oscillation.hpp"
 
 namespace carrom {
 
@@ -36,6 +39,9 @@ std::string description(const Boundary& side, const char* name) {
         return fmt::format("{} wall of temperature {:g}", name, side.temperature);
     case BoundaryKind::moving:
         return fmt::format("{} wall{} moving at {:g}", name, loss, side.speed);
+    case BoundaryKind::oscillating:
+        return fmt::format("{} wall{} oscillating by {:g} in {:g}", name, loss, side.amplitude,
+                           side.period);
     case BoundaryKind::open: return fmt::format("{} side open", name);
     case BoundaryKind::periodic: return fmt::format("{} side periodic", name);
     }
@@ -89,6 +95,7 @@ Effects per_micro_step(const Effects& effects, double micro_steps) {
     for (Boundary& side : scaled.boundaries) {
         side.temperature /= micro_steps * micro_steps;
         side.speed /= micro_steps;
+        side.period *= micro_steps;
     }
     scaled.drag /= micro_steps;
     scaled.gravity.x /= micro_steps * micro_steps;
@@ -118,10 +125,38 @@ std::string description(const Effects& effects) {
     return text;
 }
 
-Extent extent_at(const Effects& effects, const Box& box, double time) {
+Extent extent_at(const Effects& effects, const Box& size, double time) {
+    Extent box = extent_of_lines(effects, size, time);
+    const auto move = [&](std::size_t side, double& line) {
+        const Boundary& boundary = effects.boundaries[side];
+        if (boundary.kind == BoundaryKind::oscillating)
+            line += oscillation_at(boundary, time).place;
+    };
+    move(0, box.x_low);
+    move(1, box.x_high);
+    move(2, box.y_low);
+    move(3, box.y_high);
+    return box;
+}
+
+Extent extent_of_lines(const Effects& effects, const Box& box, double time,
+                       double amplitudes_inwards) {
+    const auto low = [&](const Boundary& side) {
+        return side.speed * time + amplitudes_inwards * side.amplitude;
+    };
+    const auto high = [&](const Boundary& side, double length) {
+        return length + side.speed * time - amplitudes_inwards * side.amplitude;
+    };
     const auto& boundaries = effects.boundaries;
-    return {boundaries[0].speed * time, box.x + boundaries[1].speed * time,
-            boundaries[2].speed * time, box.y + boundaries[3].speed * time};
+    return {low(boundaries[0]), high(boundaries[1], box.x), low(boundaries[2]),
+            high(boundaries[3], box.y)};
+}
+
+double largest_wall_speed(const Effects& effects) {
+    double speed = 0;
+    for (const Boundary& side : effects.boundaries)
+        speed = std::max(speed, 2 * std::numbers::pi * side.amplitude / side.period);
+    return speed;
 }
 
 } // namespace carrom

@@ -39,13 +39,17 @@ struct ContactEffect {
 };
 
 /// What a side of the box is.
-enum class BoundaryKind { fixed, thermal, moving, open, periodic };
+enum class BoundaryKind { fixed, thermal, moving, oscillating, open, periodic };
 
 struct Boundary {
     BoundaryKind kind = BoundaryKind::fixed;
     double restitution = 1; ///< of walls, moving ones as well
     double temperature = 0; ///< of thermal ones: kT, a velocity squared, for masses of 1
     double speed = 0;       ///< of moving ones, along +x or +y
+    // Of oscillating ones (oscillation.hpp):
+    double amplitude = 0;
+    double period = 1;
+    double phase = 0; ///< at the start, as an angle
 
     bool is_plain() const { return kind == BoundaryKind::fixed && restitution == 1; }
     friend bool operator==(const Boundary&, const Boundary&) = default;
@@ -123,5 +127,11 @@ std::string description(const Effects& effects);
 
 /// Where the walls are at `time` since the scene's start, in a box that was `box` then.
 Extent extent_at(const Effects& effects, const Box& box, double time);
+/// The same with oscillating walls at so many amplitudes towards the inside of their lines.
+Extent extent_of_lines(const Effects& effects, const Box& box, double time,
+                       double amplitudes_inwards = 0);
+
+/// Of oscillating walls, 0 without any.
+double largest_wall_speed(const Effects& effects);
 
 } // namespace carrom

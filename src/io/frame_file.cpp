@@ -99,6 +99,9 @@ void read_system(hid_t file, std::uint64_t n_discs, FileSummary& summary) {
         read_block(file, {"", "/parameters/open_sides"}, 0, 0, 4, open);
     for (std::size_t side = 0; side < open.size(); ++side)
         summary.open_boundaries[side] = open[side] != 0;
+    if (!h5::has(file, "/parameters/wall_amplitudes")) return;
+    read_block(file, {"", "/parameters/wall_amplitudes"}, 0, 0, 4, open);
+    std::copy(open.begin(), open.end(), summary.amplitudes.begin());
 }
 
 template <class Act> void with_path(const std::string& path, const Act& act) {

@@ -32,6 +32,7 @@ struct FileSummary {
     std::vector<std::int64_t> steps;       ///< of the frames
     std::string state_hash;                ///< of a checkpoint
     std::array<bool, 4> open_boundaries{}; ///< left, right, bottom, top
+    std::array<double, 4> amplitudes{};    ///< of walls that oscillate, likewise
     bool is_periodic_x = false, is_periodic_y = false;
 
     /// The place of a column, or that of the end where there is none.

@@ -66,6 +66,9 @@ void write_system(hid_t file, const RecordedSystem& system) {
         h5::write_whole(parameters.id(), "open_sides", std::array<hsize_t, 1>{4}, H5T_NATIVE_INT32,
                         flags.data());
     }
+    if (system.amplitudes != std::array<double, 4>{})
+        h5::write_whole(parameters.id(), "wall_amplitudes", std::array<hsize_t, 1>{4},
+                        H5T_NATIVE_DOUBLE, system.amplitudes.data());
     write_species(file, shown_species_path, system.species);
     create_box(h5::create_group(file, "/particles/discs").id(), system);
 }

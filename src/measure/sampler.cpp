@@ -42,6 +42,7 @@ double driven_speed(const Scene& scene) {
         scene.box.longest());
     for (const Boundary& side : scene.effects.boundaries)
         speed = std::max(speed, std::fabs(side.speed));
+    speed = std::max(speed, 2 * largest_wall_speed(scene.effects));
     return speed;
 }
 

@@ -92,7 +92,8 @@ MeasuredTable speeds(const SampleSums& s) {
 MeasuredTable density(const SampleSums& s, const Scene& scene,
                       const std::vector<std::uint64_t>& counts, const char* axis, double length) {
     bool is_moving = false;
-    for (const Boundary& side : scene.effects.boundaries) is_moving = is_moving || side.speed != 0;
+    for (const Boundary& side : scene.effects.boundaries)
+        is_moving = is_moving || side.speed != 0 || side.amplitude != 0;
     const std::size_t n = counts.size();
     const double size = is_moving ? 1 : length, area = s.area / static_cast<double>(n);
     MeasuredTable table{
@@ -110,9 +111,9 @@ MeasuredTable density(const SampleSums& s, const Scene& scene,
     return table;
 }
 
-/// The length of a side, at a step.
+/// The length of a side, at a step; of one between oscillating walls in the mean.
 double length_of(const Scene& scene, std::size_t side, double step) {
-    const Extent box = extent_at(scene.effects, scene.box, step);
+    const Extent box = extent_of_lines(scene.effects, scene.box, step);
     return side < 2 ? box.y_high - box.y_low : box.x_high - box.x_low;
 }
 

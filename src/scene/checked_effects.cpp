@@ -7,6 +7,7 @@
 
 #include "dynamics/drag.hpp"
 #include "dynamics/gravity.hpp"
+#include "dynamics/oscillation.hpp"
 #include "scene/check.hpp"
 #include "scene/limits.hpp"
 
@@ -16,6 +17,8 @@ namespace {
 
 /// Rate times the time between syncs.
 constexpr double longest_drag = 4;
+/// Of a wall, in times between syncs: those are known to 2^-53 of themselves.
+constexpr double smallest_period = 1e-6;
 /// Of a fixed disc's radius and that of a disc, over the box: a disc touches the nearest images of
 /// a body at most.
 constexpr double largest_in_period = 0.99;
@@ -32,19 +35,34 @@ double steps_between_syncs(const Scene& scene) {
     return static_cast<double>(scene.sync_every) / static_cast<double>(scene.micro_steps);
 }
 
+/// What contact times may be, and why; in steps.
+struct LongestContact {
+    double time;
+    const char* why;
+};
+
+/// The pull at an oscillating wall changes little in a contact time.
+LongestContact longest_contact(const Scene& scene) {
+    LongestContact longest{steps_between_syncs(scene) / 4,
+                           "a quarter of the time between syncs ('time.sync_every')"};
+    for (const Boundary& side : scene.effects.boundaries)
+        if (side.kind == BoundaryKind::oscillating && side.period / 8 < longest.time)
+            longest = {side.period / 8, "an eighth of a wall's period"};
+    return longest;
+}
+
 /// Between syncs a disc is as good as touched by the sync: a contact time as long would leave no
 /// dissipation at all.
 void check_contact_time(const Check& check) {
     constexpr std::string_view key = "effects.contact.contact_time";
     Scene& scene = check.scene;
-    const double longest = steps_between_syncs(scene) / 4;
+    const auto [longest, why] = longest_contact(scene);
     double& time = scene.effects.contact.contact_time;
     if (!lose_energy_or_fall(scene.effects)) return;
     if (!check.settings.has(key)) time = std::min(time, longest);
     if (time > longest)
-        check.refuse({key}, fmt::format("'{}' must be at most {} steps, a quarter of the time "
-                                        "between syncs ('time.sync_every'), not {}",
-                                        key, longest, time));
+        check.refuse({key}, fmt::format("'{}' must be at most {} steps, {}, not {}", key, longest,
+                                        why, time));
 }
 
 /// The falling frame must not leave the box far behind: its coordinates would be coarser than the
@@ -122,6 +140,14 @@ void check_thermal_walls(const Check& check) {
     }
 }
 
+/// Whether the discs may fit into a box of that size.
+bool has_room(const Scene& scene, double width, double height) {
+    const double covered = scene.packing() * scene.box.x * scene.box.y;
+    const bool is_full = scene.effects.contact.kind != ContactKind::none &&
+                         covered > largest_packing * width * height;
+    return std::min(width, height) >= 2 * scene.radius * (1 + 1e-6) && !is_full;
+}
+
 /// Walls that move must leave room for the discs until the last step.
 void check_moving_walls(const Check& check) {
     const Scene& scene = check.scene;
@@ -129,12 +155,9 @@ void check_moving_walls(const Check& check) {
     const Extent end = extent_at(scene.effects, scene.box, static_cast<double>(scene.steps));
     const double width = end.x_high - end.x_low, height = end.y_high - end.y_low;
     const bool is_long = end.x_high > 2 * scene.box.x || end.y_high > 2 * scene.box.y;
-    const double covered = scene.packing() * scene.box.x * scene.box.y;
-    const bool is_full = scene.effects.contact.kind != ContactKind::none &&
-                         covered > largest_packing * width * height;
     for (std::size_t side = 0; side < boundaries.size(); ++side) {
         if (boundaries[side].speed == 0) continue;
-        if (std::min(width, height) < 2 * scene.radius * (1 + 1e-6) || is_full)
+        if (!has_room(scene, width, height))
             check.refuse({side_key(side, "speed")},
                          fmt::format("after {} steps the box would be {} by {}: too small for its "
                                      "discs",
@@ -145,6 +168,45 @@ void check_moving_walls(const Check& check) {
                                      "at the start",
                                      scene.steps));
         break;
+    }
+}
+
+/// Discs that are generated lie between the lines of the walls.
+bool begins_before_its_line(const Scene& scene, std::size_t side) {
+    if (scene.generator == Generator::file) return false;
+    const double place = oscillation_at(scene.effects.boundaries[side], 0).place;
+    return (side % 2 == 0 ? place : -place) > 0x1p-52 * scene.box.longest();
+}
+
+void check_oscillating_walls(const Check& check) {
+    const Scene& scene = check.scene;
+    const double interval = steps_between_syncs(scene), least = smallest_period * interval;
+    for (std::size_t side = 0; side < boundary_names.size(); ++side) {
+        const Boundary& wall = scene.effects.boundaries[side];
+        if (wall.kind != BoundaryKind::oscillating) continue;
+        const std::string amplitude = side_key(side, "amplitude"), phase = side_key(side, "phase");
+        if (wall.period < least)
+            check.refuse({side_key(side, "period")},
+                         fmt::format("'{}' must be at least {:g} steps, a millionth of the time "
+                                     "between syncs ('time.sync_every'), not {}",
+                                     side_key(side, "period"), least, wall.period));
+        for (const double time : {0.0, static_cast<double>(scene.steps)}) {
+            const Extent room = extent_of_lines(scene.effects, scene.box, time, 1);
+            const double width = room.x_high - room.x_low, height = room.y_high - room.y_low;
+            if (has_room(scene, width, height)) continue;
+            check.refuse({amplitude}, fmt::format("'{}' = {} leaves a box of {} by {}: too small "
+                                                  "for its discs",
+                                                  amplitude, wall.amplitude, width, height));
+            break;
+        }
+        if (const std::string text = speed_problem(largest_wall_speed(scene.effects), scene);
+            !text.empty())
+            check.refuse({amplitude}, fmt::format("'{}': {}", amplitude, text));
+        if (begins_before_its_line(scene, side))
+            check.refuse({phase, amplitude},
+                         fmt::format("the {} wall begins inside the box, where generated discs "
+                                     "may be; take another '{}', or list the discs",
+                                     boundary_names[side], phase));
     }
 }
 
@@ -179,7 +241,8 @@ void check_distance(const Check& check) {
     Scene& scene = check.scene;
     if (!scene.measurements) return;
     if (!scene.measurements->radial_distribution && !scene.measurements->psi6) return;
-    const Extent end = extent_at(scene.effects, scene.box, static_cast<double>(scene.steps));
+    const Extent end = extent_of_lines(scene.effects, scene.box,
+                                       static_cast<double>(scene.steps), 1);
     const double wide = std::min(scene.box.x, end.x_high - end.x_low);
     const double high = std::min(scene.box.y, end.y_high - end.y_low);
     const double margin = 2 * scene.radius;
@@ -262,6 +325,7 @@ void check_room(const Check& check) {
     check_periodic_box(check);
     check_thermal_walls(check);
     check_moving_walls(check);
+    check_oscillating_walls(check);
     check_obstacles(check);
     check_distance(check);
     check_wavenumber(check);

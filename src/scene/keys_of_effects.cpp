@@ -11,7 +11,8 @@ const Need lossy_pairs{"without effects.contact.kind = \"restitution\" or \"roug
                        [](const Scene& s) { return are_pairs_lossy(s.effects); }};
 const Need rough{"without effects.contact.kind = \"rough\"",
                  [](const Scene& s) { return s.effects.contact.kind == ContactKind::rough; }};
-const Need loss_or_gravity{"without discs, walls or obstacles of restitution, or gravity",
+const Need loss_or_gravity{"without discs, walls or obstacles of restitution, a wall that "
+                           "oscillates, or gravity",
                            [](const Scene& s) { return lose_energy_or_fall(s.effects); }};
 const Need obstacles{"without 'effects.obstacles.discs' or 'effects.obstacles.segments'",
                      [](const Scene& s) { return s.effects.obstacles.are_any(); }};
@@ -26,10 +27,12 @@ Need side_needs(std::size_t side, BoundaryKind kind, const char* word) {
 }
 
 Need reflecting(std::size_t side) {
-    return {"without box." + std::string(boundary_names[side]) + ".kind = \"wall\" or \"moving\"",
+    return {"without box." + std::string(boundary_names[side]) +
+                ".kind = \"wall\", \"moving\" or \"oscillating\"",
             [side](const Scene& s) {
                 const BoundaryKind kind = s.effects.boundaries[side].kind;
-                return kind == BoundaryKind::fixed || kind == BoundaryKind::moving;
+                return kind == BoundaryKind::fixed || kind == BoundaryKind::moving ||
+                       kind == BoundaryKind::oscillating;
             }};
 }
 
@@ -43,8 +46,8 @@ void add_side(std::vector<Key>& all, std::size_t side) {
     const std::string table = std::string("box.") + boundary_names[side];
     all.push_back(
         key(table + ".kind", "",
-            "Wall; thermal: discs leave as if from a gas; moving: a piston; open: discs leave "
-            "the box; periodic, in pairs.",
+            "Wall; thermal: discs leave as if from a gas; moving: a piston; oscillating: a shaker; "
+            "open: discs leave the box; periodic, in pairs.",
             [side](auto& s) -> auto& { return s.effects.boundaries[side].kind; }));
     all.push_back(key(table + ".restitution", "1",
                       "Share of the normal velocity that is left after a collision.",
@@ -62,6 +65,23 @@ void add_side(std::vector<Key>& all, std::size_t side) {
                       .within(wall_speeds(side))
                       .needs(side_needs(side, BoundaryKind::moving, "moving"))
                       .required());
+    const Need oscillating = side_needs(side, BoundaryKind::oscillating, "oscillating");
+    all.push_back(
+        key(table + ".amplitude", "length",
+            "A: the wall is A sin(2 pi t / period + phase) from its line, along +x or +y.",
+            [side](auto& s) -> auto& { return s.effects.boundaries[side].amplitude; })
+            .within({.low = 0})
+            .needs(oscillating)
+            .required());
+    all.push_back(key(table + ".period", "steps", "Of an oscillating wall.",
+                      [side](auto& s) -> auto& { return s.effects.boundaries[side].period; })
+                      .within({.low = 0, .excludes_low = true})
+                      .needs(oscillating)
+                      .required());
+    all.push_back(key(table + ".phase", "radians", "Of an oscillating wall, at step 0.",
+                      [side](auto& s) -> auto& { return s.effects.boundaries[side].phase; })
+                      .within({-100, 100})
+                      .needs(oscillating));
 }
 
 std::vector<Key> keys_of_contact() {

@@ -22,7 +22,7 @@ bool are_pairs_lossy(const Effects& effects) {
 
 bool lose_energy_or_fall(const Effects& effects) {
     const auto is_lossy = [&effects](const Boundary& side) {
-        return side.restitution < 1 ||
+        return side.restitution < 1 || side.kind == BoundaryKind::oscillating ||
                (effects.drag > 0 && side.speed != 0); // drag presses discs against such a wall
     };
     return std::any_of(effects.boundaries.begin(), effects.boundaries.end(), is_lossy) ||
@@ -97,14 +97,15 @@ std::string disc_problem(const InputDisc& disc, const Scene& scene, double radiu
         if (!text.empty()) all += (all.empty() ? "" : "; ") + text;
     };
     const Box& box = scene.box;
+    const Extent walls = extent_at(scene.effects, box, 0); // some may oscillate
     bool is_finite = true, is_inside = true;
-    for (const auto& [centre, length, is_periodic] :
-         {std::tuple(disc.x, box.x, scene.effects.is_periodic_x()),
-          std::tuple(disc.y, box.y, scene.effects.is_periodic_y())}) {
+    for (const auto& [centre, length, is_periodic, from, to] :
+         {std::tuple(disc.x, box.x, scene.effects.is_periodic_x(), walls.x_low, walls.x_high),
+          std::tuple(disc.y, box.y, scene.effects.is_periodic_y(), walls.y_low, walls.y_high)}) {
         // L - r and whatever wrote the input round to within an ulp of L, at most 2^-52 L.
         const double slack = 0x1p-52 * length;
-        const double low = is_periodic ? 0 : radius - slack,
-                     high = is_periodic ? length : (length - radius) + slack;
+        const double low = is_periodic ? 0 : from + radius - slack,
+                     high = is_periodic ? length : (to - radius) + slack;
         if (!std::isfinite(centre))
             add(fmt::format("the position {} is not a finite number", centre));
         is_finite = is_finite && std::isfinite(centre);
@@ -112,8 +113,11 @@ std::string disc_problem(const InputDisc& disc, const Scene& scene, double radiu
     }
     const bool is_box_known = box != Box();
     if (is_finite && !is_inside && is_box_known)
-        add(fmt::format("disc {} at ({}, {}) is not inside the box: {}", disc.id, disc.x, disc.y,
-                        room_text(scene, radius)));
+        add(fmt::format("disc {} at ({}, {}) is not inside the box: {}{}", disc.id, disc.x, disc.y,
+                        room_text(scene, radius),
+                        has_boundary(scene.effects, BoundaryKind::oscillating)
+                            ? ", and before oscillating walls where these are at step 0"
+                            : ""));
     for (const double component : {disc.vx, disc.vy}) {
         add(velocity_problem(component));
         add(speed_problem(component, scene));

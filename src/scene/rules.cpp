@@ -15,6 +15,7 @@ bool is_rough(const Scene& s) { return s.effects.contact.kind == ContactKind::ro
 bool has_species(const Scene& s) { return !s.effects.species.empty(); }
 bool has_open(const Scene& s) { return s.effects.have_open_boundaries(); }
 bool has_moving(const Scene& s) { return has_boundary(s.effects, BoundaryKind::moving); }
+bool has_oscillating(const Scene& s) { return has_boundary(s.effects, BoundaryKind::oscillating); }
 bool has_obstacles(const Scene& s) { return s.effects.obstacles.are_any(); }
 bool is_periodic_all_round(const Scene& s) {
     return s.effects.is_periodic_x() && s.effects.is_periodic_y();
@@ -40,6 +41,10 @@ std::vector<Rule> rules_of_methods() {
         rule("a moving wall", "time.method = \"time-stepped\"",
              "walls are at rest there; take time.method = \"event-driven\"", BoundaryKind::moving,
              [](const Scene& s) { return has_moving(s) && is_time_stepped(s); }),
+        rule("an oscillating wall", "time.method = \"time-stepped\"",
+             "walls are at rest there; take time.method = \"event-driven\"",
+             BoundaryKind::oscillating,
+             [](const Scene& s) { return has_oscillating(s) && is_time_stepped(s); }),
         rule("gravity", "time.method = \"time-stepped\"",
              "discs fly straight there; take time.method = \"event-driven\"",
              {"effects.gravity.y", "effects.gravity.x"},
@@ -59,6 +64,19 @@ std::vector<Rule> rules_of_methods() {
              }),
         rule("time.accuracy", "effects", "the pilot knows plain gases only", {"time.accuracy"},
              [](const Scene& s) { return s.effects.are_any() && s.accuracy.has_value(); }),
+    };
+}
+
+std::vector<Rule> rules_of_oscillations() {
+    return {
+        rule("an oscillating wall", "obstacles", "this version does not have both",
+             BoundaryKind::oscillating,
+             [](const Scene& s) { return has_oscillating(s) && has_obstacles(s); }),
+        rule("an oscillating wall", "drag", "contacts are found on straight lines and parabolas",
+             BoundaryKind::oscillating,
+             [](const Scene& s) { return has_oscillating(s) && s.effects.drag != 0; }),
+        rule("an open side", "an oscillating wall", "this version does not have both",
+             BoundaryKind::open, [](const Scene& s) { return has_oscillating(s) && has_open(s); }),
     };
 }
 
@@ -179,7 +197,7 @@ std::vector<Rule> rules_of_outputs() {
 const std::vector<Rule>& rules() {
     static const std::vector<Rule> all = [] {
         std::vector<Rule> list = rules_of_methods();
-        for (const auto& part : {rules_of_effects(), rules_of_outputs(),
+        for (const auto& part : {rules_of_effects(), rules_of_oscillations(), rules_of_outputs(),
                                  rules_of_columns(std::make_index_sequence<n_side_columns>())})
             list.insert(list.end(), part.begin(), part.end());
         return list;

@@ -78,6 +78,7 @@ double usual_speed(const Scene& scene, std::span<const Disc> own, const Communic
     fastest = std::max(fastest, std::sqrt(2 * pull * scene.box.longest()));
     for (const Boundary& side : effects.boundaries)
         fastest = std::max({fastest, std::fabs(side.speed), std::sqrt(side.temperature)});
+    fastest = std::max(fastest, largest_wall_speed(effects));
     return (fastest > 0 ? fastest : scene.radius) / static_cast<double>(scene.micro_steps);
 }
 

@@ -88,15 +88,19 @@ RecordedSystem system_of(const Scene& scene) {
     RecordedSystem system;
     system.program_version = version();
     system.n_discs = scene.n_discs;
-    const Extent end = extent_at(scene.effects, scene.box, static_cast<double>(scene.steps));
+    const Extent end = extent_of_lines(scene.effects, scene.box,
+                                       static_cast<double>(scene.steps));
     system.box = {std::max(scene.box.x, end.x_high), std::max(scene.box.y, end.y_high)};
     if (scene.box.is_square()) system.box = system.box.longest(); // walls may move
     system.radius = scene.radius;
     system.species = scene.effects.species;
     system.is_periodic_x = scene.effects.is_periodic_x();
     system.is_periodic_y = scene.effects.is_periodic_y();
-    for (std::size_t side = 0; side < system.open_boundaries.size(); ++side)
-        system.open_boundaries[side] = scene.effects.boundaries[side].kind == BoundaryKind::open;
+    for (std::size_t side = 0; side < system.open_boundaries.size(); ++side) {
+        const Boundary& boundary = scene.effects.boundaries[side];
+        system.open_boundaries[side] = boundary.kind == BoundaryKind::open;
+        system.amplitudes[side] = boundary.amplitude;
+    }
     return system;
 }
 

@@ -81,7 +81,7 @@ TEST_CASE("Sides are read, and contradictions explained") {
     CHECK(has(problems_with({"box.left.kind=thermal"}), "'box.left.temperature' is missing"));
     CHECK(has(problems_with(
                   {"box.left.kind=thermal", "box.left.temperature=1", "box.left.restitution=0.5"}),
-              "no meaning without box.left.kind = \"wall\" or \"moving\""));
+              "no meaning without box.left.kind = \"wall\", \"moving\" or \"oscillating\""));
     CHECK(has(problems_with({"box.top.speed=1"}), "no meaning without box.top.kind = \"moving\""));
     CHECK(has(problems_with({"box.top.kind=moving", "box.top.speed=1", "time.method=time-stepped"}),
               "cannot have a moving wall together with time.method = \"time-stepped\": walls are "
@@ -96,14 +96,72 @@ TEST_CASE("Sides are read, and contradictions explained") {
     CHECK(has(problems_with({"effects.thermal.seed=1"}),
               "no meaning without a side of kind = \"thermal\""));
     CHECK(has(problems_with({"effects.contact.contact_time=0.1"}),
-              "no meaning without discs, walls or obstacles of restitution, or gravity"));
+              "no meaning without discs, walls or obstacles of restitution, a wall that "
+              "oscillates, or gravity"));
     CHECK(has(problems_with({"box.middle.kind=wall"}), "no such key"));
     CHECK(read_scene(good, "s.toml", {"box.left.kind=open"}).effects.boundaries[0] ==
           Boundary{BoundaryKind::open, 1, 0, 0});
     CHECK(has(problems_with({"box.left.kind=open", "box.left.restitution=0.5"}),
-              "no meaning without box.left.kind = \"wall\" or \"moving\""));
+              "no meaning without box.left.kind = \"wall\", \"moving\" or \"oscillating\""));
     CHECK(has(problems_with({"box.left.kind=open", "box.top.kind=moving", "box.top.speed=1", all}),
               "cannot have an open side together with a moving wall"));
+}
+
+TEST_CASE("Oscillating walls are read, and refused where they leave no room") {
+    const Texts shaken = {"box.bottom.kind=oscillating", "box.bottom.amplitude=2",
+                          "box.bottom.period=10"};
+    const auto with = [&](Texts more) {
+        more.insert(more.begin(), shaken.begin(), shaken.end());
+        return more;
+    };
+    const auto problems = [&](const Texts& more) { return problems_with(with(more)); };
+    const Scene scene = read_scene(good, "s.toml", with({"box.bottom.phase=3.5"}));
+    CHECK(scene.effects.boundaries[2] == Boundary{BoundaryKind::oscillating, 1, 0, 0, 2, 10, 3.5});
+    CHECK(scene.effects.contact.contact_time == 0.001);
+    CHECK(read_scene(good, "s.toml", with({"box.bottom.period=0.004"}))
+              .effects.contact.contact_time == 0.004 / 8);
+    CHECK(problems({}).empty());
+    CHECK(has(problems_with({"box.bottom.kind=oscillating"}), "'box.bottom.amplitude' is missing"));
+    CHECK(has(problems_with({"box.bottom.kind=oscillating"}), "'box.bottom.period' is missing"));
+    CHECK(has(problems_with({"box.top.period=3"}),
+              "no meaning without box.top.kind = \"oscillating\""));
+    CHECK(has(problems({"box.bottom.period=0"}), "greater than 0, not 0"));
+    CHECK(has(problems({"box.bottom.amplitude=-1"}), "at least 0, not -1"));
+    CHECK(has(problems({"box.bottom.period=1e-6"}), "at least 6.4e-05 steps"));
+    CHECK(has(problems({"box.bottom.amplitude=99"}), "leaves a box of 100 by 1: too small"));
+    CHECK(has(problems({"effects.contact.contact_time=2"}),
+              "at most 1.25 steps, an eighth of a wall's period, not 2"));
+    CHECK(has(problems({"box.bottom.phase=1"}), "the bottom wall begins inside the box"));
+    CHECK(problems({"discs.generator=lattice", "box.bottom.phase=-1"}).empty());
+    CHECK(has(problems({"time.method=time-stepped"}),
+              "cannot have an oscillating wall together with time.method"));
+    CHECK(has(problems({"effects.drag.rate=0.01"}),
+              "cannot have an oscillating wall together with drag"));
+    CHECK(has(problems({"effects.obstacles.discs=[[10, 20, 1]]"}),
+              "cannot have an oscillating wall together with obstacles"));
+    CHECK(has(problems({"box.left.kind=open"}), "cannot have an open side together with an osc"));
+    CHECK(has(problems({"box.bottom.kind=periodic"}), "no meaning without box.bottom.kind"));
+}
+
+// A disc may stand where the wall is not at the start, and not where it is.
+TEST_CASE("Listed discs begin before oscillating walls") {
+    const std::string one = "[box]\nsize = 100\n[discs]\nradius = 1\n[time]\nsteps = 10\n"
+                            "[box.bottom]\nkind = 'oscillating'\namplitude = 2\nperiod = 10\n";
+    const auto problems = [&](const std::string& phase, const std::string& y) {
+        std::string text;
+        for (const Problem& problem : problems_of([&] {
+                 read_scene(one, "s.toml",
+                            {"box.bottom.phase=" + phase, "discs.list=[[50, " + y + ", 0, 0]]"});
+             }))
+            text += problem.text;
+        return text;
+    };
+    CHECK(problems("0", "1").empty());
+    CHECK(has(problems("0", "0.99"), "before oscillating walls where these are at step 0"));
+    CHECK(problems("1.5707963267948966", "3").empty());
+    CHECK(has(problems("1.5707963267948966", "2.99"), "is not inside the box"));
+    CHECK(problems("-1.5707963267948966", "-0.99").empty());
+    CHECK(has(problems("-1.5707963267948966", "-1.01"), "is not inside the box"));
 }
 
 TEST_CASE("Obstacles are read, each wrong one is named") {

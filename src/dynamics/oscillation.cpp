@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/oscillation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "dynamics/gravity.hpp"
+#include "dynamics/never.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr double two_pi = 2 * std::numbers::pi;
+/// A disc comes within the wall's reach twice at most; the others are for rounding.
+constexpr int most_visits = 8;
+/// Periods that a search looks at before a disc comes within reach, and beyond one.
+constexpr double margin = 1.0 / 16;
+/// In periods. Far beyond any sync.
+constexpr double latest = 0x1p40;
+
+/// (-1)^k / n! for n = 3, 5, ... 17, and for n = 4, 6, ... 16. The terms behind are below 2^-63.
+constexpr std::array<double, 8> sine_terms = {
+    -1.0 / 6,        1.0 / 120,        -1.0 / 5040,          1.0 / 362880,
+    -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000, 1.0 / 355687428096000};
+constexpr std::array<double, 7> cosine_terms = {
+    1.0 / 24,        -1.0 / 720,         1.0 / 40320,         -1.0 / 3628800,
+    1.0 / 479001600, -1.0 / 87178291200, 1.0 / 20922789888000};
+
+template <std::size_t n> double series(const std::array<double, n>& terms, double square) {
+    double sum = terms[n - 1];
+    for (std::size_t k = n - 1; k-- > 0;) sum = terms[k] + square * sum;
+    return sum;
+}
+
+double whole_turns_off(double turns) { return turns - std::floor(turns); }
+
+struct ValueAndSlope {
+    double value, slope;
+};
+
+/// The root of a function that has different signs at the ends, to a rounding of `origin` and it.
+/// Newton's rule, and halving where that leads out of the bracket or its steps do not get shorter
+/// by half.
+template <class Function>
+double root_between(double low, double high, bool rises, double origin, const Function& function) {
+    double s = low + (high - low) / 2, last_step = high - low;
+    for (;;) {
+        const auto [value, slope] = function(s);
+        if (value == 0) return s;
+        ((value < 0) == rises ? low : high) = s;
+        double next = s - value / slope;
+        if (!(next > low && next < high && std::fabs(next - s) <= last_step / 2))
+            next = low + (high - low) / 2;
+        last_step = std::fabs(next - s);
+        if (!(last_step > 0x1p-52 * (origin + next))) return next;
+        s = next;
+    }
+}
+
+/// The turns from -1/4 to 1/4 with this sine, by halving.
+double turns_of_sine(double sine) {
+    double low = -0.25, high = 0.25;
+    for (;;) {
+        const double middle = low + (high - low) / 2;
+        if (!(middle > low && middle < high)) return middle;
+        (sine_of_turns(middle).sine < sine ? low : high) = middle;
+    }
+}
+
+} // namespace
+
+SineAndCosine sine_of_turns(double turns) {
+    const double quarter = std::floor(4 * turns + 0.5);
+    const double x = two_pi * (turns - quarter / 4), square = x * x; // the difference is exact
+    const double sine = x + x * (square * series(sine_terms, square));
+    const double cosine = (1 - square / 2) + square * (square * series(cosine_terms, square));
+    switch (static_cast<std::int64_t>(quarter) & 3) {
+    case 0: return {sine, cosine};
+    case 1: return {cosine, -sine};
+    case 2: return {-sine, -cosine};
+    default: return {-cosine, sine};
+    }
+}
+
+WallMotion oscillation_at(const Boundary& side, double time) {
+    Oscillation oscillation(side, 1, 0, 0);
+    oscillation.begin_interval(time);
+    return oscillation.at(0);
+}
+
+Oscillation::Oscillation(const Boundary& side, double sign, double gravity, double slack)
+    : sign_(sign), pull_(sign * gravity), slack_(slack) {
+    if (side.kind != BoundaryKind::oscillating || !(side.amplitude > 0)) return;
+    amplitude_ = side.amplitude;
+    period_ = side.period;
+    rate_ = two_pi / period_;
+    phase_ = whole_turns_off(side.phase / two_pi);
+    turns_ = phase_;
+    // The wall's acceleration is that of falling discs where the sine is this.
+    const double sine = -gravity / (amplitude_ * rate_ * rate_);
+    const double bend = std::fabs(sine) < 1 ? turns_of_sine(sine) : 0.25;
+    first_bend_ = whole_turns_off(bend);
+    second_bend_ = whole_turns_off(std::fabs(sine) < 1 ? 0.5 - bend : 0.75);
+    if (second_bend_ < first_bend_) std::swap(first_bend_, second_bend_);
+}
+
+void Oscillation::begin_interval(double time) {
+    if (is_any()) turns_ = whole_turns_off(phase_ + std::fmod(time, period_) / period_);
+}
+
+WallMotion Oscillation::at(double time) const {
+    const auto [sine, cosine] = sine_of_turns(turns_ + time / period_);
+    const double speed = amplitude_ * rate_;
+    return {amplitude_ * sine, speed * cosine, -(speed * rate_) * sine};
+}
+
+double Oscillation::pressure_at(double time, double later) const {
+    return std::max(sign_ * at(time).acceleration, sign_ * at(later).acceleration) - pull_;
+}
+
+/// Of one disc, s after `time`.
+struct Oscillation::Flight {
+    const Oscillation& wall;
+    double distance, rate, from_wall, time;
+    WallMotion now;
+
+    ValueAndSlope distance_at(double s) const {
+        const WallMotion then = wall.at(time + s);
+        return {from_line_at(s) - wall.sign_ * then.place, slope_at(s, then)};
+    }
+    ValueAndSlope rate_at(double s) const {
+        const WallMotion then = wall.at(time + s);
+        return {slope_at(s, then), wall.pull_ - wall.sign_ * then.acceleration};
+    }
+    bool falls_at(double s) const {
+        const auto [slope, bend] = rate_at(s);
+        return slope < 0 || (slope == 0 && bend < 0);
+    }
+    /// When the disc next is where the wall may be, and deeper than the slack.
+    double entry_after(double s) const {
+        const double left = from_line_at(s) - wall.amplitude_ + wall.slack_;
+        return left > 0 ? s + fall_delay(left, rate + wall.pull_ * s, wall.pull_) : s;
+    }
+
+private:
+    double from_line_at(double s) const {
+        return (distance + rate * s) + (0.5 * wall.pull_ * s) * s;
+    }
+    /// At s = 0 the very number that a rebound has left.
+    double slope_at(double s, const WallMotion& then) const {
+        return (from_wall + wall.pull_ * s) - wall.sign_ * (then.velocity - now.velocity);
+    }
+};
+
+/// The first time after `time` at which the rate of distances has an extremum.
+double Oscillation::bend_after(double time) const {
+    for (double turn = std::floor(turns_ + time / period_) - 1;; turn += 1) {
+        for (const double bend : {first_bend_, second_bend_}) {
+            const double then = ((turn + bend) - turns_) * period_;
+            if (then > time) return then;
+        }
+    }
+}
+
+/// In times from `begin` to `end` at least. Between two bends the rate changes sign once at most,
+/// so the distance falls in one piece of that, or does not.
+double Oscillation::first_contact(const Flight& flight, double begin, double end) const {
+    const auto distance = [&flight](double s) { return flight.distance_at(s); };
+    const auto rate = [&flight](double s) { return flight.rate_at(s); };
+    double from = begin, at = flight.time + begin;
+    bool falls = flight.falls_at(from);
+    while (from < end) {
+        at = bend_after(at);
+        const double to = at - flight.time;
+        const bool falls_then = flight.falls_at(to);
+        if (falls || falls_then) {
+            const double turn = falls == falls_then
+                                    ? from
+                                    : root_between(from, to, falls, flight.time, rate);
+            const double top = falls ? from : turn, bottom = falls_then ? to : turn;
+            if (distance(top).value <= 0) return top;
+            if (distance(bottom).value < 0)
+                return root_between(top, bottom, false, flight.time, distance);
+        }
+        from = to;
+        falls = falls_then;
+    }
+    return never;
+}
+
+double Oscillation::contact_delay(double distance, double rate, double from_wall,
+                                  double time) const {
+    const Flight flight{*this, distance, rate, from_wall, time, at(time)};
+    double begin = 0;
+    for (int visit = 0; visit < most_visits; ++visit) {
+        const double entry = flight.entry_after(begin);
+        if (!(entry < latest * period_)) return never;
+        const double end = entry + (1 + margin) * period_;
+        const double contact = first_contact(flight, std::max(begin, entry - margin * period_),
+                                             end);
+        if (contact != never) return contact;
+        begin = end;
+    }
+    return never;
+}
+
+} // namespace carrom

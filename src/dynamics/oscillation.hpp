@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A wall that oscillates about its line: it is A sin(2 pi t / P + phase) from there, along +x or
+// +y, t being the time since the scene's start. It is infinitely heavy, so nothing changes its
+// motion.
+//
+// In the falling frame its distance to a disc is a parabola less a sine. The rate of that is
+// monotone between times at which the wall is accelerated as the disc is. They are known
+// beforehand, two to a period. So a bracket finds each extremum, and another one the first root:
+// no contact is missed, however fast or slow the wall is. A disc that is nearer than the wall's
+// highest place for a whole period is met. So the search looks at a period, or two, or none.
+//
+// + - * / and sqrt only, in a fixed order: the same bits on every machine.
+#pragma once
+
+#include "dynamics/effects.hpp"
+
+namespace carrom {
+
+struct SineAndCosine {
+    double sine = 0, cosine = 1;
+};
+/// Of 2 pi `turns`, which is below 2^50: each to 2^-52.
+SineAndCosine sine_of_turns(double turns);
+
+/// Along +x or +y, from the wall's line.
+struct WallMotion {
+    double place = 0, velocity = 0, acceleration = 0;
+};
+
+/// Where the wall is at a time since the scene's start, in the unit of the side's period.
+WallMotion oscillation_at(const Boundary& side, double time);
+
+/// The oscillation of one side, seen from a frame in which all falls.
+class Oscillation {
+public:
+    /// None.
+    Oscillation() = default;
+    /// `side` per micro-step, `sign` 1 where the inside is in positive direction, else -1.
+    /// `gravity` is along the axis, `slack` what places are rounded by.
+    Oscillation(const Boundary& side, double sign, double gravity, double slack);
+
+    bool is_any() const { return amplitude_ > 0; }
+    double amplitude() const { return amplitude_; }
+    double largest_speed() const { return amplitude_ * rate_; }
+
+    /// From now on times count from `time` since the scene's start.
+    void begin_interval(double time);
+    WallMotion at(double time) const;
+    /// What presses a disc at the wall against it: the larger value now and at `later`; negative
+    /// where the wall draws back faster than discs fall.
+    double pressure_at(double time, double later) const;
+
+    /// How long after `time` a disc first is not before the wall, and comes nearer. `distance` and
+    /// its `rate` are from the line at `time`, towards the inside; `from_wall` is the rate from the
+    /// wall itself, whose sign decides at `time`. Contacts less deep than the slack may be left
+    /// out.
+    double contact_delay(double distance, double rate, double from_wall, double time) const;
+
+private:
+    struct Flight;
+
+    double first_contact(const Flight& flight, double begin, double end) const;
+    double bend_after(double time) const;
+
+    double amplitude_ = 0, period_ = 1, rate_ = 0; ///< rate: 2 pi / period
+    double phase_ = 0, turns_ = 0;                 ///< in turns, at the start and at the last sync
+    double sign_ = 1, pull_ = 0, slack_ = 0;       ///< pull: of gravity, towards the inside
+    double first_bend_ = 0, second_bend_ = 0;      ///< turns, within one: see the top
+};
+
+} // namespace carrom
