@@ -140,7 +140,7 @@ void StateCheck::fail_if_found(const Finding& mine, Log log) {
 Extent StateCheck::walls_before() const {
     Effects effects = effects_;
     for (Boundary& side : effects.boundaries) side.speed = 0;
-    return extent_at(effects, scene_.box_size, static_cast<double>(micro_steps_before_));
+    return extent_at(effects, scene_.box, static_cast<double>(micro_steps_before_));
 }
 
 /// The discs of this rank's slab at the last look.

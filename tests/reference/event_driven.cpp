@@ -140,7 +140,12 @@ EventDrivenReference::Meeting EventDrivenReference::meeting(const Disc& disc, Di
                                                    moving;
         const double pull = is_high ? -at_wall : at_wall;
         double delay = never;
-        if (setting_.drag_clock && pull != 0) {
+        const std::size_t side = 2 * axis + (is_high ? 1 : 0);
+        if (oscillates(side)) {
+            const double speed = wall.speed + setting_.oscillation(side, last_sync(), disc.tau)[1];
+            delay = setting_.oscillating_delay(side, last_sync(), gap, rate,
+                                               is_high ? speed - v : v - speed, disc.tau);
+        } else if (setting_.drag_clock && pull != 0) {
             const double left = setting_.slowing_at(disc.tau);
             delay = left * setting_.dragged_fall_delay(gap, left * rate, pull);
         } else if (rate < 0 && gap <= 0) {
@@ -164,11 +169,11 @@ EventDrivenReference::Meeting EventDrivenReference::meeting(const Disc& disc, Di
 void EventDrivenReference::rebound(Disc& disc, DiscId axis, bool is_high, double time,
                                    bool is_touched) const {
     double& v = axis == Event::wall_x ? disc.vx : disc.vy;
-    const Wall wall = wall_at(disc.id, axis, is_high, time);
-    const double restitution =
-        is_touched ? 1 : setting_.effects.boundaries[2 * axis + (is_high ? 1 : 0)].restitution;
-    double away = restitution * std::fabs(v - wall.speed);
     const std::size_t number = 2 * axis + (is_high ? 1 : 0);
+    Wall wall = wall_at(disc.id, axis, is_high, time);
+    if (oscillates(number)) wall.speed += setting_.oscillation(number, last_sync(), time)[1];
+    const double restitution = is_touched ? 1 : setting_.effects.boundaries[number].restitution;
+    double away = restitution * std::fabs(v - wall.speed);
     if (setting_.effects.boundaries[number].kind == BoundaryKind::thermal) {
         const auto [fast, sideways] = setting_.leaving(disc, number);
         const double left = setting_.slowing_at(time);
@@ -180,7 +185,8 @@ void EventDrivenReference::rebound(Disc& disc, DiscId axis, bool is_high, double
                           static_cast<double>(setting_.micro_steps);
     const double at_wall = gravity(axis) - setting_.effects.drag /
                                                static_cast<double>(setting_.micro_steps) * moving;
-    const double pull_back = is_high ? at_wall : -at_wall;
+    double pull_back = is_high ? at_wall : -at_wall;
+    if (oscillates(number)) pull_back = setting_.oscillation(number, last_sync(), time)[2];
     if (pull_back > 0)
         away = std::max(away,
                         0.5 * pull_back * setting_.contact_time() / setting_.slowing_at(time));

@@ -76,7 +76,7 @@ private:
     };
 
     struct Wall {
-        double place = 0, speed = 0;
+        double place = 0, speed = 0; ///< of an oscillating one its line's
     };
     struct Meeting {
         double time = 0;
@@ -89,6 +89,12 @@ private:
     void predict_walls(DiscId p);
     void predict_obstacle(DiscId p);
     Wall wall_at(DiscId disc, DiscId axis, bool is_high, double time) const;
+    bool oscillates(std::size_t side) const {
+        return setting_.effects.boundaries[side].amplitude > 0;
+    }
+    std::int64_t last_sync() const {
+        return micro_step_ / setting_.sync_every * setting_.sync_every;
+    }
     double gravity(DiscId axis) const;
     double fallen(double pull, double time) const;
     Meeting meeting(const Disc& disc, DiscId axis) const;

@@ -54,6 +54,15 @@ struct Setting {
     double longest() const { return box().x > box().y ? box().x : box().y; }
     /// Of the axis that the side ends.
     double edge(std::size_t side) const { return side < 2 ? box().x : box().y; }
+    /// An oscillating wall: how far it is from its line, how fast, and what presses discs against
+    /// it; and when a disc meets it, by its distance and rate from the line and its rate from the
+    /// wall. Times since the sync at a micro-step. Handed in, and held to their own search
+    /// elsewhere.
+    std::function<std::array<double, 3>(std::size_t side, std::int64_t sync, double time)>
+        oscillation{};
+    std::function<double(std::size_t side, std::int64_t sync, double distance, double rate,
+                         double from_wall, double time)>
+        oscillating_delay{};
     double clock_at(std::int64_t count) const {
         const auto time = static_cast<double>(count);
         return drag_clock ? drag_clock(time) : time;

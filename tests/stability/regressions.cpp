@@ -100,7 +100,8 @@ std::string toml_of(const Effects& effects, Method method) {
     bool is_lossy = effects.gravity.is_any() || effects.obstacles.restitution < 1;
     for (std::size_t k = 0; k < boundary_names.size(); ++k) {
         const Boundary& side = effects.boundaries[k];
-        is_lossy = is_lossy || side.restitution < 1 || (effects.drag > 0 && side.speed != 0);
+        is_lossy = is_lossy || side.restitution < 1 || side.kind == BoundaryKind::oscillating ||
+                   (effects.drag > 0 && side.speed != 0);
         if (side.is_plain()) continue;
         text += fmt::format("[box.{}]\n", boundary_names[k]);
         switch (side.kind) {
@@ -109,6 +110,11 @@ std::string toml_of(const Effects& effects, Method method) {
             break;
         case BoundaryKind::moving:
             text += fmt::format("kind = \"moving\"\nspeed = {:.17g}\n", side.speed);
+            break;
+        case BoundaryKind::oscillating:
+            text += fmt::format("kind = \"oscillating\"\namplitude = {:.17g}\n"
+                                "period = {:.17g}\nphase = {:.17g}\n",
+                                side.amplitude, side.period, side.phase);
             break;
         case BoundaryKind::open: text += "kind = \"open\"\n"; break;
         case BoundaryKind::periodic: text += "kind = \"periodic\"\n"; break;

@@ -44,6 +44,7 @@ Boundary troubled_wall(std::size_t number, bool may_move, Random& random) {
 
 void hand_to_reference(reference::Setting& setting) {
     set_thermal_seed(setting, setting.effects.thermal_seed);
+    set_oscillation(setting);
     setting.falling_contact = falling_contact;
     const double c = setting.effects.drag / static_cast<double>(setting.micro_steps);
     setting.drag_clock = {};

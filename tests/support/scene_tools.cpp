@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/random_numbers.hpp"
+#include "dynamics/oscillation.hpp"
 
 namespace carrom::test {
 
@@ -260,6 +261,34 @@ TestScene legacy_like(std::size_t n, double box_size, double radius, std::uint64
         disc.vy = speed * ey;
     }
     return scene;
+}
+
+void set_oscillation(reference::Setting& setting) {
+    setting.oscillation = {};
+    setting.oscillating_delay = {};
+    if (!(largest_wall_speed(setting.effects) > 0)) return;
+    const Effects effects = per_micro_step(setting.effects,
+                                           static_cast<double>(setting.micro_steps));
+    const double contact_time = effects.contact.contact_time;
+    std::array<Oscillation, 4> walls;
+    for (std::size_t side = 0; side < walls.size(); ++side)
+        walls[side] = Oscillation(effects.boundaries[side], side % 2 == 0 ? 1 : -1,
+                                  side < 2 ? effects.gravity.x : effects.gravity.y,
+                                  8 * 0x1p-52 * setting.box_size);
+    const auto wall_after = [=](std::size_t side, std::int64_t sync) {
+        Oscillation wall = walls[side];
+        wall.begin_interval(static_cast<double>(sync));
+        return wall;
+    };
+    setting.oscillation = [=](std::size_t side, std::int64_t sync, double time) {
+        const Oscillation wall = wall_after(side, sync);
+        const WallMotion now = wall.at(time);
+        return std::array{now.place, now.velocity, wall.pressure_at(time, time + contact_time)};
+    };
+    setting.oscillating_delay = [=](std::size_t side, std::int64_t sync, double distance,
+                                    double rate, double from_wall, double time) {
+        return wall_after(side, sync).contact_delay(distance, rate, from_wall, time);
+    };
 }
 
 void set_thermal_seed(reference::Setting& setting, std::uint64_t seed) {

@@ -84,4 +84,7 @@ TestScene legacy_like(std::size_t n, double box_size, double radius, std::uint64
 /// time.
 void set_thermal_seed(reference::Setting& setting, std::uint64_t seed);
 
+/// What the references are told of walls that oscillate.
+void set_oscillation(reference::Setting& setting);
+
 } // namespace carrom::test

@@ -88,7 +88,7 @@ struct NamedEffects {
     bool is_for_one;
 };
 inline std::vector<NamedEffects> all_effects() {
-    Effects none, lossy, lossy_walls, thermal, piston, falling, pile, slowed, sinking;
+    Effects none, lossy, lossy_walls, thermal, piston, falling, pile, slowed, sinking, shaken;
     none.contact.kind = ContactKind::none;
     lossy.contact = {ContactKind::restitution, 0.8, 0.001};
     lossy_walls.boundaries[0].restitution = lossy_walls.boundaries[3].restitution = 0.6;
@@ -100,6 +100,9 @@ inline std::vector<NamedEffects> all_effects() {
     pile.gravity = {0, -0.1};
     pile.boundaries[2].restitution = 0.3;
     slowed.drag = 0.05;
+    shaken = pile;
+    shaken.boundaries[1] = {BoundaryKind::oscillating, 1, 0, 0, 0.3, 5, 0.1};
+    shaken.boundaries[2] = {BoundaryKind::oscillating, 0.8, 0, 0, 0.2, 7.3, 0};
     sinking = pile;
     sinking.drag = 0.05;
     Effects mixed, heaps, rubbing, rolling; // the last keeps its energy
@@ -119,6 +122,7 @@ inline std::vector<NamedEffects> all_effects() {
             {"a pile", pile, false},
             {"drag", slowed, false},
             {"gravity and drag", sinking, false},
+            {"oscillating walls", shaken, false},
             {"several species", mixed, true},
             {"a pile of several species", heaps, false},
             {"rough discs", rubbing, true},

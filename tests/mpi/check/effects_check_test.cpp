@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The self-check makes allowance for effects, and still finds what is wrong.
+#include <numbers>
+
 #include "check_runs.hpp"
 
 using namespace carrom;
@@ -96,4 +98,18 @@ TEST_CASE("check: with effects, what is wrong is found all the same") {
     Effects falling;
     falling.gravity.y = -0.03;
     CHECK(found_in(falling, collided_disc_faster(1 + 1e-9)) == Invariant::energy);
+}
+
+TEST_CASE("check: a disc beyond an oscillating wall is found where the wall is") {
+    Effects shaken; // at step 1 the right wall is 0.35 inside
+    shaken.boundaries[1] = {BoundaryKind::oscillating, 1, 0, 0, 0.5, 8, std::numbers::pi};
+    const auto beside_wall = [](double gap) {
+        return [=](OneStep& step) {
+            if (Disc* const disc = step.own(7))
+                disc->x += step.scene().box_size - step.scene().radius - gap -
+                           disc->x_at(step.local_view.time);
+        };
+    };
+    CHECK(found_in(shaken, beside_wall(0.2)) == Invariant::in_box);
+    CHECK(found_in(shaken, beside_wall(0.4)) != Invariant::in_box);
 }

@@ -45,10 +45,13 @@ Choice side_choice(std::size_t number, const char* kind, const Boundary& side) {
 
 Row sides_of(std::size_t number) {
     const double inwards = number % 2 == 0 ? 0.02 : -0.02;
-    Row row{side_choice(number, "wall", {}),
-            side_choice(number, "lossy", {BoundaryKind::fixed, 0.7, 0, 0}),
-            side_choice(number, "thermal", {BoundaryKind::thermal, 1, 0.2, 0}),
-            side_choice(number, "moving", {BoundaryKind::moving, 0.9, 0, inwards})};
+    Row row{
+        side_choice(number, "wall", {}),
+        side_choice(number, "lossy", {BoundaryKind::fixed, 0.7, 0, 0}),
+        side_choice(number, "thermal", {BoundaryKind::thermal, 1, 0.2, 0}),
+        side_choice(number, "moving", {BoundaryKind::moving, 0.9, 0, inwards}),
+        side_choice(number, "oscillating",
+                    {BoundaryKind::oscillating, 0.9, 0, 0, 0.3, 2.3, number % 2 == 0 ? 3.2 : 0.1})};
     if (number % 2 == 0) row.push_back(side_choice(number, "open", {BoundaryKind::open, 1, 0, 0}));
     return row;
 }
@@ -147,6 +150,7 @@ bool takes_the_place_of(const std::string& a, const std::string& b) {
 bool is_excluded(const std::string& a, const std::string& b) {
     static const std::vector<std::pair<std::string, std::string>> excluded = {
         {"time-stepped", "moving"},
+        {"time-stepped", "oscillating"},
         {"time-stepped", "gravity down"},
         {"time-stepped", "gravity aslant"},
         {"time-stepped", "drag"},
@@ -160,6 +164,11 @@ bool is_excluded(const std::string& a, const std::string& b) {
         {"obstacles", "both aslant"},
         {"obstacles", "moving"},
         {"open", "moving"},
+        {"oscillating", "obstacles"},
+        {"oscillating", "open"},
+        {"oscillating", "drag"},
+        {"oscillating", "both down"},
+        {"oscillating", "both aslant"},
         {"seams along x", "open"},
         {"seams along y", "open"},
         {"seams along y", "both down"},
@@ -297,6 +306,7 @@ StateHash engine_hash(const Plan& plan, const Communicator& world) {
 /// What the references are told apart from the scene's numbers.
 void hand_to_reference(reference::Setting& setting) {
     set_thermal_seed(setting, setting.effects.thermal_seed);
+    set_oscillation(setting);
     setting.falling_contact = falling_contact;
 }
 
