@@ -106,7 +106,7 @@ TEST_CASE("check: a disc beyond an oscillating wall is found where the wall is")
     const auto beside_wall = [](double gap) {
         return [=](OneStep& step) {
             if (Disc* const disc = step.own(7))
-                disc->x += step.scene().box_size - step.scene().radius - gap -
+                disc->x += step.scene().box.x - step.scene().radius - gap -
                            disc->x_at(step.local_view.time);
         };
     };

@@ -31,6 +31,11 @@ struct Ball {
     Long plate_speed(Long at) const {
         return amplitude * 2 * std::numbers::pi_v<Long> / period * std::cos(angle(at));
     }
+    /// By how much a hit makes errors larger at most: a later hit is by a plate of another speed.
+    Long growth() const {
+        const Long rate = 2 * std::numbers::pi_v<Long> / period;
+        return 2 + 2 * (1 + restitution) * amplitude * rate * rate / gravity;
+    }
     Long height_at(Long s) const { return height + speed * s - gravity / 2 * s * s; }
     void move(Long s) {
         height = height_at(s);
@@ -38,7 +43,7 @@ struct Ball {
         time += s;
     }
     void run_to(Long end) {
-        const Long step = period / 4000;
+        const Long step = period / 1000;
         for (Long s = 0; time + s < end;) {
             Long low = s, high = s += step;
             if (height_at(s) > plate(time + s)) continue;
@@ -83,7 +88,7 @@ TEST_CASE("oscillation: a ball on a plate is where a plain search says, before a
     const Communicator world = Communicator::world();
     const std::vector<Ball> balls{{5, 0, 0.02, 0.5, 13, 0, 0.8},
                                   {3, 0.1, 0.1, 0.05, 0.7, 1, 0.9},  // a fast plate
-                                  {2, -0.2, 0.05, 1.5, 160, 2, 0.7}, // a slow one
+                                  {2, -0.2, 0.05, 1.5, 160, 2, 0.9}, // a slow one
                                   {4, 0.2, 0.02, 0.3, 40, 4, 1}};
     for (const std::size_t side : {0u, 1u, 2u, 3u}) {
         for (Ball ball : balls) {
@@ -91,18 +96,22 @@ TEST_CASE("oscillation: a ball on a plate is where a plain search says, before a
             const TestScene scene = ball_before(side, ball);
             const double sign = side % 2 == 0 ? 1 : -1, line = side % 2 == 0 ? 1 : 39;
             Simulation simulation = simulation_of(scene, Method::event_driven, world);
-            for (std::int64_t step = 12; step <= 400 && ball.n_hits < 9; step += 12) {
+            double error = 1e-13;
+            for (std::int64_t step = 4; step <= 160 && error < 1e-6; step += 4) {
                 advance_to(simulation, step);
+                const int n_before = ball.n_hits;
                 ball.run_to(static_cast<Long>(step));
-                CHECK(simulation.totals().wall_collisions == ball.n_hits);
+                CHECK(simulation.totals().wall_collisions ==
+                      static_cast<std::uint64_t>(ball.n_hits));
+                error *= std::pow(static_cast<double>(ball.growth()), ball.n_hits - n_before);
                 for (const Disc& disc : simulation.shown()) {
                     const double height = sign * ((side < 2 ? disc.x : disc.y) - line),
                                  speed = sign * (side < 2 ? disc.vx : disc.vy);
-                    CHECK(height == Approx(static_cast<double>(ball.height)).margin(1e-7));
-                    CHECK(speed == Approx(static_cast<double>(ball.speed)).margin(1e-7));
+                    CHECK(std::fabs(height - static_cast<double>(ball.height)) < error);
+                    CHECK(std::fabs(speed - static_cast<double>(ball.speed)) < error);
                 }
             }
-            CHECK(ball.n_hits >= 6);
+            CHECK(ball.n_hits >= 3);
         }
     }
 }
@@ -132,7 +141,7 @@ TEST_CASE("oscillation: a disc that never leaves the plate goes with it") {
             }
         }
         // Not much more often than once per contact time.
-        CHECK(simulation.totals().wall_collisions < 1.5 * 300 / 0.05);
+        CHECK(simulation.totals().wall_collisions < 9000); // 1.5 times 300 / 0.05
     }
 }
 
@@ -164,7 +173,7 @@ TEST_CASE("oscillation: walls have the reference's bits, alone and with gravity"
         effects.boundaries[2] = shaken(0.4, 1.7, 0, 1);
         check_oscillating_bits(scene, effects);
         effects.gravity = {0.01, -0.05};
-        effects.contact = {ContactKind::restitution, 0.85, 0.002};
+        effects.contact = {ContactKind::restitution, 0.85, 0.02};
         effects.boundaries = {Boundary{BoundaryKind::moving, 1, 0, 0.02}, shaken(0.2, 31.4, 0.3, 0),
                               shaken(0.4, 1.7, 0, 0.8), shaken(0.3, 0.21, 1, 0.9)};
         check_oscillating_bits(scene, effects);
@@ -176,7 +185,7 @@ TEST_CASE("oscillation: walls have the reference's bits beside periodic sides an
         Effects effects;
         effects.boundaries[2] = shaken(0.4, 3.3, 0, 0.9);
         effects.gravity.y = -0.03;
-        effects.contact = {ContactKind::rough, 0.9, 0.002, 0.4, 0.3, 0.5};
+        effects.contact = {ContactKind::rough, 0.9, 0.02, 0.4, 0.3, 0.5};
         check_oscillating_bits(scene, effects);
         effects.contact = {};
         effects.boundaries[0] = effects.boundaries[1] = {BoundaryKind::periodic, 1, 0, 0};

@@ -155,9 +155,9 @@ TEST_CASE("a forged checkpoint with right checksums is refused where its places 
     const std::string whole = folder.file("whole.h5"), path = folder.file("forged.h5");
     StoredSamples samples;
     samples.sums = {1, 2, 3};
-    samples.have_first_places = samples.have_lengths = true;
+    samples.have_first_places = samples.have_lengths = samples.have_velocities = true;
     for (DiscId id = 0; id < 20; ++id) // fewer than a piece: all are rank 0's
-        if (world.is_root()) samples.first_places.push_back({id, 0.01, 0.02, 1, -2});
+        if (world.is_root()) samples.first_places.push_back({id, 0.01, 0.02, 0.1, 0.2, 1, -2});
     write_checkpoint(whole, some_header(), share(20, world, 0), world, {}, samples);
     const auto forged = [&](const std::string& dataset, const std::function<void(hid_t)>& change) {
         world.barrier();

@@ -326,7 +326,7 @@ TEST_CASE("Periodic sides are read, in pairs, where they make sense") {
     CHECK(has(problems_with({"box.top.kind=periodic"}),
               "box.bottom.kind and box.top.kind must both be \"periodic\", or neither"));
     CHECK(has(with({"box.top.restitution=0.5"}),
-              "no meaning without box.top.kind = \"wall\" or \"moving\""));
+              "no meaning without box.top.kind = \"wall\", \"moving\" or \"oscillating\""));
     CHECK(has(with({"box.top.temperature=1"}), "no meaning without box.top.kind = \"thermal\""));
     CHECK(has(with({"box.top.speed=1"}), "no meaning without box.top.kind = \"moving\""));
     CHECK(

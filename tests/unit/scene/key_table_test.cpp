@@ -118,8 +118,19 @@ Texts random_overrides(Draw& draw) {
     if (draw.below(3) == 0)
         texts.insert(texts.end(), {"effects.contact.kind=rough", "effects.contact.restitution=0.9",
                                    "effects.contact.tangential_restitution=0.5"});
-    if (draw.below(4) == 0)
-        texts.insert(texts.end(), {"box.top.kind=thermal", "box.top.temperature=0.1"});
+    const auto any_side = [&draw] { return std::string("box.") + boundary_names[draw.below(4)]; };
+    if (draw.below(4) == 0) {
+        const std::string side = any_side();
+        texts.insert(texts.end(), {side + ".kind=thermal", side + ".temperature=0.1"});
+    }
+    if (draw.below(3) == 0) {
+        const std::string side = any_side();
+        texts.insert(texts.end(),
+                     {side + ".kind=oscillating", side + ".amplitude=0.5", side + ".period=3"});
+        if (draw.below(2) == 0) texts.push_back(side + ".phase=3.5");
+    }
+    if (draw.below(12) == 0)
+        texts.insert(texts.end(), {"box.top.kind=moving", "box.top.speed=0.01"});
     if (draw.below(4) == 0) texts.push_back("time.arithmetic=naive");
     if (draw.below(8) == 0) // with keys that need these quantities, and periodic sides
         texts.insert(texts.end(), {"box.left.kind=periodic", "box.right.kind=periodic",
