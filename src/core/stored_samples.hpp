@@ -14,9 +14,9 @@ namespace carrom {
 struct FirstPlace {
     DiscId id = 0;
     double x = 0, y = 0;
-    double vx = 0, vy = 0;               ///< per step
     double lengths_x = 0, lengths_y = 0; ///< in a periodic box: how many box lengths it has been
                                          ///< brought back by since then
+    double vx = 0, vy = 0;               ///< then, per step
 };
 
 struct StoredSamples {

@@ -55,7 +55,7 @@ void Sampler::begin_flights(std::span<const Disc> discs) {
     std::vector<FirstPlace> places;
     for (const Disc& disc : discs)
         places.push_back(
-            {disc.id, disc.x_at(time), disc.y_at(time), disc.vx * unit, disc.vy * unit});
+            {disc.id, disc.x_at(time), disc.y_at(time), 0, 0, disc.vx * unit, disc.vy * unit});
     crossings_.clear(); // of before
     place_first(places);
 }

@@ -11,7 +11,8 @@ for needed in 'h5py h5py' 'numpy numpy' 'pytest pytest'; do
     has "$module" "$name" || skip_test "$name is not to be had: $(said)"
 done
 for wanted in 'matplotlib matplotlib' 'PIL pillow' 'scipy.spatial scipy' \
-    'imageio_ffmpeg imageio-ffmpeg' 'pandas pandas' 'freud freud-analysis' 'MDAnalysis MDAnalysis' 'ase ase' 'ovito ovito' 'gsd.hoomd gsd'; do
+    'imageio_ffmpeg imageio-ffmpeg' 'pandas pandas' \
+    'freud freud-analysis' 'MDAnalysis MDAnalysis' 'ase ase' 'ovito ovito' 'gsd.hoomd gsd'; do
     read -r module name <<<"$wanted"
     has "$module" "$name" ||
         printf 'skipped: %s is not to be had: %s\n' "$name" "$(said)"
