@@ -54,8 +54,12 @@ std::string span_text(const FrameFile& file) {
 
 /// The fields of a trajectory as scenes name them.
 std::string fields_text(const FileSummary& summary) {
-    constexpr std::array<std::array<const char*, 2>, 3> common = {
-        {{"position", "x"}, {"velocity", "vx"}, {"collisions", "pair_collisions"}}};
+    constexpr std::array<std::array<const char*, 2>, 5> common = {
+        {{"position", "x"},
+         {"velocity", "vx"},
+         {"collisions", "pair_collisions"},
+         {"psi6", "psi6_real"},
+         {"neighbours", "neighbours"}}};
     std::vector<std::string> fields;
     for (const auto& [field, column] : common)
         if (summary.has(column)) fields.emplace_back(field);

@@ -93,9 +93,13 @@ void Recordings::record(const Simulation& simulation) {
     const std::int64_t step = simulation.step();
     if (log_) record_collisions();
     if (sampler_) sample();
-    if (trajectory_ && step % scene_.trajectory->every_steps == 0)
-        trajectory_->append(step, simulation.shown(), simulation.clock(),
-                            simulation.side_columns());
+    if (trajectory_ && step % scene_.trajectory->every_steps == 0) {
+        std::vector<BondOrder> orders; // first: finding them moves discs in memory
+        if (scene_.trajectory->has_psi6 || scene_.trajectory->has_neighbours)
+            orders = simulation.bond_orders();
+        trajectory_->append(step, simulation.shown(), simulation.clock(), simulation.side_columns(),
+                            orders);
+    }
     commit_now_and_then();
 }
 

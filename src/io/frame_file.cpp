@@ -31,7 +31,10 @@ std::vector<Source> sources_of_frames() {
                                    {"vx", "velocity", 3, 0},
                                    {"vy", "velocity", 3, 1},
                                    {"pair_collisions", "collisions", 2, 1},
-                                   {"wall_collisions", "collisions", 2, 0}};
+                                   {"wall_collisions", "collisions", 2, 0},
+                                   {"psi6_real", "psi6", 2, 0},
+                                   {"psi6_imaginary", "psi6", 2, 1},
+                                   {"neighbours", "neighbours", 1, 0}};
     for (const SideColumnInfo& info : side_column_table)
         sources.push_back({info.shown, info.shown, 1, 0});
     for (Source& source : sources) source.dataset = discs_path + source.dataset + "/value";

@@ -30,6 +30,8 @@ struct ShownDisc {
     double position[2] = {}, velocity[2] = {};
     std::uint64_t collisions[2] = {}; ///< with walls, with discs
     double columns[n_side_columns] = {};
+    double psi6[2] = {};
+    std::uint64_t n_neighbours = 0;
 };
 
 /// What a frame has of each disc.
@@ -56,6 +58,13 @@ std::vector<Field> fields_of(const TrajectoryLayout& layout) {
     if (layout.has_collisions)
         fields.push_back({"collisions", 2, false,
                           [](const ShownDisc& disc, std::size_t k) { return disc.collisions[k]; }});
+    if (layout.has_psi6)
+        fields.push_back({"psi6", 2, true, [](const ShownDisc& disc, std::size_t k) {
+                              return bits_of(disc.psi6[k]);
+                          }});
+    if (layout.has_neighbours)
+        fields.push_back({"neighbours", 1, false,
+                          [](const ShownDisc& disc, std::size_t) { return disc.n_neighbours; }});
     layout.columns.for_each([&](SideColumn column) {
         fields.push_back(
             {info_of(column).shown, 1, true,
@@ -101,9 +110,10 @@ void write_structure(hid_t file, const TrajectoryLayout& layout) {
 /// The discs of all ranks on rank 0, slab after slab of ids.
 class SlabStream {
 public:
-    SlabStream(std::span<const Disc> discs, const SideSpans& columns, double clock,
-               const TrajectoryLayout& layout, const Communicator& communicator)
-        : discs_(discs), columns_(columns), clock_(clock), layout_(layout),
+    SlabStream(std::span<const Disc> discs, const SideSpans& columns,
+               std::span<const BondOrder> orders, double clock, const TrajectoryLayout& layout,
+               const Communicator& communicator)
+        : discs_(discs), columns_(columns), orders_(orders), clock_(clock), layout_(layout),
           communicator_(communicator), order_(discs.size()) {
         std::iota(order_.begin(), order_.end(), LocalIndex{0});
         std::sort(order_.begin(), order_.end(),
@@ -131,17 +141,22 @@ private:
         ShownDisc shown = {disc.id,
                            {disc.x_at(clock_), disc.y_at(clock_)},
                            {disc.vx * unit, disc.vy * unit},
-                           {disc.wall_collisions, disc.pair_collisions},
-                           {}};
+                           {disc.wall_collisions, disc.pair_collisions}};
         layout_.columns.for_each([&](SideColumn column) {
             shown.columns[static_cast<std::size_t>(column)] = columns_[column][i] *
                                                               (info_of(column).is_rate ? unit : 1);
         });
+        if (!orders_.empty() && orders_[i].has_cell()) {
+            shown.psi6[0] = orders_[i].real;
+            shown.psi6[1] = orders_[i].imaginary;
+            shown.n_neighbours = static_cast<std::uint64_t>(orders_[i].n_neighbours);
+        }
         return shown;
     }
 
     std::span<const Disc> discs_;
     SideSpans columns_;
+    std::span<const BondOrder> orders_;
     double clock_;
     const TrajectoryLayout& layout_;
     const Communicator& communicator_;
@@ -204,13 +219,15 @@ std::int64_t Trajectory::go_on(std::int64_t step, const DifferenceFrom& differen
 }
 
 void Trajectory::append(std::int64_t step, std::span<const Disc> discs, double clock,
-                        const SideSpans& columns) {
+                        const SideSpans& columns, std::span<const BondOrder> orders) {
+    ensure(orders.size() == discs.size() || !(layout_.has_psi6 || layout_.has_neighbours),
+           "psi6 does not run along the discs");
     layout_.columns.for_each([&](SideColumn column) {
         ensure(columns[column].size() == discs.size(), "a column does not run along the discs");
     });
     SegmentedFile& file = state_->file;
     file.attempt([&] { static_cast<void>(file.room()); });
-    SlabStream stream(discs, columns, clock, layout_, communicator_);
+    SlabStream stream(discs, columns, orders, clock, layout_, communicator_);
     const std::vector<Field> fields = fields_of(layout_);
     const std::uint64_t n = layout_.system.n_discs;
     for (std::uint64_t begin = 0; begin < n; begin += discs_at_a_time) {

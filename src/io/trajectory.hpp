@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 
+#include "core/bond_order.hpp"
 #include "core/disc.hpp"
 #include "core/side_columns.hpp"
 #include "io/checkpoint.hpp"
@@ -24,6 +25,7 @@ struct TrajectoryLayout {
     RecordedSystem system;
     double velocity_unit = 1; ///< what stored velocities are multiplied by to be per step
     bool has_position = true, has_velocity = true, has_collisions = false;
+    bool has_psi6 = false, has_neighbours = false;
     SideColumnSet columns; ///< that frames have
     bool is_single = true; ///< float32, else float64
     CheckpointHeader run; ///< of which run it is: scene and classes. No text: the file will not say
@@ -46,9 +48,9 @@ public:
     std::int64_t go_on(std::int64_t step, const DifferenceFrom& difference_from = {});
 
     /// Adds a frame: the discs, in any distribution over the ranks, at `clock`, and the layout's
-    /// columns along them. **Collective.**
+    /// columns along them; orders likewise, where it has psi6 or neighbours. **Collective.**
     void append(std::int64_t step, std::span<const Disc> discs, double clock,
-                const SideSpans& columns = {});
+                const SideSpans& columns = {}, std::span<const BondOrder> orders = {});
 
     /// What has been added so far is to stay, and readers see it. Renews the description when it
     /// has grown old. **Collective.**

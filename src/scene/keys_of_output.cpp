@@ -82,7 +82,9 @@ std::vector<Key> keys_of_recordings() {
     using Output = TrajectoryOutput;
     std::vector<Flag<Output>> fields = {{"position", &Output::has_position},
                                         {"velocity", &Output::has_velocity},
-                                        {"collisions", &Output::has_collisions}};
+                                        {"collisions", &Output::has_collisions},
+                                        {"psi6", &Output::has_psi6},
+                                        {"neighbours", &Output::has_neighbours}};
     for (std::size_t k = 0; k < n_side_columns; ++k)
         fields.push_back({side_column_table[k].shown,
                           [k](Output& output) -> bool& { return output.columns.flags[k]; }});
@@ -92,7 +94,7 @@ std::vector<Key> keys_of_recordings() {
             .within(every),
         flags_key(
             "output.trajectory.fields", "",
-            "What a frame has of each disc; collisions are its two counters.",
+            "What a frame has of each disc; collisions are its two counters, neighbours Voronoi's.",
             [](auto& s) -> auto& { return *s.trajectory; }, fields)
             .by_default("position, velocity; angular_velocity of rough discs")
             .within(at_least_one),

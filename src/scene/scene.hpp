@@ -74,7 +74,8 @@ struct CheckpointOutput {
 struct TrajectoryOutput {
     std::string file; ///< in the run's folder
     std::int64_t every_steps = 1;
-    bool has_position = true, has_velocity = true, has_collisions = false;
+    bool has_position = true, has_velocity = true, has_collisions = false, has_psi6 = false,
+         has_neighbours = false;
     SideColumnSet columns; ///< all that discs have, where fields are not named
     bool is_single = true; ///< numbers of 4 bytes, else of 8
 };

@@ -274,27 +274,40 @@ void Simulation::count_pair_distances(double bin_width, std::span<const DiscId> 
     engine_->forget_images();
 }
 
-HexaticSums Simulation::hexatic_order(double largest_distance, std::size_t n_bins) const {
+/// Of all discs of the view that are no further than that beyond the own ones. The view is good
+/// until images are forgotten. **Collective.**
+LocalView Simulation::find_orders(double reach_beyond, std::vector<BondOrder>& orders) const {
     const Extent box = extent_at(effects_, box_, static_cast<double>(step()));
     const double area = (box.x_high - box.x_low) * (box.y_high - box.y_low);
-    HexaticSums sums(engine_->n_discs(), n_bins);
-    std::vector<BondOrder> orders;
-    bool are_whole = false;
     // Cells of a fluid are whole within three times the mean distance of neighbours.
-    for (double reach = 3 * std::sqrt(area / static_cast<double>(engine_->n_discs())); !are_whole;
+    for (double reach = 3 * std::sqrt(area / static_cast<double>(engine_->n_discs()));;
          reach *= 2) {
-        const LocalView now = engine_->local_view(largest_distance + reach);
-        are_whole = communicator_.all(find_bond_orders(now, box, reach, n_threads_, orders));
-        if (are_whole)
-            add_order(now, orders, largest_distance / static_cast<double>(n_bins), n_threads_,
-                      sums);
+        const LocalView now = engine_->local_view(reach_beyond + reach);
+        if (communicator_.all(find_bond_orders(now, box, reach, n_threads_, orders))) return now;
         engine_->forget_images();
     }
+}
+
+HexaticSums Simulation::hexatic_order(double largest_distance, std::size_t n_bins) const {
+    HexaticSums sums(engine_->n_discs(), n_bins);
+    std::vector<BondOrder> orders;
+    const LocalView now = find_orders(largest_distance, orders);
+    add_order(now, orders, largest_distance / static_cast<double>(n_bins), n_threads_, sums);
+    engine_->forget_images();
     for (auto* counts : {&sums.neighbours, &sums.moduli, &sums.pairs})
         communicator_.sum(std::span(*counts));
     for (ExactSum* sum : {&sums.real, &sums.imaginary, &sums.modulus}) communicator_.sum(*sum);
     for (ExactSum& product : sums.products) communicator_.sum(product);
     return sums;
+}
+
+std::vector<BondOrder> Simulation::bond_orders() const {
+    std::vector<BondOrder> orders;
+    const LocalView now = find_orders(0, orders);
+    orders.resize(now.population.n_own);
+    engine_->forget_images();
+    orders.resize(discs().size()); // departed discs lie behind, and have none
+    return orders;
 }
 
 Totals Simulation::totals() const {

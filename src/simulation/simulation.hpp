@@ -27,7 +27,9 @@ namespace carrom {
 class BlockAverages;
 class Engine;
 class StateCheck;
+struct BondOrder;
 struct HexaticSums;
+struct LocalView;
 struct Look;
 struct MotionNow;
 struct PairVirial;
@@ -103,6 +105,9 @@ public:
     /// psi6 of all discs together, and of their pairs up to that distance, of all ranks.
     /// **Collective.**
     HexaticSums hexatic_order(double largest_distance, std::size_t n_bins) const;
+    /// psi6 of each of the own discs, along `discs()` as they lie then: this moves them in memory.
+    /// **Collective.**
+    std::vector<BondOrder> bond_orders() const;
 
     /// From now on every step is held to the invariants of check_failure.hpp: `advance_towards`
     /// goes one step at a time and throws CheckFailure on every rank when one is broken. `scene`
@@ -130,6 +135,7 @@ public:
 
 private:
     void advance_checked();
+    LocalView find_orders(double reach_beyond, std::vector<BondOrder>& orders) const;
     Look look() const;
     /// As `shown()`, for whoever looks at velocities only.
     std::span<const Disc> in_motion() const;

@@ -8,19 +8,12 @@
 #include <span>
 #include <vector>
 
+#include "core/bond_order.hpp"
 #include "core/exact_sum.hpp"
 #include "dynamics/effects.hpp"
 #include "engine/engine.hpp"
 
 namespace carrom {
-
-/// psi6 of one disc: the mean of exp(6 i angle) over its neighbours, each with the same weight.
-struct BondOrder {
-    double real = 0, imaginary = 0;
-    int n_neighbours = -1; ///< -1: the disc's centre is not in the box, and it has no cell
-
-    bool has_cell() const { return n_neighbours >= 0; }
-};
 
 /// Fills in `orders` along the view's discs. Walls of `box` cut cells and are no neighbours. The
 /// view must reach as far as `reach` around each disc whose order is looked at. Returns whether

@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from carrom.errors import NoDataError
+
 if TYPE_CHECKING:
     import ase
     import freud
@@ -74,6 +76,16 @@ class Frame(ABC):
     @abstractmethod
     def pair_collisions(self) -> Array:
         """Collisions with other discs since the scene's start, (N,) integers."""
+
+    @cached_property
+    def psi6(self) -> Array:
+        """Hexatic order (N,), complex, over Voronoi neighbours of the same weight."""
+        raise NoDataError("no psi6; output.trajectory.fields of the scene asks for it")
+
+    @cached_property
+    def neighbours(self) -> Array:
+        """Numbers of Voronoi neighbours, (N,) integers."""
+        raise NoDataError("no neighbours; output.trajectory.fields of the scene asks for them")
 
     @property
     @abstractmethod

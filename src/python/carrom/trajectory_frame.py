@@ -39,7 +39,7 @@ class System:
 
 
 def _number_of_discs(discs: Any, file: Any) -> int:
-    for name in ("position", "velocity", "collisions", "angular_velocity"):
+    for name in ("position", "velocity", "collisions", "angular_velocity", "psi6", "neighbours"):
         if name in discs:
             return int(discs[name]["value"].shape[1])
     raise FileError(f"{file.filename}: its frames have no fields")
@@ -91,6 +91,16 @@ class TrajectoryFrame(Frame):
     @cached_property
     def pair_collisions(self) -> Array:
         return self._frames.field("collisions", self._index)[:, 1]
+
+    @cached_property
+    def psi6(self) -> Array:
+        values = self._frames.field("psi6", self._index)
+        order: Array = values[:, 0] + 1j * values[:, 1]
+        return order
+
+    @cached_property
+    def neighbours(self) -> Array:
+        return self._frames.field("neighbours", self._index)
 
     @cached_property
     def present(self) -> Array:

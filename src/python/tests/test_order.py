@@ -27,7 +27,11 @@ def ordered(folder: Path, box: dict[str, Any], quantities: list[str]) -> carrom.
     scene = gas(count=300, steps=40, **box)
     scene["discs"]["speed"] = 0.5
     scene["output"] = {
-        "trajectory": {"every_steps": 10, "precision": "double"},
+        "trajectory": {
+            "every_steps": 10,
+            "precision": "double",
+            "fields": ["position", "psi6", "neighbours"],
+        },
         "measurements": {"quantities": quantities, "every_steps": 10, "bins": 40},
     }
     return carrom.run(scene, threads=1, folder=folder)
@@ -82,6 +86,8 @@ def test_psi6_is_that_of_scipy(program: Path, tmp_path: Path, name: str) -> None
     reach = tables["psi6_correlation"]["to"][-1]
     for k, frame in enumerate(run.frames):
         psi6, counts = bonds(frame.x, size, periodic)
+        assert frame.neighbours.tolist() == counts.tolist()
+        assert frame.psi6 == pytest.approx(psi6, abs=1e-12)
         n_neighbours += np.bincount(counts, minlength=13)
         moduli += np.histogram(np.abs(psi6), bins=40, range=(0, 1 + 1e-12))[0]
         assert history["psi6"][k] == pytest.approx(abs(np.mean(psi6)), abs=1e-12)

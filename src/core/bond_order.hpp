@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The hexatic order of one disc.
+#pragma once
+
+namespace carrom {
+
+/// psi6 of one disc: the mean of exp(6 i angle) over its neighbours, each with the same weight.
+struct BondOrder {
+    double real = 0, imaginary = 0;
+    int n_neighbours = -1; ///< -1: the disc's centre is not in the box, and it has no cell
+
+    bool has_cell() const { return n_neighbours >= 0; }
+};
+
+} // namespace carrom
