@@ -317,7 +317,7 @@ TEST_CASE(
     const Communicator world = Communicator::world();
     const std::vector<Row> rows = table();
     const std::vector<Picked> runs = Covering(rows).runs();
-    CHECK(runs.size() < 60); // few beside the hundreds of thousands of combinations
+    CHECK(runs.size() < 50);
     for (const Picked& picked : runs) {
         Plan plan;
         std::string name;
