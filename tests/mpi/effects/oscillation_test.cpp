@@ -120,28 +120,28 @@ TEST_CASE("oscillation: a ball on a plate is where a plain search says, before a
 TEST_CASE("oscillation: a disc that never leaves the plate goes with it") {
     const Communicator world = Communicator::world();
     for (const double restitution : {0.0, 0.5}) {
-        TestScene scene = empty_scene("carried disc", 40, 1, 300);
+        TestScene scene = empty_scene("carried disc", 40, 1, 160);
         add_disc(scene, 20, 1.3, 0, 0);
         Effects& effects = scene.setting.effects;
         effects.boundaries[2] = shaken(0.5, 40, 0, restitution); // 0.0123 of acceleration
         effects.gravity.y = -0.02;
-        effects.contact.contact_time = 0.05;
+        effects.contact.contact_time = 0.25;
         Scene checked = scene_of(scene);
         checked.method = Method::event_driven;
         Simulation simulation = simulation_of(scene, Method::event_driven, world);
         simulation.check_every_step(checked);
-        advance_to(simulation, 100);
-        for (std::int64_t step = 100; step <= 300; step += 7) {
+        advance_to(simulation, 80);
+        for (std::int64_t step = 80; step <= 160; step += 7) {
             advance_to(simulation, step);
             const double angle = 2 * std::numbers::pi * static_cast<double>(step) / 40,
                          speed = 0.5 * 2 * std::numbers::pi / 40 * std::cos(angle);
             for (const Disc& disc : simulation.shown()) {
-                CHECK(disc.y - 1 == Approx(0.5 * std::sin(angle)).margin(1e-4));
-                CHECK(disc.vy == Approx(speed).margin(0.0325 * 0.05));
+                CHECK(disc.y - 1 == Approx(0.5 * std::sin(angle)).margin(1e-3));
+                CHECK(disc.vy == Approx(speed).margin(0.0325 * 0.25));
             }
         }
         // Not much more often than once per contact time.
-        CHECK(simulation.totals().wall_collisions < 9000); // 1.5 times 300 / 0.05
+        CHECK(simulation.totals().wall_collisions < 960); // 1.5 times 160 / 0.25
     }
 }
 
@@ -172,7 +172,7 @@ TEST_CASE("oscillation: walls have the reference's bits, alone and with gravity"
         Effects effects;
         effects.boundaries[2] = shaken(0.4, 1.7, 0, 1);
         check_oscillating_bits(scene, effects);
-        effects.gravity = {0.01, -0.05};
+        effects.gravity = {-0.01, -0.05};
         effects.contact = {ContactKind::restitution, 0.85, 0.02};
         effects.boundaries = {Boundary{BoundaryKind::moving, 1, 0, 0.02}, shaken(0.2, 31.4, 0.3, 0),
                               shaken(0.4, 1.7, 0, 0.8), shaken(0.3, 0.21, 1, 0.9)};
