@@ -274,7 +274,7 @@ void set_oscillation(reference::Setting& setting) {
     for (std::size_t side = 0; side < walls.size(); ++side)
         walls[side] = Oscillation(effects.boundaries[side], side % 2 == 0 ? 1 : -1,
                                   side < 2 ? effects.gravity.x : effects.gravity.y,
-                                  8 * 0x1p-52 * setting.box_size);
+                                  8 * 0x1p-52 * setting.longest());
     const auto wall_after = [=](std::size_t side, std::int64_t sync) {
         Oscillation wall = walls[side];
         wall.begin_interval(static_cast<double>(sync));
