@@ -14,6 +14,7 @@
 #include "parallel/slabs.hpp"
 #include "scene/disc_reader.hpp"
 #include "scene/lattice.hpp"
+#include "scene/triangular.hpp"
 #include "scene/velocities.hpp"
 
 namespace carrom {
@@ -77,19 +78,41 @@ std::uint64_t mixing_stride(std::uint64_t n) {
     return stride;
 }
 
-std::vector<InputDisc> lattice_discs(const Scene& scene, const Communicator& communicator) {
-    const auto lattice = widest_lattice(scene.n_discs, scene.box, scene.radius);
-    ensure(lattice.has_value(), "the scene was checked, yet its lattice does not fit");
+/// One disc on each site; `place_of` has the place of a site.
+template <class PlaceOf>
+std::vector<InputDisc> discs_on_sites(const Scene& scene, const Communicator& communicator,
+                                      const PlaceOf& place_of) {
     const auto [first, last] = share_of(scene, communicator);
     std::vector<InputDisc> discs;
     discs.reserve(last - first);
     const std::uint64_t stride = scene.effects.species.empty() ? 1 : mixing_stride(scene.n_discs);
     for (DiscId id = first; id < last; ++id) {
-        const Point place = shaken_site(*lattice, id * stride % scene.n_discs,
-                                        scene.seed); // below 2^64: ids are below 2^32
+        const Point place = place_of(id * stride % scene.n_discs); // below 2^64: ids are below 2^32
         discs.push_back({id, place.x, place.y, 0, 0});
     }
     return discs;
+}
+
+std::vector<InputDisc> lattice_discs(const Scene& scene, const Communicator& communicator) {
+    const auto lattice = widest_lattice(scene.n_discs, scene.box, scene.radius);
+    ensure(lattice.has_value(), "the scene was checked, yet its lattice does not fit");
+    return discs_on_sites(scene, communicator, [&](std::uint64_t site) {
+        return shaken_site(*lattice, site, scene.seed);
+    });
+}
+
+std::vector<InputDisc> triangular_discs(const Scene& scene, const Communicator& communicator) {
+    const auto lattice = triangular_lattice(scene.n_discs, scene.box);
+    ensure(lattice.has_value(), "the scene was checked, yet its triangular lattice does not fit");
+    return discs_on_sites(scene, communicator,
+                          [&](std::uint64_t site) { return lattice->site(site); });
+}
+
+/// Places without velocities.
+std::vector<InputDisc> generated_discs(const Scene& scene, const Communicator& communicator) {
+    if (scene.generator == Generator::lattice) return lattice_discs(scene, communicator);
+    if (scene.generator == Generator::triangular) return triangular_discs(scene, communicator);
+    return insert_at_random(scene, communicator);
 }
 
 std::vector<InputDisc> legacy_discs(const Scene& scene, const Communicator& communicator) {
@@ -172,8 +195,7 @@ std::vector<InputDisc> initial_state(const Scene& scene, std::istream* lines,
     if (scene.generator == Generator::legacy) {
         discs = legacy_discs(scene, communicator);
     } else {
-        discs = scene.generator == Generator::lattice ? lattice_discs(scene, communicator)
-                                                      : insert_at_random(scene, communicator);
+        discs = generated_discs(scene, communicator);
         set_velocities(scene, discs);
     }
     add_streams(scene, discs);

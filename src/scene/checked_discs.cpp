@@ -9,6 +9,7 @@
 #include "scene/check.hpp"
 #include "scene/lattice.hpp"
 #include "scene/limits.hpp"
+#include "scene/triangular.hpp"
 
 namespace carrom {
 
@@ -158,6 +159,28 @@ bool fill_sizes(const Check& check) {
     return check.problems.size() == n_problems;
 }
 
+/// The lattice of a periodic box must fit it, and have room for the discs.
+void check_triangular(const Check& check) {
+    const Scene& scene = check.scene;
+    if (!scene.effects.is_periodic_x() || !scene.effects.is_periodic_y()) return; // rules.cpp
+    const auto lattice = triangular_lattice(scene.n_discs, scene.box);
+    if (!lattice)
+        return check.refuse(
+            {"discs.generator"},
+            fmt::format("no triangular lattice of {} discs fits a box of {}: columns times an even "
+                        "number of rows, with edges in the ratio of columns to rows sqrt(3) / 2; "
+                        "nearest: {}",
+                        scene.n_discs, sides_text(scene.box),
+                        nearest_triangular(scene.n_discs, scene.box)));
+    const double nearest = lattice->nearest();
+    if (2 * scene.radius <= nearest * (1 + 0x1p-40)) return;
+    check.refuse_first(
+        size_keys, fmt::format("discs of radius {} overlap on the triangular lattice of {} x {} "
+                               "sites in a box of {}: r is at most {:.10g} there",
+                               scene.radius, lattice->columns, lattice->rows, sides_text(scene.box),
+                               nearest / 2));
+}
+
 /// Random insertion stalls at a packing fraction of about 0.54: denser gases start from a lattice.
 void check_generator(const Check& check) {
     Scene& scene = check.scene;
@@ -169,6 +192,7 @@ void check_generator(const Check& check) {
                         "(packing fraction {:.4g}) start from a shaken lattice",
                         largest_random_packing, scene.n_discs, scene.packing()));
     }
+    if (scene.generator == Generator::triangular) check_triangular(check);
     if (scene.generator == Generator::lattice &&
         !widest_lattice(scene.n_discs, scene.box, scene.radius))
         check.refuse_first(

@@ -34,6 +34,7 @@ inline constexpr std::array words_of<Arithmetic>{Word{"stable", Arithmetic::stab
 template <>
 inline constexpr std::array words_of<Generator>{
     Word<Generator>{"random", Generator::random}, Word<Generator>{"lattice", Generator::lattice},
+    Word<Generator>{"triangular", Generator::triangular},
     Word<Generator>{"legacy", Generator::legacy, "ancestor"},
     Word<Generator>{"file", Generator::file}};
 template <>

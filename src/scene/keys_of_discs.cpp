@@ -15,10 +15,11 @@ const Need equal_discs{
     [](const Scene& s) { return s.effects.species.empty() && !has_column(s, DiscColumn::radius); }};
 const Need listed{"without discs.generator = \"file\"",
                   [](const Scene& s) { return s.generator == Generator::file; }, true};
-const Need random_speeds{"without discs.generator = \"random\" or \"lattice\"",
+const Need random_speeds{"without discs.generator = \"random\", \"lattice\" or \"triangular\"",
                          [](const Scene& s) {
                              return s.generator == Generator::random ||
-                                    s.generator == Generator::lattice;
+                                    s.generator == Generator::lattice ||
+                                    s.generator == Generator::triangular;
                          },
                          true};
 const Need generated{"where discs are listed",
@@ -227,8 +228,8 @@ std::vector<Key> keys_of_discs() {
         packing_key(),
         species_key(),
         key("discs.generator", "",
-            "Random: uniform without overlaps. Lattice: shaken. Legacy: C `rand`. File: "
-            "discs are listed.",
+            "Random: uniform without overlaps. Lattice: shaken. Triangular: the lattice that a "
+            "periodic box repeats. Legacy: C `rand`. File: discs are listed.",
             [](auto& s) -> auto& { return s.generator; })
             .by_default("\"random\"; \"file\" with a list or file of discs"),
         list_key(),

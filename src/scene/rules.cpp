@@ -119,21 +119,34 @@ std::vector<Rule> rules_of_effects() {
         rule("gravity along y", "periodic sides bottom and top",
              "discs would fall for ever, faster and faster", {"effects.gravity.y"},
              [](const Scene& s) { return s.effects.gravity.y != 0 && s.effects.is_periodic_y(); }),
-        rule("discs.generator = \"legacy\"", "box.size = [Lx, Ly]",
-             "the course program's box is a square", {"box.size"},
-             [](const Scene& s) { return s.generator == Generator::legacy && !s.box.is_square(); }),
         rule("several species", "effects.contact.kind = \"none\"",
              "this version does not have both", {"effects.contact.kind"},
              [](const Scene& s) {
                  return has_species(s) && s.effects.contact.kind == ContactKind::none;
              }),
-        rule("obstacles", "discs.generator = \"lattice\" or \"legacy\"",
+    };
+}
+
+std::vector<Rule> rules_of_starts() {
+    return {
+        rule("discs.generator = \"legacy\"", "box.size = [Lx, Ly]",
+             "the course program's box is a square", {"box.size"},
+             [](const Scene& s) { return s.generator == Generator::legacy && !s.box.is_square(); }),
+        rule("discs.generator = \"triangular\"", "walls or open sides",
+             "the lattice repeats itself beyond the sides; make all four periodic, or take "
+             "discs.generator = \"lattice\"",
+             {"discs.generator"},
+             [](const Scene& s) {
+                 return s.generator == Generator::triangular && !is_periodic_all_round(s);
+             }),
+        rule("obstacles", "discs.generator = \"lattice\", \"triangular\" or \"legacy\"",
              "these generators know nothing of obstacles; insert discs at random (at a packing "
              "fraction that allows it), or list them",
              {"discs.generator", "discs.packing", "discs.radius", "discs.species"},
              [](const Scene& s) {
                  return has_obstacles(s) &&
-                        (s.generator == Generator::lattice || s.generator == Generator::legacy);
+                        (s.generator == Generator::lattice ||
+                         s.generator == Generator::triangular || s.generator == Generator::legacy);
              }),
     };
 }
@@ -197,8 +210,9 @@ std::vector<Rule> rules_of_outputs() {
 const std::vector<Rule>& rules() {
     static const std::vector<Rule> all = [] {
         std::vector<Rule> list = rules_of_methods();
-        for (const auto& part : {rules_of_effects(), rules_of_oscillations(), rules_of_outputs(),
-                                 rules_of_columns(std::make_index_sequence<n_side_columns>())})
+        for (const auto& part :
+             {rules_of_effects(), rules_of_oscillations(), rules_of_starts(), rules_of_outputs(),
+              rules_of_columns(std::make_index_sequence<n_side_columns>())})
             list.insert(list.end(), part.begin(), part.end());
         return list;
     }();

@@ -23,7 +23,7 @@ enum class Method { time_stepped, event_driven };
 enum class Precision { double_, single };
 /// How contacts are found: by the predicate, or by the course program's formula.
 enum class Arithmetic { stable, naive };
-enum class Generator { random, lattice, legacy, file };
+enum class Generator { random, lattice, triangular, legacy, file };
 enum class VelocityKind { maxwell, uniform };
 
 /// What goes to standard output: nothing, steps 0 and S, or every step (the course program's `perf`
