@@ -232,6 +232,39 @@ TEST_CASE("A lattice is its sites, shaken") {
     check_arrangement(discs, scene);
 }
 
+TEST_CASE("A triangular lattice is its sites, row after row, along either edge") {
+    const double height = std::sqrt(0.75);
+    for (const bool stands : {false, true}) {
+        Texts overrides = {"discs.generator=triangular", "discs.count=480", "discs.packing=0.9"};
+        overrides.push_back(stands ? fmt::format("box.size=[{}, 30]", 16 * height)
+                                   : fmt::format("box.size=[30, {}]", 16 * height));
+        for (const char* side : {"left", "right", "bottom", "top"})
+            overrides.push_back(fmt::format("box.{}.kind=periodic", side));
+        const Scene scene = scene_of(overrides);
+        Discs reference;
+        for (DiscId id = 0; id < 480; ++id) {
+            const double row = std::floor(static_cast<double>(id) / 30);
+            const double along = static_cast<double>(id % 30) +
+                                 (std::fmod(row, 2) == 0 ? 0.25 : 0.75),
+                         across = (row + 0.5) * height;
+            const Velocity v = generated_velocity(scene, id);
+            reference.push_back({id, stands ? across : along, stands ? along : across, v.x, v.y});
+        }
+        const Discs all = gathered(initial_state(scene, nullptr, ranks()));
+        if (!ranks().is_root()) continue;
+        REQUIRE(all.size() == 480);
+        double farthest = 0;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            CHECK(all[i].id == i);
+            farthest = std::max({farthest, std::fabs(all[i].x - reference[i].x),
+                                 std::fabs(all[i].y - reference[i].y),
+                                 std::fabs(all[i].vx - reference[i].vx),
+                                 std::fabs(all[i].vy - reference[i].vy)});
+        }
+        CHECK(farthest < 1e-13);
+    }
+}
+
 TEST_CASE("The legacy generator gives the course program's discs") {
     struct Case {
         std::uint64_t n;
