@@ -15,6 +15,11 @@ namespace carrom {
 
 namespace {
 
+/// How much larger radii were than at first when the failed step began.
+double growth_before(const Scene& scene, const CheckFailure& failure) {
+    return scene.effects.growth_at(static_cast<double>(failure.step - 1));
+}
+
 /// The scene of one step that begins with the discs around, which lie in `discs_file`.
 std::string text_around(const Scene& scene, const CheckFailure& failure,
                         const std::string& discs_file) {
@@ -42,6 +47,9 @@ std::string text_around(const Scene& scene, const CheckFailure& failure,
         around.disc_columns = {DiscColumn::radius, DiscColumn::mass};
     if (!failure.spins.empty()) around.disc_columns.push_back(DiscColumn::spin);
     around.steps = 1;
+    const double grown = growth_before(scene, failure);
+    around.radius *= grown;
+    around.effects.growth /= grown;
     around.text_output = TextOutput::none;
     around.checkpoint.reset();
     around.trajectory.reset();
@@ -57,7 +65,7 @@ std::string disc_lines(const Scene& scene, const CheckFailure& failure) {
     for (std::size_t i = 0; i < discs.size(); ++i) {
         text += fmt::format("{} {} {} {} {}", i, discs[i].x, discs[i].y, discs[i].vx, discs[i].vy);
         if (const SizeAndMass& body = species_table.of(discs[i].id); !scene.effects.species.empty())
-            text += fmt::format(" {} {}", body.radius, body.mass);
+            text += fmt::format(" {} {}", body.radius * growth_before(scene, failure), body.mass);
         text += failure.spins.empty() ? "\n" : fmt::format(" {}\n", failure.spins[i]);
     }
     return text;

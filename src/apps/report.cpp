@@ -131,6 +131,7 @@ std::string report_text(const Scene& scene, const RunResult& result) {
     if (scene.effects.contact.kind == ContactKind::rough)
         report["rotational_energy"] = result.end.rotational_energy;
     if (scene.effects.gravity.is_any()) report["potential_energy"] = result.end.potential_energy;
+    if (scene.effects.growth != 0) report["last_packing"] = scene.last_packing();
     if (scene.measurements) report["measurements"] = tables_json(result.tables);
     if (scene.effects.are_any()) report["effects"] = description(scene.effects);
     // A scene's name is whatever bytes the file system allows; replaced where they are not UTF-8.

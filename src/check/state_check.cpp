@@ -24,6 +24,7 @@ struct Part {
     std::int64_t end_of_micro_step = 0;
     std::uint64_t is_wall = 0;
     double impulse = 0; ///< of a wall
+    double work = 0;    ///< of surfaces that grow
 };
 
 bool is_finite(const Disc& disc) {
@@ -155,7 +156,7 @@ std::vector<SceneDisc> StateCheck::discs_before() const {
     std::vector<SceneDisc> discs;
     for (const Known& known : before_) {
         const Disc& disc = known.disc;
-        const double radius = species_.of(disc.id).radius;
+        const double radius = species_.of(disc.id).radius * growth_at(micro_steps_before_);
         discs.push_back(
             {{disc.id,
               inside(disc.x_at(clock), periods.x, walls.x_low + radius, walls.x_high - radius),
@@ -199,7 +200,8 @@ Finding StateCheck::take_records(std::span<const Disc> own, std::span<const doub
             known_[in.items[i].id - first_id_].spin = spins_in.items[i];
     }
     std::vector<int> n_owners(known_.size(), 0);
-    for (Known& known : known_) known.walls = known.pairs = 0, known.wall_impulse = 0;
+    for (Known& known : known_)
+        known.walls = known.pairs = 0, known.wall_impulse = known.work = 0;
     for (std::size_t k = 0; k < in.n_senders(); ++k) {
         for (const Disc& disc : in.from(k)) {
             const std::size_t i = disc.id - first_id_;
@@ -231,7 +233,8 @@ void StateCheck::take_log(Log log) {
         for (const DiscId id : {collision.p, is_wall ? collision.p : collision.q}) {
             ensure(id < scene_.n_discs, "the log of collisions names a disc that does not exist");
             out[static_cast<std::size_t>(slab_of_disc(id))].push_back(
-                {id, collision.micro_step + 1, is_wall ? 1u : 0u, is_wall ? collision.impulse : 0});
+                {id, collision.micro_step + 1, is_wall ? 1u : 0u, is_wall ? collision.impulse : 0,
+                 id == collision.p ? work_of(collision) : 0});
             if (is_wall) break;
         }
     }
@@ -239,6 +242,7 @@ void StateCheck::take_log(Log log) {
         Known& known = known_[part.disc - first_id_];
         ++(part.is_wall == 1 ? known.walls : known.pairs);
         known.wall_impulse += part.impulse;
+        known.work += part.work;
         known.free_from = std::max(known.free_from, part.end_of_micro_step);
     }
     n_pair_collisions_ += communicator_.sum(n_pairs);
@@ -258,7 +262,7 @@ Finding StateCheck::first_out_of_place(const LocalView& now) const {
         const Disc& disc = now.population.discs[i];
         const double x = now.periods.x_of(disc, now.time), y = now.periods.y_of(disc, now.time);
         const Disc seen = now.frame.in_box(disc, now.time);
-        const double radius = species_.of(disc.id).radius;
+        const double radius = species_.of(disc.id).radius * growth_at(micro_steps_done_);
         // In a periodic box the image's centre is in the box.
         const double outside = std::max(
             now.periods.x != 0 ? beyond(0, x, now.periods.x)

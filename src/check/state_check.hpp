@@ -12,6 +12,7 @@
 //
 // Effects are allowed for. Discs are looked at as the box sees them. They fall and slow down as
 // they should, may overlap where they do not meet, and lose energy in collisions that take some.
+// Growing discs push each other: the impulse times the speed at which surfaces grow is the work.
 // The check does not know beforehand what thermal and moving walls give, so it does not hold the
 // energy of discs there that have met a wall. Oscillating walls give or take at most the impulse
 // times their largest speed. Energies include masses and spins. Price: 128 bytes a
@@ -58,6 +59,7 @@ private:
             0; ///< the end of the last micro-step in which it had a collision, or the check's begin
         std::uint64_t walls = 0, pairs = 0; ///< collisions since the last look
         double wall_impulse = 0;            ///< in these, all of them added up
+        double work = 0; ///< that growing surfaces have done in them, per micro-step
         int owner = -1;
     };
     struct Suspect {
@@ -92,8 +94,12 @@ private:
     bool may_lose_in_contacts() const;
     double mass_of(DiscId id) const { return species_.of(id).mass; }
     double diameter_of(const Disc& p, const Disc& q) const {
-        return species_.of(p.id).radius + species_.of(q.id).radius;
+        return growth_at(micro_steps_done_) * (species_.of(p.id).radius + species_.of(q.id).radius);
     }
+    double growth_at(std::int64_t micro_step) const {
+        return effects_.growth_at(static_cast<double>(micro_step));
+    }
+    double work_of(const Collision& collision) const;
     double resting_gain(const Known& known) const;
     double work_of_walls(const Known& known) const;
     double work_of_walls() const;

@@ -100,7 +100,7 @@ Finding StateCheck::first_other_energy(std::span<const Disc> own, Log log) {
 /// energy. **Collective.**
 Finding StateCheck::first_other_total(std::span<const Disc> own,
                                       const std::vector<SharedEnergy>& mine) {
-    if (walls_give_energy_) return {};
+    if (walls_give_energy_ || effects_.growth != 0) return {};
     const double n = static_cast<double>(scene_.n_discs);
     const double bound = energy_bound + energy_bound_per_collision *
                                             (2 * static_cast<double>(n_pair_collisions_) / n);
@@ -134,11 +134,23 @@ SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     SharedEnergy energy = {first_id_ + i, twice_energy(before_[i]) * energy_left(),
                            twice_energy(known)};
     energy.allowance = resting_gain(known) + 2 * work_of_walls(known);
+    if (effects_.growth != 0) { // surfaces are where they should be but for rounding
+        energy.before += 2 * known.work;
+        energy.allowance += 2 * known.work * blur(64) / species_.of(energy.disc).radius;
+    }
     if (obstacles_) energy.n_reflections = static_cast<double>(known.walls);
     if (effects_.drag != 0) energy.allowance += energy_bound * energy.before;
     if (walls_give_energy_ && known.walls > 0)
         energy.allowance = std::numeric_limits<double>::infinity();
     return energy;
+}
+
+/// Distances of surfaces grow at a constant rate.
+double StateCheck::work_of(const Collision& collision) const {
+    if (effects_.growth == 0) return 0;
+    const double radii = species_.of(collision.p).radius +
+                         (collision.q == Collision::wall ? 0 : species_.of(collision.q).radius);
+    return collision.impulse / static_cast<double>(scene_.micro_steps) * (effects_.growth * radii);
 }
 
 /// Where effects make discs faster, what is known of the fastest grows with them. **Collective.**

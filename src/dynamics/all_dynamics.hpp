@@ -6,6 +6,7 @@
 
 #include "dynamics/dynamics.hpp"
 #include "dynamics/effect_dynamics.hpp"
+#include "dynamics/growing_dynamics.hpp"
 #include "dynamics/periodic_dynamics.hpp"
 #include "dynamics/plain_dynamics.hpp"
 #include "dynamics/study_dynamics.hpp"
@@ -13,7 +14,7 @@
 // make(dynamics) for each.
 #define CARROM_FOR_EACH_PERIODIC_DYNAMICS(make)                                                    \
     make(PeriodicElasticDynamics) make(PeriodicInelasticDynamics) make(PeriodicMixedDynamics)      \
-        make(PeriodicRoughDynamics)
+        make(PeriodicRoughDynamics) make(GrowingDynamics)
 #define CARROM_FOR_EACH_DYNAMICS(make)                                                             \
     make(PlainDynamics) make(StudyDynamics<double>) make(StudyDynamics<float>)                     \
         make(InelasticDynamics) make(MixedDynamics) make(RoughDynamics)                            \

@@ -45,6 +45,8 @@ concept Dynamics = std::copyable<D> && requires(D changing, const D d, Disc& p, 
     { d.tolerance() } -> std::same_as<double>;       // a deeper overlap is one
     { d.slack() } -> std::convertible_to<double>;    // how far apart discs may be in a contact
     { d.search_diameter() } -> std::same_as<double>; // no contact is farther apart
+    // All of these are of radii that have not grown; they are larger by this factor.
+    { d.growth_at(time) } -> std::convertible_to<double>;
 
     // Clock and frame, in which discs fly straight.
     changing.begin_interval(n);                   // times now count from micro-step n

@@ -98,6 +98,7 @@ Effects per_micro_step(const Effects& effects, double micro_steps) {
         side.period *= micro_steps;
     }
     scaled.drag /= micro_steps;
+    scaled.growth /= micro_steps;
     scaled.gravity.x /= micro_steps * micro_steps;
     scaled.gravity.y /= micro_steps * micro_steps;
     return scaled;
@@ -121,6 +122,7 @@ std::string description(const Effects& effects) {
     if (effects.gravity.is_any())
         add(fmt::format("gravity ({:g}, {:g})", effects.gravity.x, effects.gravity.y));
     if (effects.drag != 0) add(fmt::format("drag {:g}", effects.drag));
+    if (effects.growth != 0) add(fmt::format("radii growing by {:g} a step", effects.growth));
     if (effects.obstacles.are_any()) add(description(effects.obstacles));
     return text;
 }

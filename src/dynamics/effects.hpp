@@ -97,7 +97,8 @@ struct Effects {
     std::uint64_t thermal_seed = 3210;
     ObstacleList obstacles{};
     std::vector<Species>
-        species{}; ///< in the order of ids; empty where all discs are of one radius and mass 1
+        species{};     ///< in the order of ids; empty where all discs are of one radius and mass 1
+    double growth = 0; ///< radii grow by this share of their first value per time
 
     bool have_plain_boundaries() const;
     bool have_open_boundaries() const;
@@ -108,9 +109,12 @@ struct Effects {
     Periods periods(const Box& box) const {
         return {is_periodic_x() ? box.x : 0, is_periodic_y() ? box.y : 0};
     }
+    /// How much larger radii are at `time` since the scene's start.
+    double growth_at(double time) const { return 1 + growth * time; }
     bool are_any() const {
         return contact.kind != ContactKind::elastic || !have_plain_boundaries() ||
-               gravity.is_any() || drag != 0 || obstacles.are_any() || !species.empty();
+               gravity.is_any() || drag != 0 || obstacles.are_any() || !species.empty() ||
+               growth != 0;
     }
     friend bool operator==(const Effects&, const Effects&) = default;
 };

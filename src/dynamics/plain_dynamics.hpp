@@ -58,6 +58,7 @@ public:
     double tolerance() const { return tolerance_; }
     static constexpr double slack() { return 0; }
     double search_diameter() const { return diameter_; }
+    static constexpr double growth_at(double /*time*/) { return 1; }
 
     // Clock and frame are the box's own.
     void begin_interval(std::int64_t /*n*/) {}

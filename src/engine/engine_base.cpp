@@ -61,9 +61,9 @@ template <class Dynamics> void EngineBase<Dynamics>::set_departed_aside() {
 template <class Dynamics> void EngineBase<Dynamics>::redistribute_now(double least_reach) {
     set_departed_aside();
     migrate();
-    const double touching = reach_of({dynamics_.box(), dynamics_.radius() + dynamics_.slack(),
-                                      static_cast<double>(discs_.n_total()), 0, 0, 0},
-                                     0);
+    const double radius = dynamics_.radius() * dynamics_.growth_at(time_) + dynamics_.slack();
+    const double touching = reach_of(
+        {dynamics_.box(), radius, static_cast<double>(discs_.n_total()), 0, 0, 0}, 0);
     const double reach = std::max(touching, least_reach);
     const Extent seen = discs_.extent_seen(extent(), reach);
     const GridGeometry geometry = make_sparse_geometry(seen, discs_.strips().axis(), reach,
@@ -135,8 +135,8 @@ template <class Dynamics> void EngineBase<Dynamics>::add_to(Totals& totals) {
     redistribute_now();
     if (dynamics_.has_pairs())
         measure_overlaps(population(), discs_.grid(), time_,
-                         touching_of(dynamics_, discs_.periods()), communicator_, tuning_.threads,
-                         totals);
+                         touching_of(dynamics_, time_, discs_.periods()), communicator_,
+                         tuning_.threads, totals);
     discs_.forget_images();
 }
 

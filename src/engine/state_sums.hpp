@@ -48,19 +48,22 @@ void measure_height(std::span<const Disc> own, const SpeciesTable* species_table
 struct Touching {
     double diameter = 0, tolerance = 0;
     const SpeciesTable* species_table = nullptr; ///< null where all diameters are equal
+    double growth = 1;                           ///< of the table's radii
 
     double diameter_of(const Disc& p, const Disc& q) const {
-        return species_table ? species_table->of(p.id).radius + species_table->of(q.id).radius
-                             : diameter;
+        return species_table
+                   ? growth * (species_table->of(p.id).radius + species_table->of(q.id).radius)
+                   : diameter;
     }
     Periods periods = {}; ///< of the discs' images
 };
 template <class Dynamics>
-Touching touching_of(const Dynamics& dynamics, const Periods& periods = {}) {
+Touching touching_of(const Dynamics& dynamics, double time, const Periods& periods) {
+    const double growth = dynamics.growth_at(time), diameter = growth * dynamics.diameter();
     if constexpr (Dynamics::has_species)
-        return {dynamics.diameter(), dynamics.tolerance(), &dynamics.species_table(), periods};
+        return {diameter, dynamics.tolerance(), &dynamics.species_table(), growth, periods};
     else
-        return {dynamics.diameter(), dynamics.tolerance(), nullptr, periods};
+        return {diameter, dynamics.tolerance(), nullptr, growth, periods};
 }
 
 /// Fills in the pairs that overlap at `time`, each counted once, how far the deepest overlaps, the

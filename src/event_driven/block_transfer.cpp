@@ -77,12 +77,13 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales() {
     cells_per_length = 1 / geometry.cell_width;
     cells_per_speed = window.duration() / geometry.cell_width;
     windows_per_time = 1 / window.duration();
-    const double sigma = dynamics.search_diameter() * cells_per_length;
+    const double growth = dynamics.growth_at(window.end),
+                 diameter = dynamics.search_diameter() * growth;
+    const double sigma = diameter * cells_per_length;
     const double extent = std::max(cells.end_column - cells.first_column,
                                    cells.end_row - cells.first_row) +
                           8.0;
-    const double reach = block_reach(window, dynamics.search_diameter(), dynamics.box()) *
-                         cells_per_length;
+    const double reach = block_reach(window, diameter, dynamics.box()) * cells_per_length;
     // Positions carry an error of 2^-23 of the block's size. The rounding of the filter's other
     // terms acts like a longer diameter by 2^-20 d^2 / diameter, with the largest distance d that
     // is looked at.
@@ -91,8 +92,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales() {
                             0x1p-20 * looked_at * looked_at / sigma;
     touching_squared = static_cast<float>(touching * touching);
     farthest = static_cast<float>((reach + sigma) / 2 + 0x1p-18 * extent + 1e-6);
-    const double inner = dynamics.radius() + dynamics.slack() + 1e-3 * geometry.cell_width +
-                         0x1p-18 * extent * geometry.cell_width;
+    const double inner = dynamics.radius() * growth + dynamics.slack() +
+                         1e-3 * geometry.cell_width + 0x1p-18 * extent * geometry.cell_width;
     const Extent walls = dynamics.walls_between(window.begin, window.end);
     const auto [low, across_low] = turned(axis, walls.x_low, walls.y_low);
     const auto [high, across_high] = turned(axis, walls.x_high, walls.y_high);

@@ -21,6 +21,9 @@ namespace {
 
 /// Blocks that each thread has at least, so that none waits for long.
 constexpr double blocks_per_thread = 4;
+/// Of the largest speed, from a sync to the next one. From a thin gas to the densest liquid discs
+/// that grow become some 30 times as fast.
+constexpr double jam_heating = 64;
 /// Up to here one thread does best with a single block and no halo.
 constexpr double most_discs_alone = 12000;
 
@@ -48,7 +51,7 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const Scene& scene, StoredState s
     // Later on the run itself may have come to overlaps.
     if (dynamics_.has_pairs() && (dynamics_.parts_overlaps() || n_micro_done_ == 0))
         refuse_overlaps(population(), discs_.grid(), time_,
-                        touching_of(dynamics_, discs_.periods()), communicator_, scene.name);
+                        touching_of(dynamics_, time_, discs_.periods()), communicator_, scene.name);
     discs_.forget_images();
     phases_ = {};
 }
@@ -64,6 +67,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::advance_to(std::int6
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_window(double target) {
     this->set_departed_aside();
     migrate();
+    refuse_jam();
     window_ = choose(target);
     halo_depth_ = first_halo_depth();
     redistribute();
@@ -125,6 +129,24 @@ double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
            (dynamics_.speed_gained_at(soon) - dynamics_.speed_gained_at(time_));
 }
 
+/// Discs that grow into a jam become ever faster, and collide ever more often: no step would end.
+/// **Collective.**
+template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() {
+    const double growth = dynamics_.growth_at(time_);
+    const double per_micro_step = dynamics_.growth_at(1) - dynamics_.growth_at(0);
+    if (!(per_micro_step > 0)) return;
+    const double fastest = communicator_.max(largest_speed_);
+    if (time_ == 0 || n_windows_ == 0)
+        first_speed_ = std::max(fastest, dynamics_.diameter() * per_micro_step);
+    if (fastest <= jam_heating * first_speed_) return;
+    throw CollectiveError(fmt::format(
+        "discs jam at step {:.9g}, as radii have grown to {:.9g} times the first: since the last "
+        "sync speeds have become {} times as large; let them grow less, or set time.sync_every to "
+        "less",
+        (static_cast<double>(this->last_sync()) + time_) / static_cast<double>(this->micro_steps_),
+        growth, jam_heating));
+}
+
 /// Takes what the last window teaches into account.
 template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(double speed_bound) {
     const auto n = static_cast<double>(discs_.n_total());
@@ -133,7 +155,7 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
     is_one_block_ = communicator_.size() == 1 && is_alone && n <= most_discs_alone;
     BlockNeeds needs;
     needs.box = dynamics_.box();
-    needs.radius = dynamics_.radius() + dynamics_.slack();
+    needs.radius = dynamics_.radius() * dynamics_.growth_at(time_) + dynamics_.slack();
     needs.n_discs = n;
     needs.speed_bound = speed_bound;
     needs.time = time_;

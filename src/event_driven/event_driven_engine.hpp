@@ -64,6 +64,7 @@ private:
     BlockWindow choose(double target);
     BlockNeeds block_needs(double speed_bound);
     double speed_bound_until(double target) const;
+    void refuse_jam();
     void shorten();
     void redistribute();
     GridGeometry lay_cells(double reach);
@@ -90,7 +91,8 @@ private:
         return Dynamics::is_periodic && is_one_block_ ? choice_.halo : 2 * choice_.halo;
     }
     double reach() const {
-        return block_reach(window_, dynamics_.search_diameter(), dynamics_.box());
+        return block_reach(window_, dynamics_.search_diameter() * dynamics_.growth_at(window_.end),
+                           dynamics_.box());
     }
 
     BlockTuning block_tuning_;
@@ -99,6 +101,7 @@ private:
     double last_duration_ = 1;  ///< of the last window
     double repeated_ = 0; ///< block runs of the last window that were repeated, as a share of all
                           ///< its blocks; equal on all ranks
+    double first_speed_ = 0; ///< of growing discs, when this interval or the engine began
     Caution caution_;
     std::uint64_t n_events_ = 0; ///< of this rank in the last window
     RollbackCounts counts_;      ///< blocks: of this rank

@@ -210,6 +210,22 @@ void check_oscillating_walls(const Check& check) {
     }
 }
 
+/// Discs that grow must have room until the last step.
+void check_growth(const Check& check) {
+    const Scene& scene = check.scene;
+    if (scene.effects.growth == 0) return;
+    const double growth = scene.effects.growth_at(static_cast<double>(scene.steps));
+    const double densest = scene.effects.species.empty() ? largest_packing : 1;
+    const double widest = (scene.effects.are_periodic() ? 4 * (1 + 1e-6) : 2) * scene.radius;
+    const double most = std::min(std::sqrt(densest / scene.packing()), scene.box.shortest() / widest);
+    if (growth <= most) return;
+    check.refuse({"effects.growth.rate"},
+                 fmt::format("after {} steps discs of radius {:g} would cover {:.4g} of the box; "
+                             "there is room for them up to step {:.0f}",
+                             scene.steps, scene.radius * growth, scene.last_packing(),
+                             std::floor((most - 1) / scene.effects.growth)));
+}
+
 /// A last step of 0 shows the start, and measures nothing.
 void check_first_sample(const Check& check, std::string_view key, std::int64_t from) {
     const std::int64_t last = check.scene.steps;
@@ -326,6 +342,7 @@ void check_room(const Check& check) {
     check_thermal_walls(check);
     check_moving_walls(check);
     check_oscillating_walls(check);
+    check_growth(check);
     check_obstacles(check);
     check_distance(check);
     check_wavenumber(check);

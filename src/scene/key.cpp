@@ -36,6 +36,7 @@ const std::vector<Table>& tables() {
         {"effects.contact", "What two discs do that touch."},
         {"effects.gravity", "Uniform gravity."},
         {"effects.drag", "Air at rest that slows discs down."},
+        {"effects.growth", "Discs that grow."},
         {"effects.thermal", "Thermal walls."},
         {"effects.obstacles", "Bodies that stand fixed in the box."},
         {"output", "What a run writes; no key of output changes a bit of the result."},

@@ -135,6 +135,10 @@ std::vector<Key> keys_of_effects() {
             "c of dv/dt = -c v, for all discs alike. At most 4 per time between syncs.",
             [](auto& s) -> auto& { return s.effects.drag; })
             .within({.low = 0}),
+        key("effects.growth.rate", "1/step",
+            "Radii grow by this share of their first value in each step.",
+            [](auto& s) -> auto& { return s.effects.growth; })
+            .within({.low = 0}),
         key("effects.thermal.seed", "1", "Seed of the random numbers of thermal walls.",
             [](auto& s) -> auto& { return s.effects.thermal_seed; })
             .within({.low = 0})

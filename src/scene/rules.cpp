@@ -17,6 +17,7 @@ bool has_open(const Scene& s) { return s.effects.have_open_boundaries(); }
 bool has_moving(const Scene& s) { return has_boundary(s.effects, BoundaryKind::moving); }
 bool has_oscillating(const Scene& s) { return has_boundary(s.effects, BoundaryKind::oscillating); }
 bool has_obstacles(const Scene& s) { return s.effects.obstacles.are_any(); }
+bool has_growth(const Scene& s) { return s.effects.growth != 0; }
 bool is_periodic_all_round(const Scene& s) {
     return s.effects.is_periodic_x() && s.effects.is_periodic_y();
 }
@@ -151,6 +152,40 @@ std::vector<Rule> rules_of_starts() {
     };
 }
 
+std::vector<Rule> rules_of_growth() {
+    return {
+        rule("growing discs", "time.method = \"time-stepped\"",
+             "radii stay there; take time.method = \"event-driven\"", {"effects.growth.rate"},
+             [](const Scene& s) { return has_growth(s) && is_time_stepped(s); }),
+        rule("growing discs", "rough discs, or effects.contact.kind = \"none\"",
+             "this version does not have both", {"effects.growth.rate"},
+             [](const Scene& s) {
+                 return has_growth(s) &&
+                        (is_rough(s) || s.effects.contact.kind == ContactKind::none);
+             }),
+        rule("growing discs", "gravity, drag or obstacles", "this version does not have both",
+             {"effects.growth.rate"},
+             [](const Scene& s) {
+                 return has_growth(s) &&
+                        (s.effects.gravity.is_any() || s.effects.drag != 0 || has_obstacles(s));
+             }),
+        rule("growing discs", "a thermal, a moving or an open side",
+             "this version does not have both", {"effects.growth.rate"},
+             [](const Scene& s) {
+                 return has_growth(s) && (has_moving(s) || has_open(s) ||
+                                          has_boundary(s.effects, BoundaryKind::thermal));
+             }),
+        rule("\"radial_distribution\" of growing discs", "a wall",
+             "centres have less and less room between walls; it needs a box that is periodic all "
+             "round",
+             {quantities},
+             [](const Scene& s) {
+                 return measured(s).radial_distribution && has_growth(s) &&
+                        !is_periodic_all_round(s);
+             }),
+    };
+}
+
 /// Frames have no numbers that discs do not have.
 template <std::size_t k> Rule rule_of_column() {
     return rule(side_column_table[k].shown, "discs without it", side_column_table[k].needs,
@@ -211,7 +246,8 @@ const std::vector<Rule>& rules() {
     static const std::vector<Rule> all = [] {
         std::vector<Rule> list = rules_of_methods();
         for (const auto& part :
-             {rules_of_effects(), rules_of_oscillations(), rules_of_starts(), rules_of_outputs(),
+             {rules_of_effects(), rules_of_oscillations(), rules_of_growth(), rules_of_starts(),
+              rules_of_outputs(),
               rules_of_columns(std::make_index_sequence<n_side_columns>())})
             list.insert(list.end(), part.begin(), part.end());
         return list;

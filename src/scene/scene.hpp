@@ -150,8 +150,13 @@ struct Scene {
 
     std::vector<std::string> warnings; ///< legal but worth a line: K not a power of two, ...
 
-    /// The share of the box that the discs cover.
+    /// The share of the box that the discs cover at the start.
     double packing() const;
+    /// Where discs grow, at the end of the last step.
+    double last_packing() const {
+        const double growth = effects.growth_at(static_cast<double>(steps));
+        return packing() * (growth * growth);
+    }
     /// True where the discs come from lines of text: `discs_file`, or the lines after the course
     /// program's header.
     bool reads_disc_lines() const { return generator == Generator::file && listed_discs.empty(); }

@@ -127,6 +127,7 @@ EventDrivenReference::Meeting EventDrivenReference::meeting(const Disc& disc, Di
     Meeting first{never, false};
     if (axis == Event::wall_x ? setting_.effects.is_periodic_x() : setting_.effects.is_periodic_y())
         return first;
+    if (discs_grow()) return growing_meeting(disc, axis);
     for (const bool is_high : {false, true}) {
         const Wall wall = wall_at(disc.id, axis, is_high, disc.tau);
         const double x = axis == Event::wall_x ? disc.x : disc.y,
@@ -173,6 +174,12 @@ void EventDrivenReference::rebound(Disc& disc, DiscId axis, bool is_high, double
     Wall wall = wall_at(disc.id, axis, is_high, time);
     if (oscillates(number)) wall.speed += setting_.oscillation(number, last_sync(), time)[1];
     const double restitution = is_touched ? 1 : setting_.effects.boundaries[number].restitution;
+    if (discs_grow()) { // a wall that comes in
+        const double in = growth_of_radius(disc.id);
+        const double leaving = in + restitution * (in - (is_high ? -v : v));
+        v = is_high ? -leaving : leaving;
+        return;
+    }
     double away = restitution * std::fabs(v - wall.speed);
     if (setting_.effects.boundaries[number].kind == BoundaryKind::thermal) {
         const auto [fast, sideways] = setting_.leaving(disc, number);
@@ -207,9 +214,11 @@ void EventDrivenReference::predict_pair(DiscId p, DiscId q) {
     if (!setting_.discs_meet() || has_left(discs_[p]) || has_left(discs_[q])) return;
     if (p > q) std::swap(p, q);
     const auto look = [&](Copy copy) {
-        const Contact found = contact(
-            discs_[p], discs_[q], setting_.radius_of(p) + setting_.radius_of(q),
-            std::numeric_limits<double>::infinity(), copy, setting_.box());
+        const Contact found = discs_grow() ? growing_contact(discs_[p], discs_[q], copy)
+                                           : contact(discs_[p], discs_[q],
+                                                     setting_.radius_of(p) + setting_.radius_of(q),
+                                                     std::numeric_limits<double>::infinity(), copy,
+                                                     setting_.box());
         if (found.delay < 0) return;
         const double time = found.base + found.delay;
         if (history_of_[p].partner == q && history_of_[q].partner == p &&
@@ -287,6 +296,8 @@ void EventDrivenReference::carry_out(const Event& event) {
         if (setting_.are_rough())
             collide_rough(setting_, p, q, spins_[event.p], spins_[event.q], is_touched, event.copy,
                           setting_.box());
+        else if (discs_grow())
+            push_growing(p, q, is_touched ? 1 : setting_.restitution(), event.copy);
         else
             exchange_momentum(setting_, p, q, is_touched ? 1 : setting_.restitution(), event.copy,
                               setting_.box());

@@ -100,6 +100,11 @@ private:
     Meeting meeting(const Disc& disc, DiscId axis) const;
     void rebound(Disc& disc, DiscId axis, bool is_high, double time, bool is_touched) const;
     void restart_frame(Disc& disc, double time) const;
+    double growth_at(double time) const;
+    double growth_of_radius(DiscId disc) const;
+    Contact growing_contact(const Disc& p, const Disc& q, Copy copy) const;
+    Meeting growing_meeting(const Disc& disc, DiscId axis) const;
+    void push_growing(Disc& p, Disc& q, double restitution, Copy copy) const;
     void predict_pair(DiscId p, DiscId q);
     void push(Event event);
     bool is_valid(const Prediction& prediction) const;
@@ -107,6 +112,12 @@ private:
     void happen(const Event& event);
     void carry_out(const Event& event);
     void note(DiscId id, DiscId partner, const Event& event);
+
+    bool discs_grow() const { return setting_.effects.growth != 0; }
+    /// Of radii, per micro-step, over the first ones.
+    double growth_rate() const {
+        return setting_.effects.growth / static_cast<double>(setting_.micro_steps);
+    }
 
     Setting setting_;
     std::shared_ptr<const FixedBodies> species_;

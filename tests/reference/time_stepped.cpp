@@ -69,7 +69,8 @@ void advance(Disc& disc, double time) {
 
 std::vector<Copy> copies_near(const Setting& setting, const Disc& p, const Disc& q, double begin,
                               double end) {
-    const double sigma = 2 * setting.radius;
+    // Of discs that grow: to twice their radius.
+    const double sigma = (setting.effects.growth == 0 ? 2 : 4) * setting.radius;
     const bool is_x = setting.effects.is_periodic_x(), is_y = setting.effects.is_periodic_y();
     const double away = (std::fabs(p.vx) + std::fabs(q.vx) + std::fabs(p.vy) + std::fabs(q.vy)) *
                             (end - begin) +

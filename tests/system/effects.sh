@@ -104,6 +104,43 @@ run 1 verify out/trajectory.h5
 expect_code 2 'a trajectory that was changed'
 expect_told 'its bytes do not have its checksum' 'a trajectory that was changed'
 
+# Radii of growing discs follow from the step, so a restart goes on with them.
+cat >growing.toml <<'SCENE'
+[box]
+size = 60
+left = { kind = "periodic" }
+right = { kind = "periodic" }
+top = { restitution = 0.9 }
+[discs]
+count = 400
+packing = 0.3
+speed = 0.3
+[time]
+steps = 150
+[effects.growth]
+rate = 0.003
+SCENE
+run 2 run growing.toml --quiet --report growing.json --set output.text=ends
+expect_code 0 'growing discs'
+tail -n 400 "$test_folder/out" >"$test_folder/end"
+[ "$(json_value growing.json overlapping_pairs)" = 0 ] || complain 'growing discs overlap'
+run 3 run growing.toml --steps 70 --threads 2 --set output.folder=grown
+expect_code 0 'growing discs, the first stretch'
+expect_told 'packing 0.3, 0.4392 at the last step' 'growing discs, the summary'
+run 1 verify grown/checkpoints/checkpoint-000000000070.h5
+expect_code 0 'growing discs, the checkpoint'
+run 1 run --restart grown --steps 150 --report grown.json --quiet --set output.text=ends
+expect_code 0 'growing discs, the second stretch'
+[ "$(json_value grown.json state_hash)" = "$(json_value growing.json state_hash)" ] ||
+    complain 'growing discs: another state hash after a restart'
+tail -n 400 "$test_folder/out" | cmp - "$test_folder/end" ||
+    complain 'growing discs: other lines after a restart'
+run 2 run growing.toml --steps 40 --check --quiet
+expect_code 0 'growing discs, checked'
+run 2 run growing.toml --steps 300
+expect_code 2 'growing discs that will have no room'
+expect_told 'there is room for them up to step 246' 'growing discs that will have no room'
+
 # The box of a trajectory holds all frames, so it depends on the last step where walls move out; a
 # restart may change that.
 cat >grow.toml <<'SCENE'

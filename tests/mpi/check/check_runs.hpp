@@ -105,7 +105,7 @@ inline std::vector<NamedEffects> all_effects() {
     shaken.boundaries[2] = {BoundaryKind::oscillating, 0.8, 0, 0, 0.2, 7.3, 0};
     sinking = pile;
     sinking.drag = 0.05;
-    Effects mixed, heaps, rubbing, rolling; // the last keeps its energy
+    Effects mixed, heaps, rubbing, rolling, growing; // the last but one keeps its energy
     mixed.species = {{14, 1, 4}, {30, 0.8, 1}, {20, 0.5, 0.5}};
     heaps = pile;
     heaps.species = mixed.species;
@@ -113,6 +113,9 @@ inline std::vector<NamedEffects> all_effects() {
     rolling = mixed;
     rolling.contact = {
         ContactKind::rough, 1, 0.001, 1, std::numeric_limits<double>::infinity(), 0.3};
+    growing = mixed;
+    growing.growth = 0.004;
+    growing.boundaries[1].restitution = 0.9;
     return {{"no contact", none, true},
             {"restitution", lossy, true},
             {"lossy walls", lossy_walls, true},
@@ -126,7 +129,8 @@ inline std::vector<NamedEffects> all_effects() {
             {"several species", mixed, true},
             {"a pile of several species", heaps, false},
             {"rough discs", rubbing, true},
-            {"perfectly rough discs of several species", rolling, true}};
+            {"perfectly rough discs of several species", rolling, true},
+            {"growing discs", growing, false}};
 }
 
 /// What the check sees after the first step of a gas, and what it says when that has been spoilt.

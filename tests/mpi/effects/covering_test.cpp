@@ -134,6 +134,8 @@ std::vector<Row> table() {
              motion("gravity aslant", 0.02, -0.03, 0), motion("drag", 0, 0, 0.2),
              motion("both down", 0, -0.04, 0.2), motion("both aslant", 0.02, -0.03, 0.2)},
             {{"nothing in the way", [](Plan&) {}}, {"obstacles", put_obstacles}},
+            {{"constant radii", [](Plan&) {}},
+             {"growing", [](Plan& plan) { plan.scene.setting.effects.growth = 0.006; }}},
             {window("own windows", {}), window("short windows", 0.3), window("long windows", 2.7)},
             {{"uninterrupted", [](Plan&) {}},
              {"restarted", [](Plan& plan) { plan.is_restarted = true; }}}};
@@ -177,7 +179,19 @@ bool is_excluded(const std::string& a, const std::string& b) {
         {"seams along y", "both aslant"},
         {"seams along x", "gravity aslant"},
         {"seams along y", "gravity aslant"},
-        {"seams along y", "gravity down"}};
+        {"seams along y", "gravity down"},
+        {"growing", "time-stepped"},
+        {"growing", "no contact"},
+        {"growing", "rough"},
+        {"growing", "thermal"},
+        {"growing", "moving"},
+        {"growing", "open"},
+        {"growing", "gravity down"},
+        {"growing", "gravity aslant"},
+        {"growing", "drag"},
+        {"growing", "both down"},
+        {"growing", "both aslant"},
+        {"growing", "obstacles"}};
     const auto is = [](const std::string& name, const std::string& end) {
         return name == end || name.ends_with(' ' + end);
     };

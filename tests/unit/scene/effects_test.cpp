@@ -385,6 +385,31 @@ TEST_CASE("Periodic sides bound what can be measured, and the sizes of discs") {
     }));
 }
 
+TEST_CASE("Discs that grow need room until the last step") {
+    CHECK(read_scene(good, "s.toml", {"effects.growth.rate=0.25"}).effects.growth == 0.25);
+    CHECK(read_scene(good, "s.toml", {"effects.growth.rate=0.25"}).last_packing() ==
+          Approx(50 * 3.5 * 3.5 * 3.14159265358979 / 1e4));
+    CHECK_FALSE(read_scene(good, "s.toml", {"effects.growth.rate=0"}).effects.are_any());
+    CHECK(has(problems_with({"effects.growth.rate=-0.1"}), "must be"));
+    CHECK(has(problems_with({"effects.growth.rate=1"}),
+              "after 10 steps discs of radius 11 would cover 1.901 of the box; there is room for "
+              "them up to step 6"));
+    // Two discs that are wider than a periodic box allows, long before they cover it.
+    const Texts two{"discs.count=2", "box.left.kind=periodic", "box.right.kind=periodic"};
+    const auto two_growing = [&](const char* rate) {
+        Texts texts = two;
+        texts.emplace_back(rate);
+        return problems_with(texts);
+    };
+    CHECK(two_growing("effects.growth.rate=2.3").empty());
+    CHECK(has(two_growing("effects.growth.rate=2.5"), "room for them up to step 9"));
+    for (const char* other :
+         {"time.method=time-stepped", "effects.contact.kind=none", "effects.gravity.y=-0.01",
+          "effects.drag.rate=0.1", "effects.obstacles.discs=[[50, 50, 1]]", "box.top.kind=open"})
+        CHECK(has(problems_with({"effects.growth.rate=0.1", other}),
+                  "cannot have growing discs together with"));
+}
+
 TEST_CASE("A restart cannot change effects") {
     const Texts there{"effects.gravity.y=-0.02", "time.method=event-driven",
                       "box.top.restitution=0.5"};

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Growing discs: what can be worked out by hand, and the bits of the method's plain statement.
+#include <cmath>
+#include <vector>
+
+#include "catch.hpp"
+
+#include "reference_bits.hpp"
+#include "scene_tools.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+constexpr Boundary periodic_side{BoundaryKind::periodic, 1, 0, 0};
+
+/// Where a rank has the disc; NaN where no rank has it.
+Disc disc_of(const Simulation& simulation, DiscId id, const Communicator& world) {
+    double numbers[] = {0, 0, 0, 0};
+    std::uint64_t owner = 0;
+    for (const Disc& disc : simulation.shown()) {
+        if (disc.id != id) continue;
+        owner = static_cast<std::uint64_t>(world.rank()) + 1;
+        numbers[0] = disc.x_at(simulation.clock());
+        numbers[1] = disc.y_at(simulation.clock());
+        numbers[2] = disc.vx * simulation.velocity_unit();
+        numbers[3] = disc.vy * simulation.velocity_unit();
+    }
+    owner = world.max(owner);
+    REQUIRE(owner > 0);
+    for (double& number : numbers) world.broadcast(number, static_cast<int>(owner) - 1);
+    return {numbers[0], numbers[1], numbers[2], numbers[3], 0, id};
+}
+
+} // namespace
+
+TEST_CASE("growth: two discs at rest meet when they have grown, and part faster than they grow") {
+    const Communicator world = Communicator::world();
+    TestScene scene = empty_scene("two growing discs", 40, 1, 12);
+    scene.setting.effects.growth = 0.125; // diameters 2 + t / 4: contact at step 8
+    scene.setting.micro_steps = 4;
+    scene.setting.sync_every = 7;
+    add_disc(scene, 18, 20);
+    add_disc(scene, 22, 20);
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
+    advance_to(simulation, 12);
+    const Disc p = disc_of(simulation, 0, world), q = disc_of(simulation, 1, world);
+    // They met at -1/4 relative to their surfaces, so each one leaves at 1/4.
+    CHECK(p.x == Approx(18 - 4 * 0.25).epsilon(1e-14));
+    CHECK(q.x == Approx(22 + 4 * 0.25).epsilon(1e-14));
+    CHECK(p.vx == Approx(-0.25).epsilon(1e-14));
+    CHECK(q.vx == Approx(0.25).epsilon(1e-14));
+    CHECK(p.vy == 0);
+    CHECK(simulation.totals().pair_collisions == 1);
+    CHECK(simulation.totals().kinetic_energy == Approx(0.0625).epsilon(1e-13));
+}
+
+TEST_CASE("growth: discs of two masses that fly towards each other, and a disc at a wall") {
+    const Communicator world = Communicator::world();
+    TestScene scene = empty_scene("growing discs of two masses", 64, 2, 6);
+    scene.setting.effects.growth = 0.25;
+    scene.setting.effects.species = {{1, 2, 3}, {2, 1, 1}};
+    scene.setting.sync_every = 5;
+    add_disc(scene, 20, 20, 0.5, 0.125); // distance 12, diameters 3 + 3t/4
+    add_disc(scene, 32, 20, -1, 0.125);  // 12 - 3t/2 = 3 + 3t/4: contact at step 4
+    add_disc(scene, 50, 62, 0.25, 0);    // 2 from the top, r = 1 + t/4: contact at step 4
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
+    advance_to(simulation, 6);
+    const Disc p = disc_of(simulation, 0, world), q = disc_of(simulation, 1, world),
+               at_wall = disc_of(simulation, 2, world);
+    // Surfaces meet at -3/2 - 3/4, and part so: w = 3/4 + 9/4 = 3, and the momentum is 1/2.
+    CHECK(p.vx == Approx(-0.625).epsilon(1e-14));
+    CHECK(q.vx == Approx(2.375).epsilon(1e-14));
+    CHECK(p.vy == Approx(0.125).epsilon(1e-14));
+    CHECK(p.x == Approx(22 - 2 * 0.625).epsilon(1e-14));
+    CHECK(at_wall.y == Approx(62 - 2 * 0.5).epsilon(1e-14));
+    CHECK(at_wall.vy == Approx(-0.5).epsilon(1e-14));
+    CHECK(at_wall.vx == 0.25);
+}
+
+TEST_CASE("growth: discs have the reference's bits, with restitution, species and periodic sides") {
+    const Boundary lossy{BoundaryKind::fixed, 0.7, 0, 0};
+    for (TestScene scene : base_scenes()) {
+        Effects& effects = scene.setting.effects;
+        effects.growth = 0.008;
+        check_bits(scene, Method::event_driven);
+        effects.boundaries = {periodic_side, periodic_side, lossy, Boundary{}};
+        effects.contact = {ContactKind::restitution, 0.9, 0.002};
+        if (scene.name.find("cradle") == std::string::npos) check_bits(scene, Method::event_driven);
+        effects.boundaries.fill(periodic_side);
+        effects.contact = {};
+        const std::uint64_t n = scene.discs.size();
+        effects.species = {{n / 2, scene.setting.radius, 2},
+                           {n - n / 2, 0.7 * scene.setting.radius, 0.6}};
+        if (scene.name.find("cradle") == std::string::npos) check_bits(scene, Method::event_driven);
+    }
+}
+
+TEST_CASE("growth: transposed scenes give transposed discs") {
+    const Communicator world = Communicator::world();
+    TestScene scene = gas(196, 0.5, 0.3, 512);
+    scene.steps = 20;
+    scene.setting.effects.growth = 0.01;
+    const TestScene other = transposed(scene);
+    Simulation first = simulation_of(scene, Method::event_driven, world),
+               second = simulation_of(other, Method::event_driven, world);
+    advance_to(first, 20);
+    advance_to(second, 20);
+    int differences = 0;
+    for (DiscId id = 0; id < scene.discs.size(); ++id) {
+        const Disc a = disc_of(first, id, world), b = disc_of(second, id, world);
+        differences += a.x != b.y || a.y != b.x || a.vx != b.vy || a.vy != b.vx;
+    }
+    CHECK(differences == 0);
+    CHECK(first.totals().pair_collisions > 100);
+}
+
+TEST_CASE("growth: discs that have no more room end the run with a sentence") {
+    const Communicator world = Communicator::world();
+    TestScene scene = lattice(4, 1.2); // square: it jams long before discs cover nine tenths
+    scene.steps = 1;
+    scene.setting.effects.growth = 0.25;
+    std::string text;
+    try {
+        run(scene, Method::event_driven, world);
+    } catch (const CollectiveError& error) {
+        text = error.what();
+    }
+    INFO(text);
+    CHECK(text.find("radii have grown to 1.2 times the first") != std::string::npos);
+}
