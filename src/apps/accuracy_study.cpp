@@ -10,7 +10,7 @@
 #include "apps/csv_table.hpp"
 #include "apps/progress.hpp"
 #include "core/errors.hpp"
-#include "initial_state/initial_state.hpp"
+#include "simulation/compression.hpp"
 
 namespace carrom {
 
@@ -58,8 +58,8 @@ TrialStart make_start(const Study& study, int number) {
                                     study.tuning);
     Scene other = study.scene;
     other.seed += static_cast<std::uint64_t>(number);
-    return bring_to_equilibrium(other, initial_state(other, nullptr, study.ranks), approach,
-                                study.ranks, study.tuning);
+    return bring_to_equilibrium(other, first_discs(other, nullptr, study.ranks, study.tuning),
+                                approach, study.ranks, study.tuning);
 }
 
 Distance distance_between(const std::vector<InputDisc>& a, const std::vector<InputDisc>& b,

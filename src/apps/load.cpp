@@ -22,6 +22,7 @@
 #include "parallel/agreement.hpp"
 #include "scene/disc_reader.hpp"
 #include "scene/read_scene.hpp"
+#include "simulation/compression.hpp"
 #include "stored_scene/discs_from.hpp"
 
 namespace carrom {
@@ -283,7 +284,11 @@ Loaded load(const RunOptions& given, const Problems& problems, const Communicato
         if (ranks.is_root() && !loaded.stored) append(all, problems_of_disc_lines(scene, *stream));
         agree_on_problems(ranks, all);
     }
-    if (!loaded.stored) loaded.discs = load_discs(scene, stream.get(), ranks);
+    if (!loaded.stored) {
+        Tuning tuning = options.tuning;
+        tuning.threads = options.threads.value_or(default_threads(ranks));
+        loaded.discs = first_discs(scene, stream.get(), ranks, tuning);
+    }
     prepare_outputs(scene, !loaded.stored, ranks);
     if (ranks.is_root())
         for (const std::string& warning : scene.warnings)

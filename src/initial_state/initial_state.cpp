@@ -172,15 +172,16 @@ void add_streams(const Scene& scene, std::vector<InputDisc>& discs) {
     }
 }
 
-void set_velocities(const Scene& scene, std::vector<InputDisc>& discs) {
+} // namespace
+
+void give_velocities(const Scene& scene, std::vector<InputDisc>& discs) {
     for (InputDisc& disc : discs) {
         const Velocity velocity = generated_velocity(scene, disc.id);
         disc.vx = velocity.x;
         disc.vy = velocity.y;
     }
+    add_streams(scene, discs);
 }
-
-} // namespace
 
 std::vector<InputDisc> initial_state(const Scene& scene, std::istream* lines,
                                      const Communicator& communicator) {
@@ -191,14 +192,15 @@ std::vector<InputDisc> initial_state(const Scene& scene, std::istream* lines,
         refuse_in_obstacles(scene, listed, communicator);
         return listed;
     }
+    ensure(scene.generator != Generator::compressed, "a compressed start takes an engine");
     std::vector<InputDisc> discs;
     if (scene.generator == Generator::legacy) {
         discs = legacy_discs(scene, communicator);
+        add_streams(scene, discs);
     } else {
         discs = generated_discs(scene, communicator);
-        set_velocities(scene, discs);
+        give_velocities(scene, discs);
     }
-    add_streams(scene, discs);
     return discs;
 }
 

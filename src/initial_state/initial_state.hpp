@@ -11,10 +11,14 @@
 
 namespace carrom {
 
+/// Velocities of the scene's random numbers and streams, for discs that it generates.
+void give_velocities(const Scene& scene, std::vector<InputDisc>& discs);
+
 /// Every disc of the scene exactly once, each on some rank; no rank holds more than its share and a
-/// bounded chunk. `lines` is the stream of listed discs on rank 0 (null where the scene generates);
-/// its problems become an InputError on every rank. Scenes with a generator give the same discs for
-/// any number of ranks. **Collective.**
+/// bounded chunk. Compressed starts need engines (simulation/compression.hpp). `lines` is the
+/// stream of listed discs on rank 0 (null where the scene generates); its problems become an
+/// InputError on every rank. Scenes with a generator give the same discs for any number of ranks.
+/// **Collective.**
 std::vector<InputDisc> initial_state(const Scene& scene, std::istream* lines,
                                      const Communicator& communicator);
 

@@ -7,6 +7,7 @@
 
 #include <carrom/scene.hpp>
 
+#include "engine/tuning.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/scene.hpp"
@@ -36,6 +37,6 @@ struct FirstState {
 
 /// The checked scene and this rank's share of its discs. Throws InputError on every rank with all
 /// problems. **Collective.**
-FirstState first_state(const Scene& scene, const Communicator& ranks);
+FirstState first_state(const Scene& scene, const Communicator& ranks, const Tuning& tuning);
 
 } // namespace carrom::api

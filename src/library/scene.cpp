@@ -12,6 +12,7 @@
 #include "library/session_state.hpp"
 #include "parallel/agreement.hpp"
 #include "scene/disc_reader.hpp"
+#include "simulation/compression.hpp"
 
 namespace carrom::api {
 
@@ -119,7 +120,7 @@ SceneFacts facts_of(const carrom::Scene& scene) {
     return facts;
 }
 
-FirstState first_state(const Scene& scene, const Communicator& ranks) {
+FirstState first_state(const Scene& scene, const Communicator& ranks, const Tuning& tuning) {
     const SceneText text = text_of(scene.source());
     FirstState first;
     first.scene = read(text, scene);
@@ -140,7 +141,7 @@ FirstState first_state(const Scene& scene, const Communicator& ranks) {
             read_scene_text(lines, text.name); // up to the first disc
         }
     });
-    first.discs = load_discs(first.scene, &lines, ranks);
+    first.discs = first_discs(first.scene, &lines, ranks, tuning);
     return first;
 }
 

@@ -31,9 +31,10 @@ Tuning tuning_of(const Options& options, const Communicator& ranks) {
 std::unique_ptr<Simulation::State> begun(const Session& session, const Scene& scene,
                                          const Options& options) {
     const Communicator& ranks = ranks_of(session);
-    FirstState first = first_state(scene, ranks);
+    const Tuning tuning = tuning_of(options, ranks);
+    FirstState first = first_state(scene, ranks, tuning);
     return std::make_unique<Simulation::State>(ranks, std::move(first.scene),
-                                               std::move(first.discs), tuning_of(options, ranks));
+                                               std::move(first.discs), tuning);
 }
 
 bool is_earlier(const Disc& a, const Disc& b) { return a.id < b.id; }

@@ -33,8 +33,10 @@ inline constexpr std::array words_of<Arithmetic>{Word{"stable", Arithmetic::stab
                                                  Word{"naive", Arithmetic::naive}};
 template <>
 inline constexpr std::array words_of<Generator>{
-    Word<Generator>{"random", Generator::random}, Word<Generator>{"lattice", Generator::lattice},
+    Word<Generator>{"random", Generator::random},
+    Word<Generator>{"lattice", Generator::lattice},
     Word<Generator>{"triangular", Generator::triangular},
+    Word<Generator>{"compressed", Generator::compressed},
     Word<Generator>{"legacy", Generator::legacy, "ancestor"},
     Word<Generator>{"file", Generator::file}};
 template <>

@@ -15,13 +15,14 @@ const Need equal_discs{
     [](const Scene& s) { return s.effects.species.empty() && !has_column(s, DiscColumn::radius); }};
 const Need listed{"without discs.generator = \"file\"",
                   [](const Scene& s) { return s.generator == Generator::file; }, true};
-const Need random_speeds{"without discs.generator = \"random\", \"lattice\" or \"triangular\"",
+const Need random_speeds{"where discs are listed, or with discs.generator = \"legacy\"",
                          [](const Scene& s) {
-                             return s.generator == Generator::random ||
-                                    s.generator == Generator::lattice ||
-                                    s.generator == Generator::triangular;
+                             return s.generator != Generator::file &&
+                                    s.generator != Generator::legacy;
                          },
                          true};
+const Need compressed{"without discs.generator = \"compressed\"",
+                      [](const Scene& s) { return s.generator == Generator::compressed; }, true};
 const Need generated{"where discs are listed",
                      [](const Scene& s) { return s.generator != Generator::file; }, true};
 const Need not_legacy{"with discs.generator = \"legacy\"",
@@ -150,6 +151,15 @@ Key count_key() {
     return count;
 }
 
+Key growth_rate_key() {
+    return key("discs.growth_rate", "1",
+               "How fast the largest diameter grows, over the root mean square speed. Slow growth "
+               "jams later.",
+               [](auto& s) -> auto& { return s.growth_rate; })
+        .within({1e-6, 0.2})
+        .needs(compressed);
+}
+
 std::vector<Key> keys_of_time() {
     return {
         key("time.steps", "steps", "S, how many steps to run; 0 shows the start.",
@@ -229,7 +239,8 @@ std::vector<Key> keys_of_discs() {
         species_key(),
         key("discs.generator", "",
             "Random: uniform without overlaps. Lattice: shaken. Triangular: the lattice that a "
-            "periodic box repeats. Legacy: C `rand`. File: discs are listed.",
+            "periodic box repeats. Compressed: a random gas whose discs grow. Legacy: C `rand`. "
+            "File: discs are listed.",
             [](auto& s) -> auto& { return s.generator; })
             .by_default("\"random\"; \"file\" with a list or file of discs"),
         list_key(),
@@ -253,6 +264,7 @@ std::vector<Key> keys_of_discs() {
             "discs.speed.",
             [](auto& s) -> auto& { return s.velocities; })
             .needs(random_speeds),
+        growth_rate_key(),
         key("discs.seed", "1", "The same seed gives the same discs on any number of ranks.",
             [](auto& s) -> auto& { return s.seed; })
             .within({.low = 0})

@@ -140,14 +140,16 @@ std::vector<Rule> rules_of_starts() {
              [](const Scene& s) {
                  return s.generator == Generator::triangular && !is_periodic_all_round(s);
              }),
-        rule("obstacles", "discs.generator = \"lattice\", \"triangular\" or \"legacy\"",
+        rule("obstacles",
+             "discs.generator = \"lattice\", \"triangular\", \"compressed\" or \"legacy\"",
              "these generators know nothing of obstacles; insert discs at random (at a packing "
              "fraction that allows it), or list them",
              {"discs.generator", "discs.packing", "discs.radius", "discs.species"},
              [](const Scene& s) {
                  return has_obstacles(s) &&
                         (s.generator == Generator::lattice ||
-                         s.generator == Generator::triangular || s.generator == Generator::legacy);
+                         s.generator == Generator::triangular ||
+                         s.generator == Generator::compressed || s.generator == Generator::legacy);
              }),
     };
 }
@@ -247,8 +249,7 @@ const std::vector<Rule>& rules() {
         std::vector<Rule> list = rules_of_methods();
         for (const auto& part :
              {rules_of_effects(), rules_of_oscillations(), rules_of_growth(), rules_of_starts(),
-              rules_of_outputs(),
-              rules_of_columns(std::make_index_sequence<n_side_columns>())})
+              rules_of_outputs(), rules_of_columns(std::make_index_sequence<n_side_columns>())})
             list.insert(list.end(), part.begin(), part.end());
         return list;
     }();

@@ -23,7 +23,7 @@ enum class Method { time_stepped, event_driven };
 enum class Precision { double_, single };
 /// How contacts are found: by the predicate, or by the course program's formula.
 enum class Arithmetic { stable, naive };
-enum class Generator { random, lattice, triangular, legacy, file };
+enum class Generator { random, lattice, triangular, compressed, legacy, file };
 enum class VelocityKind { maxwell, uniform };
 
 /// What goes to standard output: nothing, steps 0 and S, or every step (the course program's `perf`
@@ -122,6 +122,8 @@ struct Scene {
     std::optional<std::int64_t> discs_from_step; ///< of a frame; else the last one
     double speed = 1;                            ///< root mean square of the generated speeds
     VelocityKind velocities = VelocityKind::maxwell;
+    double growth_rate = 0.01; ///< of Generator::compressed: how fast the largest diameter grows,
+                               ///< over the root mean square speed
     std::uint64_t seed = 3210;
     std::vector<Stream> streams;
     std::vector<InputDisc> listed_discs;  ///< discs written in the scene itself (`discs.list`)

@@ -141,6 +141,20 @@ run 2 run growing.toml --steps 300
 expect_code 2 'growing discs that will have no room'
 expect_told 'there is room for them up to step 246' 'growing discs that will have no room'
 
+# A start by compression; one that jams says how far it came.
+run 2 run growing.toml --set discs.packing=0.62 --steps 20 --quiet --report dense2.json \
+    --set discs.generator=compressed
+expect_code 0 'a compressed start on 2 ranks'
+run 1 run growing.toml --set discs.packing=0.62 --steps 20 --quiet --report dense1.json \
+    --set discs.generator=compressed --threads 2
+expect_code 0 'a compressed start'
+[ "$(json_value dense1.json state_hash)" = "$(json_value dense2.json state_hash)" ] ||
+    complain 'a compressed start: another state hash on 2 ranks'
+run 2 run growing.toml --set discs.packing=0.9 --set discs.generator=compressed \
+    --set effects.growth.rate=0 --set discs.growth_rate=0.2
+expect_code 2 'a compression that jams'
+expect_told 'the compression jams at a packing fraction of 0.' 'a compression that jams'
+
 # The box of a trajectory holds all frames, so it depends on the last step where walls move out; a
 # restart may change that.
 cat >grow.toml <<'SCENE'

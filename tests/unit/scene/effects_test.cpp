@@ -410,6 +410,19 @@ TEST_CASE("Discs that grow need room until the last step") {
                   "cannot have growing discs together with"));
 }
 
+TEST_CASE("A compressed start has a rate of growth, and knows no obstacles") {
+    const Scene scene = read_scene(good, "s.toml",
+                                   {"discs.generator=compressed", "discs.growth_rate=0.1"});
+    CHECK(scene.generator == Generator::compressed);
+    CHECK(scene.growth_rate == 0.1);
+    CHECK(has(problems_with({"discs.growth_rate=0.1"}),
+              "no meaning without discs.generator = \"compressed\""));
+    CHECK(has(problems_with({"discs.generator=compressed", "discs.growth_rate=2"}), "from"));
+    CHECK(
+        has(problems_with({"discs.generator=compressed", "effects.obstacles.discs=[[50, 50, 1]]"}),
+            "cannot have obstacles together with"));
+}
+
 TEST_CASE("A restart cannot change effects") {
     const Texts there{"effects.gravity.y=-0.02", "time.method=event-driven",
                       "box.top.restitution=0.5"};

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/compression.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
+#include "initial_state/initial_state.hpp"
+#include "initial_state/random_insertion.hpp"
+#include "initial_state/scene_input.hpp"
+#include "scene/velocities.hpp"
+#include "simulation/simulation.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr double first_packing = 0.3; ///< of the random gas
+/// Of radii in a stretch: at first, at most, and of the room that is left.
+constexpr double first_growth = 0.01, most_growth = 0.05, share_of_room = 0.1;
+/// With less room discs have jammed. The pressure is then N kT / A over this.
+constexpr double jammed_room = 1e-6;
+/// Radii grow by so much more than is wanted, so that rounding leaves no overlap.
+constexpr double margin = 0x1p-30;
+
+class Compression {
+public:
+    Compression(const Scene& scene, const Communicator& communicator, const Tuning& tuning)
+        : scene_(scene), communicator_(communicator), tuning_(tuning),
+          size_(std::min(1.0, std::sqrt(first_packing / scene.packing()))) {}
+
+    /// Places, and velocities of no meaning.
+    std::vector<InputDisc> run() {
+        discs_ = insert_at_random(stretch(), communicator_);
+        if (size_ == 1) return std::move(discs_);
+        Scene unit = scene_;
+        unit.speed = 1;
+        for (InputDisc& disc : discs_) {
+            const Velocity velocity = generated_velocity(unit, disc.id);
+            disc.vx = velocity.x;
+            disc.vy = velocity.y;
+        }
+        for (bool is_last = false; !is_last;) {
+            const double left = (1 + margin) / size_ - 1;
+            is_last = growth_ >= left;
+            growth_ = std::min(growth_, left);
+            const double room = run_stretch();
+            if (!is_last && room < jammed_room) fail_jammed("");
+            size_ *= 1 + growth_;
+            growth_ = std::min({most_growth, 2 * growth_, share_of_room * room});
+        }
+        return std::move(discs_);
+    }
+
+private:
+    /// The scene of one stretch: a step of one micro-step. Masses are equal, walls plain.
+    Scene stretch() const {
+        Scene scene;
+        scene.name = scene_.name;
+        scene.box = scene_.box;
+        scene.n_discs = scene_.n_discs;
+        scene.seed = scene_.seed;
+        scene.radius = scene_.radius * size_;
+        for (const Species& one : scene_.effects.species)
+            scene.effects.species.push_back({one.count, one.radius * size_, 1});
+        for (std::size_t side = 0; side < boundary_names.size(); ++side)
+            if (scene_.effects.boundaries[side].kind == BoundaryKind::periodic)
+                scene.effects.boundaries[side].kind = BoundaryKind::periodic;
+        scene.effects.growth = growth_;
+        scene.steps = scene.sync_every = 1;
+        scene.averages_from = 2; // never
+        return scene;
+    }
+
+    /// Discs begin and end with a root mean square speed of 1; in the stretch's step they fly as
+    /// far as the rate of growth asks for. Returns the growth that is left before discs jam: the
+    /// nearer they come, the faster they heat up. Where gaps shrink from a to b, speeds grow by a /
+    /// b.
+    double run_stretch() {
+        const double speed = 2 * scene_.radius * size_ * growth_ / scene_.growth_rate;
+        for (InputDisc& disc : discs_) disc.vx *= speed, disc.vy *= speed;
+        Simulation simulation(stretch(), std::move(discs_), communicator_, tuning_);
+        try {
+            while (simulation.step() < 1) simulation.advance_towards(1);
+        } catch (const CollectiveError& error) {
+            fail_jammed(error.what());
+        }
+        const double now = std::sqrt(2 * simulation.totals().kinetic_energy /
+                                     static_cast<double>(scene_.n_discs));
+        discs_.clear();
+        for (const Disc& disc : simulation.shown())
+            discs_.push_back({disc.id, disc.x_at(simulation.clock()), disc.y_at(simulation.clock()),
+                              disc.vx / now, disc.vy / now});
+        return now > speed ? growth_ / (now / speed - 1) : std::numeric_limits<double>::infinity();
+    }
+
+    [[noreturn]] void fail_jammed(const std::string& reason) const {
+        throw InputError(
+            {{scene_.name, 0,
+              fmt::format("the compression jams at a packing fraction of {:.4g}, and {:.4g} is "
+                          "wanted; take a smaller discs.growth_rate or another discs.seed{}{}",
+                          scene_.packing() * size_ * size_, scene_.packing(),
+                          reason.empty() ? "" : ": ", reason)}});
+    }
+
+    const Scene& scene_;
+    const Communicator& communicator_;
+    const Tuning& tuning_;
+    double size_;                  ///< of radii, over what is wanted
+    double growth_ = first_growth; ///< in the next stretch, as a share
+    std::vector<InputDisc> discs_;
+};
+
+} // namespace
+
+std::vector<InputDisc> compressed_discs(const Scene& scene, const Communicator& communicator,
+                                        const Tuning& tuning) {
+    std::vector<InputDisc> discs = Compression(scene, communicator, tuning).run();
+    give_velocities(scene, discs);
+    return discs;
+}
+
+std::vector<InputDisc> first_discs(const Scene& scene, std::istream* following,
+                                   const Communicator& communicator, const Tuning& tuning) {
+    if (scene.generator == Generator::compressed)
+        return compressed_discs(scene, communicator, tuning);
+    return load_discs(scene, following, communicator);
+}
+
+} // namespace carrom
