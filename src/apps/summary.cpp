@@ -142,9 +142,8 @@ std::string scene_lines(const Scene& scene) {
                                   ? ""
                                   : fmt::format(", {:.4g} at the last step", scene.last_packing());
     std::string text = labelled_line(
-        "scene",
-        fmt::format("{}: {} discs of {} in a box of {:g}, packing {:.4g}{}", scene.name,
-                    scene.n_discs, radii_text(scene), scene.box, scene.packing(), grown));
+        "scene", fmt::format("{}: {} discs of {} in a box of {:g}, packing {:.4g}{}", scene.name,
+                             scene.n_discs, radii_text(scene), scene.box, scene.packing(), grown));
     text += labelled_line("method", fmt::format("{}, micro_steps = {}, sync_every = {}{}",
                                                 name_of(scene.method), scene.micro_steps,
                                                 scene.sync_every, arithmetic_text(scene)));

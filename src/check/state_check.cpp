@@ -200,8 +200,7 @@ Finding StateCheck::take_records(std::span<const Disc> own, std::span<const doub
             known_[in.items[i].id - first_id_].spin = spins_in.items[i];
     }
     std::vector<int> n_owners(known_.size(), 0);
-    for (Known& known : known_)
-        known.walls = known.pairs = 0, known.wall_impulse = known.work = 0;
+    for (Known& known : known_) known.walls = known.pairs = 0, known.wall_impulse = known.work = 0;
     for (std::size_t k = 0; k < in.n_senders(); ++k) {
         for (const Disc& disc : in.from(k)) {
             const std::size_t i = disc.id - first_id_;

@@ -217,7 +217,8 @@ void check_growth(const Check& check) {
     const double growth = scene.effects.growth_at(static_cast<double>(scene.steps));
     const double densest = scene.effects.species.empty() ? largest_packing : 1;
     const double widest = (scene.effects.are_periodic() ? 4 * (1 + 1e-6) : 2) * scene.radius;
-    const double most = std::min(std::sqrt(densest / scene.packing()), scene.box.shortest() / widest);
+    const double most = std::min(std::sqrt(densest / scene.packing()),
+                                 scene.box.shortest() / widest);
     if (growth <= most) return;
     check.refuse({"effects.growth.rate"},
                  fmt::format("after {} steps discs of radius {:g} would cover {:.4g} of the box; "
@@ -257,8 +258,8 @@ void check_distance(const Check& check) {
     Scene& scene = check.scene;
     if (!scene.measurements) return;
     if (!scene.measurements->radial_distribution && !scene.measurements->psi6) return;
-    const Extent end = extent_of_lines(scene.effects, scene.box,
-                                       static_cast<double>(scene.steps), 1);
+    const Extent end = extent_of_lines(scene.effects, scene.box, static_cast<double>(scene.steps),
+                                       1);
     const double wide = std::min(scene.box.x, end.x_high - end.x_low);
     const double high = std::min(scene.box.y, end.y_high - end.y_low);
     const double margin = 2 * scene.radius;

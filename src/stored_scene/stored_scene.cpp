@@ -88,8 +88,7 @@ RecordedSystem system_of(const Scene& scene) {
     RecordedSystem system;
     system.program_version = version();
     system.n_discs = scene.n_discs;
-    const Extent end = extent_of_lines(scene.effects, scene.box,
-                                       static_cast<double>(scene.steps));
+    const Extent end = extent_of_lines(scene.effects, scene.box, static_cast<double>(scene.steps));
     system.box = {std::max(scene.box.x, end.x_high), std::max(scene.box.y, end.y_high)};
     if (scene.box.is_square()) system.box = system.box.longest(); // walls may move
     system.radius = scene.radius;

@@ -4,7 +4,7 @@
 
   tests/physics/shaken.py CARROM
 
-In the limit kT >> <U^2>, U being the floor's velocity, what the floor gives and what collisions take
+In the limit kT >> <U^2>, U being the floor's velocity, what the floor gives and collisions take
 leave kT = (4 sqrt(2) / pi) <U^2> / (N_w d (1 - e^2)) for discs of the diameter d, N_w of them on a
 length (Kumaran, Phys. Rev. E 57, 5660 (1998)). The scene is inputs/vibrated.toml.
 """

@@ -16,7 +16,7 @@ from pathlib import Path
 LINE_WIDTH = 100
 FUNCTION_LINES = 60
 FILE_LINES = 400
-PROGRAM_LINES = 34000  # all of src and include
+PROGRAM_LINES = 38500  # all of src and include
 
 FOLDERS = [".ci", "include", "job_scripts", "src", "tests"]
 CPP, CMAKE, SHELL, PYTHON = "C++", "CMake", "shell", "Python"

@@ -58,7 +58,7 @@ std::vector<InputDisc> on_root(const std::vector<InputDisc>& mine, const Communi
 
 /// The least gap of any two discs, and of any disc and a wall.
 double least_gap(const std::vector<InputDisc>& discs, const Scene& scene) {
-    const double length = scene.box_size;
+    const double length = scene.box.x;
     const bool goes_round_x = scene.effects.is_periodic_x(),
                goes_round_y = scene.effects.is_periodic_y();
     const auto radius_of = [&](DiscId id) {
