@@ -171,10 +171,10 @@ std::vector<Rule> rules_of_growth() {
                  return has_growth(s) &&
                         (s.effects.gravity.is_any() || s.effects.drag != 0 || has_obstacles(s));
              }),
-        rule("growing discs", "a thermal, a moving or an open side",
+        rule("growing discs", "a thermal, a moving, an oscillating or an open side",
              "this version does not have both", {"effects.growth.rate"},
              [](const Scene& s) {
-                 return has_growth(s) && (has_moving(s) || has_open(s) ||
+                 return has_growth(s) && (has_moving(s) || has_oscillating(s) || has_open(s) ||
                                           has_boundary(s.effects, BoundaryKind::thermal));
              }),
         rule("\"radial_distribution\" of growing discs", "a wall",
