@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include <carrom/box.hpp>
@@ -61,7 +62,8 @@ WindowChoice choose_window(const WindowNeeds& needs, int n_left, std::optional<d
 /// How long a window may be in a box with periodic sides: two discs do not go round it, or each
 /// would be looked for in many images.
 inline double longest_in_period(const Periods& periods, double speed) {
-    return periods.shortest() / (2 * speed);
+    return periods.are_any() ? periods.shortest() / (2 * speed)
+                             : std::numeric_limits<double>::infinity();
 }
 
 } // namespace carrom

@@ -180,6 +180,9 @@ TEST_CASE("a forged checkpoint with right checksums is refused where its places 
         CHECK(problem.find("has no " + name) != std::string::npos);
         for (const double number : {std::numeric_limits<double>::quiet_NaN(),
                                     std::numeric_limits<double>::infinity(), 1e300}) {
+            // Any finite number is a velocity.
+            if (std::isfinite(number) && column.is_there == &StoredSamples::have_velocities)
+                continue;
             const std::string other = forged("", [&](hid_t file) {
                 h5::write_rows(h5::open_dataset(file, name.c_str()).id(), {7, 8}, H5T_NATIVE_DOUBLE,
                                &number, h5::Transfer::independent);
