@@ -7,6 +7,7 @@
 # MkDocs comes from PyPI into a virtual environment beside FOLDER, once. Code 77: it cannot be had.
 set -euo pipefail
 
+case ${1:-} in -*) sed -n '3,7s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2; exit 2 ;; esac
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 site=${1:-$top/build/site}
 python=$site-python
