@@ -2,10 +2,8 @@
 #include "io/child_process.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <csignal>
-#include <exception>
 #include <fstream>
 #include <new>
 #include <string>
@@ -46,46 +44,38 @@ void take_limits() {
     ::alarm(patience_seconds);
 }
 
-/// The answer is a text that begins with `well` or `ill`; none where the child has crashed.
-constexpr char well = '+', ill = '-';
-
+/// What is wrong goes into `answers`.
 [[noreturn]] void look_and_exit(const std::function<void()>& look, int answers) {
     take_limits();
-    std::string answer(1, well);
     try {
         look();
     } catch (const FileError& error) {
-        answer = ill + std::string(error.what()).substr(0, longest_text - 1);
+        const std::string text = std::string(error.what()).substr(0, longest_text);
+        ::_exit(::write(answers, text.data(), text.size()) > 0 ? 1 : 2);
     } catch (...) {
-        ::_exit(1);
+        ::_exit(2);
     }
-    ::_exit(::write(answers, answer.data(), answer.size()) > 0 ? 0 : 1);
-}
-
-std::string answer_from(int answers) {
-    std::array<char, longest_text> text{};
-    ssize_t length = -1;
-    do length = ::read(answers, text.data(), text.size());
-    while (length < 0 && errno == EINTR);
-    return {text.data(), static_cast<std::size_t>(std::max<ssize_t>(0, length))};
+    ::_exit(0);
 }
 
 } // namespace
 
 void try_in_child(const std::function<void()>& look) {
-    std::array<int, 2> ends{};
-    if (::pipe(ends.data()) != 0) fail_with_errno("no pipe to a process that looks at it");
+    int ends[2];
+    if (::pipe(ends) != 0) fail_with_errno("no pipe to a process that looks at it");
     const pid_t child = ::fork();
     if (child == 0) look_and_exit(look, ends[1]);
     ::close(ends[1]);
-    const std::string answer = child > 0 ? answer_from(ends[0]) : "";
+    int status = 0;
+    while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    std::string answer(longest_text, 0);
+    const ssize_t length = ::read(ends[0], answer.data(), answer.size());
     ::close(ends[0]);
     if (child < 0) throw FileError("no process that looks at it can be started");
-    while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
-    }
-    if (answer.empty())
+    if (length > 0) throw FileError(answer.substr(0, static_cast<std::size_t>(length)));
+    if (status != 0)
         throw FileError("is damaged: HDF5 crashes on it, or takes too much time or memory");
-    if (answer[0] == ill) throw FileError(answer.substr(1));
 }
 
 } // namespace carrom

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// HDF5 does not survive all metadata: a wrong size of a heap, say, makes it read from nowhere, and
-// a wrong place makes it look for ever. So what may be forged is read in a child process first,
-// with limits to its time and memory. What the child has survived the program may read itself.
-//
-// The child is a fork: it shares the file and all that is known of it, and ends without cleaning
-// up. It calls HDF5's plain driver and neither MPI nor OpenMP. Price: some milliseconds.
+// HDF5 crashes on some forged metadata, and looks for ever on others. So a child process, a fork
+// with limits to its time and memory, reads them first. It calls HDF5's plain driver, neither MPI
+// nor OpenMP, and ends without cleaning up. Price: some milliseconds.
 #pragma once
 
 #include <functional>
