@@ -22,6 +22,8 @@ namespace {
 
 /// Lists of no more than this are given back to the system one by one.
 constexpr std::size_t discs_in_part = 1 << 16;
+/// Room for the first halo: one disc of it to so many own ones. Else all of them would move.
+constexpr std::size_t own_per_halo = 16;
 
 /// The same in many lists. What was one no longer exists then, though a parameter may live as long
 /// as the expression that the call is in.
@@ -44,7 +46,7 @@ StoredState first_state(const Scene& scene, std::vector<InputDisc> inputs) {
     std::vector<double> spins;
     const std::size_t n = inputs.size();
     std::vector<std::vector<InputDisc>> parts = in_parts(std::move(inputs));
-    state.discs.reserve(n);
+    state.discs.reserve(n + n / own_per_halo + 1024);
     for (; !parts.empty(); parts.pop_back()) { // from the end: there the heap shrinks
         for (const InputDisc& input : parts.back()) {
             Disc& disc = state.discs.emplace_back();
