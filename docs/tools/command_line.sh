@@ -9,8 +9,7 @@ program=$1
 section() {
     printf '\n## %s\n\n```text\n' "$1"
     shift
-    "$program" "$@" --help
-    printf '```\n'
+    printf '%s\n```\n' "$("$program" "$@" --help)"
 }
 
 cat <<'END'

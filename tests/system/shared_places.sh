@@ -114,6 +114,10 @@ run 2 run "${scene[@]}" --steps 1 -o none --restart latest
 expect_code 0 'latest begins anew'
 
 # A process without a launcher shares nothing: it makes no folder that another one may make too.
-TMPDIR=/proc run 1 run "${scene[@]}" --steps 1
-expect_code 0 'a run where no temporary folder can be made'
+if [ ${#past_launcher[@]} -eq 0 ]; then
+    TMPDIR=/proc run 1 run "${scene[@]}" --steps 1
+    expect_code 0 'a run where no temporary folder can be made'
+else
+    echo 'skipped: no temporary folder (Open MPI 5 does not start without one)'
+fi
 finish
