@@ -141,7 +141,9 @@ start_cluster() {
     chmod 755 "$cluster"
     export SLURM_CONF=$cluster/slurm.conf
     trap stop_cluster EXIT
-    (umask 022 && mkdir "$cluster/run" "$cluster/state")
+    (umask 022 && mkdir "$cluster/run" "$cluster/state" "$cluster/bin")
+    ln -s "$CARROM_MPIEXEC" "$cluster/bin/mpirun" # of the build's own MPI, where there are several
+    export PATH=$cluster/bin:$PATH
     (umask 077 && head -c 128 /dev/urandom >"$cluster/munge.key")
     problem=$(munged --key-file="$cluster/munge.key" --socket="$cluster/run/munge.socket" \
         --pid-file="$cluster/run/munge.pid" --log-file="$cluster/run/munge.log" \

@@ -83,7 +83,7 @@ if command -v strace >/dev/null; then
     opened() {
         strace -f -qq -e trace=openat,execve -o "$test_folder/trace" "$CARROM_PROGRAM" "$@" \
             >"$test_folder/out" 2>"$test_folder/err" </dev/null
-        n_mpi=$(grep -cE 'openmpi-mca-params|pmix-mca-params|/mpich|mca_[a-z]+_' \
+        n_mpi=$(grep -cE 'openmpi-mca-params|pmix-mca-params|mpich\.conf|/libuct_|mca_[a-z]+_' \
             "$test_folder/trace")
         n_started=$(grep -c 'execve(.*= 0$' "$test_folder/trace")
     }
