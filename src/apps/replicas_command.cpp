@@ -143,7 +143,8 @@ std::vector<Option> options_of(ReplicasWords& words) {
         {"-o,--folder", "FOLDER", "For the replicas' folders and what they say together",
          &words.folder, true},
         {"--threads", "T", "Threads of each; default 1", &words.run.threads},
-        {"--steps", "S", "Steps to run, instead of the input's", &words.run.steps},
+        {"--steps", "S", "The last step, counted from the scene's start, instead of the input's",
+         &words.run.steps},
         {"--set", "KEY=VALUE", "Set any scene key; may be repeated", &words.run.overrides},
         {"--quiet", "", "No averages on the terminal", &words.run.quiet},
     };

@@ -28,7 +28,8 @@ std::vector<Option> run_options(RunWords& words) {
          "Go on from a checkpoint: a FILE, a FOLDER (its newest whole one), or `latest` in the "
          "scene's folder; INPUT may be left out with FILE and FOLDER",
          &words.restart},
-        {"--steps", "S", "Steps to run, instead of the input's", &words.steps},
+        {"--steps", "S", "The last step, counted from the scene's start, instead of the input's",
+         &words.steps},
         {"--accuracy", "X",
          "Let a short pilot choose the fastest method and micro-steps whose collision rate and "
          "pressure are within this share of the truth",

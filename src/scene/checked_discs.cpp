@@ -189,7 +189,8 @@ void check_generator(const Check& check) {
         scene.generator = Generator::lattice;
         scene.warnings.push_back(
             fmt::format("random insertion stalls above a packing fraction of {}; the {} discs "
-                        "(packing fraction {:.4g}) start from a shaken lattice",
+                        "(packing fraction {:.4g}) start from a shaken lattice; discs.generator = "
+                        "\"compressed\" makes a random start",
                         largest_random_packing, scene.n_discs, scene.packing()));
     }
     if (scene.generator == Generator::triangular) check_triangular(check);
@@ -200,8 +201,9 @@ void check_generator(const Check& check) {
             fmt::format("no lattice of {} discs of radius {} fits into a box of {}{}",
                         scene.n_discs, scene.radius, sides_text(scene.box),
                         scene.effects.species.empty()
-                            ? ""
-                            : " (a lattice has room for the largest disc everywhere); list them"));
+                            ? "; try discs.generator = \"compressed\" or \"triangular\""
+                            : " (a lattice has room for the largest disc everywhere); try "
+                              "discs.generator = \"compressed\""));
 }
 
 void check_velocities(const Check& check) {

@@ -27,7 +27,6 @@ _VIRIAL = (
     0.0362193,
     0.0199537,
 )
-_SIDES = ("left", "right", "bottom", "top")
 
 
 class Measured(NamedTuple):
@@ -67,46 +66,29 @@ def _pade(n: int = 4) -> tuple[list[float], list[float]]:
     return above, below.tolist()
 
 
-def average(run: Run, name: str) -> Measured:
-    """Return one of the averages of a report.
-
-    Raises:
-        NoDataError: the report has no such average of this scene (null)
-    """
-    entry = run.report["averages"].get(name)
+def _measured(run: Run, entry: Any, name: str) -> Measured:
     if not isinstance(entry, dict) or entry["value"] is None:
         raise NoDataError(f"{run.name}: the report has no {name} of this scene")
     error = entry["error"]
     return Measured(float(entry["value"]), math.nan if error is None else float(error))
 
 
-def compressibility(run: Run) -> Measured:
-    """Return Z = p A / (N kT) of a gas of equal discs, with one standard error.
-
-    Between walls Z comes from `virial_pressure` of the report; A is the whole box. The walls push
-    discs together: Z is above that of an endless gas by some 2 r / L. In a box that is periodic
-    all round Z comes from the collision frequency f: Z = 1 + (d / 4) f sqrt(pi m / kT), with the
-    diameter d. That holds in equilibrium. kT leaves out the motion of all discs together. Z - 1 of
-    N discs is below that of an endless gas by some 1 / N of itself.
+def average(run: Run, name: str) -> Measured:
+    """Return one of the averages of a report.
 
     Raises:
-        NoDataError: the run is not finished, has species, or effects other than periodic sides
+        NoDataError: the report has no such average of this scene (null)
     """
-    report, scene = run.report, run.scene
-    n = int(report["n_discs"])
-    kinds = [scene.get("box", {}).get(side, {}).get("kind", "wall") for side in _SIDES]
-    effects = scene.get("effects", {})
-    if "species" in scene.get("discs", {}) or effects or set(kinds) - {"wall", "periodic"}:
-        raise NoDataError(f"{run.name}: compressibility is of equal discs without effects alone")
-    energy, area = float(report["kinetic_energy"]), float(np.prod(report["box"]))
-    if set(kinds) == {"wall"}:
-        pressure = average(run, "virial_pressure")
-        return Measured(pressure.value * area / energy, pressure.error * area / energy)
-    if set(kinds) != {"periodic"}:
-        raise NoDataError(f"{run.name}: compressibility needs four walls or four periodic sides")
-    frequency = average(run, "collision_frequency")
-    diameter = 2 * math.sqrt(area * float(report["packing"]) / (math.pi * n))
-    momentum = np.asarray(report["momentum"], dtype=float)
-    temperature = (2 * energy - float(momentum @ momentum) / n) / (2 * max(n - 1, 1))
-    factor = diameter / 4 * math.sqrt(math.pi / temperature)
-    return Measured(1 + factor * frequency.value, factor * frequency.error)
+    return _measured(run, run.report["averages"].get(name), name)
+
+
+def compressibility(run: Run) -> Measured:
+    """Return Z = P A / (N kT) as the report has it, with one standard error.
+
+    P is the mean of the pressure tensor's xx and yy over the whole box. Averages begin at
+    `output.averages_from_step`.
+
+    Raises:
+        NoDataError: the run is not finished, or its report has no Z (null)
+    """
+    return _measured(run, run.report.get("compressibility"), "compressibility")

@@ -64,4 +64,7 @@ TEST_CASE("Edit distance counts insertions, deletions and replacements") {
     CHECK(edit_distance("kitten", "sitting") == 3);
     CHECK(edit_distance("steps", "steps") == 0);
     CHECK(edit_distance("flaw", "lawn") == 2);
+    CHECK(edit_distance("cuont", "count") == 1);
+    CHECK(edit_distance("ab", "ba") == 1);
+    CHECK(edit_distance("abcd", "badc") == 2);
 }
