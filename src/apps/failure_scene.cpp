@@ -45,7 +45,8 @@ std::string text_around(const Scene& scene, const CheckFailure& failure,
     around.disc_columns.clear();
     if (!scene.effects.species.empty())
         around.disc_columns = {DiscColumn::radius, DiscColumn::mass};
-    if (!failure.spins.empty()) around.disc_columns.push_back(DiscColumn::spin);
+    around.first_numbers = {};
+    if (!failure.spins.empty()) around.disc_columns.push_back(disc_column_of(SideColumn::spin));
     around.steps = 1;
     const double grown = growth_before(scene, failure);
     around.radius *= grown;

@@ -127,8 +127,10 @@ std::vector<std::string> follow_with_discs_from(const Scene& scene,
     FileOfDiscs file;
     if (ranks.is_root()) {
         collect(problems, [&] {
-            file = read_discs_from(path, scene.discs_from_step,
-                                   scene.effects.contact.kind == ContactKind::rough);
+            SideColumnSet wanted = side_columns_of(scene.effects);
+            for (const SideColumn column : all_side_columns)
+                if (!info_of(column).is_of_dynamics) wanted.add(column);
+            file = read_discs_from(path, scene.discs_from_step, wanted);
             if (scene.n_discs != 0 && scene.n_discs != file.n_discs)
                 throw InputError({{path, 0,
                                    fmt::format("has {} discs, and the scene is of {}", file.n_discs,
@@ -137,11 +139,10 @@ std::vector<std::string> follow_with_discs_from(const Scene& scene,
         stream = std::make_unique<std::istringstream>(std::move(file.lines));
     }
     ranks.broadcast(file.n_discs);
-    int have_spins = file.have_spins ? 1 : 0;
-    ranks.broadcast(have_spins);
+    ranks.broadcast(file.columns);
     std::vector<std::string> settings;
     if (file.n_discs > 0) settings.push_back(fmt::format("discs.count={}", file.n_discs));
-    if (have_spins == 1) settings.emplace_back("discs.columns=[\"spin\"]");
+    if (!file.columns.empty()) settings.push_back("discs.columns=" + file.columns);
     return settings;
 }
 

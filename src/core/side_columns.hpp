@@ -2,10 +2,10 @@
 // Numbers of discs beside their 64-byte states, in runs whose dynamics need them.
 //
 // Engines migrate, sort, exchange, speculate on and roll back whatever is present, and need not
-// know its meaning. Checkpoints, restarts and recordings have what is in the table below. A new
-// column takes a name and a line there, a line in `side_columns_of`, and one in the function of
-// that name that looks at a scene's effects. A run without a column has no memory and no work for
-// it.
+// know its meaning. Scenes, checkpoints, restarts and recordings have what is in the table below.
+// A new column takes a name and a line there. One that collisions change takes a line in
+// `side_columns_of`, too, and one in the function of that name that looks at a scene's effects. A
+// run without a column has no memory and no work for it.
 #pragma once
 
 #include <array>
@@ -22,20 +22,38 @@ enum class SideColumn : std::size_t { spin, n_columns };
 inline constexpr auto n_side_columns = static_cast<std::size_t>(SideColumn::n_columns);
 
 struct SideColumnInfo {
-    const char* name; ///< in checkpoints
+    const char* name; ///< in checkpoints, and where a scene gives the discs' first numbers
     const char* unit;
-    const char* shown;      ///< its name in recordings, tables and the keys of a scene
+    const char* shown;      ///< its name in recordings, tables and the fields of a trajectory
     const char* shown_unit; ///< per step where it is a rate
     bool is_rate;           ///< stored per micro-step
+    bool is_of_dynamics;    ///< effects decide who has it; else whoever is given first numbers
     const char* needs;      ///< said where discs do not have it
 };
 inline constexpr std::array<SideColumnInfo, n_side_columns> side_column_table = {
-    {{"spin", "angle per micro-step", "angular_velocity", "angle per step", true,
+    {{"spin", "angle per micro-step", "angular_velocity", "angle per step", true, true,
       "it needs discs that turn, effects.contact.kind = \"rough\""}}};
 
-inline const SideColumnInfo& info_of(SideColumn column) {
+constexpr const SideColumnInfo& info_of(SideColumn column) {
     return side_column_table[static_cast<std::size_t>(column)];
 }
+
+inline constexpr std::array<SideColumn, n_side_columns> all_side_columns = [] {
+    std::array<SideColumn, n_side_columns> all{};
+    for (std::size_t k = 0; k < n_side_columns; ++k) all[k] = static_cast<SideColumn>(k);
+    return all;
+}();
+
+/// Something for each column there is.
+template <class T> struct BySideColumn {
+    std::array<T, n_side_columns> values{};
+
+    T& operator[](SideColumn column) { return values[static_cast<std::size_t>(column)]; }
+    const T& operator[](SideColumn column) const {
+        return values[static_cast<std::size_t>(column)];
+    }
+    friend bool operator==(const BySideColumn&, const BySideColumn&) = default;
+};
 
 /// Some of the columns.
 struct SideColumnSet {
@@ -52,16 +70,7 @@ struct SideColumnSet {
 };
 
 /// Numbers along a list of discs that is kept elsewhere; none of a column that is not present.
-struct SideSpans {
-    std::array<std::span<const double>, n_side_columns> values;
-
-    std::span<const double>& operator[](SideColumn column) {
-        return values[static_cast<std::size_t>(column)];
-    }
-    std::span<const double> operator[](SideColumn column) const {
-        return values[static_cast<std::size_t>(column)];
-    }
-};
+using SideSpans = BySideColumn<std::span<const double>>;
 
 /// The columns that are present, each along the same list of discs.
 class SideColumns {
@@ -99,7 +108,7 @@ public:
         for_each([&](SideColumn column) { (*this)[column].resize(n, 0); });
     }
 
-    /// Takes `places[i]` of `from`, which has the same columns, to place i.
+    /// Takes `places[i]` of `from`, which has these columns and perhaps others, to place i.
     void gather(const SideColumns& from, std::span<const LocalIndex> places) {
         for_each([&](SideColumn column) {
             std::vector<double>& values = (*this)[column];
@@ -107,9 +116,9 @@ public:
             for (std::size_t i = 0; i < places.size(); ++i) values[i] = from[column][places[i]];
         });
     }
-    /// Copies what stands at place `source` of `from`, which has the same columns.
+    /// Copies what stands at place `source` of `from`, whose columns are among these.
     void copy(std::size_t target, const SideColumns& from, std::size_t source) {
-        for_each([&](SideColumn column) { (*this)[column][target] = from[column][source]; });
+        from.for_each([&](SideColumn column) { (*this)[column][target] = from[column][source]; });
     }
 
 private:
@@ -121,7 +130,7 @@ private:
     std::array<std::vector<double>, n_side_columns> values_;
 };
 
-/// Those that the dynamics need, empty.
+/// Those that the dynamics' collisions change, empty.
 template <class Dynamics> SideColumns side_columns_of() {
     SideColumns columns;
     if constexpr (Dynamics::has_spin) columns.add(SideColumn::spin);

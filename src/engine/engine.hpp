@@ -58,7 +58,8 @@ public:
     virtual std::span<const Disc> own() const = 0;
     virtual std::span<const Disc> departed()
         const = 0; ///< of this rank, those that have left the box and are no more among its own
-    virtual SideSpans side_columns() const { return {}; } ///< along `own()`
+    virtual SideSpans side_columns() const { return {}; }     ///< along `own()`
+    virtual SideSpans departed_columns() const { return {}; } ///< along `departed()`
     virtual const SpeciesTable* species_table() const {
         return nullptr;
     } ///< of dynamics with several species

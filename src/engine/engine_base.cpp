@@ -22,10 +22,15 @@ void Engine::note_crossing(const Disc& disc, double x, double y, const Periods& 
 
 namespace {
 
-template <class Dynamics> SideColumns stored_columns(StoredState& state) {
-    SideColumns columns = side_columns_of<Dynamics>();
-    columns.for_each(
-        [&](SideColumn column) { columns[column] = std::move(state.columns[column]); });
+/// Those of the scene, too, that no collision changes: they go where the discs go.
+template <class Dynamics> SideColumns stored_columns(const Scene& scene, StoredState& state) {
+    SideColumnSet wanted = side_columns_of<Dynamics>().present();
+    side_columns_of(scene).for_each([&](SideColumn column) {
+        if (!info_of(column).is_of_dynamics) wanted.add(column);
+    });
+    SideColumns columns;
+    wanted.for_each(
+        [&](SideColumn column) { columns.add(column, std::move(state.columns[column])); });
     return columns;
 }
 
@@ -37,7 +42,7 @@ EngineBase<Dynamics>::EngineBase(const Scene& scene, StoredState state,
     : communicator_(communicator), tuning_(tuning), dynamics_(dynamics_of<Dynamics>(scene)),
       micro_steps_(scene.micro_steps), sync_every_(scene.sync_every),
       discs_(communicator, scene.box, std::move(state.discs), scene.effects.periods(scene.box),
-             stored_columns<Dynamics>(state)),
+             stored_columns<Dynamics>(scene, state)),
       n_micro_done_(state.micro_steps_done), last_micro_step_(scene.steps * scene.micro_steps) {
     dynamics_.begin_interval(last_sync());
     time_ = dynamics_.clock_at(static_cast<double>(n_micro_done_ % sync_every_));

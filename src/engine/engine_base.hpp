@@ -29,6 +29,7 @@ public:
     std::span<const Disc> own() const final { return discs_.own(); }
     std::span<const Disc> departed() const final { return discs_.departed(); }
     SideSpans side_columns() const final { return discs_.own_columns(); }
+    SideSpans departed_columns() const final { return discs_.departed_columns().spans(); }
     const SpeciesTable* species_table() const final {
         if constexpr (Dynamics::has_species) return &dynamics_.species_table();
         return nullptr;

@@ -47,6 +47,7 @@ StripDiscs::StripDiscs(const Communicator& communicator, const Box& box, std::ve
       exchange_(communicator) {
     columns_ = std::move(columns);
     columns_.resize(discs.size());
+    columns_.for_each([&](SideColumn column) { departed_columns_.add(column); });
     if (communicator.size() == 1) {
         discs_ = std::move(discs);
     } else {
@@ -76,10 +77,13 @@ void StripDiscs::set_departed_aside() {
     const auto has_departed = [](const Disc& disc) { return disc.has_departed(); };
     std::copy_if(discs_.begin(), discs_.end(), std::back_inserter(departed_), has_departed);
     columns_.for_each([&](SideColumn column) {
-        std::vector<double>& values = columns_[column];
+        std::vector<double>&values = columns_[column], &departed = departed_columns_[column];
         std::size_t n_left = 0;
         for (std::size_t i = 0; i < discs_.size(); ++i)
-            if (!has_departed(discs_[i])) values[n_left++] = values[i];
+            if (has_departed(discs_[i]))
+                departed.push_back(values[i]);
+            else
+                values[n_left++] = values[i];
         values.resize(n_left);
     });
     if (std::erase_if(discs_, has_departed) > 0) is_sorted_ = false;

@@ -111,7 +111,8 @@ public:
     /// **Collective.**
     void set_departed_aside();
     std::span<const Disc> departed() const { return departed_; }
-    std::uint64_t n_with_departed() const { return n_with_departed_; } ///< over all ranks
+    const SideColumns& departed_columns() const { return departed_columns_; } ///< along them
+    std::uint64_t n_with_departed() const { return n_with_departed_; }        ///< over all ranks
 
     /// Drops the halo's discs.
     void forget_halo() {
@@ -137,7 +138,8 @@ private:
     SideColumns columns_;     ///< likewise
     std::size_t n_own_ = 0;
     std::uint64_t n_total_ = 0, n_with_departed_ = 0;
-    std::vector<Disc> departed_; ///< where they have left
+    std::vector<Disc> departed_;   ///< where they have left
+    SideColumns departed_columns_; ///< along them
     Strips strips_,
         redistributed_strips_; ///< wanted, and those of the last migration
     NeighbourExchange exchange_;

@@ -13,7 +13,7 @@ namespace {
 /// The same for the columns of the file of discs. **Collective.**
 void broadcast(DiscColumns& columns, const Communicator& ranks) {
     ranks.broadcast(columns.species);
-    ranks.broadcast(columns.spins);
+    for (std::vector<NumberRun>& runs : columns.numbers.values) ranks.broadcast(runs);
     int is_whole = columns.is_whole ? 1 : 0;
     ranks.broadcast(is_whole);
     columns.is_whole = is_whole == 1;

@@ -24,9 +24,11 @@ std::string body_problem(double radius, double mass) {
     return text.empty() ? column_problem(DiscColumn::mass, mass) : text;
 }
 
-std::string spin_problem(const Scene& scene, double spin) {
-    std::string text = column_problem(DiscColumn::spin, spin);
-    if (!text.empty() || scene.effects.contact.kind == ContactKind::rough) return text;
+std::string number_problem(const Scene& scene, SideColumn column, double number) {
+    std::string text = column_problem(disc_column_of(column), number);
+    if (!text.empty() || column != SideColumn::spin ||
+        scene.effects.contact.kind == ContactKind::rough)
+        return text;
     return "a spin has no meaning without effects.contact.kind = \"rough\"";
 }
 
@@ -53,17 +55,27 @@ void check_species(const Check& check) {
                                                     lists_bodies ? "discs.list" : "discs.columns"));
 }
 
-void check_spins(const Check& check) {
-    bool are_given = has_column(check.scene, DiscColumn::spin);
+/// Of columns beside the states.
+void check_numbers(const Check& check) {
+    BySideColumn<bool> are_given;
+    for (const SideColumn column : all_side_columns)
+        are_given[column] = has_column(check.scene, disc_column_of(column));
     check.refuse_rows("discs.list", [&](const Numbers& n, std::size_t) -> std::string {
         if (n.size() % 2 == 0) return {};
-        are_given = true;
-        return spin_problem(check.scene, n.back());
+        are_given[SideColumn::spin] = true;
+        return number_problem(check.scene, SideColumn::spin, n.back());
     });
-    check.refuse_rows("discs.species", [&](const Numbers& n, std::size_t) -> std::string {
-        if (n[3] == 0) return {};
-        return are_given ? "its spin is given by 'discs.list' or 'discs.columns' already"
-                         : spin_problem(check.scene, n[3]);
+    check.refuse_rows("discs.species", [&](const Numbers& n, std::size_t) {
+        std::string text;
+        for (const SideColumn column : all_side_columns) {
+            const double number = n[3 + static_cast<std::size_t>(column)];
+            if (number == 0 || !text.empty()) continue;
+            text = are_given[column]
+                       ? fmt::format("its {} is given by 'discs.list' or 'discs.columns' already",
+                                     info_of(column).name)
+                       : number_problem(check.scene, column, number);
+        }
+        return text;
     });
 }
 
@@ -249,7 +261,7 @@ bool check_discs(const Check& check) {
     const bool are_species_right = check.problems.size() == n_problems;
     fill_count(check);
     const bool is_right = fill_sizes(check) && are_species_right;
-    check_spins(check);
+    check_numbers(check);
     check_velocities(check);
     if (!is_right) {
         scene.radius = 0;

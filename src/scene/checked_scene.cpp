@@ -37,9 +37,11 @@ void derive_defaults(const Check& check) {
         scene.generator = Generator::file;
     if (check.columns && !check.columns->species.empty())
         scene.effects.species = check.columns->species;
-    if (check.columns && !check.columns->spins.empty()) scene.spins = check.columns->spins;
+    for (const SideColumn column : all_side_columns)
+        if (check.columns && !check.columns->numbers[column].empty())
+            scene.first_numbers[column] = check.columns->numbers[column];
     if (scene.trajectory && !settings.has("output.trajectory.fields"))
-        scene.trajectory->columns = side_columns_of(scene.effects);
+        scene.trajectory->columns = side_columns_of(scene);
     if (scene.measurements)
         scene.measurements->is_distance_default = !settings.has(
             "output.measurements.largest_distance");

@@ -33,10 +33,13 @@ std::vector<std::string> physical_differences(const Scene& there, const Scene& h
     for (const Key& key : keys())
         if (std::string text = difference_in(key, there, here); !text.empty())
             differences.push_back(std::move(text));
-    const bool are_spins_in_files = has_column(there, DiscColumn::spin) ||
-                                    has_column(here, DiscColumn::spin);
-    if (!are_spins_in_files && there.spins != here.spins) // checkpoints do not have those of files
-        differences.push_back("discs begin with other spins there");
+    for (const SideColumn column : all_side_columns) {
+        const DiscColumn of_files = disc_column_of(column); // checkpoints do not have those
+        if (!has_column(there, of_files) && !has_column(here, of_files) &&
+            there.first_numbers[column] != here.first_numbers[column])
+            differences.push_back(
+                fmt::format("discs begin with other {}s there", info_of(column).name));
+    }
     return differences;
 }
 

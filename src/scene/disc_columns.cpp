@@ -15,7 +15,7 @@ namespace {
 struct Row {
     DiscId id = 0;
     SizeAndMass body;
-    double spin = 0;
+    BySideColumn<double> beside;
 };
 
 /// What a line of `5 + columns.size()` words says, or nothing where DiscReader would refuse it.
@@ -29,7 +29,7 @@ std::optional<Row> row_of(const std::vector<std::string_view>& words,
     for (std::size_t k = 0; k < columns.size(); ++k) {
         const auto number = parse_double(words[5 + k]);
         if (!number || !column_problem(columns[k], *number).empty()) return std::nullopt;
-        number_of(columns[k], row.body, row.spin) = *number;
+        number_of(columns[k], row.body, row.beside) = *number;
     }
     return row;
 }
@@ -44,12 +44,12 @@ void add_species(std::vector<Species>& species, const Species& next) {
         species.push_back(next);
 }
 
-void add_spins(std::vector<SpinRun>& spins, std::uint64_t count, double spin) {
-    const DiscId end = (spins.empty() ? 0 : spins.back().end) + count;
-    if (!spins.empty() && spins.back().spin == spin)
-        spins.back().end = end;
+void add_numbers(std::vector<NumberRun>& runs, std::uint64_t count, double number) {
+    const DiscId end = (runs.empty() ? 0 : runs.back().end) + count;
+    if (!runs.empty() && runs.back().number == number)
+        runs.back().end = end;
     else
-        spins.push_back({end, spin});
+        runs.push_back({end, number});
 }
 
 bool has_column(const Scene& scene, DiscColumn column) {
@@ -57,10 +57,16 @@ bool has_column(const Scene& scene, DiscColumn column) {
            scene.disc_columns.end();
 }
 
-double& number_of(DiscColumn column, SizeAndMass& body, double& spin) {
+double& number_of(DiscColumn column, SizeAndMass& body, BySideColumn<double>& beside) {
     return column == DiscColumn::radius ? body.radius
            : column == DiscColumn::mass ? body.mass
-                                        : spin;
+                                        : beside[side_column_of(column)];
+}
+
+const char* name_of(DiscColumn column) {
+    return column == DiscColumn::radius ? "radius"
+           : column == DiscColumn::mass ? "mass"
+                                        : info_of(side_column_of(column)).name;
 }
 
 DiscColumns read_disc_columns(std::istream& stream, const Scene& scene) {
@@ -87,7 +93,9 @@ DiscColumns read_disc_columns(std::istream& stream, const Scene& scene) {
     for (const Row& row : rows) {
         if (has_column(scene, DiscColumn::radius))
             add_species(found.species, {1, row.body.radius, row.body.mass});
-        if (has_column(scene, DiscColumn::spin)) add_spins(found.spins, 1, row.spin);
+        for (const SideColumn column : all_side_columns)
+            if (has_column(scene, disc_column_of(column)))
+                add_numbers(found.numbers[column], 1, row.beside[column]);
     }
     return found;
 }

@@ -18,7 +18,7 @@ namespace carrom {
 /// says which.
 struct DiscColumns {
     std::vector<Species> species; ///< empty where radii are no column
-    std::vector<SpinRun> spins;   ///< likewise
+    FirstNumbers numbers{};       ///< likewise
     bool is_whole = true;
 };
 
@@ -28,9 +28,11 @@ DiscColumns read_disc_columns(std::istream& stream, const Scene& scene);
 
 bool has_column(const Scene& scene, DiscColumn column);
 /// Where the column's number of a disc belongs.
-double& number_of(DiscColumn column, SizeAndMass& body, double& spin);
+double& number_of(DiscColumn column, SizeAndMass& body, BySideColumn<double>& beside);
+/// As scenes call it.
+const char* name_of(DiscColumn column);
 /// Append discs, as a class or a run of their own only if they differ from those before.
 void add_species(std::vector<Species>& species, const Species& next);
-void add_spins(std::vector<SpinRun>& spins, std::uint64_t count, double spin);
+void add_numbers(std::vector<NumberRun>& runs, std::uint64_t count, double number);
 
 } // namespace carrom

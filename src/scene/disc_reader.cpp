@@ -18,10 +18,7 @@ namespace {
 /// What a line has.
 std::string columns_text(const std::vector<DiscColumn>& columns) {
     std::string text = "id x y vx vy";
-    for (const DiscColumn column : columns)
-        text += column == DiscColumn::radius ? " radius"
-                : column == DiscColumn::mass ? " mass"
-                                             : " spin";
+    for (const DiscColumn column : columns) text += std::string(" ") + name_of(column);
     return text;
 }
 
@@ -89,10 +86,10 @@ bool DiscReader::parse(std::string_view line, InputDisc& disc) {
         text += (text.empty() ? "" : "; ") + fault;
     };
     SizeAndMass body = species_.of(disc.id);
-    double spin = 0;
-    std::array<double*, 7> numbers = {&disc.x, &disc.y, &disc.vx, &disc.vy};
+    BySideColumn<double> beside;
+    std::array<double*, 6 + n_side_columns> numbers = {&disc.x, &disc.y, &disc.vx, &disc.vy};
     for (std::size_t k = 0; k < columns.size(); ++k)
-        numbers[4 + k] = &number_of(columns[k], body, spin);
+        numbers[4 + k] = &number_of(columns[k], body, beside);
     for (std::size_t i = 0; i + 1 < n_words; ++i) {
         const auto number = parse_double(words_[i + 1]);
         if (number)

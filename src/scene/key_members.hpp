@@ -43,9 +43,14 @@ template <>
 inline constexpr std::array words_of<VelocityKind>{Word{"maxwell", VelocityKind::maxwell},
                                                    Word{"uniform", VelocityKind::uniform}};
 template <>
-inline constexpr std::array words_of<DiscColumn>{Word{"radius", DiscColumn::radius},
-                                                 Word{"mass", DiscColumn::mass},
-                                                 Word{"spin", DiscColumn::spin}};
+inline constexpr auto words_of<DiscColumn> = [] {
+    std::array<Word<DiscColumn>, 2 + n_side_columns> words{Word{"radius", DiscColumn::radius},
+                                                           Word{"mass", DiscColumn::mass}};
+    for (const SideColumn column : all_side_columns)
+        words[2 + static_cast<std::size_t>(column)] = {info_of(column).name,
+                                                       disc_column_of(column)};
+    return words;
+}();
 template <>
 inline constexpr std::array words_of<ContactKind>{
     Word{"elastic", ContactKind::elastic}, Word{"none", ContactKind::none},

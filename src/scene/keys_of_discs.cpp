@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The keys of [box] without its sides, [discs] and [time].
+#include <algorithm>
+
 #include "scene/disc_columns.hpp"
 #include "scene/key_members.hpp"
 #include "scene/limits.hpp"
@@ -33,60 +35,86 @@ const Need naive{"without time.arithmetic = \"naive\"",
 /// Rows [x, y, vx, vy], then radius and mass, or the spin, or all three. Ids are their order.
 void set_list(Scene& scene, const Value& value) {
     bool have_spins = false;
-    std::vector<SpinRun> spins;
+    std::vector<NumberRun> spins;
     for (const Value& row : std::get<Values>(value.data)) {
         const Numbers n = row.is_nothing() ? Numbers(4) : std::get<Numbers>(row.data);
         scene.listed_discs.push_back({scene.listed_discs.size(), n[0], n[1], n[2], n[3]});
         if (n.size() >= 6) add_species(scene.effects.species, {1, n[4], n[5]});
         have_spins = have_spins || n.size() % 2 == 1;
-        add_spins(spins, 1, n.size() % 2 == 1 ? n.back() : 0);
+        add_numbers(spins, 1, n.size() % 2 == 1 ? n.back() : 0);
     }
-    if (have_spins) scene.spins = spins;
+    if (have_spins) scene.first_numbers[SideColumn::spin] = spins;
+}
+
+/// Numbers that rows of a list cannot have stand in rows of species beside it.
+bool are_species_listed(const Scene& scene) {
+    return std::any_of(all_side_columns.begin(), all_side_columns.end(), [&](SideColumn column) {
+        return column != SideColumn::spin && !scene.first_numbers[column].empty();
+    });
 }
 
 Value get_list(const Scene& scene) {
     if (scene.listed_discs.empty()) return {};
     const SpeciesTable species(scene.effects.species, scene.radius);
     Values rows;
+    const bool are_whole = !are_species_listed(scene);
     for (const InputDisc& disc : scene.listed_discs) {
         Numbers row{disc.x, disc.y, disc.vx, disc.vy};
         const SizeAndMass& body = species.of(disc.id);
-        if (!scene.effects.species.empty()) row.insert(row.end(), {body.radius, body.mass});
-        if (!scene.spins.empty()) row.push_back(first_spin(scene, disc.id));
+        if (are_whole && !scene.effects.species.empty())
+            row.insert(row.end(), {body.radius, body.mass});
+        if (are_whole && !scene.first_numbers[SideColumn::spin].empty())
+            row.push_back(first_number(scene, SideColumn::spin, disc.id));
         rows.push_back({std::move(row)});
     }
     return {std::move(rows)};
 }
 
-/// Rows count, radius, mass, spin.
+/// Where rows of species have a column's number, behind count, radius and mass.
+constexpr std::size_t place_of(SideColumn column) { return 3 + static_cast<std::size_t>(column); }
+
 void set_species(Scene& scene, const Value& value) {
-    bool have_spins = false;
-    std::vector<SpinRun> spins;
+    FirstNumbers numbers;
     for (const Value& row : std::get<Values>(value.data)) {
         if (row.is_nothing()) continue;
         const Numbers& n = std::get<Numbers>(row.data);
         if (!(n[0] >= 1 && n[0] <= static_cast<double>(largest_count))) continue;
         add_species(scene.effects.species, {static_cast<std::uint64_t>(n[0]), n[1], n[2]});
-        add_spins(spins, static_cast<std::uint64_t>(n[0]), n[3]);
-        have_spins = have_spins || n[3] != 0;
+        for (const SideColumn column : all_side_columns)
+            add_numbers(numbers[column], static_cast<std::uint64_t>(n[0]), n[place_of(column)]);
     }
-    if (have_spins) scene.spins = spins;
+    for (const SideColumn column : all_side_columns) {
+        const std::vector<NumberRun>& runs = numbers[column];
+        if (runs.size() > 1 || (runs.size() == 1 && runs[0].number != 0))
+            scene.first_numbers[column] = runs;
+    }
 }
 
 Value get_species(const Scene& scene) {
     const auto& species = scene.effects.species;
-    if (species.empty() || !scene.listed_discs.empty() || has_column(scene, DiscColumn::radius))
+    if (species.empty() || has_column(scene, DiscColumn::radius) ||
+        (!scene.listed_discs.empty() && !are_species_listed(scene)))
         return {};
-    const bool have_spins = !scene.spins.empty() && !has_column(scene, DiscColumn::spin);
+    FirstNumbers numbers;
+    for (const SideColumn column : all_side_columns)
+        if (!has_column(scene, disc_column_of(column)))
+            numbers[column] = scene.first_numbers[column];
+    BySideColumn<std::size_t> next; // run of each column
     Values rows;
     DiscId first = 0;
-    auto run = scene.spins.begin();
     for (const Species& one : species) {
         for (const DiscId last = first + one.count; first < last;) {
-            while (have_spins && run->end <= first) ++run;
-            const DiscId end = have_spins ? std::min(last, run->end) : last;
-            rows.push_back({Numbers{static_cast<double>(end - first), one.radius, one.mass,
-                                    have_spins ? run->spin : 0}});
+            DiscId end = last;
+            Numbers row{0, one.radius, one.mass};
+            for (const SideColumn column : all_side_columns) {
+                const std::vector<NumberRun>& runs = numbers[column];
+                std::size_t& run = next[column];
+                while (run < runs.size() && runs[run].end <= first) ++run;
+                if (run < runs.size()) end = std::min(end, runs[run].end);
+                row.push_back(run < runs.size() ? runs[run].number : 0);
+            }
+            row[0] = static_cast<double>(end - first);
+            rows.push_back({std::move(row)});
             first = end;
         }
     }
@@ -107,15 +135,15 @@ Key list_key() {
 }
 
 Key species_key() {
+    std::vector<Field> fields = {{"count", ""}, {"radius", ""}, {"mass", "", 1, 1, 1.0}};
+    for (const SideColumn column : all_side_columns)
+        fields.push_back({info_of(column).name, "", 1, 1, 0.0});
     Key key = named_key("discs.species", "discs, length, mass, 1/step",
                         "Species of discs in the order of ids, in place of one radius.")
                   .by_default("none")
                   .needs(not_legacy)
                   .formerly("discs.classes")
-                  .with_rows({{"count", ""},
-                              {"radius", ""},
-                              {"mass", "", 1, 1, 1.0},
-                              {"spin", "", 1, 1, 0.0}});
+                  .with_rows(fields);
     key.get = get_species;
     key.set = set_species;
     key.is_same = [](const Scene& a, const Scene& b) {

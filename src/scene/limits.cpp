@@ -56,21 +56,18 @@ std::string column_problem(DiscColumn column, double number) {
     const auto is_within = [number](double low, double high) {
         return number >= low && number <= high;
     };
-    switch (column) {
-    case DiscColumn::radius:
+    if (column == DiscColumn::radius)
         return is_within(smallest_length, largest_size)
                    ? ""
                    : fmt::format("the radius must be from 2^-230 to 2^250, not {}", number);
-    case DiscColumn::mass:
+    if (column == DiscColumn::mass)
         return is_within(smallest_mass, largest_mass)
                    ? ""
                    : fmt::format("the mass must be from 2^-100 to 2^100, not {}", number);
-    case DiscColumn::spin:
-        return is_within(-largest_size, largest_size)
-                   ? ""
-                   : fmt::format("the spin must be finite and at most 2^250, not {}", number);
-    }
-    return {};
+    return is_within(-largest_size, largest_size)
+               ? ""
+               : fmt::format("the {} must be finite and at most 2^250, not {}",
+                             info_of(side_column_of(column)).name, number);
 }
 
 namespace {

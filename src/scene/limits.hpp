@@ -41,7 +41,7 @@ std::string velocity_problem(double component);
 /// The same for a speed in this scene, which knows the box and the method; the box may be 0.
 std::string speed_problem(double speed, const Scene& scene);
 
-/// What is wrong with a disc's radius, mass or spin, or empty.
+/// What is wrong with a disc's radius, mass or number of a column beside its state, or empty.
 std::string column_problem(DiscColumn column, double number);
 
 /// All that is wrong with a disc that an input lists, or empty: a centre outside [r, L-r], r its

@@ -193,7 +193,7 @@ template <std::size_t k> Rule rule_of_column() {
     return rule(side_column_table[k].shown, "discs without it", side_column_table[k].needs,
                 {"output.trajectory.fields"}, [](const Scene& s) {
                     return s.trajectory && s.trajectory->columns.flags[k] &&
-                           !side_columns_of(s.effects).flags[k];
+                           !side_columns_of(s).flags[k];
                 });
 }
 template <std::size_t... k> std::vector<Rule> rules_of_columns(std::index_sequence<k...>) {
@@ -233,7 +233,9 @@ std::vector<Rule> rules_of_outputs() {
              }),
         rule("spins in discs.columns", "discs that are not rough",
              "spins have no meaning without effects.contact.kind = \"rough\"", {"discs.columns"},
-             [](const Scene& s) { return has_column(s, DiscColumn::spin) && !is_rough(s); }),
+             [](const Scene& s) {
+                 return has_column(s, disc_column_of(SideColumn::spin)) && !is_rough(s);
+             }),
         rule("masses in discs.columns", "columns without radii", "a species has both",
              {"discs.columns"},
              [](const Scene& s) {

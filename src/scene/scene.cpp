@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <numbers>
 
+#include "scene/disc_columns.hpp"
+
 namespace carrom {
 
 double Scene::packing() const {
@@ -18,11 +20,22 @@ double Scene::packing() const {
     return static_cast<double>(n_discs) * std::numbers::pi * (radius / box.x) * (radius / box.y);
 }
 
-double first_spin(const Scene& scene, DiscId id) {
+double first_number(const Scene& scene, SideColumn column, DiscId id) {
+    const std::vector<NumberRun>& runs = scene.first_numbers[column];
     const auto run = std::upper_bound(
-        scene.spins.begin(), scene.spins.end(), id,
-        [](DiscId wanted, const SpinRun& one) { return wanted < one.end; });
-    return run == scene.spins.end() ? 0 : run->spin;
+        runs.begin(), runs.end(), id,
+        [](DiscId wanted, const NumberRun& one) { return wanted < one.end; });
+    return run == runs.end() ? 0 : run->number;
+}
+
+SideColumnSet side_columns_of(const Scene& scene) {
+    SideColumnSet columns = side_columns_of(scene.effects);
+    for (const SideColumn column : all_side_columns) {
+        const bool is_given = !scene.first_numbers[column].empty() ||
+                              has_column(scene, disc_column_of(column));
+        if (is_given && !info_of(column).is_of_dynamics) columns.add(column);
+    }
+    return columns;
 }
 
 std::string discs_path(const Scene& scene) {

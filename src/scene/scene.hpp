@@ -38,17 +38,30 @@ struct InputDisc {
     friend bool operator==(const InputDisc&, const InputDisc&) = default;
 };
 
-/// Discs whose ids follow each other, up to `end`, that have one spin at the start, an angle per
-/// step.
-struct SpinRun {
+/// Discs whose ids follow each other, up to `end`, that have one number at the start, per step
+/// where it is a rate.
+struct NumberRun {
     DiscId end = 0;
-    double spin = 0;
+    double number = 0;
 
-    friend bool operator==(const SpinRun&, const SpinRun&) = default;
+    friend bool operator==(const NumberRun&, const NumberRun&) = default;
 };
+/// In the order of ids; none of a column where all discs begin with 0.
+using FirstNumbers = BySideColumn<std::vector<NumberRun>>;
 
-/// What a line of `discs_file` may have behind `id x y vx vy`.
-enum class DiscColumn { radius, mass, spin };
+/// What a line of `discs_file` may have behind `id x y vx vy`: then come the columns beside the
+/// states.
+enum class DiscColumn : std::size_t { radius, mass, first_side };
+
+constexpr DiscColumn disc_column_of(SideColumn column) {
+    return static_cast<DiscColumn>(static_cast<std::size_t>(DiscColumn::first_side) +
+                                   static_cast<std::size_t>(column));
+}
+/// Of one that is neither radius nor mass.
+constexpr SideColumn side_column_of(DiscColumn column) {
+    return static_cast<SideColumn>(static_cast<std::size_t>(column) -
+                                   static_cast<std::size_t>(DiscColumn::first_side));
+}
 
 /// Discs generated inside this rectangle get this velocity added: a jet, a shear, a piston-like
 /// slab.
@@ -128,8 +141,7 @@ struct Scene {
     std::vector<Stream> streams;
     std::vector<InputDisc> listed_discs;  ///< discs written in the scene itself (`discs.list`)
     std::vector<DiscColumn> disc_columns; ///< of `discs_file`, in their order (`discs.columns`)
-    std::vector<SpinRun>
-        spins; ///< at the start, in the order of ids; empty where all discs begin without
+    FirstNumbers first_numbers;           ///< of columns beside the states
 
     std::int64_t steps = 0;
     Method method = Method::event_driven; ///< legacy text: time-stepped
@@ -164,8 +176,12 @@ struct Scene {
     bool reads_disc_lines() const { return generator == Generator::file && listed_discs.empty(); }
 };
 
-/// A disc's spin at the start.
-double first_spin(const Scene& scene, DiscId id);
+/// A disc's number at the start.
+double first_number(const Scene& scene, SideColumn column, DiscId id);
+
+/// The columns beside the states that the scene's discs have: those that its dynamics need, and
+/// those that it gives numbers of.
+SideColumnSet side_columns_of(const Scene& scene);
 
 /// Where `discs_file` or `discs_from` lies: relative to the folder of the scene's own file.
 std::string discs_path(const Scene& scene);

@@ -43,7 +43,7 @@ std::vector<std::vector<InputDisc>> in_parts(std::vector<InputDisc> discs) {
 StoredState first_state(const Scene& scene, std::vector<InputDisc> inputs) {
     const auto k = static_cast<double>(scene.micro_steps);
     StoredState state;
-    std::vector<double> spins;
+    BySideColumn<std::vector<double>> numbers;
     const std::size_t n = inputs.size();
     std::vector<std::vector<InputDisc>> parts = in_parts(std::move(inputs));
     state.discs.reserve(n + n / own_per_halo + 1024);
@@ -55,10 +55,14 @@ StoredState first_state(const Scene& scene, std::vector<InputDisc> inputs) {
             disc.y = input.y;
             disc.vx = input.vx / k;
             disc.vy = input.vy / k;
-            if (!scene.spins.empty()) spins.push_back(first_spin(scene, input.id) / k);
+            for (const SideColumn column : all_side_columns)
+                if (!scene.first_numbers[column].empty())
+                    numbers[column].push_back(first_number(scene, column, input.id) /
+                                              (info_of(column).is_rate ? k : 1));
         }
     }
-    if (!spins.empty()) state.columns.add(SideColumn::spin, std::move(spins));
+    for (const SideColumn column : all_side_columns)
+        if (!numbers[column].empty()) state.columns.add(column, std::move(numbers[column]));
     return state;
 }
 
@@ -116,8 +120,9 @@ Simulation::Simulation(const Scene& scene, std::vector<InputDisc> discs,
 Simulation::Simulation(const Scene& scene, StoredState state, const Communicator& communicator,
                        const Tuning& tuning)
     : communicator_(communicator), velocity_unit_(static_cast<double>(scene.micro_steps)),
-      effects_(scene.effects), box_(scene.box), n_threads_(tuning.threads),
-      heaviest_(heaviest_of(scene)), averages_from_(scene.averages_from),
+      effects_(scene.effects), columns_(side_columns_of(scene)), box_(scene.box),
+      n_threads_(tuning.threads), heaviest_(heaviest_of(scene)),
+      averages_from_(scene.averages_from),
       engine_(engine_for(scene, std::move(state), communicator, tuning)),
       averages_(std::make_unique<BlockAverages>(averaged_system(scene, engine_->n_discs()))) {
     // Terms are some 2^50 units, and sums come to 2^75 of them.
@@ -234,11 +239,12 @@ std::span<const Disc> Simulation::discs() const {
 
 SideSpans Simulation::side_columns() const {
     if (engine_->departed().empty()) return engine_->side_columns();
-    stored_columns_ = SideColumns(engine_->side_columns());
-    side_columns_of(effects_).for_each([&](SideColumn column) {
-        if (!stored_columns_.has(column)) stored_columns_.add(column); // all have left
+    const SideSpans own = engine_->side_columns(), departed = engine_->departed_columns();
+    columns_.for_each([&](SideColumn column) {
+        std::vector<double> values(own[column].begin(), own[column].end());
+        values.insert(values.end(), departed[column].begin(), departed[column].end());
+        stored_columns_.add(column, std::move(values));
     });
-    stored_columns_.resize(engine_->own().size() + engine_->departed().size());
     return stored_columns_.spans();
 }
 

@@ -58,7 +58,7 @@ public:
     /// Own discs in no particular order: velocities per micro-step, times on `clock()`. Those that
     /// have left the box are among them (Disc::has_departed). Good until the next call.
     std::span<const Disc> discs() const;
-    /// Along `discs()`; those that have left the box have 0. Good until the next call.
+    /// Along `discs()`. Good until the next call.
     SideSpans side_columns() const;
     /// One of them, in angles per micro-step; empty where discs are not rough.
     std::span<const double> spins() const { return side_columns()[SideColumn::spin]; }
@@ -143,6 +143,7 @@ private:
     Communicator communicator_;
     double velocity_unit_;
     Effects effects_; ///< times in steps
+    SideColumnSet columns_;
     Box box_;
     int n_threads_;
     double heaviest_ = 1; ///< mass of a disc

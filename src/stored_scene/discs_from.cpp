@@ -41,15 +41,20 @@ std::size_t frame_of(const std::string& path, const FileSummary& summary,
 } // namespace
 
 FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t> step,
-                            bool wants_spins) {
+                            const SideColumnSet& wanted) {
     const FrameFile file(path);
     const std::size_t frame = frame_of(path, file.summary(), step);
     FileOfDiscs discs;
     discs.n_discs = file.summary().n_rows;
-    discs.have_spins = wants_spins && file.summary().has("angular_velocity");
     std::vector<std::size_t> places;
     for (const char* column : columns) places.push_back(file.summary().place_of(column));
-    if (discs.have_spins) places.push_back(file.summary().place_of("angular_velocity"));
+    std::vector<std::string> names;
+    wanted.for_each([&](SideColumn column) {
+        if (!file.summary().has(info_of(column).shown)) return;
+        places.push_back(file.summary().place_of(info_of(column).shown));
+        names.push_back(fmt::format("\"{}\"", info_of(column).name));
+    });
+    if (!names.empty()) discs.columns = fmt::format("[{}]", fmt::join(names, ", "));
     auto out = std::back_inserter(discs.lines);
     Rows rows;
     for (std::uint64_t begin = 0; begin < discs.n_discs; begin += block) {

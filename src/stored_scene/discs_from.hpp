@@ -8,17 +8,20 @@
 #include <optional>
 #include <string>
 
+#include "core/side_columns.hpp"
+
 namespace carrom {
 
 struct FileOfDiscs {
     std::uint64_t n_discs = 0;
-    bool have_spins = false; ///< lines end in the disc's spin
-    std::string lines;       ///< `id x y vx vy`, per step, by id
+    std::string columns; ///< `discs.columns` of the lines, or empty
+    std::string lines;   ///< `id x y vx vy`, per step, by id
 };
 
-/// The frame of `step`, or the last one. `wants_spins`: those that the file has. Damage is to be
-/// looked for before (check_damage). Throws InputError naming the file. Not collective.
+/// The frame of `step`, or the last one. `wanted`: columns beside the states, where the file has
+/// them. Damage is to be looked for before (check_damage). Throws InputError naming the file. Not
+/// collective.
 FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t> step,
-                            bool wants_spins);
+                            const SideColumnSet& wanted);
 
 } // namespace carrom

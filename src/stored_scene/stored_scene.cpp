@@ -34,7 +34,7 @@ CheckpointHeader header_now(const Scene& scene, const Simulation& simulation) {
     header.step = simulation.step();
     header.micro_steps_done = simulation.micro_steps_done();
     header.frame = simulation.frame();
-    header.columns = side_columns_of(scene.effects);
+    header.columns = side_columns_of(scene);
     header.shown = system_of(scene);
     return header;
 }
@@ -63,7 +63,7 @@ void refuse_other_run(const CheckpointHeader& header, const Scene& scene,
     std::vector<Problem> problems;
     for (const std::string& difference : physical_differences(there, scene))
         problems.push_back({place, 0, difference + "; a restart cannot change it"});
-    if (header.columns != side_columns_of(there.effects))
+    if (header.columns != side_columns_of(there))
         problems.push_back({place, 0, "its scene and its columns of discs do not agree"});
     if (!problems.empty()) throw InputError(std::move(problems));
 }

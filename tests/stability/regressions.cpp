@@ -219,8 +219,9 @@ Regression regression_of(const std::string& text, const std::string& name) {
     scene.setting.sync_every = read.sync_every;
     scene.setting.effects = read.effects;
     scene.discs = read.listed_discs;
-    for (std::size_t id = 0; id < scene.discs.size() && !read.spins.empty(); ++id)
-        scene.setting.first_spins.push_back(first_spin(read, id));
+    const bool has_spins = !read.first_numbers[SideColumn::spin].empty();
+    for (std::size_t id = 0; id < scene.discs.size() && has_spins; ++id)
+        scene.setting.first_spins.push_back(first_number(read, SideColumn::spin, id));
     if (!read.effects.are_any()) return {scene, {Method::time_stepped, Method::event_driven}};
     hand_to_reference(scene.setting);
     return {scene, {read.method}};

@@ -45,8 +45,9 @@ Scene scene_of(const TestScene& test_scene) {
     scene.micro_steps = test_scene.setting.micro_steps;
     scene.sync_every = test_scene.setting.sync_every;
     scene.effects = test_scene.setting.effects;
+    std::vector<NumberRun>& spins = scene.first_numbers[SideColumn::spin];
     for (const double spin : test_scene.setting.first_spins)
-        scene.spins.push_back({scene.spins.size() + 1, spin});
+        spins.push_back({spins.size() + 1, spin});
     return scene;
 }
 

@@ -80,26 +80,28 @@ TEST_CASE("Spins at the start come from a file, a list or species") {
                                   "0 10 10 1 0 0.5\n2 30 30 0 0 -2\n1 20 20 0 0 0.5\n");
     CHECK(file.effects.species.empty());
     CHECK(file.radius == 1);
-    CHECK(file.spins == std::vector<SpinRun>{{2, 0.5}, {3, -2}});
-    CHECK(first_spin(file, 0) == 0.5);
-    CHECK(first_spin(file, 1) == 0.5);
-    CHECK(first_spin(file, 2) == -2);
+    CHECK(file.first_numbers[SideColumn::spin] == std::vector<NumberRun>{{2, 0.5}, {3, -2}});
+    CHECK(first_number(file, SideColumn::spin, 0) == 0.5);
+    CHECK(first_number(file, SideColumn::spin, 1) == 0.5);
+    CHECK(first_number(file, SideColumn::spin, 2) == -2);
     const Scene list = read_scene(
         box + "[discs]\nradius = 1\nlist = [[10, 10, 1, 0], [20, 20, 0, 0, 0.25]]\n" + rough,
         "s.toml");
-    CHECK(list.spins == std::vector<SpinRun>{{1, 0}, {2, 0.25}});
+    CHECK(list.first_numbers[SideColumn::spin] == std::vector<NumberRun>{{1, 0}, {2, 0.25}});
     const Scene all = read_scene(
         box + "[discs]\nlist = [[10, 10, 1, 0, 2, 3, 1.5], [20, 20, 0, 0, 1, 1]]\n" + rough,
         "s.toml");
     CHECK(all.effects.species == std::vector<Species>{{1, 2, 3}, {1, 1, 1}});
-    CHECK(all.spins == std::vector<SpinRun>{{1, 1.5}, {2, 0}});
+    CHECK(all.first_numbers[SideColumn::spin] == std::vector<NumberRun>{{1, 1.5}, {2, 0}});
     const std::string species = "[[discs.species]]\ncount = 3\nradius = 2\nspin = "
                                 "-1\n[[discs.species]]\ncount = 40\nradius = 0.5\n";
     const Scene kinds = read_scene(box + species + rough, "s.toml");
-    CHECK(kinds.spins == std::vector<SpinRun>{{3, -1}, {43, 0}});
-    CHECK(first_spin(kinds, 2) == -1);
-    CHECK(first_spin(kinds, 3) == 0);
-    CHECK(read_scene(box + "[discs]\ncount = 5\nradius = 1\n" + rough, "s.toml").spins.empty());
+    CHECK(kinds.first_numbers[SideColumn::spin] == std::vector<NumberRun>{{3, -1}, {43, 0}});
+    CHECK(first_number(kinds, SideColumn::spin, 2) == -1);
+    CHECK(first_number(kinds, SideColumn::spin, 3) == 0);
+    CHECK(read_scene(box + "[discs]\ncount = 5\nradius = 1\n" + rough, "s.toml")
+              .first_numbers[SideColumn::spin]
+              .empty());
     CHECK(physical_differences(
               kinds, read_scene(box +
                                     "[[discs.species]]\ncount = 3\nradius = "

@@ -43,7 +43,7 @@ Texts keys_that_differ(const Scene& a, const Scene& b) {
         else if (table.is_in(a) && !key.is_same(a, b))
             names.push_back(key.name);
     }
-    if (a.spins != b.spins) names.push_back("spins");
+    if (a.first_numbers != b.first_numbers) names.push_back("first_numbers");
     if (!(a.effects == b.effects)) names.push_back("effects");
     return names;
 }
