@@ -124,9 +124,9 @@ std::size_t FileSummary::place_of(std::string_view column) const {
 
 struct FrameFile::State {
     h5::File file;
-    CheckpointHeader header;       ///< of a checkpoint
-    std::vector<Source> sources;   ///< of a recording's columns
-    std::vector<Segment> segments; ///< of a recording
+    CheckpointHeader header;           ///< of a checkpoint
+    std::vector<Source> sources;       ///< of a recording's columns
+    std::vector<FileSegment> segments; ///< of a recording
 };
 
 FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_unique<State>()) {
@@ -200,7 +200,7 @@ void FrameFile::try_all_parts() const {
     std::uint64_t first = 0;
     const std::uint64_t n = std::min<std::uint64_t>(1, summary_.n_rows);
     if (summary_.kind == FileKind::checkpoint) read(0, 0, n, rows);
-    for (const Segment& segment : state_->segments) {
+    for (const FileSegment& segment : state_->segments) {
         if (segment.rows > 0 && summary_.kind == FileKind::trajectory) read(first, 0, n, rows);
         if (segment.rows > 0 && summary_.kind == FileKind::collisions)
             read(0, first, first + 1, rows);

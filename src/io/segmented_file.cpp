@@ -87,7 +87,7 @@ void SegmentedFile::take_over(const std::string& step, std::int64_t last,
     look();
     index_ = check_segments(path_, true);
     n_rows_ = first_unsynced_ = 0;
-    for (const Segment& segment : index_.segments) n_rows_ += segment.rows;
+    for (const FileSegment& segment : index_.segments) n_rows_ += segment.rows;
     cut(n_rows);
 }
 
@@ -107,13 +107,13 @@ void SegmentedFile::check_columns(hid_t file, const Index& index) const {
 
 /// Leaves out what is beyond. The last segment is written to next.
 void SegmentedFile::cut(std::uint64_t n_rows) {
-    std::vector<Segment>& segments = index_.segments;
+    std::vector<FileSegment>& segments = index_.segments;
     while (!segments.empty() && n_rows_ - segments.back().rows >= n_rows) {
         n_rows_ -= segments.back().rows;
         segments.pop_back();
     }
     if (segments.empty()) return;
-    Segment& segment = segments.back();
+    FileSegment& segment = segments.back();
     segment.rows -= n_rows_ - n_rows;
     hashers_ = hash_rows(segment_path(path_, segment.name), segment, index_.row_bytes,
                          segment.rows);
@@ -125,7 +125,7 @@ void SegmentedFile::make_segment() {
     std::uint64_t bytes_per_row = 0;
     for (const std::uint64_t bytes : index_.row_bytes) bytes_per_row += bytes;
     const std::uint64_t wanted = std::clamp(n_rows_ * bytes_per_row, least_room, most_room);
-    Segment segment;
+    FileSegment segment;
     segment.name = segment_name(path_, index_.segments.size() + 1);
     segment.room = std::max<std::uint64_t>(1, wanted / bytes_per_row);
     const std::string path = segment_path(path_, segment.name);
@@ -159,7 +159,7 @@ std::uint64_t SegmentedFile::room() {
 }
 
 void SegmentedFile::write(std::size_t column, std::span<const std::byte> numbers) {
-    const Segment& segment = segments().back();
+    const FileSegment& segment = segments().back();
     if (!open_)
         open_ = std::make_unique<Descriptor>(segment_path(path_, segment.name),
                                              O_WRONLY | O_NOFOLLOW);
@@ -173,7 +173,7 @@ void SegmentedFile::add(std::uint64_t n_rows) {
     for (std::size_t k = 0; k < written_.size(); ++k)
         ensure(std::exchange(written_[k], 0) == n_rows * index_.row_bytes[k],
                "a column of a recording has other rows than the others");
-    Segment& segment = index_.segments.back();
+    FileSegment& segment = index_.segments.back();
     segment.rows += n_rows;
     segment.numbers = sum_of(hashers_);
     n_rows_ += n_rows;
@@ -190,7 +190,7 @@ void SegmentedFile::write_virtual(hid_t file, const RecordedColumn& column) cons
     const h5::Properties creation = h5::dataset_creation();
     const std::vector<hsize_t> sizes = sizes_of(column, n_rows_);
     std::uint64_t first = 0;
-    for (const Segment& segment : segments()) {
+    for (const FileSegment& segment : segments()) {
         if (segment.rows == 0) continue;
         h5::checked(H5Pset_virtual(creation.id(), rows_of(sizes, first, segment.rows).id(),
                                    segment.name.c_str(), column.path.c_str(),

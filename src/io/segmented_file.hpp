@@ -81,7 +81,7 @@ public:
     void add(std::uint64_t n_rows);
 
     std::uint64_t n_rows() const { return n_rows_; }
-    const std::vector<Segment>& segments() const { return index_.segments; }
+    const std::vector<FileSegment>& segments() const { return index_.segments; }
 
 private:
     void take_over(const std::string& step, std::int64_t last,

@@ -70,7 +70,7 @@ StateHash sum_of(const ColumnHashers& hashers) {
     return sum;
 }
 
-ColumnHashers hash_rows(const std::string& path, const Segment& segment,
+ColumnHashers hash_rows(const std::string& path, const FileSegment& segment,
                         const std::vector<std::uint64_t>& row_bytes, std::uint64_t rows) {
     ColumnHashers hashers = hashers_of_columns(row_bytes.size());
     for (std::size_t k = 0; k < row_bytes.size(); ++k)
@@ -78,7 +78,7 @@ ColumnHashers hash_rows(const std::string& path, const Segment& segment,
     return hashers;
 }
 
-StateHash hash_of_structure(const std::string& path, const Segment& segment,
+StateHash hash_of_structure(const std::string& path, const FileSegment& segment,
                             const std::vector<std::uint64_t>& row_bytes) {
     std::vector<ByteRange> columns;
     for (std::size_t k = 0; k < row_bytes.size(); ++k)
@@ -109,7 +109,7 @@ Index read_index(hid_t file, const std::string& path) {
 
 void write_index(hid_t file, const Index& index) {
     std::vector<std::uint64_t> numbers;
-    for (const Segment& one : index.segments) {
+    for (const FileSegment& one : index.segments) {
         numbers.insert(numbers.end(), {one.rows, one.room, one.numbers.low, one.numbers.high,
                                        one.structure.low, one.structure.high});
         numbers.insert(numbers.end(), one.places.begin(), one.places.end());
@@ -143,7 +143,7 @@ Index check_segments(const std::string& path, bool are_rows_wanted) {
     if (std::memcmp(&wanted, bytes.data() + hashed, sizeof wanted) != 0)
         throw FileError("is damaged: its bytes do not have its checksum");
     Index index = read_index(h5::open_file(path, h5::Access::read).id(), path);
-    for (const Segment& segment : index.segments) {
+    for (const FileSegment& segment : index.segments) {
         try {
             const std::string part = segment_path(path, segment.name);
             if (hash_of_structure(part, segment, index.row_bytes) != segment.structure)

@@ -18,7 +18,7 @@
 
 namespace carrom {
 
-struct Segment {
+struct FileSegment {
     std::string name; ///< relative to the folder of the file that joins them
     std::uint64_t rows = 0, room = 0;
     StateHash numbers;                 ///< checksum of the rows that count
@@ -29,7 +29,7 @@ struct Segment {
 /// What the small file says of its segments.
 struct Index {
     std::vector<std::uint64_t> row_bytes; ///< of each column
-    std::vector<Segment> segments;
+    std::vector<FileSegment> segments;
 };
 
 /// "trajectory/0001.h5" for "run/trajectory.h5" and 1.
@@ -43,9 +43,9 @@ ColumnHashers hashers_of_columns(std::size_t n_columns);
 StateHash sum_of(const ColumnHashers& hashers);
 
 /// Of a segment's rows up to `rows`. Throws FileError.
-ColumnHashers hash_rows(const std::string& path, const Segment& segment,
+ColumnHashers hash_rows(const std::string& path, const FileSegment& segment,
                         const std::vector<std::uint64_t>& row_bytes, std::uint64_t rows);
-StateHash hash_of_structure(const std::string& path, const Segment& segment,
+StateHash hash_of_structure(const std::string& path, const FileSegment& segment,
                             const std::vector<std::uint64_t>& row_bytes);
 
 Index read_index(hid_t file, const std::string& path);

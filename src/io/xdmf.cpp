@@ -14,7 +14,7 @@ namespace {
 
 /// One frame: a row of a segment.
 struct Row {
-    const Segment& segment;
+    const FileSegment& segment;
     std::uint64_t number;
 };
 
@@ -56,14 +56,14 @@ std::string fixed(const std::string& file, const TrajectoryLayout& layout, const
 } // namespace
 
 void write_xdmf(const std::string& path, const TrajectoryLayout& layout,
-                std::span<const Segment> segments, std::span<const std::int64_t> steps) {
+                std::span<const FileSegment> segments, std::span<const std::int64_t> steps) {
     if (!layout.has_position) return; // nothing to be seen
     const std::string file = std::filesystem::path(path).filename().string();
     std::string text = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\"><Domain><Grid "
                        "Name=\"discs\" GridType=\"Collection\" "
                        "CollectionType=\"Temporal\">\n";
     std::size_t frame = 0;
-    for (const Segment& segment : segments)
+    for (const FileSegment& segment : segments)
         for (std::uint64_t k = 0; k < segment.rows; ++k, ++frame) {
             const Row row{segment, k};
             fmt::format_to(std::back_inserter(text),

@@ -15,6 +15,6 @@ namespace carrom {
 /// Writes trajectory.xdmf beside trajectory.h5, whole or not at all. Some 1 KB a frame. Throws
 /// FileError.
 void write_xdmf(const std::string& path, const TrajectoryLayout& layout,
-                std::span<const Segment> segments, std::span<const std::int64_t> steps);
+                std::span<const FileSegment> segments, std::span<const std::int64_t> steps);
 
 } // namespace carrom
