@@ -107,7 +107,7 @@ last=checkpoints/checkpoint-000000000060.h5
 places() { # PROGRAM SCENE: id, place, velocity and counters at the end
     "$1" convert "$2/$last" --to csv | cut -d, -f 1-8
 }
-for method in event-driven time-stepped; do
+for method in time-stepped event-driven; do
     for scene in open periodic; do
         name=${scene}_$method
         options=(--quiet --set "time.method=$method")
@@ -141,7 +141,7 @@ for method in event-driven time-stepped; do
     done
 done
 
-# Another run's checkpoint brings its charges along.
+# Another run's checkpoint brings its charges along. (The last run had no overlaps.)
 { grep -v 'file\|columns' periodic.toml | sed '/radius/a from = "'"one_$name/$last"'"'; } >from.toml
 CARROM_PROGRAM=$charged
 run 2 run from.toml --quiet --steps 0 -o from
