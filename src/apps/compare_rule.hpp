@@ -3,8 +3,7 @@
 // compare` finds out which mistake gives a student's line.
 //
 // A micro-step looks at all pairs whose paths may meet, sorts all candidates by the total order and
-// walks them. The decisions are those of the engine, bit for bit, where there is no mistake. Price:
-// up to N^2/2 predicates a micro-step, some 5 ns each; no windows, cells or strips.
+// walks them. Without a mistake the decisions are the engine's. Price: up to N^2/2 predicates.
 #pragma once
 
 #include <cstdint>

@@ -3,8 +3,7 @@
 // remembered instead of ending the process.
 //
 // Works on a file descriptor: a closed pipe or a full disk is then an errno at a known place. The
-// caller reports a failure to the other ranks. Under mpirun standard output is a pipe to mpirun,
-// which keeps a full disk to itself; a file is written by the program.
+// caller reports a failure to the other ranks.
 #pragma once
 
 #include <cstddef>

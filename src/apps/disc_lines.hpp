@@ -2,9 +2,8 @@
 // The discs of a step as lines of text, in id order: `step id x y vx vy`, with ` p_c w_c` on the
 // last step.
 //
-// Each rank sorts its own discs by id; then slab after slab of ids travels to rank 0, which never
-// holds more than one. Price: a sort of indices (4 bytes per disc), every disc sent once, some 0.8
-// us per line on rank 0.
+// Each rank sorts its own discs by id; then slab after slab of ids travels to rank 0. Price: a sort
+// of indices (4 bytes per disc), every disc sent once, some 0.8 us per line on rank 0.
 #pragma once
 
 #include <cstdint>

@@ -54,12 +54,13 @@ std::string span_text(const FrameFile& file) {
 
 /// The fields of a trajectory as scenes name them.
 std::string fields_text(const FileSummary& summary) {
-    constexpr std::array<std::array<const char*, 2>, 5> common = {
+    constexpr std::array<std::array<const char*, 2>, 6> common = {
         {{"position", "x"},
          {"velocity", "vx"},
          {"collisions", "pair_collisions"},
          {"psi6", "psi6_real"},
-         {"neighbours", "neighbours"}}};
+         {"neighbours", "neighbours"},
+         {"image", "image_x"}}};
     std::vector<std::string> fields;
     for (const auto& [field, column] : common)
         if (summary.has(column)) fields.emplace_back(field);

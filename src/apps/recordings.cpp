@@ -63,6 +63,14 @@ Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_resta
                           scene_.collisions->file, step + 1);
         simulation.log_to(&collisions_);
     }
+    if (scene_.trajectory && scene_.trajectory->has_image) {
+        images_.emplace(scene_.box, simulation, ranks_);
+        if (samples.have_images)
+            images_->go_on(samples.first_places, &FirstPlace::image_x, &FirstPlace::image_y);
+        else if (is_restart && ranks_.is_root() && step > 0)
+            print_message("{}: image counts from step {}; the checkpoint has no counts\n",
+                          scene_.trajectory->file, step);
+    }
     if (scene_.measurements) {
         sampler_.emplace(scene_, simulation, ranks_);
         if (is_restart) sampler_->go_on(std::move(samples));
@@ -71,8 +79,7 @@ Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_resta
     if (!is_restart) record(simulation);
 }
 
-/// What the restart of a run finds of its trajectory: a frame for each time that one was due, or
-/// not.
+/// What the restart of a run finds of its trajectory.
 void Recordings::report_missing_frames(std::int64_t last, std::int64_t step) const {
     const std::int64_t every = scene_.trajectory->every_steps, last_due = step / every * every;
     if (!ranks_.is_root() || last >= last_due) return;
@@ -93,12 +100,14 @@ void Recordings::record(const Simulation& simulation) {
     const std::int64_t step = simulation.step();
     if (log_) record_collisions();
     if (sampler_) sample();
+    if (images_) static_cast<void>(images_->counts()); // so that they need little memory
     if (trajectory_ && step % scene_.trajectory->every_steps == 0) {
         std::vector<BondOrder> orders; // first: finding them moves discs in memory
         if (scene_.trajectory->has_psi6 || scene_.trajectory->has_neighbours)
             orders = simulation.bond_orders();
+        const std::vector<DiscImage> images = images_ ? images_->now() : std::vector<DiscImage>{};
         trajectory_->append(step, simulation.shown(), simulation.clock(), simulation.side_columns(),
-                            orders);
+                            orders, images);
     }
     commit_now_and_then();
 }
@@ -132,6 +141,13 @@ void Recordings::commit() {
     if (trajectory_) trajectory_->commit();
     if (log_) log_->commit();
     if (sampler_) write_tables(scene_, sampler_->tables(), ranks_);
+}
+
+StoredSamples Recordings::samples() {
+    StoredSamples samples = sampler_ ? sampler_->stored() : StoredSamples{};
+    samples.have_images = images_.has_value();
+    if (images_) images_->store(samples.first_places, &FirstPlace::image_x, &FirstPlace::image_y);
+    return samples;
 }
 
 void Recordings::finish() {

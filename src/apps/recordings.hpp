@@ -3,8 +3,7 @@
 // total order, and measurements, whose tables are written with each checkpoint and at the end. The
 // table "thermo" is written as it grows.
 //
-// Recordings are committed before each checkpoint, and every few seconds, so that readers see a run
-// that goes on.
+// They are committed before each checkpoint, and every few seconds for readers.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +14,7 @@
 #include "apps/stopwatch.hpp"
 #include "io/collision_log.hpp"
 #include "io/trajectory.hpp"
+#include "measure/image_counts.hpp"
 #include "measure/sampler.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
@@ -47,8 +47,8 @@ public:
     /// The same, at the end of the run. **Collective.**
     void finish();
 
-    /// What a checkpoint has to keep of the measurements. **Collective.**
-    StoredSamples samples() const { return sampler_ ? sampler_->stored() : StoredSamples{}; }
+    /// What a checkpoint has to keep of measurements and image counts. **Collective.**
+    StoredSamples samples();
     std::vector<MeasuredTable> tables() const {
         return sampler_ ? sampler_->tables() : std::vector<MeasuredTable>{};
     }
@@ -65,6 +65,7 @@ private:
     std::optional<CollisionLog> log_;
     std::optional<Sampler> sampler_;
     ThermoFile thermo_;
+    std::optional<ImageCounts> images_;
     Stopwatch since_look_;
     double seconds_uncommitted_ = 0, commit_seconds_ = 0; ///< on rank 0's clock
     std::vector<Collision> collisions_; ///< of this rank since they were last recorded

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The folder of a run: all that it writes, and a copy of its scene to go on with.
-//
-//   scene.toml (scene.in for legacy text), report.json, .carrom.lock
-//   checkpoints/checkpoint-STEP.h5
-//   trajectory.h5, trajectory.xdmf, trajectory/NNNN.h5
-//   collisions.h5, collisions/NNNN.h5
-//   measurements/NAME.csv
+// The folder of a run: all that it writes (docs/reference/formats.md), and a copy of its scene to
+// go on with.
 //
 // One run writes there at a time: one lock. A run that begins anew needs a folder without a run.
 // All calls are rank 0's.

@@ -4,11 +4,10 @@
 //
 // A pilot brings the scene's discs to equilibrium, runs them under the event-driven method, and
 // then in the time-stepped method with K = 1, 2, 4, ... micro-steps, until one is good enough or
-// two in succession are as expensive as the event-driven method. Cost grows with K but for small
-// ups and downs, so the first good one is the cheapest. Good enough is what is so after 100
-// collisions of a disc, and does not become worse: in dense gases discs that overlap stay together,
-// and errors grow for as long as a run goes on. Single precision and the naive formula are not
-// tried: they save next to no time (docs/understanding/accuracy.md).
+// two in succession are as expensive as the event-driven method. Cost grows with K, so the first
+// good one is the cheapest. Good enough is what is so after 100 collisions of a disc, and does not
+// become worse, as in dense gases. Single precision and the naive formula save next to no time
+// (docs/understanding/accuracy.md).
 #pragma once
 
 #include <vector>

@@ -17,7 +17,15 @@ struct FirstPlace {
     double lengths_x = 0, lengths_y = 0; ///< in a periodic box: how many box lengths it has been
                                          ///< brought back by since then
     double vx = 0, vy = 0;               ///< then, per step
+    double image_x = 0, image_y = 0;     ///< box lengths likewise, since the scene's start
 };
+
+/// How many box lengths a disc has flown on beyond a periodic box since the scene's start.
+struct DiscImage {
+    DiscId id = 0;
+    std::int32_t x = 0, y = 0;
+};
+inline constexpr std::int32_t most_images = 1 << 30;
 
 struct StoredSamples {
     std::vector<std::int64_t> averages; ///< the same on all ranks; empty before the first block
@@ -25,6 +33,7 @@ struct StoredSamples {
     bool have_first_places = false;     ///< the same on all ranks
     bool have_lengths = false;          ///< likewise
     bool have_velocities = false;       ///< likewise
+    bool have_images = false;           ///< likewise; of a trajectory
     /// A run of ids without gaps: to be written, of this rank's pieces (pieces.hpp); as read, of
     /// its slab (slabs.hpp).
     std::vector<FirstPlace> first_places;

@@ -81,7 +81,10 @@ public:
         no_virial_.clear();
     }
     /// See Simulation::note_crossings_in.
-    void note_crossings_in(std::vector<Crossing>* crossings) { crossings_ = crossings; }
+    void note_crossings_in(std::vector<Crossing>& crossings) { crossings_.push_back(&crossings); }
+    void forget_crossings_in(std::vector<Crossing>& crossings) {
+        std::erase(crossings_, &crossings);
+    }
 
 protected:
     /// From (x, y) to where the disc is now. Threads may call it at once.
@@ -92,7 +95,7 @@ protected:
     WallImpulses* impulses_ = nullptr;
     PairVirial* virial_ = nullptr;
     PairVirial no_virial_{1}; ///< where parts of it begin
-    std::vector<Crossing>* crossings_ = nullptr;
+    std::vector<std::vector<Crossing>*> crossings_;
 };
 
 } // namespace carrom

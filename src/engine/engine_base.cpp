@@ -16,8 +16,9 @@ void Engine::note_crossing(const Disc& disc, double x, double y, const Periods& 
         return period == 0 ? 0 : std::round(far / period);
     };
 #pragma omp critical(crossings)
-    crossings_->push_back(
-        {disc.id, lengths(x - disc.x, periods.x), lengths(y - disc.y, periods.y)});
+    for (std::vector<Crossing>* crossings : crossings_)
+        crossings->push_back(
+            {disc.id, lengths(x - disc.x, periods.x), lengths(y - disc.y, periods.y)});
 }
 
 namespace {
@@ -131,7 +132,7 @@ template <class Dynamics> void EngineBase<Dynamics>::wrap(Disc& disc) {
     if constexpr (Dynamics::is_periodic) {
         const double x = disc.x, y = disc.y;
         dynamics_.wrap(disc);
-        if (crossings_ && (x != disc.x || y != disc.y))
+        if (!crossings_.empty() && (x != disc.x || y != disc.y))
             note_crossing(disc, x, y, dynamics_.periods());
     }
 }

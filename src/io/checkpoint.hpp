@@ -8,10 +8,9 @@
 // step, in single precision). Checksums of all bytes are in /carrom/checksums (checksums.hpp).
 //
 // Rank 0 makes the file and takes its room on disk. Then each rank writes its share of the ids
-// through HDF5 and MPI-IO, and reads it so. Price of writing: 80 bytes a disc to disk, and a disc
-// is sent once if it is another rank's. Memory: 8 bytes a disc and some megabytes. A column beside
-// the states takes 8 bytes a disc more on disk and 24 of memory. Collective transfers take 80 bytes
-// a disc of memory more.
+// through HDF5 and MPI-IO, and reads it so. Price: 80 bytes a disc to disk, and a disc is sent once
+// if it is another rank's; 8 bytes a disc of memory, in collective transfers 80 more. A column
+// beside the states takes 8 bytes a disc on disk and 24 of memory.
 #pragma once
 
 #include <cstdint>

@@ -71,22 +71,23 @@ inline constexpr std::array<FrameField, 6> checkpoint_frame = {{{"frame_x", &Fra
                                                                 {"frame_slowing", &Frame::slowing},
                                                                 {"frame_clock", &Frame::clock}}};
 
-/// A dataset of /carrom/measurements: one number for each disc.
+/// What measurements and trajectories go on with: one number for each disc.
 struct SampleColumn {
-    const char* name;
+    const char* path;
     double FirstPlace::* field;
     bool StoredSamples::* is_there;
 
-    std::string path() const { return std::string("/carrom/measurements/") + name; }
     bool is_in(const StoredSamples& samples) const { return samples.*is_there; }
 };
-inline constexpr std::array<SampleColumn, 6> sample_columns = {
-    {{"first_x", &FirstPlace::x, &StoredSamples::have_first_places},
-     {"first_y", &FirstPlace::y, &StoredSamples::have_first_places},
-     {"lengths_x", &FirstPlace::lengths_x, &StoredSamples::have_lengths},
-     {"lengths_y", &FirstPlace::lengths_y, &StoredSamples::have_lengths},
-     {"first_vx", &FirstPlace::vx, &StoredSamples::have_velocities},
-     {"first_vy", &FirstPlace::vy, &StoredSamples::have_velocities}}};
+inline constexpr std::array<SampleColumn, 8> sample_columns = {
+    {{"/carrom/measurements/first_x", &FirstPlace::x, &StoredSamples::have_first_places},
+     {"/carrom/measurements/first_y", &FirstPlace::y, &StoredSamples::have_first_places},
+     {"/carrom/measurements/lengths_x", &FirstPlace::lengths_x, &StoredSamples::have_lengths},
+     {"/carrom/measurements/lengths_y", &FirstPlace::lengths_y, &StoredSamples::have_lengths},
+     {"/carrom/measurements/first_vx", &FirstPlace::vx, &StoredSamples::have_velocities},
+     {"/carrom/measurements/first_vy", &FirstPlace::vy, &StoredSamples::have_velocities},
+     {"/carrom/trajectory/image_x", &FirstPlace::image_x, &StoredSamples::have_images},
+     {"/carrom/trajectory/image_y", &FirstPlace::image_y, &StoredSamples::have_images}}};
 /// And for one of a periodic box.
 inline constexpr std::array<FrameField, 2> checkpoint_periods = {
     {{"period_x", &Frame::period_x}, {"period_y", &Frame::period_y}}};

@@ -65,7 +65,7 @@ bool is_listed(const Checksums& sums, const std::string& path) {
 StoredSamples samples_of(hid_t file, const Checksums& sums) {
     StoredSamples samples;
     for (const SampleColumn& column : sample_columns)
-        if (is_listed(sums, column.path())) samples.*column.is_there = true;
+        if (is_listed(sums, column.path)) samples.*column.is_there = true;
     if (h5::has(file, averages_path))
         samples.averages = h5::read_column<std::int64_t>(file, averages_path);
     if (!h5::has(file, measurements_path)) return samples;
@@ -80,7 +80,7 @@ void check_disc_data(const Contents& contents) {
     for (const StateColumn& column : disc_columns) wanted.push_back(path_of(column));
     contents.header.columns.for_each([&](SideColumn column) { wanted.push_back(path_of(column)); });
     for (const SampleColumn& column : sample_columns)
-        if (column.is_in(contents.samples)) wanted.push_back(column.path());
+        if (column.is_in(contents.samples)) wanted.push_back(column.path);
     for (const std::string& path : wanted)
         if (!is_listed(contents.sums, path)) throw FileError("has no " + path);
     for (const DiscData& data : contents.sums.data)
@@ -259,6 +259,7 @@ std::vector<Disc> read_discs(const WholeFile& file, const Share& share) {
 double most_of(const SampleColumn& column, double longest_side) {
     if (column.is_there == &StoredSamples::have_velocities)
         return std::numeric_limits<double>::max();
+    if (column.is_there == &StoredSamples::have_images) return most_images;
     return column.is_there == &StoredSamples::have_lengths ? most_lengths
                                                            : farthest_place * longest_side;
 }
@@ -266,17 +267,17 @@ double most_of(const SampleColumn& column, double longest_side) {
 /// Throws FileError.
 std::vector<FirstPlace> read_places(const WholeFile& file, const Share& share) {
     const StoredSamples& samples = file.contents.samples;
-    if (!samples.have_first_places) return {};
+    if (!samples.have_first_places && !samples.have_images) return {};
     std::vector<FirstPlace> places(share.size());
     for (std::size_t i = 0; i < places.size(); ++i) places[i].id = share.begin + i;
     std::vector<double> numbers(share.size());
     for (const SampleColumn& column : sample_columns) {
         if (!column.is_in(samples)) continue;
-        file.read(column.path(), std::span(numbers), share.begin, H5T_NATIVE_DOUBLE);
+        file.read(column.path, std::span(numbers), share.begin, H5T_NATIVE_DOUBLE);
         const double most = most_of(column, file.contents.header.box().longest());
         for (std::size_t i = 0; i < places.size(); ++i) {
             if (!(std::fabs(numbers[i]) <= most))
-                throw FileError(column.path() + " holds what is no place");
+                throw FileError(std::string(column.path) + " holds what is no place");
             places[i].*column.field = numbers[i];
         }
     }

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include <fcntl.h>
 
+#include "io/checked_dataset.hpp"
 #include "io/checkpoint_fields.hpp"
 #include "io/files.hpp"
 #include "io/h5md.hpp"
@@ -34,12 +36,17 @@ void put_each(std::span<const Disc> discs, std::byte* out, const NumberOf& numbe
     }
 }
 
-void create_column(hid_t parent, const char* name, std::span<const hsize_t> dimensions,
-                   hid_t type) {
+void create_column(hid_t parent, const char* name, std::span<const hsize_t> dimensions, hid_t type,
+                   const std::string& unit = "") {
     const h5::Properties creation = h5::allocated_creation();
     const h5::Dataset dataset(h5::checked(H5Dcreate2(parent, name, type, h5::space(dimensions).id(),
                                                      H5P_DEFAULT, creation.id(), H5P_DEFAULT),
                                           name));
+    h5md::write_unit(dataset.id(), unit);
+}
+
+void write_unit(hid_t parent, const char* name, const std::string& unit) {
+    h5md::write_unit(h5::open_checked(parent, name).id(), unit);
 }
 
 /// A group of one frame: its step and time here, its `value` is the caller's.
@@ -49,6 +56,7 @@ h5::Group create_frame(hid_t parent, const char* name, const CheckpointHeader& h
     const auto time = static_cast<double>(header.step);
     h5::write_whole(group.id(), "step", one, H5T_NATIVE_INT64, &header.step);
     h5::write_whole(group.id(), "time", one, H5T_NATIVE_DOUBLE, &time);
+    write_unit(group.id(), "time", h5md::unit_of(header.shown, 0, 1));
     return group;
 }
 
@@ -59,12 +67,17 @@ void create_groups(hid_t file, const CheckpointHeader& header, const StoredSampl
     const std::array<double, 3> edges = h5md::edges_of(header.shown);
     h5::write_whole(create_frame(file, "/particles/discs/box/edges", header).id(), "value",
                     std::array<hsize_t, 2>{1, 3}, H5T_NATIVE_DOUBLE, edges.data());
-    for (const char* name : {"/particles/discs/position", "/particles/discs/velocity"})
-        create_column(create_frame(file, name, header).id(), "value", vectors, H5T_NATIVE_FLOAT);
+    const std::string length = h5md::unit_of(header.shown, 1, 0);
+    write_unit(file, h5md::edges_path, length);
+    for (const auto& [name, unit] :
+         {std::pair("/particles/discs/position", length),
+          std::pair("/particles/discs/velocity", h5md::unit_of(header.shown, 1, -1))})
+        create_column(create_frame(file, name, header).id(), "value", vectors, H5T_NATIVE_FLOAT,
+                      unit);
     if (header.shown.species.empty()) {
         h5md::write_bodies(file, header.shown);
     } else {
-        create_column(file, radius_path, rows, H5T_NATIVE_DOUBLE);
+        create_column(file, radius_path, rows, H5T_NATIVE_DOUBLE, length);
         create_column(file, species_number_path, rows, H5T_NATIVE_INT32);
     }
 
@@ -84,12 +97,13 @@ void create_groups(hid_t file, const CheckpointHeader& header, const StoredSampl
                         numbers.data());
     };
     if (!samples.averages.empty()) write_numbers(carrom.id(), "averages", samples.averages);
-    if (samples.sums.empty()) return;
-    const h5::Group measurements = h5::create_group(carrom.id(), "measurements");
-    write_numbers(measurements.id(), "sums", samples.sums);
+    if (!samples.sums.empty()) {
+        const h5::Group measurements = h5::create_group(carrom.id(), "measurements");
+        write_numbers(measurements.id(), "sums", samples.sums);
+    }
+    if (samples.have_images) static_cast<void>(h5::create_group(carrom.id(), "trajectory"));
     for (const SampleColumn& column : sample_columns)
-        if (column.is_in(samples))
-            create_column(measurements.id(), column.name, rows, H5T_NATIVE_DOUBLE);
+        if (column.is_in(samples)) create_column(file, column.path, rows, H5T_NATIVE_DOUBLE);
 }
 
 } // namespace
@@ -144,7 +158,7 @@ std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const Store
     });
     for (const SampleColumn& column : sample_columns) {
         if (!column.is_in(samples)) continue;
-        add(column.path(), H5T_NATIVE_DOUBLE, 1,
+        add(column.path, H5T_NATIVE_DOUBLE, 1,
             [&column, &places = samples.first_places](std::span<const Disc> discs, std::byte* out) {
                 put_each(discs, out, [&](const Disc& disc) {
                     return places[disc.id - places.front().id].*column.field;

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checksums of a checkpoint, so that no flipped byte goes unnoticed.
 //
-// They stand in the file as a text, /carrom/checksums, one line each like those of sha256sum:
-//
-//     32 hexadecimal digits, two blanks, the path of a data set      for each data set of discs
-//     32 hexadecimal digits, two blanks, "all other bytes"
-//     32 hexadecimal digits, two blanks, "the lines above"
+// They stand in the file as a text, /carrom/checksums, with lines like those of sha256sum: one for
+// each data set of discs, one for "all other bytes", one for "the lines above".
 //
 // A data set's checksum is the sum, modulo 2^64 in each half, of the XXH3-128 of its blocks of 1024
 // rows, each with its number as seed. A sum has no order, so threads and ranks hash their shares

@@ -30,11 +30,12 @@ constexpr std::array<Column, 5> log_columns = {
      {"/carrom/collisions/q", &LoggedCollision::q},
      {"/carrom/collisions/impulse", &LoggedCollision::impulse}}};
 
-std::vector<RecordedColumn> recorded_columns() {
+std::vector<RecordedColumn> recorded_columns(const RecordedSystem& system) {
     std::vector<RecordedColumn> recorded;
     for (const Column& column : log_columns)
         recorded.push_back(
             {column.path, column.field.index() == 0 ? H5T_IEEE_F64LE : H5T_STD_I64LE, {}});
+    recorded[1].unit = h5md::unit_of(system, 0, 1); // of times
     return recorded;
 }
 
@@ -73,8 +74,8 @@ CollisionLog::CollisionLog(const std::string& path, const RecordedSystem& system
                            const Communicator& communicator)
     : communicator_(communicator) {
     state_ = std::make_unique<State>(
-        State{{path, recorded_columns(), [system](hid_t index) { write_structure(index, system); },
-               communicator}});
+        State{{path, recorded_columns(system),
+               [system](hid_t index) { write_structure(index, system); }, communicator}});
 }
 
 CollisionLog::~CollisionLog() = default;

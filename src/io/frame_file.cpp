@@ -34,7 +34,9 @@ std::vector<Source> sources_of_frames() {
                                    {"wall_collisions", "collisions", 2, 0},
                                    {"psi6_real", "psi6", 2, 0},
                                    {"psi6_imaginary", "psi6", 2, 1},
-                                   {"neighbours", "neighbours", 1, 0}};
+                                   {"neighbours", "neighbours", 1, 0},
+                                   {"image_x", "image", 3, 0},
+                                   {"image_y", "image", 3, 1}};
     for (const SideColumnInfo& info : side_column_table)
         sources.push_back({info.shown, info.shown, 1, 0});
     for (Source& source : sources) source.dataset = discs_path + source.dataset + "/value";
@@ -184,7 +186,8 @@ void FrameFile::open_trajectory() {
         const h5::Dataset values = h5::open_checked(file, source.dataset, shape);
         const h5::Type type(h5::checked(H5Dget_type(values.id()), source.dataset.c_str()));
         summary_.n_rows = h5::n_rows_of(values.id());
-        if (source.width != 2) summary_.bytes_per_number = H5Tget_size(type.id());
+        if (H5Tget_class(type.id()) == H5T_FLOAT)
+            summary_.bytes_per_number = H5Tget_size(type.id());
         summary_.columns.push_back(source.column);
         state_->sources.push_back(source);
     }

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "io/checkpoint_fields.hpp"
 
@@ -12,13 +15,19 @@ namespace carrom::h5md {
 namespace {
 
 /// /h5md: who wrote the file with what.
-void write_metadata(hid_t file, const std::string& program_version) {
+void write_metadata(hid_t file, const RecordedSystem& system) {
+    const std::string& program_version = system.program_version;
     const h5::Group h5md = h5::create_group(file, "h5md");
     h5::write_attribute(h5md.id(), "version", std::array<std::int32_t, 2>{1, 1});
     h5::write_attribute(h5::create_group(h5md.id(), "author").id(), "name", std::string("carrom"));
     const h5::Group creator = h5::create_group(h5md.id(), "creator");
     h5::write_attribute(creator.id(), "name", std::string("carrom"));
     h5::write_attribute(creator.id(), "version", program_version);
+    if (system.length_unit.empty() && system.time_unit.empty()) return;
+    const h5::Group modules = h5::create_group(h5md.id(), "modules"),
+                    units = h5::create_group(modules.id(), "units");
+    h5::write_attribute(units.id(), "version", std::array<std::int32_t, 2>{1, 0});
+    h5::write_attribute(units.id(), "system", std::string("SI"));
 }
 
 /// `box` in a group of particles, with its sides.
@@ -37,7 +46,7 @@ void create_box(hid_t parent, const RecordedSystem& system) {
 /// side by side, so that they are small when deflated.
 template <class Number>
 void write_fixed(hid_t discs, const char* name, hid_t type, std::uint64_t n, Number common,
-                 const std::vector<Number>& values) {
+                 const std::vector<Number>& values, const std::string& unit = "") {
     const h5::Properties creation = h5::dataset_creation();
     h5::checked(H5Pset_fill_value(creation.id(), type, &common), name);
     const hsize_t size = n, chunk = std::min<std::uint64_t>(n, 1 << 16);
@@ -51,13 +60,14 @@ void write_fixed(hid_t discs, const char* name, hid_t type, std::uint64_t n, Num
     if (!values.empty())
         h5::checked(H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
                     name);
+    write_unit(dataset.id(), unit);
     dataset.close(name);
 }
 
 } // namespace
 
 void write_system(hid_t file, const RecordedSystem& system) {
-    write_metadata(file, system.program_version);
+    write_metadata(file, system);
     const h5::Group parameters = h5::create_group(file, "parameters");
     h5::write_scalar(parameters.id(), "radius", system.radius);
     if (system.open_boundaries != std::array<bool, 4>{}) {
@@ -83,13 +93,29 @@ void write_bodies(hid_t file, const RecordedSystem& system) {
         radii.insert(radii.end(), one.count, one.radius);
         masses.insert(masses.end(), one.count, one.mass);
     }
-    write_fixed(discs.id(), "radius", H5T_NATIVE_DOUBLE, system.n_discs, system.radius, radii);
+    write_fixed(discs.id(), "radius", H5T_NATIVE_DOUBLE, system.n_discs, system.radius, radii,
+                unit_of(system, 1, 0));
     write_fixed(discs.id(), "mass", H5T_NATIVE_DOUBLE, system.n_discs, 1.0, masses);
     write_fixed(discs.id(), "species", H5T_NATIVE_INT64, system.n_discs, std::int64_t{0}, numbers);
 }
 
 std::array<double, 3> edges_of(const RecordedSystem& system) {
     return {system.box.x, system.box.y, 1};
+}
+
+std::string unit_of(const RecordedSystem& system, int lengths, int times) {
+    std::string text;
+    for (const auto& [unit, power] :
+         {std::pair(&system.length_unit, lengths), std::pair(&system.time_unit, times)}) {
+        if (power == 0) continue;
+        if (unit->empty()) return "";
+        text += (text.empty() ? "" : " ") + *unit + (power == 1 ? "" : fmt::format("{}", power));
+    }
+    return text;
+}
+
+void write_unit(hid_t dataset, const std::string& unit) {
+    if (!unit.empty()) h5::write_any_length(dataset, "unit", unit);
 }
 
 } // namespace carrom::h5md

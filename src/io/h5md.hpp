@@ -28,4 +28,9 @@ void write_bodies(hid_t file, const RecordedSystem& system);
 
 std::array<double, 3> edges_of(const RecordedSystem& system);
 
+/// What H5MD's module `units` calls a length to the power `lengths` times a time to the power
+/// `times`. Empty where the scene names no units for it.
+std::string unit_of(const RecordedSystem& system, int lengths, int times);
+void write_unit(hid_t dataset, const std::string& unit);
+
 } // namespace carrom::h5md

@@ -215,6 +215,11 @@ void write_attribute(hid_t object, const char* name, const std::vector<std::stri
     write_attribute(object, name, text_type(longest).id(), space({&length, 1}), letters.data());
 }
 
+void write_any_length(hid_t object, const char* name, const std::string& text) {
+    const char* const letters = text.c_str();
+    write_attribute(object, name, text_type(H5T_VARIABLE).id(), space({}), &letters);
+}
+
 void write_text(hid_t parent, const char* name, const std::string& text) {
     write_whole(parent, name, {}, text_type(text.size()).id(), text.c_str());
 }

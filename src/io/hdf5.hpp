@@ -106,6 +106,8 @@ Dataset open_dataset(hid_t parent, const char* name);
 void write_attribute(hid_t object, const char* name, const std::string& text);
 void write_attribute(hid_t object, const char* name, std::span<const std::int32_t> numbers);
 void write_attribute(hid_t object, const char* name, const std::vector<std::string>& words);
+/// A text of any length, as h5py writes them: it takes others for bytes.
+void write_any_length(hid_t object, const char* name, const std::string& text);
 void write_text(hid_t parent, const char* name, const std::string& text);
 /// Replaces a text by one as long.
 void overwrite_text(hid_t parent, const char* name, const std::string& text);

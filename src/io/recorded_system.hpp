@@ -22,6 +22,7 @@ struct RecordedSystem {
     bool is_periodic_x = false, is_periodic_y = false;
     std::array<bool, 4> open_boundaries{}; ///< left, right, bottom, top: discs may lie beyond these
     std::array<double, 4> amplitudes{};    ///< of walls that oscillate: discs may be so far beyond
+    std::string length_unit, time_unit;    ///< "nm", "ps"; empty where the scene names none
 };
 
 } // namespace carrom

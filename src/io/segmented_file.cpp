@@ -11,6 +11,7 @@
 
 #include "io/checked_dataset.hpp"
 #include "io/child_process.hpp"
+#include "io/h5md.hpp"
 
 namespace carrom {
 
@@ -102,7 +103,8 @@ void SegmentedFile::check_columns(hid_t file, const Index& index) const {
         is_same = !sizes.empty() && sizes == sizes_of(column, sizes[0]) &&
                   H5Tequal(type.id(), column.type) > 0;
     }
-    if (!is_same) throw FileError("has other columns than this run records");
+    if (!is_same)
+        throw FileError("has other columns than this run records; see output.trajectory.fields");
 }
 
 /// Leaves out what is beyond. The last segment is written to next.
@@ -209,6 +211,7 @@ void SegmentedFile::write_virtual(hid_t file, const RecordedColumn& column) cons
         h5::checked(H5Dcreate2(file, column.path.c_str(), column.type, h5::space(sizes).id(),
                                H5P_DEFAULT, creation.id(), H5P_DEFAULT),
                     column.path.c_str()));
+    h5md::write_unit(dataset.id(), column.unit);
     dataset.close(column.path.c_str());
 }
 

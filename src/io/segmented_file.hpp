@@ -3,16 +3,13 @@
 //
 // Readers open run/trajectory.h5. Its columns are HDF5 virtual datasets over the segments
 // run/trajectory/0001.h5, 0002.h5 and so on. A segment gets all its structure and room when it is
-// made. Later only numbers are written, to the places that HDF5 has given them. HDF5 itself never
-// opens it to write again: it would rewrite its superblock, which a kill could damage.
+// made. Later only numbers are written there: HDF5 itself would rewrite the superblock, which a
+// kill could damage.
 //
 // A commit brings the numbers to disk and replaces the small file by rename. The small file says
-// how many rows count and has checksums of all their bytes and of the segments' structure. Its own
-// checksum stands behind its last byte, where HDF5 does not look. Rows that came after the last
-// commit are written again. Readers need no lock: what they see does not change.
-//
-// Segments double in size, so they are few. Room that is not yet used takes no space on disk.
-// Rank 0 has the file; all ranks know how it goes.
+// how many rows count and has checksums of all bytes; its own stands behind its last byte, where
+// HDF5 does not look. Readers need no lock. Segments double in size. Room that is not yet used
+// takes no space on disk. Rank 0 has the file; all ranks know how it goes.
 #pragma once
 
 #include <cstddef>
@@ -34,6 +31,7 @@ struct RecordedColumn {
     std::string path;         ///< of the dataset in the file that readers open
     hid_t type;               ///< of numbers of 4 or 8 bytes, little-endian, also in memory
     std::vector<hsize_t> row; ///< {} or {discs} or {discs, components}
+    std::string unit = {};    ///< of its numbers, where it is known (h5md.hpp)
 };
 
 class SegmentedFile {

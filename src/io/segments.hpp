@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The segments of a recording, the list of them in the file that joins them, and the checksums.
 //
-// The list gives each segment's rows, its room, the checksum of its rows, that of its structure,
-// and where each column's numbers begin. So all of a segment is checked without HDF5, which may not
-// survive what is damaged. The joining file ends with a mark and the XXH3-128 of all bytes before.
-// Price of checking: all bytes are read once.
+// All of a segment is checked without HDF5, which may not survive what is damaged. The joining file
+// ends with a mark and the XXH3-128 of all bytes before.
 #pragma once
 
 #include <cstddef>

@@ -29,6 +29,7 @@ struct ShownDisc {
     DiscId id = 0;
     double position[2] = {}, velocity[2] = {};
     std::uint64_t collisions[2] = {}; ///< with walls, with discs
+    std::int32_t image[2] = {};
     double columns[n_side_columns] = {};
     double psi6[2] = {};
     std::uint64_t n_neighbours = 0;
@@ -38,36 +39,45 @@ struct ShownDisc {
 struct Field {
     const char* name;
     hsize_t width; ///< numbers of a disc
-    bool is_real;
-    /// Component k; the bits of a double where it is real.
+    hid_t type;
+    std::string unit;
+    /// Component k, in the low bits; those of a double where it is real.
     std::function<std::uint64_t(const ShownDisc&, std::size_t k)> bits;
 };
 
 std::uint64_t bits_of(double number) { return std::bit_cast<std::uint64_t>(number); }
 
 std::vector<Field> fields_of(const TrajectoryLayout& layout) {
+    const auto unit = std::bind_front(h5md::unit_of, std::cref(layout.system));
+    const hid_t real = layout.is_single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
     std::vector<Field> fields;
     if (layout.has_position)
-        fields.push_back({"position", 3, true, [](const ShownDisc& disc, std::size_t k) {
-                              return bits_of(k < 2 ? disc.position[k] : 0);
-                          }});
+        fields.push_back(
+            {"position", 3, real, unit(1, 0), [](const ShownDisc& disc, std::size_t k) {
+                 return bits_of(k < 2 ? disc.position[k] : 0);
+             }});
     if (layout.has_velocity)
-        fields.push_back({"velocity", 3, true, [](const ShownDisc& disc, std::size_t k) {
-                              return bits_of(k < 2 ? disc.velocity[k] : 0);
-                          }});
+        fields.push_back(
+            {"velocity", 3, real, unit(1, -1), [](const ShownDisc& disc, std::size_t k) {
+                 return bits_of(k < 2 ? disc.velocity[k] : 0);
+             }});
     if (layout.has_collisions)
-        fields.push_back({"collisions", 2, false,
+        fields.push_back({"collisions", 2, H5T_STD_U64LE, "",
                           [](const ShownDisc& disc, std::size_t k) { return disc.collisions[k]; }});
     if (layout.has_psi6)
-        fields.push_back({"psi6", 2, true, [](const ShownDisc& disc, std::size_t k) {
+        fields.push_back({"psi6", 2, real, "", [](const ShownDisc& disc, std::size_t k) {
                               return bits_of(disc.psi6[k]);
                           }});
     if (layout.has_neighbours)
-        fields.push_back({"neighbours", 1, false,
+        fields.push_back({"neighbours", 1, H5T_STD_U64LE, "",
                           [](const ShownDisc& disc, std::size_t) { return disc.n_neighbours; }});
+    if (layout.has_image)
+        fields.push_back({"image", 3, H5T_STD_I32LE, "", [](const ShownDisc& disc, std::size_t k) {
+                              return static_cast<std::uint64_t>(k < 2 ? disc.image[k] : 0);
+                          }});
     layout.columns.for_each([&](SideColumn column) {
         fields.push_back(
-            {info_of(column).shown, 1, true,
+            {info_of(column).shown, 1, real, unit(0, info_of(column).is_rate ? -1 : 0),
              [place = static_cast<std::size_t>(column)](const ShownDisc& disc, std::size_t) {
                  return bits_of(disc.columns[place]);
              }});
@@ -77,18 +87,18 @@ std::vector<Field> fields_of(const TrajectoryLayout& layout) {
 
 /// One for each field, then step, time and box.
 std::vector<RecordedColumn> columns_of(const TrajectoryLayout& layout) {
-    const hid_t real = layout.is_single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
     std::vector<RecordedColumn> columns;
     for (const Field& field : fields_of(layout)) {
         RecordedColumn column{fmt::format("/particles/discs/{}/value", field.name),
-                              field.is_real ? real : H5T_STD_U64LE,
-                              {layout.system.n_discs}};
+                              field.type,
+                              {layout.system.n_discs},
+                              field.unit};
         if (field.width > 1) column.row.push_back(field.width);
         columns.push_back(std::move(column));
     }
     columns.push_back({h5md::step_path, H5T_STD_I64LE, {}});
-    columns.push_back({h5md::time_path, H5T_IEEE_F64LE, {}});
-    columns.push_back({h5md::edges_path, H5T_IEEE_F64LE, {3}});
+    columns.push_back({h5md::time_path, H5T_IEEE_F64LE, {}, h5md::unit_of(layout.system, 0, 1)});
+    columns.push_back({h5md::edges_path, H5T_IEEE_F64LE, {3}, h5md::unit_of(layout.system, 1, 0)});
     return columns;
 }
 
@@ -111,10 +121,10 @@ void write_structure(hid_t file, const TrajectoryLayout& layout) {
 class SlabStream {
 public:
     SlabStream(std::span<const Disc> discs, const SideSpans& columns,
-               std::span<const BondOrder> orders, double clock, const TrajectoryLayout& layout,
-               const Communicator& communicator)
-        : discs_(discs), columns_(columns), orders_(orders), clock_(clock), layout_(layout),
-          communicator_(communicator), order_(discs.size()) {
+               std::span<const BondOrder> orders, std::span<const DiscImage> images, double clock,
+               const TrajectoryLayout& layout, const Communicator& communicator)
+        : discs_(discs), columns_(columns), orders_(orders), images_(images), clock_(clock),
+          layout_(layout), communicator_(communicator), order_(discs.size()) {
         std::iota(order_.begin(), order_.end(), LocalIndex{0});
         std::sort(order_.begin(), order_.end(),
                   [discs](LocalIndex a, LocalIndex b) { return discs[a].id < discs[b].id; });
@@ -131,10 +141,24 @@ public:
             for (const ShownDisc& disc : some) slab_[disc.id - begin] = disc;
         };
         stream_to_root(communicator_, mine, place, end - begin);
+        if (layout_.has_image) add_images(begin, end);
         return slab_;
     }
 
 private:
+    void add_images(std::uint64_t begin, std::uint64_t end) {
+        std::size_t n = 0;
+        while (n < images_.size() && images_[n].id < end) ++n;
+        const auto place = [&](std::span<const DiscImage> some) {
+            for (const DiscImage& image : some) {
+                slab_[image.id - begin].image[0] = image.x;
+                slab_[image.id - begin].image[1] = image.y;
+            }
+        };
+        stream_to_root(communicator_, images_.first(n), place, end - begin);
+        images_ = images_.subspan(n);
+    }
+
     ShownDisc shown(LocalIndex i) const {
         const Disc& disc = discs_[i];
         const double unit = layout_.velocity_unit;
@@ -157,6 +181,7 @@ private:
     std::span<const Disc> discs_;
     SideSpans columns_;
     std::span<const BondOrder> orders_;
+    std::span<const DiscImage> images_; ///< of ids that are still to come
     double clock_;
     const TrajectoryLayout& layout_;
     const Communicator& communicator_;
@@ -166,16 +191,17 @@ private:
 };
 
 /// A field of some discs as the file has it.
-std::vector<std::byte> bytes_of(const Field& field, std::span<const ShownDisc> slab,
-                                bool is_single) {
+std::vector<std::byte> bytes_of(const Field& field, std::span<const ShownDisc> slab) {
+    const bool is_single = H5Tequal(field.type, H5T_IEEE_F32LE) > 0;
+    const std::size_t size = H5Tget_size(field.type);
     std::vector<std::byte> bytes;
     bytes.reserve(slab.size() * field.width * sizeof(double));
     for (const ShownDisc& disc : slab)
         for (std::size_t k = 0; k < field.width; ++k) {
             const std::uint64_t bits = field.bits(disc, k);
             const auto single = static_cast<float>(std::bit_cast<double>(bits));
-            const auto number = field.is_real && is_single ? std::as_bytes(std::span(&single, 1))
-                                                           : std::as_bytes(std::span(&bits, 1));
+            const auto number = is_single ? std::as_bytes(std::span(&single, 1))
+                                          : std::as_bytes(std::span(&bits, 1)).first(size);
             bytes.insert(bytes.end(), number.begin(), number.end());
         }
     return bytes;
@@ -219,7 +245,8 @@ std::int64_t Trajectory::go_on(std::int64_t step, const DifferenceFrom& differen
 }
 
 void Trajectory::append(std::int64_t step, std::span<const Disc> discs, double clock,
-                        const SideSpans& columns, std::span<const BondOrder> orders) {
+                        const SideSpans& columns, std::span<const BondOrder> orders,
+                        std::span<const DiscImage> images) {
     ensure(orders.size() == discs.size() || !(layout_.has_psi6 || layout_.has_neighbours),
            "psi6 does not run along the discs");
     layout_.columns.for_each([&](SideColumn column) {
@@ -227,7 +254,7 @@ void Trajectory::append(std::int64_t step, std::span<const Disc> discs, double c
     });
     SegmentedFile& file = state_->file;
     file.attempt([&] { static_cast<void>(file.room()); });
-    SlabStream stream(discs, columns, orders, clock, layout_, communicator_);
+    SlabStream stream(discs, columns, orders, images, clock, layout_, communicator_);
     const std::vector<Field> fields = fields_of(layout_);
     const std::uint64_t n = layout_.system.n_discs;
     for (std::uint64_t begin = 0; begin < n; begin += discs_at_a_time) {
@@ -235,7 +262,7 @@ void Trajectory::append(std::int64_t step, std::span<const Disc> discs, double c
                                                             std::min(begin + discs_at_a_time, n));
         file.attempt([&] {
             for (std::size_t k = 0; k < fields.size(); ++k)
-                file.write(k, bytes_of(fields[k], slab, layout_.is_single));
+                file.write(k, bytes_of(fields[k], slab));
         });
     }
     file.attempt([&] {

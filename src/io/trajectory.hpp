@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every so-many-th step of a run as H5MD, discs in the order of their ids.
 //
-// Frames stream through rank 0 in slabs of ids. This makes them safe from kills and readable while
-// the run goes on (see SegmentedFile). Its price is one rank's speed to the disk, so frames are for
-// looking at, checkpoints for going on. Beside the file lies an XDMF description for ParaView and
-// VisIt.
+// Frames stream through rank 0 in slabs of ids. So they are safe from kills and readable while the
+// run goes on (SegmentedFile), at the price of one rank's speed to the disk. Beside the file lies
+// an XDMF description for ParaView and VisIt.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +14,7 @@
 #include "core/bond_order.hpp"
 #include "core/disc.hpp"
 #include "core/side_columns.hpp"
+#include "core/stored_samples.hpp"
 #include "io/checkpoint.hpp"
 #include "io/recorded_system.hpp"
 #include "parallel/communicator.hpp"
@@ -25,7 +25,7 @@ struct TrajectoryLayout {
     RecordedSystem system;
     double velocity_unit = 1; ///< what stored velocities are multiplied by to be per step
     bool has_position = true, has_velocity = true, has_collisions = false;
-    bool has_psi6 = false, has_neighbours = false;
+    bool has_psi6 = false, has_neighbours = false, has_image = false;
     SideColumnSet columns; ///< that frames have
     bool is_single = true; ///< float32, else float64
     CheckpointHeader run; ///< of which run it is: scene and classes. No text: the file will not say
@@ -48,9 +48,11 @@ public:
     std::int64_t go_on(std::int64_t step, const DifferenceFrom& difference_from = {});
 
     /// Adds a frame: the discs, in any distribution over the ranks, at `clock`, and the layout's
-    /// columns along them; orders likewise, where it has psi6 or neighbours. **Collective.**
+    /// columns along them; orders likewise, where it has psi6 or neighbours. `images`, where it has
+    /// them: of a run of ids, the next rank's following. **Collective.**
     void append(std::int64_t step, std::span<const Disc> discs, double clock,
-                const SideSpans& columns = {}, std::span<const BondOrder> orders = {});
+                const SideSpans& columns = {}, std::span<const BondOrder> orders = {},
+                std::span<const DiscImage> images = {});
 
     /// What has been added so far is to stay, and readers see it. Renews the description when it
     /// has grown old. **Collective.**

@@ -3,9 +3,8 @@
 // one.
 //
 // The lock is flock's, on a small file of its own (HDF5 locks its files itself). The kernel
-// releases it with the process, however that ends, so none outlives its run; the file may, and
-// means nothing then. NFS carries such locks between nodes; Lustre does where it is mounted with
-// `flock`. Where a file system has no locks there is no protection.
+// releases it with the process. Lustre carries it between nodes where it is mounted with `flock`.
+// Where a file system has no locks there is no protection.
 #pragma once
 
 #include <string>

@@ -19,24 +19,16 @@ struct Row {
 };
 
 /// Three numbers of each disc, or one.
-std::string vectors(const Row& row, const TrajectoryLayout& layout, const char* element) {
-    return fmt::format("<DataItem ItemType=\"HyperSlab\" Dimensions=\"{0} 3\"><DataItem "
-                       "Dimensions=\"3 3\" Format=\"XML\">{1} 0 0 1 1 1 "
-                       "1 {0} 3</DataItem><DataItem NumberType=\"Float\" Precision=\"{2}\" "
-                       "Dimensions=\"{3} {0} 3\" Format=\"HDF\">"
+std::string numbers(const Row& row, const TrajectoryLayout& layout, const char* element,
+                    bool are_vectors) {
+    return fmt::format("<DataItem ItemType=\"HyperSlab\" Dimensions=\"{0}{6}\"><DataItem "
+                       "Dimensions=\"3 {7}\" Format=\"XML\">{1} 0{8} 1 1{9} "
+                       "1 {0}{6}</DataItem><DataItem NumberType=\"Float\" Precision=\"{2}\" "
+                       "Dimensions=\"{3} {0}{6}\" Format=\"HDF\">"
                        "{4}:/particles/discs/{5}/value</DataItem></DataItem>",
                        layout.system.n_discs, row.number, layout.is_single ? 4 : 8,
-                       row.segment.room, row.segment.name, element);
-}
-
-std::string numbers(const Row& row, const TrajectoryLayout& layout, const char* element) {
-    return fmt::format("<DataItem ItemType=\"HyperSlab\" Dimensions=\"{0}\"><DataItem "
-                       "Dimensions=\"3 2\" Format=\"XML\">{1} 0 1 1 "
-                       "1 {0}</DataItem><DataItem NumberType=\"Float\" Precision=\"{2}\" "
-                       "Dimensions=\"{3} {0}\" Format=\"HDF\">"
-                       "{4}:/particles/discs/{5}/value</DataItem></DataItem>",
-                       layout.system.n_discs, row.number, layout.is_single ? 4 : 8,
-                       row.segment.room, row.segment.name, element);
+                       row.segment.room, row.segment.name, element, are_vectors ? " 3" : "",
+                       are_vectors ? 3 : 2, are_vectors ? " 0" : "", are_vectors ? " 1" : "");
 }
 
 std::string attribute(const char* name, const char* kind, const std::string& item) {
@@ -70,13 +62,14 @@ void write_xdmf(const std::string& path, const TrajectoryLayout& layout,
                            "<Grid Name=\"step {0}\"><Time Value=\"{0}\"/><Topology "
                            "TopologyType=\"Polyvertex\" NumberOfElements=\"{1}\"/>"
                            "<Geometry GeometryType=\"XYZ\">{2}</Geometry>",
-                           steps[frame], layout.system.n_discs, vectors(row, layout, "position"));
+                           steps[frame], layout.system.n_discs,
+                           numbers(row, layout, "position", true));
             text += fixed(file, layout, "radius", "Float") + fixed(file, layout, "species", "Int");
             if (layout.has_velocity)
-                text += attribute("velocity", "Vector", vectors(row, layout, "velocity"));
+                text += attribute("velocity", "Vector", numbers(row, layout, "velocity", true));
             layout.columns.for_each([&](SideColumn column) {
                 const char* const name = info_of(column).shown;
-                text += attribute(name, "Scalar", numbers(row, layout, name));
+                text += attribute(name, "Scalar", numbers(row, layout, name, false));
             });
             text += "</Grid>\n";
         }

@@ -70,10 +70,7 @@ std::vector<Species> species_apart(const Scene& scene) {
 Sampler::Sampler(const Scene& scene, Simulation& simulation, const Communicator& ranks)
     : scene_(scene), output_(*scene.measurements), simulation_(simulation), ranks_(ranks) {}
 
-Sampler::~Sampler() {
-    simulation_.add_impulses_to(nullptr);
-    simulation_.note_crossings_in(nullptr);
-}
+Sampler::~Sampler() { simulation_.add_impulses_to(nullptr); }
 
 /// Sums of nothing with the scene's keys. A largest velocity that is not given is what sampling
 /// begins with.
@@ -177,6 +174,8 @@ void Sampler::go_on(StoredSamples stored) {
     if (output_.pressure || output_.thermo)
         pressure_ = PressureSampler::going_on(simulation_, ranks_, sums_);
     if (follows_flights()) place_first(stored.first_places);
+    if (lengths_)
+        lengths_->go_on(stored.first_places, &FirstPlace::lengths_x, &FirstPlace::lengths_y);
 }
 
 std::int64_t Sampler::next_due(std::int64_t step) const {
@@ -309,7 +308,6 @@ void Sampler::sample_thermo() {
 StoredSamples Sampler::stored() const {
     StoredSamples stored;
     if (!has_begun_) return stored;
-    take_crossings();
     SampleSums sums = sums_;
     if (impulses_) {
         std::array<std::uint64_t, 4> counts = impulses_->counts;
@@ -324,15 +322,16 @@ StoredSamples Sampler::stored() const {
     if (pressure_) pressure_->store(sums);
     stored.sums = packed(sums);
     stored.have_first_places = follows_flights();
-    stored.have_lengths = follows_lengths();
+    stored.have_lengths = lengths_.has_value();
     stored.have_velocities = output_.diffusion;
     for (std::size_t i = 0; i < first_places_.size(); ++i) {
         FirstPlace& place = stored.first_places.emplace_back(
             FirstPlace{first_id_ + i, first_places_[i][0], first_places_[i][1]});
         if (stored.have_velocities)
             place.vx = first_velocities_[i][0], place.vy = first_velocities_[i][1];
-        if (stored.have_lengths) place.lengths_x = lengths_[i][0], place.lengths_y = lengths_[i][1];
     }
+    if (lengths_)
+        lengths_->store(stored.first_places, &FirstPlace::lengths_x, &FirstPlace::lengths_y);
     return stored;
 }
 

@@ -3,14 +3,8 @@
 // none of this: no memory, and no work in any kernel.
 //
 // Everything is a count, or a sum in fixed point (exact_sum.hpp). So the tables have the same bits
-// for every machine shape, and a restart goes on with them. Price of a sample:
-//   velocities, density   some nanoseconds a disc
-//   radial distribution   a halo, and a look at all pairs within its distance
-//   structure factor      some nanoseconds for each disc and wave vector
-//   psi6                  the same, and some microseconds a disc for its Voronoi cell
-//   displacement          each disc sent once to where its first place is kept, 16 bytes a disc, as
-//                         many again in a periodic box
-// Wall pressure is added up collision by collision, as the log of collisions is.
+// for every machine shape, and a restart goes on with them. docs/reference/measurements.md has the
+// price of each. Wall pressure is added up collision by collision, as the log of collisions is.
 #pragma once
 
 #include <array>
@@ -27,6 +21,7 @@
 #include "core/disc.hpp"
 #include "core/stored_samples.hpp"
 #include "engine/wall_impulses.hpp"
+#include "measure/image_counts.hpp"
 #include "measure/pressure_sampler.hpp"
 #include "measure/sample_sums.hpp"
 #include "parallel/communicator.hpp"
@@ -81,7 +76,6 @@ private:
     void place_first(std::span<const FirstPlace> places);
     void follow_walls();
     void follow_crossings();
-    void take_crossings() const;
     SampleSums wanted() const;
 
     const Scene& scene_;
@@ -95,9 +89,7 @@ private:
     std::uint64_t first_id_ = 0;
     std::vector<std::array<double, 2>> first_places_; ///< of this rank's run of ids, see pieces.hpp
     std::vector<std::array<double, 2>> first_velocities_; ///< along them, for "diffusion"
-    mutable std::vector<Crossing> crossings_; ///< of a periodic box's own discs, not yet reported
-    mutable std::vector<std::array<double, 2>>
-        lengths_; ///< along the first places, there: what discs have been brought back by
+    mutable std::optional<ImageCounts> lengths_;          ///< since then, of a periodic box
 };
 
 /// The species whose pairs are counted apart: the scene's, or one of all discs where they are alike

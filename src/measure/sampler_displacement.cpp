@@ -8,24 +8,10 @@
 
 namespace carrom {
 
-namespace {
-
-/// The own discs where they would be had nothing brought them back since the last sync.
-std::vector<Disc> flown_on(const Simulation& simulation) {
-    Frame frame = simulation.frame();
-    frame.period_x = frame.period_y = 0;
-    std::vector<Disc> discs;
-    for (const Disc& disc : simulation.discs())
-        discs.push_back(frame.in_box(disc, simulation.clock()));
-    return discs;
-}
-
-} // namespace
-
 /// Where discs fly on through periodic boundaries, syncs bring them back. That is part of their
 /// displacement.
 void Sampler::follow_crossings() {
-    if (follows_lengths()) simulation_.note_crossings_in(&crossings_);
+    if (follows_lengths()) lengths_.emplace(scene_.box, simulation_, ranks_);
 }
 
 void Sampler::sample_displacement(std::span<const Disc> shown, std::uint64_t n_discs,
@@ -56,8 +42,8 @@ void Sampler::begin_flights(std::span<const Disc> discs) {
     for (const Disc& disc : discs)
         places.push_back(
             {disc.id, disc.x_at(time), disc.y_at(time), 0, 0, disc.vx * unit, disc.vy * unit});
-    crossings_.clear(); // of before
     place_first(places);
+    if (lengths_) lengths_->begin_anew();
 }
 
 /// Largest component of a velocity now, or when flights began.
@@ -74,7 +60,8 @@ double Sampler::fastest_of(std::span<const Disc> discs) const {
 /// Mean squares of displacements along x and y since then, and the mean product of velocities.
 std::array<double, 3> Sampler::flights_of(std::span<const Disc> discs, std::uint64_t n_discs) {
     const double time = simulation_.clock(), unit = simulation_.velocity_unit();
-    take_crossings();
+    const std::span<const DiscImage> lengths = lengths_ ? lengths_->counts()
+                                                        : std::span<const DiscImage>{};
     const double n = static_cast<double>(n_discs),
                  farthest = (follows_lengths() ? 0x1p22 : 4) * scene_.box.longest();
     const double fastest = output_.diffusion ? fastest_of(discs) : 0;
@@ -85,8 +72,8 @@ std::array<double, 3> Sampler::flights_of(std::span<const Disc> discs, std::uint
             const std::size_t place = disc.id - first_id_;
             const auto& [x0, y0] = first_places_[place];
             double dx = disc.x_at(time) - x0, dy = disc.y_at(time) - y0;
-            if (!lengths_.empty())
-                dx += lengths_[place][0] * scene_.box.x, dy += lengths_[place][1] * scene_.box.y;
+            if (!lengths.empty())
+                dx += lengths[place].x * scene_.box.x, dy += lengths[place].y * scene_.box.y;
             ensure(std::fabs(dx) <= farthest && std::fabs(dy) <= farthest,
                    "a disc has gone round a periodic box millions of times; measure "
                    "displacements over fewer steps");
@@ -114,31 +101,11 @@ void Sampler::place_first(std::span<const FirstPlace> places) {
     first_id_ = pieces.begin(pieces.first_of(ranks_.rank()));
     first_places_.clear();
     first_velocities_.clear();
-    lengths_.clear();
     for (std::uint64_t round = 0; round < pieces.n_rounds(); ++round) {
         for (const FirstPlace& place : stream.next()) {
             first_places_.push_back({place.x, place.y});
             if (output_.diffusion) first_velocities_.push_back({place.vx, place.vy});
-            if (follows_lengths()) lengths_.push_back({place.lengths_x, place.lengths_y});
         }
-    }
-}
-
-/// Reports to the ranks that keep first places how far discs have been brought back. Whole numbers:
-/// their order does not matter. **Collective.**
-void Sampler::take_crossings() const {
-    if (!follows_lengths()) return;
-    const Pieces pieces(scene_.n_discs, ranks_.size());
-    std::vector<std::vector<Crossing>> out(static_cast<std::size_t>(ranks_.size()));
-    for (const Crossing& crossing : crossings_)
-        out[static_cast<std::size_t>(
-                slab_of(pieces.of(crossing.disc), pieces.count(), ranks_.size()))]
-            .push_back(crossing);
-    crossings_.clear();
-    for (const Crossing& crossing : send_to_owners(ranks_, out).items) {
-        std::array<double, 2>& lengths = lengths_[crossing.disc - first_id_];
-        lengths[0] += crossing.x;
-        lengths[1] += crossing.y;
     }
 }
 

@@ -41,7 +41,7 @@ void derive_defaults(const Check& check) {
         if (check.columns && !check.columns->numbers[column].empty())
             scene.first_numbers[column] = check.columns->numbers[column];
     if (scene.trajectory && !settings.has("output.trajectory.fields"))
-        scene.trajectory->columns = side_columns_of(scene);
+        choose_fields(*scene.trajectory, scene);
     if (scene.measurements)
         scene.measurements->is_distance_default = !settings.has(
             "output.measurements.largest_distance");

@@ -15,19 +15,18 @@ Need quantity(std::string text, bool (*holds)(const MeasurementOutput&)) {
             [holds](const Scene& s) { return s.measurements && holds(*s.measurements); }};
 }
 
-Key trajectory_precision() {
-    Key key = named_key("output.trajectory.precision", "", "Of the numbers in the file.");
+/// A word for what the scene has no enumeration for. An empty one is not to be written.
+Key choice(std::string name, std::string_view help, std::vector<std::string_view> words,
+           std::string (*word_of)(const Scene&), void (*take)(Scene&, const std::string&)) {
+    Key key = named_key(std::move(name), "", help);
     key.kind = Kind::choice;
-    key.words = {"single", "double"};
-    key.get = [](const Scene& s) {
-        return Value{std::string(s.trajectory->is_single ? "single" : "double")};
+    key.words = std::move(words);
+    key.get = [word_of](const Scene& s) {
+        const std::string word = word_of(s);
+        return word.empty() ? Value{} : Value{word};
     };
-    key.set = [](Scene& s, const Value& value) {
-        s.trajectory->is_single = std::get<std::string>(value.data) == "single";
-    };
-    key.is_same = [](const Scene& a, const Scene& b) {
-        return a.trajectory->is_single == b.trajectory->is_single;
-    };
+    key.set = [take](Scene& s, const Value& value) { take(s, std::get<std::string>(value.data)); };
+    key.is_same = [word_of](const Scene& a, const Scene& b) { return word_of(a) == word_of(b); };
     return key;
 }
 
@@ -80,11 +79,10 @@ std::vector<Key> keys_of_checkpoints() {
 
 std::vector<Key> keys_of_recordings() {
     using Output = TrajectoryOutput;
-    std::vector<Flag<Output>> fields = {{"position", &Output::has_position},
-                                        {"velocity", &Output::has_velocity},
-                                        {"collisions", &Output::has_collisions},
-                                        {"psi6", &Output::has_psi6},
-                                        {"neighbours", &Output::has_neighbours}};
+    std::vector<Flag<Output>> fields = {
+        {"position", &Output::has_position},     {"velocity", &Output::has_velocity},
+        {"collisions", &Output::has_collisions}, {"psi6", &Output::has_psi6},
+        {"neighbours", &Output::has_neighbours}, {"image", &Output::has_image}};
     for (std::size_t k = 0; k < n_side_columns; ++k)
         fields.push_back({side_column_table[k].shown,
                           [k](Output& output) -> bool& { return output.columns.flags[k]; }});
@@ -94,12 +92,29 @@ std::vector<Key> keys_of_recordings() {
             .within(every),
         flags_key(
             "output.trajectory.fields", "",
-            "What a frame has of each disc; collisions are its two counters, neighbours Voronoi's.",
+            "What a frame has of each disc; collisions are its two counters, neighbours Voronoi's, "
+            "image the box lengths that it has flown.",
             [](auto& s) -> auto& { return *s.trajectory; }, fields)
-            .by_default("position, velocity; angular_velocity of rough discs")
+            .by_default("position, velocity; image in periodic boxes; angular_velocity of rough "
+                        "discs")
             .within(at_least_one),
-        trajectory_precision(),
+        choice(
+            "output.trajectory.precision", "Of the numbers in the file.", {"single", "double"},
+            [](const Scene& s) {
+                return std::string(s.trajectory->is_single ? "single" : "double");
+            },
+            [](Scene& s, const std::string& word) { s.trajectory->is_single = word == "single"; }),
         collision_log(),
+        choice(
+            "output.units.length", "What HDF5 files say of lengths; no number depends on it.",
+            {"m", "cm", "mm", "um", "nm", "pm"}, [](const Scene& s) { return s.length_unit; },
+            [](Scene& s, const std::string& word) { s.length_unit = word; })
+            .by_default("none"),
+        choice(
+            "output.units.time", "And of steps.", {"s", "ms", "us", "ns", "ps", "fs"},
+            [](const Scene& s) { return s.time_unit; },
+            [](Scene& s, const std::string& word) { s.time_unit = word; })
+            .by_default("none"),
     };
 }
 

@@ -202,6 +202,11 @@ template <std::size_t... k> std::vector<Rule> rules_of_columns(std::index_sequen
 
 std::vector<Rule> rules_of_outputs() {
     return {
+        rule("\"image\"", "a box between walls", "it counts flights through periodic sides",
+             {"output.trajectory.fields"},
+             [](const Scene& s) {
+                 return s.trajectory && s.trajectory->has_image && !s.effects.are_periodic();
+             }),
         rule("\"wall_pressure\"", "a box that is periodic all round", "it has no walls",
              {quantities},
              [](const Scene& s) { return measured(s).wall_pressure && is_periodic_all_round(s); }),

@@ -20,6 +20,11 @@ double Scene::packing() const {
     return static_cast<double>(n_discs) * std::numbers::pi * (radius / box.x) * (radius / box.y);
 }
 
+void choose_fields(TrajectoryOutput& trajectory, const Scene& scene) {
+    trajectory.columns = side_columns_of(scene);
+    trajectory.has_image = scene.effects.are_periodic();
+}
+
 double first_number(const Scene& scene, SideColumn column, DiscId id) {
     const std::vector<NumberRun>& runs = scene.first_numbers[column];
     const auto run = std::upper_bound(

@@ -89,8 +89,9 @@ struct TrajectoryOutput {
     std::int64_t every_steps = 1;
     bool has_position = true, has_velocity = true, has_collisions = false, has_psi6 = false,
          has_neighbours = false;
-    SideColumnSet columns; ///< all that discs have, where fields are not named
-    bool is_single = true; ///< numbers of 4 bytes, else of 8
+    bool has_image = false; ///< of a periodic box; where fields are not named it has
+    SideColumnSet columns;  ///< all that discs have, where fields are not named
+    bool is_single = true;  ///< numbers of 4 bytes, else of 8
 };
 
 /// `[output.collisions]`: every collision in one file.
@@ -158,6 +159,7 @@ struct Scene {
     std::string folder; ///< for all that is written, from where the program runs; empty: none
     std::optional<CheckpointOutput> checkpoint; ///< of each run with a folder
     std::optional<TrajectoryOutput> trajectory;
+    std::string length_unit, time_unit; ///< `[output.units]`, of HDF5 files; empty: not known
     std::optional<CollisionOutput> collisions;
     std::optional<MeasurementOutput> measurements;
     std::int64_t averages_from = 0; ///< the step that averages of the report begin at
@@ -182,6 +184,9 @@ double first_number(const Scene& scene, SideColumn column, DiscId id);
 /// The columns beside the states that the scene's discs have: those that its dynamics need, and
 /// those that it gives numbers of.
 SideColumnSet side_columns_of(const Scene& scene);
+
+/// What frames have where the scene does not name their fields.
+void choose_fields(TrajectoryOutput& trajectory, const Scene& scene);
 
 /// Where `discs_file` or `discs_from` lies: relative to the folder of the scene's own file.
 std::string discs_path(const Scene& scene);

@@ -14,7 +14,7 @@ Scene with_defaults(const Scene& scene) {
     Scene plain;
     for (const Table& table : tables())
         if (table.is_in(scene)) table.create(plain);
-    if (plain.trajectory) plain.trajectory->columns = side_columns_of(scene);
+    if (plain.trajectory) choose_fields(*plain.trajectory, scene);
     return plain;
 }
 

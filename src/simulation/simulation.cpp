@@ -271,8 +271,12 @@ void Simulation::log_to(std::vector<Collision>* log) {
 
 void Simulation::add_impulses_to(WallImpulses* impulses) { engine_->add_impulses_to(impulses); }
 
-void Simulation::note_crossings_in(std::vector<Crossing>* crossings) {
+void Simulation::note_crossings_in(std::vector<Crossing>& crossings) {
     engine_->note_crossings_in(crossings);
+}
+
+void Simulation::forget_crossings_in(std::vector<Crossing>& crossings) {
+    engine_->forget_crossings_in(crossings);
 }
 
 void Simulation::count_pair_distances(double bin_width, std::span<const DiscId> species_ends,

@@ -81,8 +81,9 @@ public:
     /// null ends that.
     void add_impulses_to(WallImpulses* impulses);
     /// From now on what own discs are brought back by at syncs, in a periodic box, is appended to
-    /// `crossings`; null ends that.
-    void note_crossings_in(std::vector<Crossing>* crossings);
+    /// `crossings`, until it is forgotten.
+    void note_crossings_in(std::vector<Crossing>& crossings);
+    void forget_crossings_in(std::vector<Crossing>& crossings);
     /// The virial of this rank's collisions of pairs since the simulation was made, in the unit of
     /// `virial_bound()`.
     const PairVirial& virial() const;

@@ -90,7 +90,8 @@ RecordedSystem system_of(const Scene& scene) {
     system.n_discs = scene.n_discs;
     const Extent end = extent_of_lines(scene.effects, scene.box, static_cast<double>(scene.steps));
     system.box = {std::max(scene.box.x, end.x_high), std::max(scene.box.y, end.y_high)};
-    if (scene.box.is_square()) system.box = system.box.longest(); // walls may move
+    if (scene.box.is_square() && !scene.effects.are_periodic())
+        system.box = system.box.longest(); // walls may move
     system.radius = scene.radius;
     system.species = scene.effects.species;
     system.is_periodic_x = scene.effects.is_periodic_x();
@@ -100,6 +101,8 @@ RecordedSystem system_of(const Scene& scene) {
         system.open_boundaries[side] = boundary.kind == BoundaryKind::open;
         system.amplitudes[side] = boundary.amplitude;
     }
+    system.length_unit = scene.length_unit;
+    system.time_unit = scene.time_unit;
     return system;
 }
 
@@ -113,6 +116,7 @@ TrajectoryLayout layout_of(const Scene& scene, const TrajectoryOutput& wanted) {
     layout.has_collisions = wanted.has_collisions;
     layout.has_psi6 = wanted.has_psi6;
     layout.has_neighbours = wanted.has_neighbours;
+    layout.has_image = wanted.has_image;
     layout.columns = wanted.columns;
     layout.is_single = wanted.is_single;
     return layout;

@@ -191,6 +191,11 @@ run 1 verify parts/trajectory.h5
 expect_code 0 'the trajectory of a moving wall, in two stretches'
 grow parts --restart parts/checkpoints/checkpoint-000000000010.h5 --steps 60
 same_as shorter 26
+# Along a periodic axis the box is the period, that images are counted in.
+grow corridor --set box.bottom.kind=periodic --set box.top.kind=periodic
+run 1 info corridor/trajectory.h5
+grep -q '^discs *60 in a box of 30 x 20$' "$test_folder/out" ||
+    complain "not the period along y: $(cat "$test_folder/out")"
 
 run 1 run leak.toml -o measured --set 'output.measurements.quantities=["displacement"]'
 expect_code 2 'measurements in an open box'

@@ -81,6 +81,49 @@ for reader in 'h5py h5py' 'ase ase' 'ovito ovito' 'MDAnalysis h5py MDAnalysis' '
     fi
 done
 
+# Flights around a periodic box: image counts, on other machine shapes and across a restart, too.
+cat >flights.toml <<'END'
+[box]
+size = 10
+left.kind = "periodic"
+right.kind = "periodic"
+bottom.kind = "periodic"
+top.kind = "periodic"
+[discs]
+count = 100
+radius = 0.2
+speed = 7
+[time]
+steps = 60
+sync_every = 7
+method = "event-driven"
+[output.trajectory]
+every_steps = 5
+precision = "double"
+END
+run 2 run flights.toml --quiet -o free --set effects.contact.kind=none \
+    --set output.units.length=nm --set output.units.time=ps
+expect_code 0 'flights'
+run 1 info free/trajectory.h5
+grep -q 'fields *position velocity image$' "$test_folder/out" ||
+    complain "info of a trajectory with images: $(cat "$test_folder/out")"
+measured=(--set 'output.measurements.quantities=["displacement"]'
+    --set output.measurements.every_steps=5)
+run 3 run flights.toml --quiet -o flights "${measured[@]}"
+expect_code 0 'flights that meet'
+run 1 run flights.toml --quiet -o resumed --steps 33
+run 2 run -o resumed --resume --quiet --steps 60
+expect_code 0 'flights that go on'
+for reader in 'h5py h5py' 'MDAnalysis h5py MDAnalysis'; do
+    read -r module packages <<<"$reader"
+    if has "$module" $packages; then
+        "$python" "$tests/readers_of_flights.py" "$module" {free,flights,resumed}/trajectory.h5 \
+            flights/measurements/displacement.csv || complain "$module, flights"
+    else
+        skip "$module is not to be had: $(tail -n 1 "$test_folder/err")"
+    fi
+done
+
 if has h5py h5py; then # the worked example of the method's page, against a run on three ranks
     method=$CARROM_SOURCE_DIR/docs/understanding/method.md
     cp "$method" method.md
@@ -93,5 +136,5 @@ if has matplotlib matplotlib && has h5py h5py; then
 else
     skip "matplotlib or h5py is not to be had: $(tail -n 1 "$test_folder/err")"
 fi
-[ "$n_skipped" -lt 10 ] || [ "$n_failures" -gt 0 ] || exit 77
+[ "$n_skipped" -lt 12 ] || [ "$n_failures" -gt 0 ] || exit 77
 finish

@@ -112,4 +112,22 @@ expect_code 0 'a restart without the recordings of before'
 expect_told 'parts/trajectory.h5: has no frames of steps 0 to 24, and goes on with step 28' \
     'a restart without its trajectory'
 expect_told 'parts/collisions.h5: begins with step 26' 'a restart without its log'
+
+# Frames without image counts get none; after a checkpoint without them they count from there.
+periodic=()
+for side in left right bottom top; do periodic+=(--set "box.$side.kind=periodic"); done
+run 2 run "$CARROM_SOURCE_DIR/inputs/gas.toml" "${periodic[@]}" -o bare --steps 20 --quiet \
+    --set output.trajectory.every_steps=10 --set 'output.trajectory.fields=["position"]'
+expect_code 0 'a periodic run without image counts'
+with_image=(--resume --steps 40 --quiet --set 'output.trajectory.fields=["position","image"]')
+run 1 run -o bare "${with_image[@]}"
+expect_code 2 'a trajectory that would begin to have image counts'
+expect_told 'bare/trajectory.h5: has other columns than this run records' 'other fields'
+rm -r bare/trajectory*
+run 3 run -o bare "${with_image[@]}"
+expect_code 0 'a checkpoint without image counts'
+expect_told 'bare/trajectory.h5: image counts from step 20; the checkpoint has no counts' \
+    'a checkpoint without image counts'
+run 1 verify bare/trajectory.h5
+expect_code 0 'a trajectory with image counts'
 finish

@@ -87,6 +87,11 @@ class Frame(ABC):
         """Numbers of Voronoi neighbours, (N,) integers."""
         raise NoDataError("no neighbours; output.trajectory.fields of the scene asks for them")
 
+    @cached_property
+    def image(self) -> Array:
+        """Box lengths (N, 2) flown through periodic sides; x + image * box goes on without end."""
+        raise NoDataError("no image; trajectories of periodic boxes have it")
+
     @property
     @abstractmethod
     def radius(self) -> Array:

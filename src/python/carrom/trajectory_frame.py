@@ -39,7 +39,8 @@ class System:
 
 
 def _number_of_discs(discs: Any, file: Any) -> int:
-    for name in ("position", "velocity", "collisions", "angular_velocity", "psi6", "neighbours"):
+    names = ("position", "velocity", "image", "collisions", "angular_velocity", "psi6")
+    for name in (*names, "neighbours"):
         if name in discs:
             return int(discs[name]["value"].shape[1])
     raise FileError(f"{file.filename}: its frames have no fields")
@@ -83,6 +84,10 @@ class TrajectoryFrame(Frame):
     @cached_property
     def spin(self) -> Array:
         return self._frames.field("angular_velocity", self._index)
+
+    @cached_property
+    def image(self) -> Array:
+        return self._frames.field("image", self._index)[:, :2]
 
     @cached_property
     def wall_collisions(self) -> Array:

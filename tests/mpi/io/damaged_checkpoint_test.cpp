@@ -128,7 +128,7 @@ void write_checksums_again(const std::string& path, const std::string& dropped) 
     for (const StateColumn& column : disc_columns)
         sums.data.push_back({std::string("/carrom/discs/") + column.name, 0, 0, {}, {}});
     for (const SampleColumn& column : sample_columns) {
-        const std::string name = std::string("/carrom/measurements/") + column.name;
+        const std::string name = column.path;
         if (name != dropped) sums.data.push_back({name, 0, 0, {}, {}});
     }
     REQUIRE(H5Ldelete(file.id(), checksums_path, H5P_DEFAULT) >= 0);
@@ -156,8 +156,10 @@ TEST_CASE("a forged checkpoint with right checksums is refused where its places 
     StoredSamples samples;
     samples.sums = {1, 2, 3};
     samples.have_first_places = samples.have_lengths = samples.have_velocities = true;
+    samples.have_images = true;
     for (DiscId id = 0; id < 20; ++id) // fewer than a piece: all are rank 0's
-        if (world.is_root()) samples.first_places.push_back({id, 0.01, 0.02, 0.1, 0.2, 1, -2});
+        if (world.is_root())
+            samples.first_places.push_back({id, 0.01, 0.02, 1, -2, 0.1, 0.2, 3, -4});
     write_checkpoint(whole, some_header(), share(20, world, 0), world, {}, samples);
     const auto forged = [&](const std::string& dataset, const std::function<void(hid_t)>& change) {
         world.barrier();
@@ -174,7 +176,7 @@ TEST_CASE("a forged checkpoint with right checksums is refused where its places 
     };
     CHECK(forged("", [](hid_t) {}).empty());
     for (const SampleColumn& column : sample_columns) {
-        const std::string name = std::string("/carrom/measurements/") + column.name;
+        const std::string name = column.path;
         const std::string problem = forged(
             name, [&](hid_t file) { H5Ldelete(file, name.c_str(), H5P_DEFAULT); });
         CHECK(problem.find("has no " + name) != std::string::npos);
