@@ -13,45 +13,45 @@
 
 namespace carrom {
 
+/// Where a column's numbers are: component `place` of `width` numbers in each row of a data set.
+struct ColumnSource {
+    std::string column, dataset;
+    hsize_t width = 1, place = 0;
+};
+
 namespace {
 
 constexpr std::size_t longest_word = 1000;
 constexpr const char *discs_path = "/particles/discs/", *log_path = "/carrom/collisions/";
 
-/// Where a column's numbers are: component `place` of `width` numbers in each row of a data set.
-struct Source {
-    std::string column, dataset;
-    hsize_t width = 1, place = 0;
-};
-
 /// In the order of FileSummary::columns.
-std::vector<Source> sources_of_frames() {
-    std::vector<Source> sources = {{"x", "position", 3, 0},
-                                   {"y", "position", 3, 1},
-                                   {"vx", "velocity", 3, 0},
-                                   {"vy", "velocity", 3, 1},
-                                   {"pair_collisions", "collisions", 2, 1},
-                                   {"wall_collisions", "collisions", 2, 0},
-                                   {"psi6_real", "psi6", 2, 0},
-                                   {"psi6_imaginary", "psi6", 2, 1},
-                                   {"neighbours", "neighbours", 1, 0},
-                                   {"image_x", "image", 3, 0},
-                                   {"image_y", "image", 3, 1}};
+std::vector<ColumnSource> sources_of_frames() {
+    std::vector<ColumnSource> sources = {{"x", "position", 3, 0},
+                                         {"y", "position", 3, 1},
+                                         {"vx", "velocity", 3, 0},
+                                         {"vy", "velocity", 3, 1},
+                                         {"pair_collisions", "collisions", 2, 1},
+                                         {"wall_collisions", "collisions", 2, 0},
+                                         {"psi6_real", "psi6", 2, 0},
+                                         {"psi6_imaginary", "psi6", 2, 1},
+                                         {"neighbours", "neighbours", 1, 0},
+                                         {"image_x", "image", 3, 0},
+                                         {"image_y", "image", 3, 1}};
     for (const SideColumnInfo& info : side_column_table)
         sources.push_back({info.shown, info.shown, 1, 0});
-    for (Source& source : sources) source.dataset = discs_path + source.dataset + "/value";
+    for (ColumnSource& source : sources) source.dataset = discs_path + source.dataset + "/value";
     return sources;
 }
 
-std::vector<Source> sources_of_logs() {
-    std::vector<Source> sources;
+std::vector<ColumnSource> sources_of_logs() {
+    std::vector<ColumnSource> sources;
     for (const char* name : {"step", "time", "p", "q", "impulse"})
         sources.push_back({name, std::string(log_path) + name});
     return sources;
 }
 
 /// Rows [begin, end) of a frame, as doubles; of a data set with one axis `frame` must be 0.
-void read_block(hid_t file, const Source& source, std::size_t frame, std::uint64_t begin,
+void read_block(hid_t file, const ColumnSource& source, std::size_t frame, std::uint64_t begin,
                 std::uint64_t end, std::vector<double>& numbers) {
     const std::string& path = source.dataset;
     const h5::Dataset dataset = h5::open_checked(file, path);
@@ -127,7 +127,7 @@ std::size_t FileSummary::place_of(std::string_view column) const {
 struct FrameFile::State {
     h5::File file;
     CheckpointHeader header;           ///< of a checkpoint
-    std::vector<Source> sources;       ///< of a recording's columns
+    std::vector<ColumnSource> sources; ///< of a recording's columns
     std::vector<FileSegment> segments; ///< of a recording
 };
 
@@ -163,7 +163,7 @@ void FrameFile::open() {
         summary_.state_hash = header.state_hash;
     } else if (h5::has(file, "/carrom/collisions")) {
         summary_.kind = FileKind::collisions;
-        for (const Source& source : state_->sources = sources_of_logs())
+        for (const ColumnSource& source : state_->sources = sources_of_logs())
             summary_.columns.push_back(source.column);
         summary_.n_rows = h5::length_of(file, state_->sources.front().dataset);
     } else if (h5::has(file, "/particles/discs")) {
@@ -179,7 +179,7 @@ void FrameFile::open_trajectory() {
     summary_.kind = FileKind::trajectory;
     summary_.steps = h5::read_column<std::int64_t>(file, h5md::step_path);
     state_->sources.clear();
-    for (const Source& source : sources_of_frames()) {
+    for (const ColumnSource& source : sources_of_frames()) {
         if (!h5::has(file, source.dataset)) continue;
         h5::Shape shape = {summary_.steps.size(), std::nullopt};
         if (source.width > 1) shape.push_back(source.width);
@@ -232,7 +232,7 @@ void FrameFile::read_stored(std::size_t frame, std::uint64_t begin, std::uint64_
     std::vector<double> numbers;
     std::string last;
     for (std::size_t k = 0; k < rows.size(); ++k) {
-        const Source& source = state_->sources[k];
+        const ColumnSource& source = state_->sources[k];
         if (source.dataset != last)
             read_block(state_->file.id(), source, frame, begin, end, numbers);
         last = source.dataset;
