@@ -24,7 +24,7 @@ def draw_deviations(axes, table, name, label):
                                                    table[f"{name}_known_error"]):
         axes.errorbar(x, (found - known) / known * 1e4, error / known * 1e4, marker="o", color="#0060b0", capsize=3)
         axes.errorbar(x, 0, known_error / known * 1e4, marker="_", color="black", capsize=3)
-    axes.set(xlabel="packing fraction", ylabel=label)
+    axes.set(xlabel="packing fraction", ylabel=label, xticks=table["packing"])
 
 
 def draw_enskog(axes, table):
