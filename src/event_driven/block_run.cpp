@@ -49,7 +49,7 @@ void BlockRun<Dynamics>::run(const BlockGround& ground, const CellBlock& block, 
     s.mark_own(block);
     if constexpr (Dynamics::is_periodic) {
         s.next_image.clear();
-        if (is_whole) s.link_images();
+        if (is_whole) s.link_images(block);
     }
     s.predict_all();
     const EventOrder before(s.discs);
@@ -120,12 +120,14 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_all() {
     if (!dynamics.has_pairs()) return;
     const CellTable table{cell_starts.data(), cell_rows, cells.end_column - cells.first_column,
                           cells.end_row - cells.first_row};
-    std::uint32_t slot = 0;
-    for (int column = 0; column < table.n_columns; ++column) {
+    for (int column = firsts.first_column; column < firsts.end_column; ++column) {
         later_ends.clear();
-        filter_column(lanes, table, column, ground.grid->geometry().n_reach, touching_squared,
+        const CellRows rows = column < firsts_in_all_rows
+                                  ? CellRows{firsts.first_row, firsts.end_row}
+                                  : CellRows{0, table.n_rows};
+        filter_column(lanes, table, column, rows, ground.grid->geometry().n_reach, touching_squared,
                       later, later_ends);
-        std::uint32_t k = 0;
+        std::uint32_t slot = cell_run(column, rows.first, rows.first).begin, k = 0;
         for (const std::uint32_t end : later_ends) {
             for (; k < end; ++k) predict_pair(slot, later[k]);
             ++slot;
@@ -247,23 +249,12 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
         carry_out(other_side);
     }
     if (Dynamics::may_lose_discs && discs[event.p].has_departed()) return;
-    const bool is_mirrored = Dynamics::is_periodic && are_images_linked();
-    if constexpr (Dynamics::is_periodic) {
-        if (is_mirrored) mirror(event.p, event.time);
-        if (is_mirrored && !is_wall(event.q)) mirror(event.q, event.time);
-    }
+    if constexpr (Dynamics::is_periodic)
+        if (are_images_linked()) return predict_linked(event);
     if (dynamics.has_walls()) predict_walls(event.p);
-    if (is_wall(event.q)) {
-        predict_pairs(event.p);
-    } else {
-        if (dynamics.has_walls()) predict_walls(event.q);
-        predict_pairs_of(event.p, event.q);
-    }
-    if constexpr (Dynamics::is_periodic) {
-        if (!is_mirrored) return;
-        predict_images(event.p);
-        if (!is_wall(event.q)) predict_images(event.q);
-    }
+    if (is_wall(event.q)) return predict_pairs(event.p);
+    if (dynamics.has_walls()) predict_walls(event.q);
+    predict_pairs_of(event.p, event.q);
 }
 
 /// Rewrites the states of an event's discs and writes down what has happened to them.
@@ -290,7 +281,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
     if constexpr (Dynamics::has_spin && Dynamics::may_lose_discs)
         if (p.has_departed()) columns[SideColumn::spin][event.p] = 0;
     note(event.p, event.q, event);
-    if (is_own_image(event.p)) {
+    if (is_own[own_image(event.p)] != 0) {
         outcome->n_events += 1;
         if (ground.no_virial && !is_wall(event.q)) {
             const double mass = dynamics.mass_of(p) * dynamics.slowing_at(event.time);

@@ -67,8 +67,10 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     }
     void predict_all();
     void happen(const Event& event);
-    void link_images();
+    void link_images(const CellBlock& own);
+    void take_pairs_once(const CellBlock& own, std::size_t n_discs);
     void mirror(std::uint32_t slot, double time);
+    void predict_linked(const Event& event);
     void predict_images(std::uint32_t slot);
     void carry_out(const Event& event);
     void check_partner(std::uint32_t slot);
@@ -85,15 +87,14 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void report(std::span<std::uint64_t> histories);
 
     Flight flight_of(std::uint32_t slot) const;
-    /// Whether the disc, as one of its images, is the block's own.
-    bool is_own_image(std::uint32_t slot) const {
-        if (is_own[slot] != 0) return true;
+    /// The disc's image that is the block's own, if one is; else `slot`.
+    std::uint32_t own_image(std::uint32_t slot) const {
         if constexpr (Dynamics::is_periodic) {
-            if (next_image.empty()) return false;
+            if (is_own[slot] != 0 || next_image.empty()) return slot;
             for (std::uint32_t other = next_image[slot]; other != slot; other = next_image[other])
-                if (is_own[other] != 0) return true;
+                if (is_own[other] != 0) return other;
         }
-        return false;
+        return slot;
     }
     /// With each other, at this time, and with nobody since; perhaps as other images.
     bool have_just_collided(std::uint32_t a, std::uint32_t b, double time) const {
@@ -166,9 +167,12 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
 
     Dynamics dynamics;
     BlockGround ground;
-    CellBlock cells;     ///< own ones and the halo
-    CellBlock ring;      ///< own ones and those within one reach of them
-    Axis axis = Axis::x; ///< the grid's: corners, lanes and walls in cells have it as x
+    CellBlock cells; ///< own ones and the halo
+    CellBlock ring;  ///< own ones and those within one reach of them
+    CellBlock
+        firsts; ///< where a pair's first disc is looked for, counted from the corner of `cells`
+    int firsts_in_all_rows = 0; ///< from this column on in all rows
+    Axis axis = Axis::x;        ///< the grid's: corners, lanes and walls in cells have it as x
     double x_corner = 0, y_corner = 0, cells_per_length = 1, cells_per_speed = 1,
            windows_per_time = 1;
     float column_limit = 0, row_limit = 0;

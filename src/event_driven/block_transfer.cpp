@@ -47,6 +47,8 @@ void BlockRun<Dynamics>::Scratch::list_discs(const CellBlock& own, int halo) {
     ring.end_column = std::min(cells.end_column, own.end_column + geometry.n_reach);
     ring.first_row = std::max(cells.first_row, own.first_row - geometry.n_reach);
     ring.end_row = std::min(cells.end_row, own.end_row + geometry.n_reach);
+    firsts = {0, cells.end_column - cells.first_column, 0, cells.end_row - cells.first_row};
+    firsts_in_all_rows = 0;
     cell_rows = static_cast<std::size_t>(cells.end_row - cells.first_row) + 1;
     cell_starts.clear();
     indices.clear();
@@ -146,7 +148,8 @@ void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
         for (std::uint32_t slot = run.begin; slot < run.end; ++slot) {
             const EventHistory& past_events = past_events_of[slot];
             if (is_own[slot] == 0) {
-                outcome->ring.push_back({indices[slot], past_events.history});
+                if (!are_images_linked())
+                    outcome->ring.push_back({indices[slot], past_events.history});
                 continue;
             }
             histories[indices[slot]] = past_events.history;
@@ -163,21 +166,45 @@ void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
 }
 
 /// Makes rings of the images of each disc.
-template <class Dynamics> void BlockRun<Dynamics>::Scratch::link_images() {
+template <class Dynamics> void BlockRun<Dynamics>::Scratch::link_images(const CellBlock& own) {
     constexpr std::uint32_t none = 0xffffffff;
     const std::size_t n = discs.size(), size = std::bit_ceil(2 * n + 1);
     next_image.resize(n);
     image_table.assign(size, none);
+    std::size_t n_discs = 0;
     for (std::uint32_t slot = 0; slot < n; ++slot) {
         std::size_t place = ((discs[slot].id * 0x9e3779b97f4a7c15u) >> 20) & (size - 1);
         while (image_table[place] != none && discs[image_table[place]].id != discs[slot].id)
             place = (place + 1) & (size - 1);
         next_image[slot] = slot;
-        if (image_table[place] == none)
+        if (image_table[place] == none) {
             image_table[place] = slot;
-        else
+            ++n_discs;
+        } else {
             std::swap(next_image[slot], next_image[image_table[place]]);
+        }
     }
+    take_pairs_once(own, n_discs);
+}
+
+/// Where all discs are own ones, each with an image of the other is found twice. Take those whose
+/// first disc is in an own cell. If images differ along x, the one of the two contacts with an
+/// image on the right has the own disc first, or the image in the last own column. Else both discs
+/// have the same columns in both: the own disc in the left one is first in one of them, and in one
+/// column the image is above in one of them. That needs own cells with own discs and no images;
+/// rounding and cells that do not end with the box may put them elsewhere.
+template <class Dynamics>
+void BlockRun<Dynamics>::Scratch::take_pairs_once(const CellBlock& own, std::size_t n_discs) {
+    std::size_t n_there = 0, n_own = 0;
+    for (int column = own.first_column; column < own.end_column; ++column) {
+        const SlotRange run = grid_run(column, own.first_row, own.end_row - 1);
+        n_there += run.end - run.begin;
+        for (std::uint32_t slot = run.begin; slot < run.end; ++slot) n_own += is_own[slot];
+    }
+    if (n_there != n_discs || n_own != n_discs) return;
+    firsts = {own.first_column - cells.first_column, own.end_column - cells.first_column,
+              own.first_row - cells.first_row, own.end_row - cells.first_row};
+    firsts_in_all_rows = firsts.end_column - 1;
 }
 
 /// What has happened to a disc has happened to all of its images.
@@ -198,13 +225,29 @@ void BlockRun<Dynamics>::Scratch::mirror(std::uint32_t slot, double time) {
     }
 }
 
-/// A pair's contact is found several times then: the first one that is carried out makes the others
-/// stale.
+/// What comes next for an event's discs and all of their images.
+template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_linked(const Event& event) {
+    mirror(event.p, event.time);
+    const std::uint32_t p = own_image(event.p);
+    if (dynamics.has_walls()) predict_walls(p);
+    if (is_wall(event.q)) return predict_images(p);
+    mirror(event.q, event.time);
+    const std::uint32_t q = own_image(event.q);
+    if (dynamics.has_walls()) predict_walls(q);
+    if (is_own[p] != 0 && is_own[q] != 0 && p == event.p && q == event.q)
+        return predict_pairs_of(p, q);
+    predict_images(p);
+    predict_images(q);
+}
+
+/// An own disc sees all that it may meet: its images meet nothing else. Of one that is not own,
+/// each image looks around. A contact that is found several times makes the others stale when it is
+/// carried out.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_images(std::uint32_t slot) {
-    for (std::uint32_t other = next_image[slot]; other != slot; other = next_image[other]) {
-        if (dynamics.has_walls()) predict_walls(other);
+    predict_pairs(slot);
+    if (is_own[slot] != 0) return;
+    for (std::uint32_t other = next_image[slot]; other != slot; other = next_image[other])
         predict_pairs(other);
-    }
 }
 
 #define CARROM_DEFINE(Dynamics)                                                                    \
@@ -215,9 +258,8 @@ CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
 #undef CARROM_DEFINE
 
 #define CARROM_DEFINE_IMAGES(Dynamics)                                                             \
-    template void BlockRun<Dynamics>::Scratch::link_images();                                      \
-    template void BlockRun<Dynamics>::Scratch::mirror(std::uint32_t, double);                      \
-    template void BlockRun<Dynamics>::Scratch::predict_images(std::uint32_t);
+    template void BlockRun<Dynamics>::Scratch::link_images(const CellBlock&);                      \
+    template void BlockRun<Dynamics>::Scratch::predict_linked(const Event&);
 CARROM_FOR_EACH_PERIODIC_DYNAMICS(CARROM_DEFINE_IMAGES)
 #undef CARROM_DEFINE_IMAGES
 

@@ -152,8 +152,8 @@ PartnerCounts FilterTwoFlights(const FlightLanes& all_lanes, std::span<const Slo
     return {static_cast<std::size_t>(p_next - p_out), static_cast<std::size_t>(q_next - q_out)};
 }
 
-void FilterColumn(const FlightLanes& all_lanes, const CellTable& cells, int column, int n_reach,
-                  float touching_squared, std::vector<std::uint32_t>& partners,
+void FilterColumn(const FlightLanes& all_lanes, const CellTable& cells, int column, CellRows rows,
+                  int n_reach, float touching_squared, std::vector<std::uint32_t>& partners,
                   std::vector<std::uint32_t>& ends) {
     const FlightLanes lanes = all_lanes;
     const std::uint32_t* const own = cells.starts +
@@ -162,7 +162,7 @@ void FilterColumn(const FlightLanes& all_lanes, const CellTable& cells, int colu
     const auto start = hn::Zero(Lanes());
     const auto nobody = spread_slot(0xffffffff);
     std::size_t n_partners = 0;
-    for (int row = 0; row < cells.n_rows; ++row) {
+    for (int row = rows.first; row < rows.end; ++row) {
         if (own[row] == own[row + 1]) continue;
         const int low = HWY_MAX(row - n_reach, 0), high = HWY_MIN(row + n_reach, cells.n_rows - 1);
         std::size_t n_slots = own[high + 1] - own[row];
@@ -214,11 +214,11 @@ PartnerCounts filter_two_flights(const FlightLanes& lanes, std::span<const SlotR
 
 HWY_EXPORT(FilterColumn);
 
-void filter_column(const FlightLanes& lanes, const CellTable& cells, int column, int n_reach,
-                   float touching_squared, std::vector<std::uint32_t>& partners,
+void filter_column(const FlightLanes& lanes, const CellTable& cells, int column, CellRows rows,
+                   int n_reach, float touching_squared, std::vector<std::uint32_t>& partners,
                    std::vector<std::uint32_t>& ends) {
-    HWY_DYNAMIC_DISPATCH(FilterColumn)(lanes, cells, column, n_reach, touching_squared, partners,
-                                       ends);
+    HWY_DYNAMIC_DISPATCH(FilterColumn)(lanes, cells, column, rows, n_reach, touching_squared,
+                                       partners, ends);
 }
 
 } // namespace carrom

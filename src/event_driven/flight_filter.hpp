@@ -46,12 +46,17 @@ struct CellTable {
     int n_columns = 0, n_rows = 0;
 };
 
-/// Finds every pair that might touch in the window, of a disc in `column` and one that comes after
-/// it: later in its own column or in a column to the right, `n_reach` cells away at most. Puts the
-/// second ones into `partners`, which only grows. For each disc of the column it appends to `ends`
-/// where its partners end there.
-void filter_column(const FlightLanes& lanes, const CellTable& cells, int column, int n_reach,
-                   float touching_squared, std::vector<std::uint32_t>& partners,
+/// Rows first .. end - 1 of a column of cells.
+struct CellRows {
+    int first = 0, end = 0;
+};
+
+/// Finds every pair that might touch in the window, of a disc in `rows` of a column and one that
+/// comes after it: later in its own column or in a column to the right, `n_reach` cells away at
+/// most. Puts the second ones into `partners`, which only grows. For each disc of the rows it
+/// appends to `ends` where its partners end there.
+void filter_column(const FlightLanes& lanes, const CellTable& cells, int column, CellRows rows,
+                   int n_reach, float touching_squared, std::vector<std::uint32_t>& partners,
                    std::vector<std::uint32_t>& ends);
 
 } // namespace carrom
