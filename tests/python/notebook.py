@@ -12,6 +12,10 @@ from pathlib import Path
 import nbformat
 from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError
+from traitlets.config import Config
+
+# Notebooks that start at the same time may choose the same ports; files have names of their own.
+CONFIG = Config({"KernelManager": {"transport": "ipc"}})
 
 
 def main() -> None:
@@ -23,7 +27,8 @@ def main() -> None:
         sys.exit(f"{path}: has outputs; strip them before they go into git")
     start = time.monotonic()
     try:
-        NotebookClient(notebook, timeout=500, resources={"metadata": {"path": "."}}).execute()
+        resources = {"metadata": {"path": "."}}
+        NotebookClient(notebook, timeout=500, resources=resources, config=CONFIG).execute()
     except CellExecutionError as error:
         sys.exit(f"{path}: {error}")
     finally:
