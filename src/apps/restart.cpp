@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -49,11 +50,15 @@ std::string folder_to_search(const RunOptions& options, const Scene& scene,
     return folder;
 }
 
-/// Checkpoints of a folder, newest first, the same on every rank. **Collective.**
-std::vector<std::string> candidates_in(const std::string& folder, const Communicator& ranks) {
+/// Checkpoints of a folder, newest first, the same on every rank; by their names of steps before
+/// `end`. **Collective.**
+std::vector<std::string> candidates_in(
+    const std::string& folder, const Communicator& ranks,
+    std::int64_t end = std::numeric_limits<std::int64_t>::max()) {
     std::string list;
     if (ranks.is_root()) {
-        for (const FoundFile& found : find_checkpoints(folder)) list += found.path + '\0';
+        for (const FoundFile& found : find_checkpoints(folder))
+            if (found.step < end) list += found.path + '\0';
     }
     ranks.broadcast(list);
     std::vector<std::string> paths;
@@ -118,7 +123,7 @@ std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths,
 std::vector<std::string> earlier_checkpoints(const Scene& scene, std::int64_t step,
                                              const Communicator& ranks) {
     std::vector<std::string> paths;
-    for (const std::string& path : candidates_in(scene.checkpoint->folder, ranks)) {
+    for (const std::string& path : candidates_in(scene.checkpoint->folder, ranks, step)) {
         try {
             const CheckpointHeader header = read_checkpoint_header(path, ranks);
             if (header.step < step && physical_differences(scene_of(header, {}), scene).empty())

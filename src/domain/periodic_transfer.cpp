@@ -123,8 +123,8 @@ TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const 
     for (const int other : plan.partners) slabs.emplace_back(strips, other, period);
     const double period_across = periods.along(other_axis(axis));
     const Inside box = periods.inside();
-    const auto [across_low, across_high] = axis == Axis::x ? std::pair(box.y_low, box.y_high)
-                                                           : std::pair(box.x_low, box.x_high);
+    const double across_low = axis == Axis::x ? box.y_low : box.x_low;
+    const double across_high = axis == Axis::x ? box.y_high : box.x_high;
     const auto look_at = [&](LocalIndex i) {
         const auto [u, v] = turned(axis, periods.x_of(own[i], time), periods.y_of(own[i], time));
         const Image home = image_of(own[i]);

@@ -26,11 +26,19 @@ finish() {
 
 # The launcher of Open MPI 5.0.7 now and then takes some bytes of standard output for standard error
 # (Debian 13). There the ranks write past it.
-past_launcher=()
+past_launcher=() has_proxy=no
 case $("$CARROM_MPIEXEC" --version 2>&1) in
     *'Open MPI) 5'* | *PRRTE*)
         past_launcher=(sh -c 'exec "$@" >>"$0/out" 2>>"$0/err"' "$test_folder") ;;
+    *HYDRA*) has_proxy=yes ;;
 esac
+
+# ranks_of LAUNCHER: the ids of its ranks. MPICH's launcher has a process between itself and them.
+ranks_of() {
+    local parent=$1
+    [ $has_proxy = no ] || parent=$(pgrep -d , -P "$1") || return
+    pgrep -P "$parent"
+}
 
 # run RANKS WORD...: the program on that many ranks; sets `code`. Never waits longer than a minute,
 # or `patience` seconds. One rank needs no mpiexec, which takes two seconds to leave when its only

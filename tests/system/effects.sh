@@ -351,9 +351,7 @@ for ((i = 0; i < 600; ++i)); do
     [ -e killed/checkpoints/checkpoint-000000000030.h5 ] && break
     sleep 0.05
 done
-children=$(pgrep -d , -P $!) # MPICH's launcher has another process between itself and the ranks
-rank=$(pgrep -o -P "$children" || pgrep -o -P $!)
-kill -KILL "$rank" || complain 'no rank to kill'
+kill -KILL "$(ranks_of $! | head -n 1)" || complain 'no rank to kill'
 wait $!
 # it may have got further than the run that it is compared with
 find killed -name 'checkpoint-*.h5' ! -name '*-000000000030.h5' -delete

@@ -18,9 +18,9 @@ kill_once() {
         --restart latest \
         >"$test_folder/out" 2>"$test_folder/err" &
     launcher=$!
-    while ! pgrep -P "$launcher" >/dev/null && kill -0 "$launcher" 2>/dev/null; do sleep 0.05; done
+    while ! ranks_of "$launcher" >/dev/null && kill -0 "$launcher" 2>/dev/null; do sleep 0.05; done
     sleep "$(printf '%d.%03d' $(($2 / 1000)) $(($2 % 1000)))"
-    mapfile -t rank_pids < <(pgrep -P "$launcher")
+    mapfile -t rank_pids < <(ranks_of "$launcher")
     [ ${#rank_pids[@]} -eq 0 ] || kill -KILL "${rank_pids[RANDOM % ${#rank_pids[@]}]}" 2>/dev/null
     end_of "$launcher"
 }
