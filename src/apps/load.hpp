@@ -27,8 +27,8 @@ struct Loaded {
     std::vector<WriteLock> locks;      ///< rank 0's, on what is written to
 };
 
-/// Throws InputError on every rank: with `problems` (found so far, the same on all ranks), those of
-/// the report's path and those of the scene; if there are none, with those of the outputs' places,
+/// Throws InputError on every rank with `problems` (found so far, the same on all ranks), those of
+/// the report's path and those of the scene. If there are none, with those of the outputs' places,
 /// of the lines of discs, or of the checkpoint to go on from. Rank 0 prints the scene's warnings.
 /// **Collective.**
 Loaded load(const RunOptions& options, const std::vector<Problem>& problems,

@@ -3,9 +3,10 @@
 // with the same bits.
 //
 // Discs stand in the order of their ids, so the file does not show which ranks wrote it.
-// /carrom/discs holds the stored state, column by column, to the bit; /carrom/run what the run is;
-// /particles/discs the same discs as other programs expect them (H5MD; positions at the time of the
-// step, in single precision). Checksums of all bytes are in /carrom/checksums (checksums.hpp).
+// /carrom/discs holds the stored state, column by column, to the bit. /carrom/run says what the run
+// is. /particles/discs has the same discs as other programs expect them (H5MD; positions at the
+// time of the step, in single precision). Checksums of all bytes are in /carrom/checksums
+// (checksums.hpp).
 //
 // Rank 0 makes the file and takes its room on disk. Then each rank writes its share of the ids
 // through HDF5 and MPI-IO, and reads it so. Price: 80 bytes a disc to disk, and a disc is sent once

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Distributed sort of records in any distribution over the ranks.
 //
-// Each rank sorts its own, every so-many-th record of all becomes a sample, rank 0 sorts the
-// samples and cuts them into slices (Shi and Schaeffer 1992, with the samples shared out by count,
-// so a skewed start does not skew the cuts), and each record travels once. Price: n log n / ranks
+// Each rank sorts its own, and every so-many-th record of all becomes a sample. Rank 0 sorts the
+// samples and cuts them into slices, and each record travels once (Shi and Schaeffer 1992). Samples
+// are shared out by count, so a skewed start does not skew the cuts. Price: n log n / ranks
 // comparisons, one any-to-any exchange, and about 64 samples per slice on rank 0. With distinct
 // records a slice exceeds its share by less than ranks / 64 of it, by far less on data that is not
 // made for it.

@@ -3,8 +3,8 @@
 // of them.
 //
 // Tried are a square lattice and two hexagonal ones (rows of n and n, rows of n and n-1 sites),
-// stretched to fill the box, over every number of rows, along the longer side and then along the
-// other one; the one whose discs may move farthest wins.
+// stretched to fill the box. Every number of rows is tried, along the longer side and then along
+// the other one. The lattice whose discs may move farthest wins.
 // Sites keep the same distance s to the walls as half of what they keep from each other, so each
 // disc may be moved by up to s in any direction: no overlap, none outside. Sites in excess of N
 // stay empty, spread evenly. Finding it costs O(sqrt N) in a square, a site O(1).

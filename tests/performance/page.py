@@ -6,8 +6,9 @@ pictures beside its CSV files.
   tests/performance/page.py [--folder docs/performance] [--page docs/understanding/performance.md]
 
 Reads rates.csv (compare.py), cluster.csv (simulate.py --study), kernels.json (carrom_benchmarks)
-and peaks.txt (machine_peaks); measure_all.sh writes all four. A part whose file is missing keeps
-what it says. Words around the markers are the page's own. Needs the Python environment of
+and peaks.txt (machine_peaks); measure_all.sh writes all four. Other machines' rates, as
+rates_xeon.csv, get a table each behind the first one's. A part whose file is missing keeps what it
+says. Words around the markers are the page's own. Needs the Python environment of
 docs/tools/README.md.
 """
 
@@ -276,7 +277,9 @@ def main():
     folder, text = options.folder, options.page.read_text(encoding="utf-8")
     if (folder / "rates.csv").exists():
         rows = read_csv(folder / "rates.csv")
-        text = replace_part(text, "rates", rates_part(rows))
+        others = [read_csv(path) for path in sorted(folder.glob("rates_*.csv"))]
+        parts = [rates_part(found) for found in [rows, *others]]
+        text = replace_part(text, "rates", "\n\n".join(parts))
         draw_sizes(rows, folder)
     if (folder / "cluster.csv").exists():
         rows = read_csv(folder / "cluster.csv")

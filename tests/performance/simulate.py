@@ -33,10 +33,10 @@ TABLE = os.path.join(FOLDER, "messages.csv")
 PLATFORM = os.path.join(FOLDER, "fat_tree.xml")
 PINNED = ("messages", "most_messages", "bytes", "collectives", "network_messages")
 # Nanoseconds that a rank computes for: per own disc and micro-step of the gas, measured on one core
-# with 1e5 and 1e6 discs, and of the slow gas, with 1e6 (docs/understanding/performance.md). For
-# each disc that it sends, 64 bytes, once a window or when that has been hit, it takes 436 to 456
-# instructions, in the slow gas 484, where an own disc takes 208 a micro-step, counted by valgrind
-# with 64,000 discs on 8 and 16 ranks against one: as much time, it is taken, as for 2.1 own ones.
+# with 1e5 and 1e6 discs, and of the slow gas, with 1e6 (docs/understanding/performance.md). It
+# sends a disc, 64 bytes, once a window or when that has been hit. That takes 436 to 456
+# instructions, in the slow gas 484; an own disc takes 208 a micro-step. Valgrind counted them with
+# 64,000 discs on 8 and 16 ranks against one. So a sent disc is taken for 2.1 own ones.
 NS_IN_CACHE, NS_IN_MEMORY, NS_SLOW = 23.0, 31.4, 2.6
 SENT_TO_OWN = 2.1
 MOST_IN_CACHE = 200_000  # discs of a rank

@@ -34,7 +34,7 @@ double by_ulps(double value, int ulps) {
     return value;
 }
 
-/// A lone pair in a box of eight diameters, at sigma (1 + k ulp) along x, y or a diagonal; near the
+/// A lone pair in a box of eight diameters, at sigma (1 + k ulp) along x, y or a diagonal. Near the
 /// origin, where an ulp of a coordinate is one of sigma, or far from it, where it is four. Relative
 /// velocity along the line of centres times `closing`, across it times `sliding`.
 TestScene pair_at_contact(int ulps, int direction, bool is_near, double closing, double sliding) {

@@ -5,7 +5,7 @@
 // Why hard: any length in the code (an epsilon at walls, a unit of the search) breaks scaling;
 // products of four lengths overflow or vanish; far from the origin a coordinate has fewer digits.
 // Sources: the toccata proof of the discriminant (its bounds on overflow), Bannerman et al. 2014.
-// Bounds: a scene times 2^k has bitwise scaled results or is refused with a reason; a cluster at
+// Bounds: a scene times 2^k has bitwise scaled results or is refused with a reason. A cluster at
 // (L, L) has the times of the one at the origin to 4 ulp where its places are exact, and to 16
 // ulp(L)/|w| per collision after that.
 #include "catch.hpp"

@@ -2,9 +2,9 @@
 // Family 6, symmetry: x and y are alike, left is like right where numbers are exact, and time runs
 // back.
 //
-// Why hard: a contracted a*b + c*d rounds its two products differently, which a transposed scene
-// shows at once, as does any order in which x comes first; hard discs multiply an error e-fold
-// every few tenths of a mean free time. Sources: the bit-exact fma hunts quoted in the project's
+// Why hard: a contracted a*b + c*d rounds its two products differently. A transposed scene shows
+// that at once, and any order in which x comes first. Hard discs multiply an error e-fold every
+// few tenths of a mean free time. Sources: the bit-exact fma hunts quoted in the project's
 // notes on contraction; Dellago, Posch, Hoover, PRE 53, 1485 (1996) for the exponents, here
 // measured ones: lambda = 1.447 (packing 0.1) and 2.870 (0.3) for sigma = kT = m = 1.
 #include "catch.hpp"

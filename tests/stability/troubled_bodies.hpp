@@ -10,8 +10,8 @@
 
 namespace carrom::test {
 
-/// Up to 12 discs of radii 1 to 1e-3 and masses 1 to 1e6, smooth or rough, with spins; fixed discs,
-/// points, segments and wedges of them; open sides; and of the other effects what goes together
+/// Up to 12 discs of radii 1 to 1e-3 and masses 1 to 1e6, smooth or rough, with spins. Fixed discs,
+/// points, segments and wedges of them. Open sides, and of the other effects what goes together
 /// with them (docs/reference/effects.md). Discs touch each other (by their own radii), walls and
 /// obstacles, rest in wedges, graze, and meet or leave at the boundaries of micro-steps. None
 /// overlaps by more than rounding. The same arguments give the same bits on every machine.

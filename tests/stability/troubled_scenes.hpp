@@ -13,10 +13,10 @@ namespace carrom::test {
 /// every machine.
 TestScene troubled_scene(std::uint64_t seed);
 
-/// The same in further ways: up to 40 discs, patches of a hexagonal lattice with gaps of some ulp,
-/// boxes that hardly fit and boxes of up to 1e6 radii, speeds from 1e-12 to 1e3 diameters a step,
-/// velocities that differ by an ulp, overlaps (in the time-stepped method only), micro-steps that
-/// are no power of two, long sync intervals, all lengths times a power of two.
+/// The same in further ways. Up to 40 discs, and patches of a hexagonal lattice with gaps of some
+/// ulp. Boxes that hardly fit and boxes of up to 1e6 radii. Speeds from 1e-12 to 1e3 diameters a
+/// step, and velocities that differ by an ulp. Overlaps, in the time-stepped method only.
+/// Micro-steps that are no power of two, long sync intervals, all lengths times a power of two.
 TestScene wildly_troubled_scene(std::uint64_t seed, bool may_overlap);
 
 } // namespace carrom::test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the time-stepped method loses at a given number of collisions per disc and micro-step, held
-// to a table that was measured with a separate program (256 discs, hard walls, rates to 1.2 %, most
-// of it common to a column).
+// to a table. A separate program measured it: 256 discs, hard walls, rates to 1.2 %, most of it
+// common to a column.
 #include "catch.hpp"
 
 #include <array>

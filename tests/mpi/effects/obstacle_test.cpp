@@ -147,9 +147,9 @@ TEST_CASE("effects: where the seams are in a periodic box is of no account, unde
     }
 }
 
-// Machta and Zwanzig, Phys. Rev. Lett. 50, 1959 (1983): between fixed discs of radius R on a
-// triangular lattice with gaps w points are trapped in cells of area A, and hop to the next one, l
-// off, through three gaps after a mean time of pi A / (3 w v): D = l^2 / 4 over that. It is right
+// Machta and Zwanzig, Phys. Rev. Lett. 50, 1959 (1983): fixed discs of radius R on a triangular
+// lattice with gaps w trap points in cells of area A. They hop to the next cell, l off, through
+// three gaps after a mean time of pi A / (3 w v): D = l^2 / 4 over that. It is right
 // for narrow gaps (Klages and Dellago, J. Stat. Phys. 101, 145 (2000)); 26 columns and 30 rows are
 // a lattice in a square to 0.1 %.
 TEST_CASE("effects: diffusion in a periodic Lorentz gas is that of hops from trap to trap") {

@@ -3,7 +3,7 @@
 //
 // The discriminant's, 10 u (1 + A sigma^2/disc), is what its roundings can add up to: sqrt(A) sigma
 // has a relative error of 3 u (two of A, halved by the root, the root's own, the product's), the
-// cross product of 2 u; near a graze their difference is exact and their sum is twice either: (3 +
+// cross product of 2 u. Near a graze their difference is exact and their sum is twice either: (3 +
 // 2) x 2. Random cases come to 8.9.
 #pragma once
 
