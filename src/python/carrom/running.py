@@ -198,12 +198,14 @@ def _execute(
 
 
 def _environment(ranks: int) -> dict[str, str]:
-    """Let Open MPI start more ranks than cores; MPICH always does."""
+    """Let Open MPI start more ranks than cores (MPICH always does), and ranks that wait sleep."""
     environment = dict(os.environ)
     if ranks > len(os.sched_getaffinity(0)):
         environment.setdefault("OMPI_MCA_rmaps_base_oversubscribe", "1")
         environment.setdefault("PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe")
         environment.setdefault("OMPI_MCA_hwloc_base_binding_policy", "none")
+        environment.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")
+        environment.setdefault("MPIR_CVAR_ENABLE_HEAVY_YIELD", "1")
         environment.setdefault("OMP_WAIT_POLICY", "passive")
     return environment
 
