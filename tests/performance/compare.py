@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measure Carrom beside its peers: LAMMPS, and a plain stream of the same bytes. One CSV row per
-case.
+"""Measure Carrom beside its peers: LAMMPS, EDMD, and a plain stream of the same bytes. One CSV row
+per case.
 
-  tests/performance/compare.py --build build --output docs/performance/rates.csv --minutes 7 [--only
-  PATTERN] [--short]
+  tests/performance/compare.py --build build --output docs/performance/rates.csv --minutes 7 [--edmd
+  PROGRAM] [--only PATTERN] [--short]
 
 Every case of a round runs before the next round begins, each together with what it is compared
 with, so that a drift of the machine's speed falls on both; ratios are taken within a round, and the
 CSV has their medians. Rounds go on until the time is up, at least three. --short runs all cases
 once and for a fraction of their steps: to see that it works. LAMMPS (Debian: lammps) is left out,
-and named, where there is none.
+and named, where there is none. planar_edmd.py builds EDMD; it makes as many collisions as Carrom,
+from the same places in the same periodic box.
 """
 
 import argparse
@@ -48,9 +49,25 @@ def slow(n_discs, steps):
     )
 
 
+def periodic(n_discs, packing, n_collisions):
+    """A gas in a periodic box for about so many collisions: diameter 1, kT = 1, as in EDMD."""
+    size = math.sqrt(n_discs * math.pi / 4 / packing)
+    contact = (1 - 7 * packing / 16) / (1 - packing) ** 2  # Enskog's rate
+    per_time = n_discs * 4 * packing * contact / math.sqrt(math.pi)
+    sides = "".join(f'{side}.kind = "periodic"\n' for side in ("left", "right", "bottom", "top"))
+    return (
+        (
+            f"[box]\nsize = {size!r}\n{sides}[discs]\ncount = {n_discs}\nradius = 0.5\nspeed ="
+            f" {math.sqrt(2)!r}\n[time]\nsteps = {max(1, round(n_collisions / per_time))}\n"
+            "method = \"event-driven\"\n"
+        ),
+        "toml",
+    )
+
+
 class Case:
     """`unit`: what the rate counts. `whole`: the time of the whole program, start included, instead
-    of stepping alone.
+    of stepping alone. `edmd`: whether EDMD can run the same scene.
     """
 
     def __init__(
@@ -62,7 +79,7 @@ class Case:
         peer=None,
         goal=None,
         whole=False,
-        group="",
+        edmd=False,
     ):
         self.scene, self.ranks, self.threads, self.unit, self.peer = (
             scene,
@@ -71,7 +88,7 @@ class Case:
             unit,
             peer,
         )
-        self.goal, self.whole, self.group = goal, whole, group
+        self.goal, self.whole, self.edmd = goal, whole, edmd
 
 
 def cases():
@@ -108,22 +125,39 @@ def cases():
         ("1e7", 10_000_000, 8),
     ):
         found[f"gas, {name}"] = Case(lambda s, n=n_discs, k=steps: gas(n, s(k)))
+    for packing in (0.3, 0.5):
+        for name, n_discs in (
+            ("870", 870),
+            ("4096", 4096),
+            ("1e4", 10_000),
+            ("1e5", 100_000),
+            ("1e6", 1_000_000),
+        ):
+            found[f"periodic, packing {packing}, {name}"] = Case(
+                lambda s, n=n_discs, e=packing: periodic(n, e, s(2_000_000)),
+                unit="collisions",
+                edmd=True,
+            )
     return found
 
 
-def timed(command, environment):
+def timed(command, environment, folder=None):
     start = time.perf_counter()
-    run = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=environment)
+    run = subprocess.run(
+        command, check=True, stdout=subprocess.PIPE, text=True, env=environment, cwd=folder
+    )
     return time.perf_counter() - start, run.stdout
 
 
 class Machine:
-    def __init__(self, build, short):
-        self.build, self.short = build, short
+    def __init__(self, build, short, edmd):
+        self.build, self.short, self.edmd = build, short, edmd and os.path.abspath(edmd)
         self.environment = {**os.environ, **MPI_SETTINGS}
         self.lammps = shutil.which("lmp")
         if not self.lammps:
             print("there is no LAMMPS (lmp): its columns stay empty", file=sys.stderr)
+        if not self.edmd:
+            print("there is no --edmd: its columns stay empty", file=sys.stderr)
 
     def steps(self, n):
         return max(2, n // 16) if self.short else n
@@ -188,6 +222,26 @@ class Machine:
         ][-1]
         return int(discs) * int(done) / float(seconds)
 
+    def exact_peer(self, case, n_collisions, folder):
+        """EDMD's collisions per second, from where Carrom began."""
+        if not case.edmd or not self.edmd:
+            return None
+        scene, start = os.path.join(folder, "scene.toml"), os.path.join(folder, "start")
+        program = os.path.join(self.build, "carrom")
+        begin = [program, "run", scene, "--set", "time.steps=0", "--overwrite", "--quiet"]
+        timed([*begin, "-o", start], self.environment)
+        stored = os.path.join(start, "checkpoints", "checkpoint-000000000000.h5")
+        _, text = timed([program, "convert", stored, "--to", "text"], self.environment)
+        places = [line.split()[2:4] for line in text.splitlines() if line.count(" ") == 7]
+        with open(scene, encoding="utf-8") as file:
+            size = re.search(r"^size = (\S+)", file.read(), re.MULTILINE).group(1)
+        with open(os.path.join(folder, "init.sph"), "w", encoding="ascii") as file:
+            file.write(f"{len(places)}\n{size} {size} 1.0\n")
+            file.writelines(f"a {x} {y} 0.5 0.5\n" for x, y in places)
+        _, text = timed([self.edmd, str(n_collisions)], self.environment, folder)
+        done, seconds = re.search(r"collisions (\d+) seconds (\S+)", text).groups()
+        return int(done) / float(seconds)
+
     def stream(self, n_discs, threads):
         """Disc-steps per second of a program that only reads and writes every disc's 64 bytes."""
         passes = max(3, int(2e8 / n_discs / (16 if self.short else 1)))
@@ -242,7 +296,7 @@ def number(value):
 
 COLUMNS = """
     case unit ranks threads n_discs steps rounds rate least most seconds ns_per_disc_step
-    lammps_rate over_lammps stream_rate over_stream imbalance bytes_per_disc goal machine
+    lammps_rate over_lammps edmd_rate over_edmd stream_rate over_stream imbalance bytes_per_disc goal machine
     compiler version
 """.split()
 
@@ -260,7 +314,7 @@ def write(path, chosen, rounds, machine):
             result = runs[-1]["result"]
             over = {
                 key: median([run["rate"] / run[key] if run[key] else None for run in runs])
-                for key in ("lammps", "stream")
+                for key in ("lammps", "edmd", "stream")
             }
             table.writerow(
                 [
@@ -278,6 +332,8 @@ def write(path, chosen, rounds, machine):
                     number(median([run["result"]["ns_per_disc_step"] for run in runs])),
                     number(median([run["lammps"] for run in runs])),
                     number(over["lammps"]),
+                    number(median([run["edmd"] for run in runs])),
+                    number(over["edmd"]),
                     number(median([run["stream"] for run in runs])),
                     number(over["stream"]),
                     number(median([run["result"]["imbalance"] for run in runs])),
@@ -297,11 +353,12 @@ def main():
     parser.add_argument("--build", default="build")
     parser.add_argument("--output", required=True)
     parser.add_argument("--minutes", type=float, default=7)
+    parser.add_argument("--edmd", help="the program that planar_edmd.py builds")
     parser.add_argument("--only", default="*", help="cases by name, as in '*, 1e6*'")
     parser.add_argument("--short", action="store_true")
     options = parser.parse_args()
     chosen = {name: case for name, case in cases().items() if fnmatch.fnmatch(name, options.only)}
-    machine = Machine(os.path.abspath(options.build), options.short)
+    machine = Machine(os.path.abspath(options.build), options.short, options.edmd)
     rounds = {name: [] for name in chosen}
     end = time.monotonic() + 60 * options.minutes
     fewest = 1 if options.short else 3
@@ -312,6 +369,7 @@ def main():
             for name, case in chosen.items():
                 rate, seconds, result = machine.carrom(case, folder)
                 lammps = machine.peer(case)
+                edmd = machine.exact_peer(case, result["pair_collisions"], folder)
                 stream = (
                     machine.stream(result["n_discs"], case.ranks * case.threads)
                     if case.unit == "disc-steps" and not case.whole
@@ -323,12 +381,14 @@ def main():
                         "seconds": seconds,
                         "result": result,
                         "lammps": lammps,
+                        "edmd": edmd,
                         "stream": stream,
                     }
                 )
                 print(
                     f"round {turn}  {name:34} {rate:10.4g} {case.unit}/s"
                     + (f"  LAMMPS {lammps:.3g}" if lammps else "")
+                    + (f"  EDMD {edmd:.3g}" if edmd else "")
                     + (f"  stream {stream:.3g}" if stream else ""),
                     file=sys.stderr,
                 )
