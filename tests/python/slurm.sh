@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # A sweep as an array job of a real Slurm: it submits, collects, and submits what is missing.
-# Argument: the folder of environments.
+# Its folder has a space in its name. Argument: the folder of environments.
 source "$(dirname "$0")/../system/common.sh"
 source "$(dirname "$0")/environment.sh"
 
@@ -24,7 +24,7 @@ scene = {
 grid = {"discs.packing": [float(word) for word in sys.argv[2:]]}
 slurm = {"time": "00:05:00"} if sys.argv[1] == "submit" else False
 ranks = 2 if sys.argv[1] == "submit" else 1
-sweep = carrom.sweep(scene, grid, folder="sweep", slurm=slurm, ranks=ranks)
+sweep = carrom.sweep(scene, grid, folder="a sweep", slurm=slurm, ranks=ranks)
 print(sweep.job, *(run.state_hash for run in sweep.runs))
 END
 ask() { "$python" sweep.py "$@" 2>err || { complain "sweep.py $*"; sed 's/^/    /' err; }; }
@@ -35,15 +35,17 @@ n=$(squeue -h -j "$job" 2>/dev/null | wc -l)
 [ "$n" -eq 0 ] || complain "job $job still has $n tasks"
 read -r job hashes <<<"$(ask submit 0.1 0.2)"
 [ "$job" = None ] || complain "finished runs are submitted again: job $job"
-[ "$(wc -w <<<"$hashes")" -eq 2 ] || { complain "not two runs: $hashes"; tail -n 5 sweep/*.log; }
+[ "$(wc -w <<<"$hashes")" -eq 2 ] ||
+    { complain "not two runs: $hashes"; tail -n 5 "a sweep"/*.log; }
 
 # A third point is run alone. All have the bits of runs without Slurm.
 read -r job more <<<"$(ask submit 0.1 0.2 0.3)"
 ends_as "$job" COMPLETED 90
-[ "$(wc -l <sweep/commands.txt)" -eq 1 ] || complain "not one command: $(cat sweep/commands.txt)"
-mv sweep by_slurm
+[ "$(wc -l <"a sweep/commands.txt")" -eq 1 ] ||
+    complain "not one command: $(cat "a sweep/commands.txt")"
+mv "a sweep" by_slurm
 read -r _ here <<<"$(ask here 0.1 0.2 0.3)"
-mv by_slurm sweep.slurm && mv sweep here && mv sweep.slurm sweep
+mv by_slurm sweep.slurm && mv "a sweep" here && mv sweep.slurm "a sweep"
 read -r _ there <<<"$(ask submit 0.1 0.2 0.3)"
 [ -n "$here" ] && [ "$here" = "$there" ] || complain "other bits: $here and $there"
 

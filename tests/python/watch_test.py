@@ -139,6 +139,9 @@ class ServerTest(unittest.TestCase):
                 ("frame?step=x", 400),
                 ("frame?step=5&colour=red", 400),
                 ("frame?step=5&view=1,2,0,4", 400),
+                ("frame?step=5&view=1,2", 400),
+                ("frame?step=5&view=-inf,0,inf,4", 400),
+                ("frame", 400),
                 ("../../etc/passwd", 404),
             ):
                 with self.assertRaises(urllib.error.HTTPError) as caught:
@@ -147,6 +150,20 @@ class ServerTest(unittest.TestCase):
             with self.assertRaises(urllib.error.HTTPError) as caught:
                 page.get("state", Host="somewhere.example:8787")
             self.assertEqual(caught.exception.code, 403)
+
+    def test_a_file_of_any_name_and_a_damaged_one(self):
+        run("files", steps=10)
+        content = Path("files/checkpoints/checkpoint-000000000010.h5").read_bytes()
+        Path("my-copy.h5").write_bytes(content)
+        with Page("my-copy.h5") as page:
+            self.assertEqual(page.json("state?have=0&last=-1")["steps"], [10])
+        with Page("files") as page:
+            Path("files/scene.toml").write_text("time = 4\n", encoding="ascii")
+            self.assertIsNone(page.json("state?have=0&last=-1")["wanted"])
+            Path("files/report.json").write_text("[]", encoding="ascii")
+            with self.assertRaises(urllib.error.HTTPError) as caught:
+                page.get("state?have=0&last=-1")
+            self.assertEqual(caught.exception.code, 503)
 
     def test_wrong_command_lines(self):
         run("there", steps=5)

@@ -116,6 +116,10 @@ class Frames(Sequence[Frame]):
         Atoms have `radii`, `masses`, `types` (the species) and, where frames have them,
         velocities. Numbers stay in the scene's units; MDAnalysis calls them Angstrom and ps. The
         box has height 1. Departed discs stay in, at rest beyond their open side.
+
+        Raises:
+            NoDataError: there are no frames, or they have no positions
+            ValueError: frames are not equally far apart: MDAnalysis knows one `dt`
         """
         from carrom import adapters
 

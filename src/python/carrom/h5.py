@@ -49,7 +49,10 @@ def _check_sources(file: h5py.File, path: Path) -> None:
         if isinstance(item, h5py.Dataset) and item.is_virtual:
             names.update(source.file_name for source in item.virtual_sources())
 
-    file.visititems(look)
+    try:
+        file.visititems(look)
+    except (RuntimeError, KeyError, OSError) as error:
+        raise FileError(f"{path}: is damaged: {error}") from None
     absent = [
         str(path.parent / name) for name in sorted(names) if not (path.parent / name).exists()
     ]

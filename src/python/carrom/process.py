@@ -15,6 +15,7 @@ from collections.abc import Iterator, Sequence
 from contextvars import ContextVar
 from pathlib import Path
 
+from carrom.errors import ProgramNotFoundError
 from carrom.progress import Show, is_progress
 
 _ERASE = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
@@ -58,8 +59,11 @@ class Process:
                     env=environment,
                     start_new_session=True,
                 )
-        except BaseException:
+        except BaseException as error:
             os.close(self._master)
+            if isinstance(error, OSError):
+                what = f"{command[0]} cannot be started: {error.strerror}"
+                raise ProgramNotFoundError(what) from None
             raise
         finally:
             os.close(slave)
@@ -81,10 +85,12 @@ class Process:
             except BaseException:
                 self._signal(signal.SIGKILL)
                 self._child.wait()
+                os.close(self._master)
                 raise
         os.close(self._master)
-        if interrupts:
-            raise KeyboardInterrupt("\n".join(self.lines[-1:]))
+        if interrupts:  # launchers add lines of their own
+            told = [line for line in self.lines if line.startswith("stopped on request")]
+            raise KeyboardInterrupt("\n".join((told or self.lines)[-1:]))
         return code
 
     def _read_all(self, show: Show) -> None:

@@ -57,7 +57,15 @@ def find_launcher(launcher: str | os.PathLike[str] | None = None) -> str:
 
 
 def program_version(program: str | os.PathLike[str] | None = None) -> str:
-    """Return the version that the program prints, for example "0.2.0"."""
+    """Return the version that the program prints, for example "0.2.0".
+
+    Raises:
+        ProgramNotFoundError: there is no program, or it prints none
+    """
     command = [str(find_program(program)), "--version"]
-    words = subprocess.run(command, check=True, capture_output=True, text=True).stdout.split()
+    try:
+        done = subprocess.run(command, check=True, capture_output=True, text=True)
+    except (OSError, subprocess.CalledProcessError) as error:
+        raise ProgramNotFoundError(f"{command[0]}: prints no version: {error}") from None
+    words = done.stdout.split()
     return next((word for word in words if word[:1].isdigit()), " ".join(words))

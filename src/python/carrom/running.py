@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+import operator
 import os
 import signal
 import tempfile
@@ -74,14 +75,19 @@ def run(
         InputError: the scene or an option is wrong; the message has the program's lines
         StoppedError: the run was told to stop and has stored a checkpoint
         CollectiveError, OutputError, InvariantError, ProgramError: as their names say
-        ProgramNotFoundError: the program or the launcher is not there
+        ProgramNotFoundError: the program or the launcher is not there, or cannot be started
+        TypeError: a scene or an argument is of the wrong kind, or TOML has no such value (None)
+        ValueError: ranks is below 1
     """
-    place = _place(folder, scene, overrides)
-    with _prepared(place, overwrite) as lines, scene_file(scene, overrides, place) as file:
+    place, is_new = _place(folder, scene, overrides)
+    with (
+        _prepared(place, is_new, overwrite) as lines,
+        scene_file(scene, overrides, place) as file,
+    ):
         words = [str(file.path), *_set_options(file.overrides)]
         words += ["--overwrite"] if overwrite else []
-        words += ["--accuracy", repr(accuracy)] if accuracy is not None else []
-        words += [*_common_options(threads, steps, check), *options]
+        words += ["--accuracy", repr(float(accuracy))] if accuracy is not None else []
+        words += _common_options(threads, steps, check, options)
         try:
             return _execute(place, words, lines, ranks, program, launcher, progress)
         except InputError as error:
@@ -114,8 +120,8 @@ def resume(
     if not place.is_dir():
         raise FileError(f"{folder}: there is no such folder to go on with")
     words = ["--resume", *_set_options(set_words(overrides))]
-    words += [*_common_options(threads, steps, check), *options]
-    with _prepared(place) as lines:
+    words += _common_options(threads, steps, check, options)
+    with _prepared(place, is_new=False) as lines:
         return _execute(place, words, lines, ranks, program, launcher, progress)
 
 
@@ -123,52 +129,66 @@ def _set_options(words: Sequence[str]) -> list[str]:
     return [option for word in words for option in ("--set", word)]
 
 
-def _common_options(threads: int | None, steps: int | None, check: bool) -> list[str]:
+def _common_options(
+    threads: int | None, steps: int | None, check: bool, options: Sequence[str]
+) -> list[str]:
+    if isinstance(options, str):
+        raise TypeError(f"options is a list of words, not the string {options!r}")
     words = [] if threads is None else ["--threads", str(threads)]
     words += [] if steps is None else ["--steps", str(steps)]
-    return [*words, "--check"] if check else words
+    words += ["--check"] if check else []
+    return [*words, *options]
 
 
 def _place(
     folder: str | os.PathLike[str] | None, scene: SceneLike, overrides: Mapping[str, Any]
-) -> Path:
-    """Where the run goes: what is named, else a new folder for good."""
+) -> tuple[Path, bool]:
+    """Where the run goes, and whether the folder is new: what is named, else one for good."""
     named = folder if folder is not None else flattened(overrides).get("output.folder")
     if named is None:
         with contextlib.suppress(CarromError, TypeError):  # the program reports a wrong scene
-            named = read_scene(scene).get("output", {}).get("folder")
+            named = flattened(read_scene(scene)).get("output.folder")
     if isinstance(named, str | os.PathLike) and os.fspath(named):
-        return Path(named)
-    return Path(tempfile.mkdtemp(prefix="carrom-run-"))
+        return Path(named), not Path(named).exists()
+    return Path(tempfile.mkdtemp(prefix="carrom-run-")), True
 
 
 @contextmanager
-def _prepared(folder: Path, overwrite: bool = False) -> Iterator[Path]:
-    """Make the folder, and a file for lines of discs. Leave nothing there that is empty."""
-    was_there = folder.exists()
+def _prepared(folder: Path, is_new: bool, overwrite: bool = False) -> Iterator[Path]:
+    """Make the folder, and a file for lines of discs. Leave nothing there that is empty.
+
+    Lines of an older run stay until the program has begun another. An empty file of lines that
+    was there may be that of a run that goes on.
+    """
     kept = folder / "lines.txt"
     lines = folder / "lines.txt.new" if overwrite else kept
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        were_there, before = lines.exists(), _scene_files(folder)
         lines.touch()
     except OSError as error:
         message = f"{folder}: cannot be written to: {error.strerror}"
         raise OutputError([message], 4) from None
-    is_refused = False
+    is_done = False
     try:
         yield lines
-    except InputError:
-        is_refused = True
-        raise
+        is_done = True
     finally:
         with contextlib.suppress(OSError):
-            if overwrite and not is_refused:
+            if overwrite and _scene_files(folder) != before:
                 lines.replace(kept)
                 lines = kept
-            if lines.stat().st_size == 0:
+            if (is_done or not were_there) and lines.stat().st_size == 0:
                 lines.unlink()
-            if not was_there:
+            if is_new:
                 folder.rmdir()
+
+
+def _scene_files(folder: Path) -> list[tuple[str, int, int]]:
+    """What changes when the program begins a run in a folder."""
+    paths = [folder / name for name in ("scene.toml", "scene.in")]
+    stats = [(path.name, path.stat()) for path in paths if path.exists()]
+    return [(name, stat.st_ino, stat.st_mtime_ns) for name, stat in stats]
 
 
 def _execute(
@@ -180,7 +200,7 @@ def _execute(
     launcher: str | os.PathLike[str] | None,
     progress: ProgressLike,
 ) -> Run:
-    if ranks < 1:
+    if operator.index(ranks) < 1:
         raise ValueError(f"ranks must be at least 1, not {ranks}")
     command = [str(find_program(program)), "run", *words, "-o", str(folder)]
     if ranks > 1:

@@ -16,10 +16,11 @@ from carrom import h5
 from carrom.checkpoints import Checkpoint
 from carrom.errors import FileError, NoDataError
 from carrom.frames import Frames
-from carrom.scene import parsed, read_scene
+from carrom.scene import flattened, parsed, read_scene
 from carrom.tables import Table, Tables
 
 _COLLISIONS = "carrom/collisions"
+_IN_REPORTS = {"first_step", "steps", "state_hash"}
 
 
 class Run:
@@ -90,9 +91,11 @@ class Run:
                 f"{self.name}: has no report.json: the program writes it at the end of a run"
             )
         try:
-            report: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+            report: Any = json.loads(path.read_text(encoding="utf-8"))
         except (OSError, ValueError) as error:
             raise FileError(f"{path}: cannot be read: {error}") from None
+        if not isinstance(report, dict) or not report.keys() >= _IN_REPORTS:
+            raise FileError(f"{path}: is no report of carrom")
         return report
 
     @property
@@ -107,7 +110,7 @@ class Run:
             return False
         report = self.report
         done = int(report["first_step"]) + int(report["steps"])
-        wanted = self.scene.get("time", {}).get("steps")
+        wanted = flattened(self.scene).get("time.steps")
         return wanted is None or done >= int(wanted)
 
     @property

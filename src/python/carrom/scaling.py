@@ -93,7 +93,7 @@ def with_efficiency(rows: Iterable[Row], *, is_weak: bool = False) -> list[Row]:
     the ratio of cores.
 
     Raises:
-        CarromError: rows of one scene have different state hashes
+        CarromError: rows of one scene have different state hashes, or a row has no steps
     """
     rows = [dict(row) for row in rows]
     if not rows:
@@ -112,7 +112,10 @@ def with_efficiency(rows: Iterable[Row], *, is_weak: bool = False) -> list[Row]:
 
 def _seconds_of_a_step(row: Row) -> float:
     """Seconds per disc and step."""
-    return float(row["wall_seconds"]) / (int(row["steps"]) * int(row["n_discs"]))
+    n = int(row["steps"]) * int(row["n_discs"])
+    if n == 0:
+        raise CarromError("a table of scaling needs runs of at least one step")
+    return float(row["wall_seconds"]) / n
 
 
 def write_table(rows: Iterable[Row], path: str | os.PathLike[str]) -> None:
@@ -225,7 +228,7 @@ def main(words: Sequence[str] | None = None) -> int:
     except ImportError as error:
         print(f"carrom.scaling: {error}: pip install carrom[plot]", file=sys.stderr)
         return 2
-    except CarromError as error:
+    except (CarromError, OSError) as error:
         print(f"carrom.scaling: {error}", file=sys.stderr)
         return 1 if "different states" in str(error) else 2
     print("ranks threads cores    seconds speedup efficiency")

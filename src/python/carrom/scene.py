@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
+import contextlib
+import itertools
 import json
 import os
 import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -39,7 +40,7 @@ def toml_value(value: Any) -> str:
     if isinstance(value, int | float):
         return repr(value)
     if isinstance(value, str | os.PathLike):
-        return json.dumps(os.fspath(value), ensure_ascii=False).replace("\x7f", "\\u007f")
+        return _quoted(os.fspath(value))
     if isinstance(value, Mapping):
         words = [f"{_key(key)} = {toml_value(item)}" for key, item in value.items()]
         return "{" + ", ".join(words) + "}"
@@ -63,7 +64,7 @@ def _table_lines(path: tuple[str, ...], table: Mapping[str, Any]) -> list[str]:
         try:
             lines.append(f"{_key(key)} = {toml_value(value)}")
         except TypeError as error:
-            raise TypeError(f"{'.'.join((*path, key))}: {error}") from None
+            raise TypeError(f"{'.'.join(map(str, (*path, key)))}: {error}") from None
     for key, value in tables.items():
         lines += _table_lines((*path, key), value)
     return lines
@@ -72,7 +73,11 @@ def _table_lines(path: tuple[str, ...], table: Mapping[str, Any]) -> list[str]:
 def _key(word: object) -> str:
     if not isinstance(word, str):
         raise TypeError(f"keys of a scene are strings, not {word!r}")
-    return word if _BARE_KEY.fullmatch(word) else json.dumps(word)
+    return word if _BARE_KEY.fullmatch(word) else _quoted(word)
+
+
+def _quoted(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def flattened(overrides: Mapping[str, Any], above: str = "") -> dict[str, Any]:
@@ -187,13 +192,16 @@ class SceneFile:
     text: str | None = None
 
 
-@contextmanager
+@contextlib.contextmanager
 def scene_file(scene: SceneLike, overrides: Mapping[str, Any], folder: Path) -> Iterator[SceneFile]:
     """Give the program a file to read: `input.toml` in the folder, as long as the context lasts.
 
     There all nodes of a cluster see it, and the name that the program stores is no random one.
+    A file of that name stays; the scene's is then `input-2.toml`.
     """
     words = set_words(overrides)
+    if not isinstance(scene, Mapping | str | os.PathLike):
+        raise TypeError(f"a scene is a dictionary, a path or TOML text, not {scene!r}")
     if not isinstance(scene, Mapping) and not is_text(scene):
         yield SceneFile(Path(scene), words)
         return
@@ -203,17 +211,33 @@ def scene_file(scene: SceneLike, overrides: Mapping[str, Any], folder: Path) -> 
     else:
         text = str(scene)
         words += _absolute_file_words(text, words)
-    path = folder / "input.toml"
-    path.write_text(text, encoding="utf-8")
+    path = _new_file(folder, text)
     try:
         yield SceneFile(path, words, text)
     finally:
         path.unlink(missing_ok=True)
 
 
+def _new_file(folder: Path, text: str) -> Path:
+    """Write a text to a new file. One of the same name may be the user's, or another run's."""
+    content = text.encode()
+    for number in itertools.count(1):
+        path = folder / ("input.toml" if number == 1 else f"input-{number}.toml")
+        with contextlib.suppress(FileExistsError), open(path, "xb") as file:
+            file.write(content)
+            break
+    return path
+
+
 def set_words(overrides: Mapping[str, Any]) -> list[str]:
     """Return overrides as `key=value`, for `--set`."""
-    return [f"{key}={toml_value(value)}" for key, value in flattened(overrides).items()]
+    words = []
+    for key, value in flattened(overrides).items():
+        try:
+            words.append(f"{key}={toml_value(value)}")
+        except TypeError as error:
+            raise TypeError(f"{key}: {error}") from None
+    return words
 
 
 def _with_absolute_files(scene: dict[str, Any]) -> dict[str, Any]:

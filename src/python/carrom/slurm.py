@@ -60,7 +60,8 @@ def submit(
     commands = folder / "commands.txt"
     commands.write_text("\n".join(lines) + "\n", encoding="utf-8")
     script = folder / "array.sbatch"
-    script.write_text(_script(folder, commands, len(points), ranks, threads, options))
+    text = _script(folder, commands, len(points), ranks, threads, options)
+    script.write_text(text, encoding="utf-8")
     done = subprocess.run(
         ["sbatch", "--parsable", str(script)], capture_output=True, text=True, check=False
     )
@@ -124,7 +125,9 @@ def _script(
     lines = []
     for key, value in known.items():
         if value is not False and value is not None:
-            lines.append(f"#SBATCH --{key}" + ("" if value is True else f"={value}"))
+            word = str(value)
+            word = f'"{word}"' if " " in word and '"' not in word else word
+            lines.append(f"#SBATCH --{key}" + ("" if value is True else f"={word}"))
     return _SCRIPT.format(
         commands=shlex.quote(str(commands)), options="\n".join(lines), threads=threads
     )

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import concurrent.futures
+import operator
 import os
 import sys
 import threading
@@ -62,7 +63,11 @@ def sweep(
     Raises:
         SweepError: some runs failed; the others are done, and `sweep` of the error has them
         FileError: the folder has runs of another scene
+        ValueError: a grid without values, with the same value twice, or with a key that is set too
     """
+    for name, count in (("ranks", ranks), ("threads", threads), ("workers", workers)):
+        if count is not None and operator.index(count) < 1:
+            raise ValueError(f"{name} must be at least 1, not {count}")
     place = Path(folder)
     points = list(grid_points(scene, grid, place, repeats, overrides))
     keys = tuple(points[0].values)
@@ -70,7 +75,7 @@ def sweep(
     missing = result.missing
     found = find_program(program)
     found_launcher = find_launcher(launcher) if ranks > 1 else ""
-    if slurm is not False:
+    if isinstance(slurm, Mapping) or slurm:
         options = slurm if isinstance(slurm, Mapping) else {}
         if missing:
             result.job = submit(place, missing, found, found_launcher, ranks, threads, options)

@@ -8,7 +8,7 @@ import math
 import os
 import re
 import zlib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NoReturn
@@ -32,6 +32,7 @@ AVERAGES = (
     "speed_kurtosis",
 )
 _PLAIN = re.compile(r"[A-Za-z0-9_.+-]{1,40}")
+_LONGEST_NAME = 180  # file systems take 255 bytes
 _DEFAULT_SEED = 3210
 _NOT_COMPARED = ("output.folder", "time.steps")
 
@@ -50,6 +51,10 @@ class SweepError(CarromError):
         n = len(reasons)
         text = f"{n} of {len(sweep.points)} runs failed:\n" + "\n".join(reasons)
         super().__init__(text)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """Let the error cross process boundaries."""
+        return type(self), (self.sweep,)
 
 
 @dataclass(frozen=True)
@@ -98,7 +103,7 @@ class Point:
     def steps(self) -> int | None:
         """The last step; None where legacy text says it."""
         known = self.scene if isinstance(self.scene, dict) else merged({}, self.overrides)
-        steps = known.get("time", {}).get("steps")
+        steps = flattened(known).get("time.steps")
         return None if steps is None else int(steps)
 
     @property
@@ -110,6 +115,9 @@ class Point:
         wanted = self.scene if isinstance(self.scene, dict) else merged({}, self.overrides)
         here, there = (_comparable(scene) for scene in (wanted, run.scene))
         different = sorted(key for key in here | there if here.get(key) != there.get(key))
+        if isinstance(self.scene, Path) and not different:
+            texts = [_without_remarks(path) for path in (self.scene, self.folder / "scene.in")]
+            different = [str(self.scene)] if texts[0] != texts[1] else []
         if different:
             self._refuse(f"of another scene ({', '.join(different)})")
 
@@ -120,6 +128,15 @@ class Point:
 def _comparable(scene: Mapping[str, Any]) -> dict[str, str]:
     flat = {key: toml_value(value) for key, value in flattened(scene).items()}
     return {key: value for key, value in flat.items() if key not in _NOT_COMPARED}
+
+
+def _without_remarks(path: Path) -> list[str]:
+    """Return lines of legacy text. A run's copy has remarks on top."""
+    try:
+        lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError as error:
+        raise FileError(f"{path}: cannot be read: {error}") from None
+    return [line for line in lines if not line.startswith("#")]
 
 
 @dataclass
@@ -229,27 +246,63 @@ def grid_points(
     overrides: Mapping[str, Any],
 ) -> Iterator[Point]:
     """Give all points of a grid, repeats of a point after each other."""
-    keys = {str(key).replace("__", "."): list(values) for key, values in grid.items()}
-    empty = [key for key, values in keys.items() if not values]
-    if not keys or empty:
-        raise ValueError(f"a sweep needs values for each key: {', '.join(empty) or 'no key'}")
+    keys = _grid_values(grid, overrides)
     if repeats < 1:
         raise ValueError(f"repeats must be at least 1, not {repeats}")
+    if repeats > 1 and "discs.seed" in keys:
+        raise ValueError("repeats choose seeds: discs.seed cannot be in the grid too")
     is_legacy = _is_legacy(scene)
     base = {} if is_legacy else _with_files(read_scene(scene), scene)
     for combination in itertools.product(*keys.values()):
         values = dict(zip(keys, combination, strict=True))
         all_set = flattened(overrides) | values
-        first = int(all_set.get("discs.seed", base.get("discs", {}).get("seed", _DEFAULT_SEED)))
+        known = flattened(base) | all_set
+        first = int(known.get("discs.seed", _DEFAULT_SEED)) if repeats > 1 else 0
         for number in range(repeats):
             seed = first + number if repeats > 1 else None
             chosen = all_set if seed is None else all_set | {"discs.seed": seed}
             name = ",".join(f"{key}={_word(value)}" for key, value in values.items())
+            if len(name) > _LONGEST_NAME:
+                name = f"{name[:_LONGEST_NAME]}-{zlib.crc32(name.encode()):08x}"
             name += "" if seed is None else f",seed={seed}"
             if isinstance(scene, Mapping) or not is_legacy:
                 yield Point(values, seed, merged(base, chosen), {}, folder / name)
             else:
                 yield Point(values, seed, Path(scene), dict(chosen), folder / name)
+
+
+def _grid_values(
+    grid: Mapping[str, Sequence[Any]], overrides: Mapping[str, Any]
+) -> dict[str, list[Any]]:
+    """Return the grid by the program's keys, with numbers of Python.
+
+    Raises:
+        TypeError: a key has one value instead of several
+        ValueError: a key has no values, or the same twice, or is set elsewhere too
+    """
+    keys: dict[str, list[Any]] = {}
+    for name, values in grid.items():
+        key = str(name).replace("__", ".")
+        if isinstance(values, str | Mapping) or not isinstance(values, Iterable):
+            raise TypeError(f"a sweep needs several values of {key}: [{values!r}], not {values!r}")
+        if key in keys or key in flattened(overrides):
+            raise ValueError(f"{key} is given twice: once in the grid is enough")
+        keys[key] = [_plain(key, value) for value in values]
+        twice = [value for i, value in enumerate(keys[key]) if value in keys[key][:i]]
+        if twice:
+            raise ValueError(f"{key} has the value {twice[0]!r} twice; repeats=2 runs two seeds")
+    empty = [key for key, values in keys.items() if not values]
+    if not keys or empty:
+        raise ValueError(f"a sweep needs values for each key: {', '.join(empty) or 'no key'}")
+    return keys
+
+
+def _plain(key: str, value: Any) -> Any:
+    try:
+        toml_value(value)
+    except TypeError as error:
+        raise TypeError(f"{key}: {error}") from None
+    return value.tolist() if isinstance(value, np.ndarray | np.generic) else value
 
 
 def _is_legacy(scene: SceneLike) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import csv
 import pickle
+import re
 import shutil
 import subprocess
 from collections.abc import Callable
@@ -292,6 +293,18 @@ def test_what_is_no_run_is_an_error(run: carrom.Run, tmp_path: Path) -> None:
     (tmp_path / "half.h5").write_bytes(half)
     with pytest.raises(carrom.FileError, match=r"half\.h5"):
         carrom.open(tmp_path / "half.h5")
+
+
+def test_damaged_metadata_is_a_file_error(run: carrom.Run, tmp_path: Path) -> None:
+    """Each header of an object in turn, as a disk may lose it."""
+    whole = run.checkpoints[-1].path.read_bytes()
+    headers = [match.start() for match in re.finditer(b"OHDR", whole)]
+    assert len(headers) > 5
+    for begin in headers:
+        damaged = tmp_path / f"{begin}.h5"
+        damaged.write_bytes(whole[: begin + 6] + b"\x99" * 8 + whole[begin + 14 :])
+        with pytest.raises(carrom.FileError, match=damaged.name):
+            carrom.open(damaged)
 
 
 def test_a_run_of_one_frame(program: Path, tmp_path: Path) -> None:

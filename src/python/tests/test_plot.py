@@ -73,6 +73,16 @@ def test_wrong_wishes_are_errors(run: carrom.Run) -> None:
         plot.frame(run, colour=[1, 2])
     with pytest.raises(carrom.NoDataError, match="no frame of step 11; there are 5"):
         plot.frame(run, 11)
+    with pytest.raises(ValueError, match="ranks must be at least 1, not 0"):
+        plot.frame(run, colour="strip", ranks=0)
+    with pytest.raises(ValueError, match="fastest must be above 0, not nan"):
+        plot.frame(run, fastest=float("nan"))
+    with pytest.raises(ValueError, match=r"not \(5, 5, 1\)"):
+        plot.frame(run, view=(5, 5, 1))  # type: ignore[arg-type]
+    with pytest.raises(carrom.NoDataError, match="no frames to draw"):
+        plot.movie(run.frames[9:], "m.gif")
+    with pytest.raises(carrom.NoDataError, match="needs a finished run"):
+        plot.equation_of_state([])
 
 
 def test_obstacles_are_drawn_with_their_images(program: Path, tmp_path: Path) -> None:
@@ -134,6 +144,8 @@ def test_equation_of_state_shows_z(program: Path, tmp_path: Path) -> None:
     points = ax.containers[0].lines[0]
     assert points.get_xdata() == pytest.approx([0.1, 0.2])
     assert sorted(points.get_ydata()) == sorted(sweep.table["Z"])
+    one = plot.equation_of_state(sweep.runs[0]).containers[0].lines[0]
+    assert one.get_ydata().tolist() == [sweep.table["Z"][0]]
 
 
 COMMANDS = {
@@ -162,6 +174,9 @@ def test_commands_report_what_is_wrong(
     assert "is no run of carrom" in capsys.readouterr().err
     assert main(["history", str(run.folder), "-o", str(tmp_path / "no/p.png")]) == 2
     assert "No such file or directory" in capsys.readouterr().err
+    picture = ["-o", str(tmp_path / "m.gif"), "--dpi", "20"]
+    assert main(["movie", str(run.folder), *picture, "--rate", "1e-9"]) == 2
+    assert "cannot draw" in capsys.readouterr().err
     with pytest.raises(SystemExit) as caught:
         main(["frame"])
     assert caught.value.code == 2

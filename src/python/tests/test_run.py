@@ -103,6 +103,67 @@ def test_a_run_is_not_written_over_unless_asked(program: Path, tmp_path: Path) -
     assert (tmp_path / "run/lines.txt").read_bytes() != lines
 
 
+def test_a_call_that_fails_leaves_what_is_there(program: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    folder.mkdir()
+    (folder / "input.toml").write_text("# the user's own\n")
+    scene = gas(steps=2) | {"output": {"text": "ends"}}
+    carrom.run(scene, folder=folder)
+    assert (folder / "input.toml").read_text() == "# the user's own\n"
+    before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    wrong = scene | {"discs": None}
+    with pytest.raises(ValueError, match="ranks must be"):
+        carrom.run(scene, ranks=0, folder=folder, overwrite=True)
+    with pytest.raises(carrom.ProgramNotFoundError):
+        carrom.run(scene, folder=folder, overwrite=True, program="/no/carrom")
+    with pytest.raises(carrom.ProgramError):
+        carrom.run(scene, ranks=2, folder=folder, overwrite=True, launcher="false")
+    with pytest.raises(TypeError, match="discs: a scene cannot have None"):
+        carrom.run(wrong, folder=folder, overwrite=True)
+    assert {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()} == before
+    carrom.run(gas(steps=2), folder=folder, overwrite=True)
+    assert not (folder / "lines.txt").exists()
+
+
+def test_a_refused_run_leaves_the_lines_of_one_that_goes_on(program: Path, tmp_path: Path) -> None:
+    carrom.run(gas(steps=2), folder=tmp_path)
+    lines = tmp_path / "lines.txt"
+    lines.touch()  # as another process has opened it
+    with pytest.raises(carrom.InputError, match="--overwrite"):
+        carrom.run(gas(steps=2), folder=tmp_path)
+    assert lines.exists()
+
+
+def test_wrong_calls_say_what_is_wrong(
+    program: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    no_program = tmp_path / "no_program"
+    no_program.write_text("no program")
+    no_program.chmod(0o755)
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(temporary))
+    with pytest.raises(carrom.InputError, match="'output' must be a table"):
+        carrom.run(gas() | {"output": 5})
+    with pytest.raises(carrom.InputError, match="no such key 'ä\U0001f600'"):
+        carrom.run(gas() | {"ä\U0001f600": 5})
+    with pytest.raises(TypeError, match="keys of a scene are strings, not 5"):
+        carrom.run({**gas(), 5: 1})  # type: ignore[dict-item]
+    with pytest.raises(TypeError, match="a scene is a dictionary, a path or TOML text, not None"):
+        carrom.run(None)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match=r"time\.steps: a scene cannot have None"):
+        carrom.run(gas(), time__steps=None)
+    with pytest.raises(TypeError, match="integer"):
+        carrom.run(gas(), ranks=2.5)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="options is a list of words"):
+        carrom.run(gas(), options="--check")
+    with pytest.raises(carrom.ProgramNotFoundError, match="cannot be started"):
+        carrom.run(gas(), program=no_program)
+    with pytest.raises(carrom.ProgramNotFoundError, match="prints no version"):
+        carrom.program_version(no_program)
+    assert list(temporary.iterdir()) == []
+
+
 def test_a_folder_that_cannot_be_is_an_output_error(program: Path, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("no folder")
     with pytest.raises(carrom.OutputError, match="file/run: cannot be written to") as caught:

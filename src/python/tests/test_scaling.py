@@ -66,6 +66,11 @@ def test_wrong_tables(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
     assert scaling.main(["--from", str(table), "-o", output]) == 2
     assert "is no table of scaling" in capsys.readouterr().err
     assert scaling.main(["--from", str(tmp_path / "none.csv"), "-o", output]) == 2
+    table.write_text("\n".join([HEADER, row(1, 1, 9.0).replace(",50,", ",0,")]) + "\n")
+    assert scaling.main(["--from", str(table), "-o", output]) == 2
+    assert "at least one step" in capsys.readouterr().err
+    table.write_text("\n".join([HEADER, row(1, 1, 9.0)]) + "\n")
+    assert scaling.main(["--from", str(table), "-o", str(tmp_path / "nowhere/out.csv")]) == 2
     for words in ([], ["a.toml", "--ranks", "0"], ["a.toml", "--weak"]):
         with pytest.raises(SystemExit):
             scaling.main(words)

@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 import _thread
+import pickle
 import threading
 import time
 from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import PERIODIC, gas
+from conftest import PERIODIC, Scene, gas
 
 import carrom
 
@@ -104,6 +105,8 @@ def test_what_fails_leaves_the_rest(program: Path, tmp_path: Path) -> None:
     ((point, error),) = caught.value.sweep.failures
     assert point.values == {"discs.packing": 5}
     assert isinstance(error, carrom.InputError)
+    failed = carrom.SweepError(carrom.Sweep(tmp_path, ("discs.packing",), []))
+    assert str(pickle.loads(pickle.dumps(failed))) == str(failed)
 
 
 def test_grids_without_values_are_errors(tmp_path: Path) -> None:
@@ -113,9 +116,40 @@ def test_grids_without_values_are_errors(tmp_path: Path) -> None:
         carrom.sweep(gas(), {"discs.seed": []}, folder=tmp_path)
 
 
+@pytest.mark.parametrize(
+    ("grid", "options", "text"),
+    [
+        ({"time.method": "event-driven"}, {}, r"several values of time\.method"),
+        ({"discs.packing": 0.1}, {}, r"several values of discs\.packing: \[0\.1\]"),
+        ({"discs.packing": [None]}, {}, r"discs\.packing: a scene cannot have None"),
+        ({"box.size": [20, 20.0]}, {}, r"box\.size has the value 20\.0 twice"),
+        ({"box.size": [20], "box__size": [30]}, {}, r"box\.size is given twice"),
+        ({"box.size": [20]}, {"box__size": 30}, r"box\.size is given twice"),
+        ({"discs.seed": [1, 2]}, {"repeats": 2}, r"discs\.seed cannot be in the grid too"),
+        ({"discs.seed": [1]}, {"ranks": 0}, "ranks must be at least 1, not 0"),
+        ({"discs.seed": [1]}, {"threads": 0}, "threads must be at least 1, not 0"),
+        ({"discs.seed": [1]}, {"workers": 0}, "workers must be at least 1, not 0"),
+    ],
+)
+def test_wrong_grids_run_nothing(tmp_path: Path, grid: Scene, options: Scene, text: str) -> None:
+    with pytest.raises((TypeError, ValueError), match=text):
+        carrom.sweep(gas(), grid, folder=tmp_path, **options)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_values_may_be_arrays(program: Path, tmp_path: Path) -> None:
+    sizes = [np.array([20, 20]), np.array([30, 20])]
+    sweep = carrom.sweep(gas(steps=2), {"box.size": sizes}, folder=tmp_path)
+    assert sweep.table["box.size"].tolist() == ["[20, 20]", "[30, 20]"]
+    assert [run.scene["box"]["size"] for run in sweep.runs] == [[20, 20], [30, 20]]
+
+
 def test_legacy_text_is_swept_too(program: Path, tmp_path: Path) -> None:
     path = tmp_path / "gas.in"
     path.write_text("20\n30\n1\n5\nperf\n")
     sweep = carrom.sweep(path, {"time.micro_steps": [1, 2]}, folder=tmp_path / "sweep")
     assert sweep.table["time.micro_steps"].tolist() == [1, 2]
     assert carrom.sweep(path, {"time.micro_steps": [1, 2]}, folder=tmp_path / "sweep").missing == []
+    path.write_text("20\n30\n1\n6\nperf\n")
+    with pytest.raises(carrom.FileError, match=r"another scene \(.*gas\.in\)"):
+        carrom.sweep(path, {"time.micro_steps": [1, 2]}, folder=tmp_path / "sweep")

@@ -26,6 +26,9 @@ def main(words: Sequence[str] | None = None) -> int:
     except (CarromError, ValueError, OSError) as error:
         print(f"carrom-plot: {error}", file=sys.stderr)
         return 2
+    except (ArithmeticError, MemoryError, RuntimeError) as error:  # of matplotlib and pillow
+        print(f"carrom-plot: cannot draw: {error}; try: another --dpi or --rate", file=sys.stderr)
+        return 2
     except ImportError as error:
         print(f"carrom-plot: {error}: pip install carrom[plot]", file=sys.stderr)
         return 2

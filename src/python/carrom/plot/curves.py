@@ -28,6 +28,10 @@ def _new_axes(ax: Axes | None) -> Axes:
     return new
 
 
+def _items(source: RunLike | Iterable[RunLike]) -> list[RunLike]:
+    return [source] if isinstance(source, Run | str | os.PathLike) else list(source)
+
+
 def history(source: RunLike) -> list[Axes]:
     """Draw kinetic energy (of the frames) and collisions per step (of the log) over time.
 
@@ -101,7 +105,7 @@ def radial_distribution(
         ax: where to draw; a new figure if None
     """
     ax = _new_axes(ax)
-    sources = [source] if isinstance(source, Run | str | os.PathLike) else list(source)
+    sources = _items(source)
     for item in sources:
         run = as_run(item)
         table = run.tables["radial_distribution"]
@@ -123,19 +127,21 @@ def _diameter(run: Run) -> float:
 
 
 def equation_of_state(
-    source: Sweep | Iterable[RunLike], *, theory: bool = True, ax: Axes | None = None
+    source: Sweep | RunLike | Iterable[RunLike], *, theory: bool = True, ax: Axes | None = None
 ) -> Axes:
     """Draw Z = p A / (N kT) against the packing fraction, with one standard error.
 
     `carrom.compressibility` says where Z comes from.
 
     Args:
-        source: a sweep, or runs
+        source: a sweep, a run, a path, or several of them
         theory: draw Henderson's equation and the virial equation too
         ax: where to draw; a new figure if None
     """
+    runs = source.runs if isinstance(source, Sweep) else [as_run(item) for item in _items(source)]
+    if not runs:
+        raise NoDataError("an equation of state needs a finished run")
     ax = _new_axes(ax)
-    runs = source.runs if isinstance(source, Sweep) else [as_run(item) for item in source]
     points = sorted((float(run.report["packing"]), *compressibility(run)) for run in runs)
     packings, values, errors = (np.array(column) for column in zip(*points, strict=True))
     if theory:

@@ -59,6 +59,14 @@ class Look:
         if isinstance(self.colour, str) and self.colour not in COLOURS:
             known = ", ".join(COLOURS)
             raise ValueError(f"no colour {self.colour!r}; there are {known}, or an array (N,)")
+        if self.ranks < 1:
+            raise ValueError(f"ranks must be at least 1, not {self.ranks}")
+        if self.fastest is not None and not self.fastest > 0:
+            raise ValueError(f"fastest must be above 0, not {self.fastest}")
+        if self.view is not None:
+            x0, y0, x1, y1 = self.view if len(self.view) == 4 else (0, 0, 0, 0)
+            if not (x0 < x1 and y0 < y1):
+                raise ValueError(f"a view is x0, y0, x1, y1 with x0 < x1, y0 < y1, not {self.view}")
 
 
 def frame(

@@ -66,7 +66,7 @@ def movie(
         scene: where obstacles stand, if the source does not know
         dpi: dots per inch; the figure is 7.2 x 6.2 inches
     """
-    if every < 1 or rate <= 0:
+    if every < 1 or not rate > 0:
         raise ValueError(f"every must be at least 1 and rate above 0, not {every} and {rate}")
     path = Path(path)
     if not path.parent.is_dir():

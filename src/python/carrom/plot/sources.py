@@ -32,6 +32,8 @@ def frames_of(source: Drawable) -> Sequence[Frame]:
     if isinstance(source, Frame):
         return [source]
     if isinstance(source, Sequence) and not isinstance(source, str):
+        if len(source) == 0:
+            raise NoDataError("there are no frames to draw")
         return source
     run = as_run(source)
     frames: Sequence[Frame] = run.frames if len(run.frames) else run.checkpoints

@@ -3,19 +3,22 @@
 
 from __future__ import annotations
 
+import re
 import time
 from typing import Any
 
 import numpy as np
 
 from carrom import h5
-from carrom.errors import CarromError
+from carrom.errors import CarromError, FileError
 from carrom.frame import Frame
 from carrom.frames import Frames
 from carrom.runs import Checkpoints, Run
 
 _POINTS = 300
 _ROWS_AT_A_TIME = 1 << 20
+
+_STEP = re.compile(r"checkpoint-([0-9]+)\.h5")
 
 Curve = dict[str, Any]
 
@@ -36,10 +39,8 @@ def steps_of(frames: Frames | Checkpoints) -> list[int]:
     """Return the steps of frames, without opening checkpoints that say it in their names."""
     if isinstance(frames, Frames):
         return [int(step) for step in frames.steps]
-    return [
-        int(path.stem.split("-")[-1]) if "-" in path.stem else frames[i].step
-        for i, path in enumerate(frames.paths)
-    ]
+    found = [_STEP.fullmatch(path.name) for path in frames.paths]
+    return [int(match[1]) if match else frames[i].step for i, match in enumerate(found)]
 
 
 class Curves:
@@ -96,6 +97,8 @@ class Curves:
         if path is None or not path.exists():
             return
         with h5.open_file(path) as file:
+            if "carrom/collisions" not in file:
+                raise FileError(f"{path}: is no log of collisions")
             columns = file["carrom/collisions"]
             rows = len(columns["step"])
             if rows < self._log_rows or path != self._log_path:  # cut back by a restart

@@ -17,6 +17,7 @@ from typing import Any
 from carrom.errors import CarromError, FileError, NoDataError
 from carrom.frames import Frames
 from carrom.runs import Checkpoints, Run, open_run
+from carrom.scene import flattened
 from carrom.watch.curves import Curves, steps_of
 from carrom.watch.picture import View, picture
 from carrom.watch.progress import Rate, is_being_written, legacy_steps
@@ -120,8 +121,7 @@ class Follower:
         run = self._run
         assert run is not None
         wanted = self._wanted_steps()
-        kept = [int(path.stem.split("-")[-1]) for path in run.checkpoints.paths if "-" in path.stem]
-        step = max([*steps[-1:], *kept], default=0)
+        step = max([*steps[-1:], *steps_of(run.checkpoints)], default=0)
         is_running = self._is_running()
         status = "running" if is_running else "stopped"
         if run.folder is None:
@@ -152,7 +152,7 @@ class Follower:
         run = self._run
         assert run is not None
         try:
-            steps = run.scene.get("time", {}).get("steps")
+            steps = flattened(run.scene).get("time.steps")
         except CarromError:
             return None
         if steps is None and run.folder is not None:

@@ -17,6 +17,7 @@ MOST_DISCS = 150_000
 CELLS = 320
 """Cells along the longer side of a density."""
 _FASTEST = 0.995  # of the discs are slower than the end of the scale of colours
+_VIEW = "a view is x_low,y_low,x_high,y_high"
 COLOURS = ("speed", "psi6", "species")
 
 
@@ -31,8 +32,17 @@ class View:
 
     def __post_init__(self) -> None:
         """Refuse what is no rectangle."""
-        if not (self.x_low < self.x_high and self.y_low < self.y_high):
-            raise ValueError("a view is x_low,y_low,x_high,y_high")
+        edges = (self.x_high - self.x_low, self.y_high - self.y_low)
+        if not all(0 < edge < np.inf for edge in edges):
+            raise ValueError(_VIEW)
+
+    @classmethod
+    def of(cls, text: str) -> View:
+        """Read four numbers with commas between them."""
+        numbers = [float(word) for word in text.split(",")]
+        if len(numbers) != 4:
+            raise ValueError(_VIEW)
+        return cls(*numbers)
 
 
 def picture(

@@ -73,9 +73,9 @@ class _Handler(BaseHTTPRequestHandler):
         if host not in _LOOPBACK:  # a page of another site must not reach this one by its name
             self._answer(403, b"this page is for this machine only", "text/plain")
             return
-        address = urlsplit(self.path)
-        words = {name: values[-1] for name, values in parse_qs(address.query).items()}
         try:
+            address = urlsplit(self.path)
+            words = {name: values[-1] for name, values in parse_qs(address.query).items()}
             self._dispatch(address.path, words)
         except NoDataError as error:
             self._answer(404, str(error).encode(), "text/plain; charset=utf-8")
@@ -83,6 +83,9 @@ class _Handler(BaseHTTPRequestHandler):
             self._answer(503, str(error).encode(), "text/plain; charset=utf-8")
         except ValueError as error:
             self._answer(400, f"no such request: {error}".encode(), "text/plain; charset=utf-8")
+        except (LookupError, TypeError, AttributeError, RuntimeError) as error:
+            what = f"a file of the run is damaged: {error!r}"
+            self._answer(503, what.encode(), "text/plain; charset=utf-8")
 
     def _dispatch(self, path: str, words: dict[str, str]) -> None:
         follower = self.server.follower
@@ -95,11 +98,9 @@ class _Handler(BaseHTTPRequestHandler):
         elif path == "/curves":
             self._answer_json(follower.curves())
         elif path == "/frame":
-            numbers = [float(word) for word in words["view"].split(",")] if "view" in words else []
-            view = View(*numbers) if numbers else None
-            about, body = follower.frame(
-                int(words["step"]), words.get("colour", "speed"), view, "follow" in words
-            )
+            step, colour = int(words.get("step", "")), words.get("colour", "speed")
+            view = View.of(words["view"]) if "view" in words else None
+            about, body = follower.frame(step, colour, view, "follow" in words)
             self._answer(200, body, "application/octet-stream", {"X-Frame": json.dumps(about)})
         else:
             self._answer(404, b"no such page", "text/plain")
