@@ -18,7 +18,7 @@ endif()
 set(CARROM_GIVE_WAY OFF)
 if("${MPI_C_LIBRARIES}" MATCHES "mpich" AND NOT CARROM_SANITIZE)
   set(CARROM_GIVE_WAY ON)
-  # The library's own way to give way sleeps: tests send many small messages, and take twice as long.
+  # The library itself would sleep: many small messages then take twice as long.
   list(APPEND CARROM_TEST_ENVIRONMENT MPIR_CVAR_ENABLE_HEAVY_YIELD=0
        LD_PRELOAD=${CMAKE_BINARY_DIR}/tests/libgive_way.so)
 endif()

@@ -16,6 +16,7 @@ from the same places in the same periodic box.
 
 import argparse
 import csv
+import dataclasses
 import fnmatch
 import json
 import math
@@ -28,6 +29,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 
 from measure import MPI_SETTINGS, exact, fast, gas
 
@@ -65,30 +67,20 @@ def periodic(n_discs, packing, n_collisions):
     )
 
 
+@dataclasses.dataclass
 class Case:
     """`unit`: what the rate counts. `whole`: the time of the whole program, start included, instead
     of stepping alone. `edmd`: whether EDMD can run the same scene.
     """
 
-    def __init__(
-        self,
-        scene,
-        ranks=1,
-        threads=1,
-        unit="disc-steps",
-        peer=None,
-        goal=None,
-        whole=False,
-        edmd=False,
-    ):
-        self.scene, self.ranks, self.threads, self.unit, self.peer = (
-            scene,
-            ranks,
-            threads,
-            unit,
-            peer,
-        )
-        self.goal, self.whole, self.edmd = goal, whole, edmd
+    scene: Callable
+    ranks: int = 1
+    threads: int = 1
+    unit: str = "disc-steps"
+    peer: tuple | None = None
+    goal: str = ""
+    whole: bool = False
+    edmd: bool = False
 
 
 def cases():
@@ -296,8 +288,8 @@ def number(value):
 
 COLUMNS = """
     case unit ranks threads n_discs steps rounds rate least most seconds ns_per_disc_step
-    lammps_rate over_lammps edmd_rate over_edmd stream_rate over_stream imbalance bytes_per_disc goal machine
-    compiler version
+    lammps_rate over_lammps edmd_rate over_edmd stream_rate over_stream imbalance bytes_per_disc
+    goal machine compiler version
 """.split()
 
 
@@ -338,7 +330,7 @@ def write(path, chosen, rounds, machine):
                     number(over["stream"]),
                     number(median([run["result"]["imbalance"] for run in runs])),
                     number(result["peak_bytes_per_disc"]),
-                    case.goal or "",
+                    case.goal,
                     machine_text(),
                     compiler,
                     commit,

@@ -61,7 +61,7 @@ def rates_part(rows):
         (
             f"{first['machine']}; {first['compiler']}; version {first['version']}. Medians of"
             f" {min(int(r['rounds']) for r in rows)} rounds, with the least and the most. Ratios to"
-            " LAMMPS and to the stream are taken within a round."
+            " LAMMPS, to EDMD and to the stream are taken within a round."
         ),
         "",
     ]
@@ -72,13 +72,18 @@ def rates_part(rows):
             f"{rate_text(r)} ({short(float(r['least']) / 1e6)} to {short(float(r['most']) / 1e6)})",
             r["unit"],
             short(r["over_lammps"]),
+            short(r.get("over_edmd")),
             short(r["over_stream"], 2),
         ]
         for r in rows
         if "generated" not in r["case"]
     ]
     lines.append(
-        table(["case", "ranks x threads", "million per second", "of", "x LAMMPS", "x stream"], body)
+        table(
+            ["case", "ranks x threads", "million per second", "of"]
+            + ["x LAMMPS", "x EDMD", "x stream"],
+            body,
+        )
     )
     by_name = {r["case"]: float(r["rate"]) for r in rows}
     pairs = [
