@@ -21,7 +21,7 @@ packages=(cmake ninja-build g++ pkg-config libfmt-dev libtomlplusplus-dev libcli
 openmpi_packages=(openmpi-bin libopenmpi-dev libhdf5-openmpi-dev)
 mpich_packages=(mpich libmpich-dev libhdf5-mpich-dev)
 
-test_packages=(catch2 procps)
+test_packages=(catch2 patch procps)
 # Some tests need these: a Slurm of their own, failing disks, Python programs that open our files, a
 # simulated cluster, micro-benchmarks. Such a test is skipped, with the reason, where they are not.
 optional_test_packages=(slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge strace

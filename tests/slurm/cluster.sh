@@ -142,7 +142,9 @@ start_cluster() {
     export SLURM_CONF=$cluster/slurm.conf
     trap stop_cluster EXIT
     (umask 022 && mkdir "$cluster/run" "$cluster/state" "$cluster/bin")
-    ln -s "$CARROM_MPIEXEC" "$cluster/bin/mpirun" # of the build's own MPI, where there are several
+    # Of the build's own MPI, where there are several. No link: MPICH looks for its parts beside it.
+    printf '#!/bin/sh\nexec "%s" "$@"\n' "$CARROM_MPIEXEC" >"$cluster/bin/mpirun"
+    chmod +x "$cluster/bin/mpirun"
     export PATH=$cluster/bin:$PATH
     (umask 077 && head -c 128 /dev/urandom >"$cluster/munge.key")
     problem=$(munged --key-file="$cluster/munge.key" --socket="$cluster/run/munge.socket" \

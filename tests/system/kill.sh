@@ -58,8 +58,9 @@ expect_code 0 'a first step'
 start_milliseconds=$((($(date +%s%N) - begin) / 1000000))
 
 for ((i = 0; i < n_kills; ++i)); do
+    # MPICH's launcher now and then returns 0 although a rank was killed.
     kill_once $((RANDOM % 3 + 2)) $((RANDOM % (1500 + start_milliseconds) + 300)) &&
-        complain 'a run of endless steps ended well'
+        [ $has_proxy = no ] && complain 'a run of endless steps ended well'
     grep 'passing over' "$test_folder/err"
 done
 [ "$(newest)" -gt 0 ] || complain "no checkpoint was finished in $n_kills runs"
