@@ -88,7 +88,7 @@ SelectTypeParameters=CR_Core
 SchedulerParameters=sched_interval=1,sched_min_interval=0,bf_interval=1
 SwitchType=switch/none
 MpiDefault=none
-ReturnToService=2
+ReturnToService=0
 KillWait=5
 AccountingStorageType=accounting_storage/none
 JobAcctGatherType=jobacct_gather/none
