@@ -55,13 +55,17 @@ def rate_text(row):
     return f"{value / 1e6:.3g}" if value > 0 else ""
 
 
+PEERS = (("LAMMPS", "over_lammps", 3), ("EDMD", "over_edmd", 3), ("stream", "over_stream", 2))
+
+
 def rates_part(rows):
     first = rows[0]
+    peers = [peer for peer in PEERS if any(row.get(peer[1]) for row in rows)]
     lines = [
         (
             f"{first['machine']}; {first['compiler']}; version {first['version']}. Medians of"
             f" {min(int(r['rounds']) for r in rows)} rounds, with the least and the most. Ratios to"
-            " LAMMPS, to EDMD and to the stream are taken within a round."
+            " others are taken within a round."
         ),
         "",
     ]
@@ -71,9 +75,7 @@ def rates_part(rows):
             f"{r['ranks']} x {r['threads']}",
             f"{rate_text(r)} ({short(float(r['least']) / 1e6)} to {short(float(r['most']) / 1e6)})",
             r["unit"],
-            short(r["over_lammps"]),
-            short(r.get("over_edmd")),
-            short(r["over_stream"], 2),
+            *(short(r[column], digits) for _, column, digits in peers),
         ]
         for r in rows
         if "generated" not in r["case"]
@@ -81,7 +83,7 @@ def rates_part(rows):
     lines.append(
         table(
             ["case", "ranks x threads", "million per second", "of"]
-            + ["x LAMMPS", "x EDMD", "x stream"],
+            + [f"x {name}" for name, _, _ in peers],
             body,
         )
     )
