@@ -11,13 +11,13 @@
 set -euo pipefail
 tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 top=$tests/../..
+source "$top/job_scripts/setup.sh"
 build=$top/build
 is_comparison=no
 for word; do
     case $word in --compare) is_comparison=yes ;; *) build=$word ;; esac
 done
 build=$(cd "$build" && pwd)
-source "$top/job_scripts/setup.sh"
 launcher=$(mpi_launcher "$build")
 export OMP_NUM_THREADS=${THREADS:-2}
 use_mpi_settings $((2 * $(nproc)))
@@ -29,7 +29,7 @@ scene_hash() {
     local code=0
     rm -f "$folder/report.json"
     "$launcher" -n "${RANKS:-3}" "$build/carrom" run "$1" --set time.method="$2" \
-        --steps "${STEPS:-100}" --output "$folder/lines" --report "$folder/report.json" --quiet \
+        --steps "${STEPS:-100}" -o "$folder/run" --overwrite --report "$folder/report.json" --quiet \
         >"$folder/said" 2>&1 </dev/null || code=$?
     case $code in
         0) sed -n 's/^ *"state_hash": "\(.*\)",*$/\1/p' "$folder/report.json" ;;
