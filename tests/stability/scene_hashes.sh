@@ -29,8 +29,8 @@ scene_hash() {
     local code=0
     rm -f "$folder/report.json"
     "$launcher" -n "${RANKS:-3}" "$build/carrom" run "$1" --set time.method="$2" \
-        --steps "${STEPS:-100}" -o "$folder/run" --overwrite --report "$folder/report.json" --quiet \
-        >"$folder/said" 2>&1 </dev/null || code=$?
+        --steps "${STEPS:-100}" -o "$folder/run" --overwrite --quiet \
+        --report "$folder/report.json" >"$folder/said" 2>&1 </dev/null || code=$?
     case $code in
         0) sed -n 's/^ *"state_hash": "\(.*\)",*$/\1/p' "$folder/report.json" ;;
         2) grep -q 'time.method' "$folder/said" && echo refused || echo 'failed with code 2' ;;
