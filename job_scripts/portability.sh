@@ -56,7 +56,7 @@ in_system() {
     for name in "${!CMAKE_@}" "${!CCACHE_@}"; do kept+=("$name=${!name}"); done
     [ -z "$mpi" ] || kept+=("MPI=$mpi")
     chroot "$folder" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
-        "${kept[@]}" sh -c 'cd /root/carrom && exec "$@"' sh "$@" </dev/null
+        "${kept[@]}" sh -c 'cd /srv/carrom && exec "$@"' sh "$@" </dev/null
 }
 
 # stage NAME WORD...: a command of this check, and how long it takes
@@ -97,8 +97,8 @@ mount --rbind /sys "$folder/sys"
 mount --rbind /dev "$folder/dev"
 cp /etc/resolv.conf "$folder/etc/resolv.conf"
 printf '127.0.0.1 localhost\n127.0.1.1 %s\n' "$(hostname)" >"$folder/etc/hosts"
-rm -rf "$folder/root/carrom"
-git clone --quiet --no-hardlinks "$top" "$folder/root/carrom"
+rm -rf "$folder/srv/carrom"
+git clone --quiet --no-hardlinks "$top" "$folder/srv/carrom"
 
 table=${TABLE:-$top/build/portability/$suite-${mpi:-openmpi}.csv}
 mkdir -p "$(dirname "$table")"

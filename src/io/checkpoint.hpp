@@ -2,10 +2,10 @@
 // A run's state at the end of a step, in one HDF5 file from which any number of ranks can go on
 // with the same bits.
 //
-// Discs stand in the order of their ids, so the file does not show which ranks wrote it.
-// /carrom/discs holds the stored state, column by column, to the bit. /carrom/run says what the run
-// is. /particles/discs has the same discs as other programs expect them (H5MD; positions at the
-// time of the step, in single precision). Checksums of all bytes are in /carrom/checksums
+// Discs stand in the order of their ids, so the file does not show which ranks wrote it. The stored
+// state is in /carrom/discs, column by column, to the bit. What the run is stands in /carrom/run.
+// The same discs as other programs expect them are in /particles/discs (H5MD; positions at the time
+// of the step, in single precision). Checksums of all bytes are in /carrom/checksums
 // (checksums.hpp).
 //
 // Rank 0 makes the file and takes its room on disk. Then each rank writes its share of the ids

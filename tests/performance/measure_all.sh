@@ -7,10 +7,11 @@
 #   tests/performance/page.py                               then draws the page anew
 #
 # Builds what is missing. MINUTES (6.5) is for the comparison with peers, the rest takes five and
-# more; MOST_RANKS=1024 takes half an hour longer on the simulated cluster (256), and 13 GB for each
-# of as many simulations as there are cores: see `simulate.py --jobs`. SHORT=1 runs everything for a
-# fraction of its time, to see that it works: the numbers mean nothing then. What needs SimGrid or
-# Google Benchmark is left out, and named, where they are missing.
+# more. EDMD names the program that planar_edmd.py builds. MOST_RANKS=1024 takes half an hour longer
+# on the simulated cluster (256), and 13 GB for each of as many simulations as there are cores: see
+# `simulate.py --jobs`. SHORT=1 runs everything for a fraction of its time, to see that it works: the
+# numbers mean nothing then. What needs SimGrid or Google Benchmark is left out, and named, where
+# they are missing.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 top=$(cd "$here/../.." && pwd)
@@ -48,7 +49,7 @@ if [ -x "$build/tests/carrom_benchmarks" ]; then
 fi
 say 'beside peers'
 python3 "$here/compare.py" --build "$build" --output "$folder/rates.csv" \
-    --minutes "${MINUTES:-6.5}" ${SHORT:+--short}
+    --minutes "${MINUTES:-6.5}" ${EDMD:+--edmd "$EDMD"} ${SHORT:+--short}
 if [ -x "$build/tests/simulated_cluster" ]; then
     say 'simulated cluster'
     python3 "$here/simulate.py" "$build/tests/simulated_cluster" --study "$folder/cluster.csv" \

@@ -84,7 +84,7 @@ class _Handler(BaseHTTPRequestHandler):
         except ValueError as error:
             self._answer(400, f"no such request: {error}".encode(), "text/plain; charset=utf-8")
         except (LookupError, TypeError, AttributeError, RuntimeError) as error:
-            what = f"a file of the run is damaged: {error!r}"
+            what = f"the run cannot be shown: {error!r}; `carrom verify` looks for damage"
             self._answer(503, what.encode(), "text/plain; charset=utf-8")
 
     def _dispatch(self, path: str, words: dict[str, str]) -> None:
