@@ -9,8 +9,8 @@
 # Builds what is missing. MINUTES (6.5) is for the comparison with peers, the rest takes five and
 # more. EDMD names the program that planar_edmd.py builds. MOST_RANKS=1024 takes half an hour longer
 # on the simulated cluster (256), and 13 GB for each of as many simulations as there are cores: see
-# `simulate.py --jobs`. SHORT=1 runs everything for a fraction of its time, to see that it works: the
-# numbers mean nothing then. What needs SimGrid or Google Benchmark is left out, and named, where
+# `simulate.py --jobs`. SHORT=1 runs everything for a fraction of its time, to see that it works;
+# its numbers mean nothing. What needs SimGrid or Google Benchmark is left out, and named, where
 # they are missing.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
