@@ -7,6 +7,7 @@
 #   MPI=mpich ./job_scripts/test_local.sh
 #
 # What run_local.sh has built is not built again. Sanitizers and fuzzers: job_scripts/sanitize.sh.
+# The Python package: ./job_scripts/test_local.sh -C python -L python
 # Hours of random scenes and long studies: ./job_scripts/test_local.sh -C long -L long
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"

@@ -131,7 +131,8 @@ endfunction()
 # carrom_system_test(name COMMAND program arg ... [LABELS label ...] [PROCESSORS n] [TIMEOUT
 # seconds]) Runs a script or the real program in a folder of its own, so tests may run side by side.
 # Scripts find the program in $CARROM_PROGRAM, mpiexec in $CARROM_MPIEXEC and the source tree in
-# $CARROM_SOURCE_DIR. Tests with the label `long` are run by `ctest -C long -L long` only.
+# $CARROM_SOURCE_DIR. Tests with the label `long` are run by `ctest -C long -L long` only, and so
+# are those with the label `python`.
 function(carrom_system_test name)
   cmake_parse_arguments(arg "" "TIMEOUT;PROCESSORS" "COMMAND;LABELS" ${ARGN})
   carrom_time_limit(300)
@@ -144,9 +145,11 @@ function(carrom_system_test name)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/run/${name})
   file(MAKE_DIRECTORY ${folder})
   set(configurations)
-  if(long IN_LIST arg_LABELS)
-    set(configurations CONFIGURATIONS long)
-  endif()
+  foreach(kind long python)
+    if("${kind}" IN_LIST arg_LABELS)
+      set(configurations CONFIGURATIONS ${kind})
+    endif()
+  endforeach()
   add_test(NAME ${name} COMMAND ${arg_COMMAND} WORKING_DIRECTORY ${folder} ${configurations})
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" PROCESSORS ${arg_PROCESSORS}
                        TIMEOUT ${arg_TIMEOUT})
