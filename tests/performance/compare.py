@@ -31,7 +31,7 @@ import tempfile
 import time
 from collections.abc import Callable
 
-from measure import MPI_SETTINGS, exact, fast, gas
+from measure import ENVIRONMENT, exact, fast, gas
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 
@@ -144,7 +144,7 @@ def timed(command, environment, folder=None):
 class Machine:
     def __init__(self, build, short, edmd):
         self.build, self.short, self.edmd = build, short, edmd and os.path.abspath(edmd)
-        self.environment = {**os.environ, **MPI_SETTINGS}
+        self.environment = ENVIRONMENT
         self.lammps = shutil.which("lmp")
         if not self.lammps:
             print("there is no LAMMPS (lmp): its columns stay empty", file=sys.stderr)

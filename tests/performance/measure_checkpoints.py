@@ -23,7 +23,7 @@ import sys
 import tempfile
 import time
 
-from measure import MPI_SETTINGS
+from measure import ENVIRONMENT
 
 CHECKPOINTS = 2
 COLUMNS = ("discs", "ranks_x_threads", "checkpoint_MB_per_s", "dd_MB_per_s", "ratio_median",
@@ -57,7 +57,7 @@ def checkpoint_rate(program, n_discs, shape, folder):
             report,
         ],
         check=True,
-        env=os.environ | MPI_SETTINGS,
+        env=ENVIRONMENT,
     )
     checkpoints = os.path.join(kept, "checkpoints")
     size = os.path.getsize(os.path.join(checkpoints, os.listdir(checkpoints)[0]))
