@@ -274,7 +274,11 @@ def version_of(build):
         text=True,
         check=False,
     ).stdout.strip()
-    return f"{compiler}, {kind}", commit
+    text = subprocess.run(
+        [os.path.join(build, "carrom"), "--version"], capture_output=True, text=True, check=True
+    ).stdout
+    vectors = re.search(r"^vectors\s+(\S+)", text, re.MULTILINE).group(1)
+    return f"{compiler}, {kind}, vectors {vectors}", commit
 
 
 def median(values):
