@@ -93,15 +93,14 @@ def rates_part(rows):
         for name, rate in by_name.items()
         if name + ", 2 threads" in by_name and name + ", 2 ranks" in by_name
     ]
-    lines += [
-        "",
-        "Two cores against one, as ratios of the medians above:",
-        "",
-        table(
-            ["case", "2 threads", "2 ranks"],
-            [[n.replace("all, ", "event-driven, "), f"{t:.2f}", f"{k:.2f}"] for n, t, k in pairs],
-        ),
-    ]
+    body = [[n.replace("all, ", "event-driven, "), f"{t:.2f}", f"{k:.2f}"] for n, t, k in pairs]
+    if pairs:
+        lines += [
+            "",
+            "Two cores against one, as ratios of the medians above:",
+            "",
+            table(["case", "2 threads", "2 ranks"], body),
+        ]
     return "\n".join(lines)
 
 
