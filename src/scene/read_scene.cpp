@@ -101,7 +101,11 @@ SceneText read_scene_text(std::istream& stream, const std::string& name) {
         std::string_view content = line;
         if (content.empty()) continue;
         if (content.back() == '\n') content.remove_suffix(1);
-        found += !trimmed(content).empty();
+        content = trimmed(content);
+        if (found == 0 && (content.starts_with('[') || content.starts_with('#')))
+            refuse(name, input.lines_before_discs,
+                   "looks like TOML, which is read from files whose names end in .toml");
+        found += !content.empty();
         input.text += line;
     }
     input.discs_follow = skip_blank(stream, input.lines_before_discs);

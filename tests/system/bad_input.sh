@@ -77,6 +77,7 @@ rm pipe
 
 # Ancestor text, the header.
 refuse_text 'an empty file' '' 'bad.in: the input is empty'
+refuse_text 'TOML by another name' '\n# a box\n[box]\nsize = 10\n' 'bad.in:2: looks like TOML'
 refuse_text 'a header that ends early' '2\n10\n1\n' 'bad.in:3: the input ends before'
 refuse_text 'no discs at all' '0\n10\n1\n5\nprint\n' 'bad.in:1: '
 refuse_text 'a negative number of discs' '-4\n10\n1\n5\nprint\n' 'bad.in:1: '
