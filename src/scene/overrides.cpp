@@ -58,6 +58,9 @@ void add_overrides(Settings& settings, Problems& problems,
         if (equals == std::string::npos || name.empty()) {
             add_problem(problems, place,
                         fmt::format("{} is not of the form key=value", in_quotes(text)));
+        } else if (text.find('\n') != std::string::npos) { // it is kept on a line of its own
+            add_problem(problems, place,
+                        fmt::format("must stand on one line, not {}", in_quotes(word)));
         } else if (!key) {
             add_problem(problems, place, unknown_key_text(name, Value{word}));
         } else {

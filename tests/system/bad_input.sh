@@ -181,6 +181,8 @@ expect_code 2 'output into the input'
 expect_told '--output good.toml: is the input itself' 'output into the input'
 : >file
 refuse 'a folder that is a file' 'output.folder file: ' run good.toml -o file
+refuse 'a folder with a line break' '--set output.folder: must stand on one line' \
+    run good.toml -o $'two\nlines'
 refuse 'a folder below a file' 'output.folder file/below: ' run good.toml -o file/below
 refuse 'a folder where there can be none' 'output.folder /proc/carrom: ' run good.toml \
     -o /proc/carrom
