@@ -45,11 +45,35 @@ def draw_haff(axes, table):
     axes.legend()
 
 
+# Packing fraction and P* of Engel and others, Phys. Rev. E 87, 042134 (2013): 512^2 discs by
+# event-driven dynamics, 1024^2 by Monte Carlo.
+ENGEL = {
+    "512$^2$, Engel and others": ((0.698, 9.169588), (0.700, 9.18640), (0.704, 9.18966), (0.708, 9.18445), (0.716, 9.18282), (0.720, 9.32450)),
+    "1024$^2$, Engel and others": (
+        (0.698, 9.169342), (0.700, 9.185405), (0.704, 9.18674), (0.708, 9.184959), (0.712, 9.183379), (0.716, 9.18327), (0.720, 9.23083)
+    ),
+}
+
+
+def draw_melting(axes, table):
+    axes.errorbar(table["packing"], table["P"], table["P_error"], label="128$^2$, Carrom", color="#0060b0", marker="o", capsize=3)
+    axes.plot(table["packing"], table["P_known"], label="128$^2$, Li and others", color="black", marker="x", linestyle="none")
+    for (label, points), marker in zip(ENGEL.items(), ("^", "s")):
+        axes.plot(*zip(*points), label=label, color="0.5", marker=marker, markerfacecolor="white", linestyle="none")
+    order = axes.twinx()
+    order.errorbar(table["packing"], table["psi6"], table["psi6_error"], label=r"$|\psi_6|$ of all discs, Carrom", color="#c05000", marker="D", linestyle=":")
+    order.set(ylabel=r"$|\psi_6|$", ylim=(0, 1))
+    axes.set(xlabel="packing fraction", ylabel="$P^*$", xticks=(0.69, 0.70, 0.71, 0.72, 0.73))
+    handles = [one for pair in (axes, order) for one in pair.get_legend_handles_labels()[0]]
+    axes.legend(handles=handles, fontsize="x-small")
+
+
 DRAW = {
     "pressure": lambda axes, table: draw_deviations(axes, table, "Z", r"$Z$ off Kolafa and Rottner's, $10^{-4}$ of it"),
     "li": lambda axes, table: draw_deviations(axes, table, "P", r"$P^*$ off that of Li and others, $10^{-4}$ of it"),
     "enskog": draw_enskog,
     "haff": draw_haff,
+    "melting": draw_melting,
 }
 
 

@@ -75,9 +75,10 @@ def gas(program, discs, packing, early, steps, rate=1, **settings):
     `early` steps come before the averages begin. The frequency is 4 (Z - 1) sqrt(kT / pi).
     """
     speed = rate * math.sqrt(math.pi / 8) / (factor(min(packing, 0.7)) - 1)
-    return run(program, "dense_liquid.toml", box__size=math.sqrt(discs * math.pi / packing) / 2,
-               discs__count=discs, discs__packing=packing, discs__speed=speed,
-               time__steps=early + steps, output__averages_from_step=early, **settings)
+    settings = {"box__size": math.sqrt(discs * math.pi / packing) / 2} | settings
+    return run(program, "dense_liquid.toml", discs__count=discs, discs__packing=packing,
+               discs__speed=speed, time__steps=early + steps, output__averages_from_step=early,
+               **settings)
 
 
 def pressure(program, is_short):
@@ -193,11 +194,14 @@ def haff(program, is_short):
 
 
 def melting(program, is_short):
-    """From a compressed liquid, with some 1e6 collisions of each disc: 2.5 core-hours a density."""
+    """From a crystal, with 120,000 collisions of each disc: 0.2 core-hours a density."""
     known = {0.68: LI[0.68], 0.73: ("", "")} if is_short else MELTING
-    discs, steps = (1024, 600) if is_short else (128 ** 2, 1_000_000)
+    discs, steps = (1024, 600) if is_short else (128 ** 2, 80_000)
     for packing, (pressure_known, known_error) in known.items():
-        report = gas(program, discs, packing, steps // 2, steps,
+        spacing = math.sqrt(math.pi / (2 * math.sqrt(3) * packing)) # of a lattice of diameter 1
+        width = math.sqrt(discs) * spacing
+        report = gas(program, discs, packing, steps // 2, steps, discs__generator="triangular",
+                     box__size=f"[{width!r}, {width * math.sqrt(3) / 2!r}]",
                      output__measurements__quantities='["psi6"]',
                      output__measurements__every_steps=steps // 20,
                      output__measurements__from_step=steps // 2)
@@ -212,7 +216,7 @@ def melting(program, is_short):
 # What makes the rows; the largest errors, over what is known, of a short and of the whole study.
 STUDIES = {"pressure": (pressure, 2e-3, 1.5e-4), "li": (li, 2e-3, 1e-3),
            "enskog": (enskog, 0.02, 0.01), "haff": (haff, 0.02, 0.005),
-           "melting": (melting, 5e-3, 5e-4)}
+           "melting": (melting, 5e-3, 2e-3)}
 
 
 def is_right(row, largest_error):

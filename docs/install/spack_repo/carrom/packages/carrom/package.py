@@ -19,11 +19,11 @@ class Carrom(CMakePackage):
     depends_on("c", type="build")
     depends_on("cxx", type="build")
     depends_on("cmake@3.25:", type="build")
-    depends_on("pkgconfig", type="build")
+    depends_on("pkgconfig", type=("build", "run"))  # for find_package(Carrom), as tomlplusplus
     depends_on("cli11@2.1.2:", type="build")
     depends_on("nlohmann-json@3.11.2:", type="build")
     depends_on("random123@1.14.0:", type="build")
-    depends_on("tomlplusplus@3.3.0:", type="build")
+    depends_on("tomlplusplus@3.3.0:")
 
     depends_on("mpi@3:")
     depends_on("hdf5@1.10.8: +mpi")
