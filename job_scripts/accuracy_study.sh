@@ -14,6 +14,7 @@
 # is set so, from nu sigma = (4 / sqrt(pi)) (Z - 1) sqrt(kT) with the compressibility factor Z (the
 # rates of the tables are measured ones).
 set -euo pipefail
+unset CDPATH
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 carrom=${CARROM:-$here/build/carrom}
 folder=${1:-$here/build/accuracy}

@@ -27,6 +27,9 @@ srun_plugin() {
     esac
 }
 
+# cores: those that this process may use; nproc by itself takes OMP_NUM_THREADS for their number
+cores() { env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc; }
+
 # use_mpi_settings WORKERS: exports what mpi_settings.txt says for so many threads of all ranks
 # together
 use_mpi_settings() {
@@ -34,7 +37,7 @@ use_mpi_settings() {
     while read -r when setting; do
         case $when in
             always) ;;
-            crowded) [ "$1" -gt "$(nproc)" ] || continue ;;
+            crowded) [ "$1" -gt "$(cores)" ] || continue ;;
             *) continue ;;
         esac
         name=${setting%%=*}

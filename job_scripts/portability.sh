@@ -16,6 +16,7 @@
 #   TABLE       file for the table of hashes; default build/portability/SUITE-MPI.csv
 # The exit code is 1 if a command or a test fails or a hash differs.
 set -euo pipefail
+unset CDPATH
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 say() { printf '%s\n' "$*" >&2; }
 die() { say "$(basename "$0"): $*"; exit 1; }

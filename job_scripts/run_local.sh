@@ -17,12 +17,16 @@ if [ $# -lt 1 ] || [ "$1" = --help ] || [ "$1" = -h ]; then
     exit 2
 fi
 
+export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1}
+for number in "${RANKS:=$(cores)}" "$OMP_NUM_THREADS"; do
+    [[ $number =~ ^[1-9][0-9]*$ ]] ||
+        die "RANKS and OMP_NUM_THREADS are whole numbers from 1, not $number"
+done
+
 install_packages
 # The program alone. A build folder that has the tests keeps them: test_local.sh uses the same.
 if [ -e "$build/CMakeCache.txt" ]; then configure; else configure -DCARROM_TESTS=OFF; fi
 build_targets carrom
 
-ranks=${RANKS:-$(nproc)}
-export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1}
-use_mpi_settings $((ranks * OMP_NUM_THREADS))
-exec "$(mpi_launcher "$build")" -n "$ranks" "$build/carrom" run "$@"
+use_mpi_settings $((RANKS * OMP_NUM_THREADS))
+exec "$(mpi_launcher "$build")" -n "$RANKS" "$build/carrom" run "$@"

@@ -29,6 +29,9 @@ case ${1:-} in
     --only) parts=("${@:2}") ;;
     *) die "unknown option $1; see the head of this script" ;;
 esac
+[ ${#parts[@]} -gt 0 ] || die "--only needs a part; there are ${all_parts[*]}"
+[[ ${SANITIZE_MINUTES:-90} =~ ^[1-9][0-9]*$ ]] ||
+    die "SANITIZE_MINUTES is a whole number, not $SANITIZE_MINUTES"
 for part in "${parts[@]}"; do
     [[ " ${all_parts[*]} " == *" $part "* ]] || die "unknown part $part; there are ${all_parts[*]}"
 done
@@ -77,7 +80,7 @@ try() {
     esac
     [ $code -eq 0 ] || { tail -n 60 "$log" >&2; n_failures=$((n_failures + 1)); }
 }
-use_mpi_settings $(($(nproc) + 1))
+use_mpi_settings $(($(cores) + 1))
 # MPI libraries keep some memory to the end. HDF5 asks for absurd amounts of memory where a file's
 # metadata has been forged, and copes with getting none.
 export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1
@@ -89,7 +92,7 @@ address() {
         build_preset fuzz
         for kind in unit stability mpi; do
             try "address, undefined: $kind tests" ctest --test-dir "$top/build-fuzz" \
-                -L "^$kind\$" -LE long --output-on-failure --no-tests=error --parallel "$(nproc)"
+                -L "^$kind\$" -LE long --output-on-failure --no-tests=error --parallel "$(cores)"
         done
         return
     fi

@@ -6,6 +6,7 @@
 #   BUILD_DIR   the build folder; default build, or build-$MPI
 #   MPI         openmpi or mpich; default: the one whose HDF5 is installed, else openmpi
 
+unset CDPATH # cd would print where it goes
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${BUILD_DIR:-$top/build${MPI:+-$MPI}}
 source "$top/job_scripts/mpi.sh"
@@ -116,7 +117,7 @@ configure() {
 
 # build_targets [TARGET...]: all, if none is named
 build_targets() {
-    cmake --build "$build" --parallel "$(nproc)" ${1:+--target "$@"} >&2 </dev/null ||
+    cmake --build "$build" --parallel "$(cores)" ${1:+--target "$@"} >&2 </dev/null ||
         die "the build in $build failed"
 }
 

@@ -17,7 +17,7 @@ install_optional "${optional_test_packages[@]}"
 configure -DCARROM_TESTS=ON
 build_targets
 # Tests run more threads than most machines have cores.
-use_mpi_settings $((2 * $(nproc)))
+use_mpi_settings $((2 * $(cores)))
 # Many tests wait longer than they compute: four more of them than there are cores.
 exec ctest --test-dir "$build" --output-on-failure --no-tests=error \
-    --parallel $(($(nproc) + 4)) "$@" </dev/null
+    --parallel $(($(cores) + 4)) "$@" </dev/null

@@ -52,8 +52,8 @@ public:
     /// Moves forward to the end of that step. Throws InputError where it lies behind the present
     /// one, or beyond `time.steps`. **Collective.**
     void advance_to(std::int64_t step);
-    void advance(std::int64_t n_steps) { advance_to(step() + n_steps); } ///< **Collective.**
-    void advance_to_end() { advance_to(scene().steps); }                 ///< **Collective.**
+    void advance(std::int64_t n_steps);                  ///< **Collective.**
+    void advance_to_end() { advance_to(scene().steps); } ///< **Collective.**
 
     /// This rank's discs at the present step, in the order of their ids. All ranks together have
     /// each disc once. Those that have left through an open side are among them: at rest, one

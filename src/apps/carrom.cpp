@@ -16,6 +16,11 @@ int main(int argc, char** argv) {
                                            : carrom::Mpi::Start::under_launcher);
     return carrom::run_on_all(carrom::Communicator::world(),
                               [&action](const carrom::Communicator& ranks) {
-                                  return static_cast<int>(action.act(ranks));
+                                  const carrom::ExitCode code = action.act(ranks);
+                                  const bool is_told = carrom::finish_standard_output();
+                                  return static_cast<int>(
+                                      is_told || code != carrom::ExitCode::success
+                                          ? code
+                                          : carrom::ExitCode::output_failure);
                               });
 }

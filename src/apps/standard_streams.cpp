@@ -6,6 +6,7 @@
 #include <string>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include "core/printable.hpp"
@@ -31,6 +32,14 @@ void keep_standard_streams() {
 }
 
 void print_text(std::string_view text) { write_to_log(printable(text, true)); }
+
+bool finish_standard_output() {
+    const bool is_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    pollfd output{STDOUT_FILENO, POLLOUT, 0};
+    if (is_written || (poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0)) return true;
+    print_text("standard output: cannot be written to\n");
+    return false;
+}
 
 bool has_terminal() { return isatty(STDERR_FILENO) == 1; }
 

@@ -23,6 +23,10 @@ void print_message(fmt::format_string<Values...> format, Values&&... values) {
     print_text(fmt::vformat(format, fmt::make_format_args(values...)));
 }
 
+/// Writes what standard output still holds. False, with a message, where any of it was lost; not
+/// where the reader of a pipe had enough.
+bool finish_standard_output();
+
 /// Whether standard error is a terminal, whose last line can be written anew.
 bool has_terminal();
 /// Replaces the last line of a terminal.

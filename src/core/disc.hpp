@@ -8,6 +8,10 @@
 
 #include <cstdint>
 
+#ifdef __FAST_MATH__
+#error "-ffast-math changes results from one compiler to the next; build Carrom without it"
+#endif
+
 namespace carrom {
 
 /// A disc's global number, 0 .. N-1. It breaks every tie in the total order.

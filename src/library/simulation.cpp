@@ -91,6 +91,11 @@ Simulation Simulation::from_checkpoint(const Session& session, const std::string
 const SceneFacts& Simulation::scene() const { return state_->facts; }
 std::int64_t Simulation::step() const { return state_->simulation.step(); }
 
+void Simulation::advance(std::int64_t n_steps) {
+    const std::int64_t left = state_->scene.steps - step();
+    advance_to(n_steps > left ? state_->scene.steps + 1 : step() + n_steps);
+}
+
 void Simulation::advance_to(std::int64_t step) {
     carrom::Simulation& simulation = state_->simulation;
     if (step < simulation.step() || step > state_->scene.steps)

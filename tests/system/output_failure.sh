@@ -16,6 +16,11 @@ code=$?
 expect_code 4 'standard output on a full disk'
 expect_told 'cannot write to standard output: No space left' 'standard output on a full disk'
 
+"$CARROM_PROGRAM" keys >/dev/full 2>"$test_folder/err"
+code=$?
+expect_code 4 'text on a full disk'
+expect_told 'standard output: cannot be written to' 'text on a full disk'
+
 mkfifo pipe
 exec 3<>pipe
 "$CARROM_PROGRAM" run "$expected/three_discs.in" --steps 100000 --quiet >pipe 2>"$test_folder/err" \

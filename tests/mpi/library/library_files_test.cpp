@@ -69,7 +69,6 @@ TEST_CASE("measurements go on from a checkpoint") {
     const Session session;
     const Folder folder(session);
     Scene scene = gas("event-driven", 40);
-    scene.set("output.folder", folder.file("unused"));
     scene.set("output.measurements.quantities", "[\"velocities\", \"wall_pressure\"]");
     scene.set("output.measurements.every_steps", 4);
     Simulation whole(session, scene);
