@@ -14,13 +14,12 @@ int main(int argc, char** argv) {
     const carrom::Mpi mpi(argc, argv,
                           action.needs_mpi ? carrom::Mpi::Start::always
                                            : carrom::Mpi::Start::under_launcher);
-    return carrom::run_on_all(carrom::Communicator::world(),
-                              [&action](const carrom::Communicator& ranks) {
-                                  const carrom::ExitCode code = action.act(ranks);
-                                  const bool is_told = carrom::finish_standard_output();
-                                  return static_cast<int>(
-                                      is_told || code != carrom::ExitCode::success
-                                          ? code
-                                          : carrom::ExitCode::output_failure);
-                              });
+    return carrom::run_on_all(
+        carrom::Communicator::world(), [&action](const carrom::Communicator& ranks) {
+            const carrom::ExitCode code = action.act(ranks);
+            const bool is_told = carrom::finish_standard_output();
+            return static_cast<int>(is_told || code != carrom::ExitCode::success
+                                        ? code
+                                        : carrom::ExitCode::output_failure);
+        });
 }
