@@ -131,8 +131,8 @@ endfunction()
 # carrom_system_test(name COMMAND program arg ... [LABELS label ...] [PROCESSORS n] [TIMEOUT
 # seconds]) Runs a script or the real program in a folder of its own, so tests may run side by side.
 # Scripts find the program in $CARROM_PROGRAM, mpiexec in $CARROM_MPIEXEC and the source tree in
-# $CARROM_SOURCE_DIR. Tests with the label `long` are run by `ctest -C long -L long` only, and so
-# are those with the label `python`.
+# $CARROM_SOURCE_DIR. Tests with the label `long` are run by `ctest -C long -L long` only, those
+# with the label `python` by `ctest -C python -L python`.
 function(carrom_system_test name)
   cmake_parse_arguments(arg "" "TIMEOUT;PROCESSORS" "COMMAND;LABELS" ${ARGN})
   carrom_time_limit(300)
