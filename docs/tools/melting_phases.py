@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws 128^2 discs in the liquid and in the solid, side by side: docs/validation/melting_phases.png.
 
-  docs/tools/melting_phases.py CARROM PICTURE     some 4 core-minutes; needs the package of src/python
+  docs/tools/melting_phases.py CARROM PICTURE     some 2 core-minutes; needs the package of src/python
 
 Both begin from a crystal. The colour is the real part of psi6 of each disc, turned by the mean.
 """
@@ -21,7 +21,7 @@ SIDES = ("left", "right", "bottom", "top")
 
 
 def last_frame(program, packing, steps=16_000):
-    """The last frame of a run of so many collisions of each disc, 1.5 in a step."""
+    """The last frame of a run that begins from a crystal."""
     width = 128 * math.sqrt(math.pi / (2 * math.sqrt(3) * packing))
     scene = {
         "box": {"size": [width, width * math.sqrt(3) / 2]} | {side: {"kind": "periodic"} for side in SIDES},

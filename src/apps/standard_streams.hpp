@@ -8,8 +8,8 @@
 
 namespace carrom {
 
-/// Puts something that cannot be read from (0) or written to (1, 2) in the place of each standard
-/// stream that is closed: else the next file that is opened would take its number, and messages
+/// Fills the place of each standard stream that is closed with something that cannot be read from
+/// (0) or written to (1, 2). Else the next file that is opened would take its number, and messages
 /// would end in data. From here on a pipe that nobody reads is an error of writing, not the end of
 /// the process. Call before anything is opened.
 void keep_standard_streams();
