@@ -27,6 +27,9 @@ public:
     /// Of sums with the same bound.
     ExactSum& operator+=(const ExactSum& other);
     ExactSum& operator-=(const ExactSum& other);
+    /// Of integers of the sum's unit.
+    void add_units(std::int64_t units) { sum_ += units; }
+    double scale() const { return scale_; } ///< 1 over the unit, or infinite
     void clear() { sum_ = 0; }
     double value() const;
 

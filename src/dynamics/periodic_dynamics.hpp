@@ -27,6 +27,9 @@ public:
     double slack() const { return 0x1p-36 * this->box().longest(); }
     double search_diameter() const { return this->diameter() + 2 * slack(); }
 
+    Separation separation(const Disc& p, const Disc& q) const {
+        return {(q.x - p.x) + periods_.x_between(p, q), (q.y - p.y) + periods_.y_between(p, q)};
+    }
     Separation separation_at(const Disc& p, const Disc& q, double time) const {
         const Separation stored = Walled::separation_at(p, q, time);
         return {stored.x + periods_.x_between(p, q), stored.y + periods_.y_between(p, q)};
@@ -96,15 +99,15 @@ private:
     void exchange_momentum(Disc& p, Disc& q, double time, double impulse) const {
         this->advance(p, time);
         this->advance(q, time);
-        this->exchange_momentum_at(p, q, (q.x - p.x) + periods_.x_between(p, q),
-                                   (q.y - p.y) + periods_.y_between(p, q), impulse);
+        const Separation to = separation(p, q);
+        this->exchange_momentum_at(p, q, to.x, to.y, impulse);
     }
     void exchange_spin(Disc& p, Disc& q, double time, bool is_guarded, double& p_spin,
                        double& q_spin) const {
         this->advance(p, time);
         this->advance(q, time);
-        this->exchange_spin_at(p, q, (q.x - p.x) + periods_.x_between(p, q),
-                               (q.y - p.y) + periods_.y_between(p, q), is_guarded, p_spin, q_spin);
+        const Separation to = separation(p, q);
+        this->exchange_spin_at(p, q, to.x, to.y, is_guarded, p_spin, q_spin);
     }
 
     double side_time(const Disc& disc, double m) const {

@@ -78,6 +78,8 @@ public:
         disc.tau = time;
     }
 
+    /// From p to q, which are both where they collide.
+    static Separation separation(const Disc& p, const Disc& q) { return {q.x - p.x, q.y - p.y}; }
     /// From p to q. Both are at `time`, or fly there.
     static Separation separation_at(const Disc& p, const Disc& q, double time) {
         return {q.x_at(time) - p.x_at(time), q.y_at(time) - p.y_at(time)};

@@ -42,7 +42,7 @@ void BlockRun<Dynamics>::run(const BlockGround& ground, const CellBlock& block, 
     outcome.ring.clear();
     outcome.log.clear();
     outcome.n_events = 0;
-    if (ground.no_virial) outcome.virial = *ground.no_virial;
+    outcome.virial = ground.no_virial;
     outcome.is_cascade = false;
     outcome.far_partner = 0;
     s.gather(ground, block, halo);
@@ -59,6 +59,7 @@ void BlockRun<Dynamics>::run(const BlockGround& ground, const CellBlock& block, 
     };
     for (Event event; s.queue.pop(event, before, is_current) && !outcome.is_cascade;)
         s.happen(event);
+    s.virial_terms.add_to(outcome.virial);
     s.report(histories);
 }
 
@@ -276,6 +277,11 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
                                 columns[SideColumn::spin][event.q]);
         else
             dynamics.collide_at(p, discs[event.q], event.time);
+        if (is_own[own_image(event.p)] != 0) {
+            const double mass = dynamics.mass_of(p) * dynamics.slowing_at(event.time);
+            virial_terms.add(mass * (p.vx - vx_before), mass * (p.vy - vy_before),
+                             dynamics.separation(p, discs[event.q]), outcome->virial);
+        }
         note(event.q, event.p, event);
     }
     if constexpr (Dynamics::has_spin && Dynamics::may_lose_discs)
@@ -283,11 +289,6 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
     note(event.p, event.q, event);
     if (is_own[own_image(event.p)] != 0) {
         outcome->n_events += 1;
-        if (ground.no_virial && !is_wall(event.q)) {
-            const double mass = dynamics.mass_of(p) * dynamics.slowing_at(event.time);
-            outcome->virial.add(mass * (p.vx - vx_before), mass * (p.vy - vy_before),
-                                dynamics.separation_at(p, discs[event.q], event.time));
-        }
         const bool is_pushed = !Dynamics::may_lose_discs || !p.has_departed();
         if (ground.is_logged)
             log_event(event, is_pushed ? p.vx - vx_before : 0, is_pushed ? p.vy - vy_before : 0);

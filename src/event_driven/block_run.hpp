@@ -54,8 +54,8 @@ struct BlockGround {
     CellBlock own_cells; ///< own discs that rounding puts outside belong to the nearest of them
     BlockWindow window;
     bool is_logged = false;
-    const SideColumns* columns = nullptr;  ///< by disc
-    const PairVirial* no_virial = nullptr; ///< where to begin; null where none is summed
+    const SideColumns* columns = nullptr; ///< by disc
+    PairVirial no_virial{1};              ///< where sums begin
 };
 
 /// The event history of a disc of a block's ring: 0 for no event, else a hash of times, partners

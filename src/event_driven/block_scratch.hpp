@@ -202,6 +202,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     double cascade_begin = 0; ///< when the present collision cascade began, if it is one
     std::uint64_t cascade = 0;
     BlockOutcome* outcome = nullptr;
+    VirialTerms virial_terms;     ///< of the outcome, to be added to its virial
     double bound_squared = 0;     ///< of the speed
     float bound_lane_squared = 0; ///< the same in cells per window, somewhat less
     double too_fast = 0;          ///< see BlockOutcome

@@ -301,10 +301,9 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::share_marked() con
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
     const PhaseClock::Scope scope(phases_, Phase::search);
-    const BlockGround ground{discs_.all(),      discs_.n_own(),
-                             &discs_.grid(),    own_cells_,
-                             window_,           this->is_followed(),
-                             &discs_.columns(), this->virial_ ? &this->no_virial_ : nullptr};
+    const BlockGround ground{discs_.all(),      discs_.n_own(),  &discs_.grid(),
+                             own_cells_,        window_,         this->is_followed(),
+                             &discs_.columns(), this->no_virial_};
     const int n_reach = discs_.grid().geometry().n_reach;
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
     for (Block& block : blocks_) {

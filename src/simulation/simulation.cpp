@@ -125,9 +125,9 @@ Simulation::Simulation(const Scene& scene, StoredState state, const Communicator
       averages_from_(scene.averages_from),
       engine_(engine_for(scene, std::move(state), communicator, tuning)),
       averages_(std::make_unique<BlockAverages>(averaged_system(scene, engine_->n_discs()))) {
-    // Terms are some 2^50 units, and sums come to 2^75 of them.
+    // Terms are some 2^45 units, and sums come to 2^80 of them.
     begin_virial(heaviest_ * scene.radius * usual_speed(scene, engine_->own(), communicator) *
-                 0x1p75);
+                 0x1p80);
 }
 
 Simulation::~Simulation() = default;

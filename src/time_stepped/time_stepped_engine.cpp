@@ -255,7 +255,7 @@ template <class Dynamics>
 /// Two ranks may carry out a collision: the one that owns the first disc adds its virial.
 template <class Dynamics>
 [[gnu::always_inline]] inline double TimeSteppedEngine<Dynamics>::collide(
-    const Candidate& c, int m, std::vector<Disc>& results, PairVirial& virial) {
+    const Candidate& c, int m, std::vector<Disc>& results, VirialTerms& terms, PairVirial& virial) {
     Disc& p = results[c.p];
     if (c.is_wall()) {
         dynamics_.bounce(p, m, c.time);
@@ -276,7 +276,7 @@ template <class Dynamics>
     }
     if (is_summed) {
         const double mass = dynamics_.mass_of(p);
-        virial.add(mass * (p.vx - vx), mass * (p.vy - vy), to);
+        terms.add(mass * (p.vx - vx), mass * (p.vy - vy), to, virial);
     }
     return std::max(squared_speed_of(p), squared_speed_of(q));
 }
@@ -295,12 +295,13 @@ double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m,
 #pragma omp parallel num_threads(tuning_.threads) reduction(max : fastest) if (n_kept > 256)
     {
         PairVirial virial = this->no_virial_;
+        VirialTerms terms;
 #pragma omp for schedule(static)
         for (std::int64_t k = 0; k < n_kept; ++k) {
             if (k + prefetch_distance < n_kept)
                 prefetch(kept[static_cast<std::size_t>(k + prefetch_distance)], results, is_last);
             const Candidate& c = kept[static_cast<std::size_t>(k)];
-            fastest = std::max(fastest, collide(c, m, results, virial));
+            fastest = std::max(fastest, collide(c, m, results, terms, virial));
             if (is_last) continue;
             const auto place = static_cast<std::size_t>(2 * k);
             hits_[place] = c.p;
@@ -311,6 +312,7 @@ double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m,
                 update_flight(index, results[index]);
             }
         }
+        terms.add_to(virial);
 #pragma omp critical(virial)
         if (this->virial_) *this->virial_ += virial;
     }

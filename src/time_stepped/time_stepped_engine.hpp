@@ -57,7 +57,7 @@ private:
     void apply(const Window& window, int m);
     double collide_all(const Window& window, int m, std::vector<Disc>& results);
     double collide(const Candidate& candidate, int m, std::vector<Disc>& results,
-                   PairVirial& virial);
+                   VirialTerms& terms, PairVirial& virial);
     void prefetch(const Candidate& candidate, const std::vector<Disc>& results, bool is_last) const;
     void update_flight(LocalIndex index, const Disc& disc);
     void update_halo(const Window& window, int m);
