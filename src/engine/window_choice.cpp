@@ -8,14 +8,12 @@ namespace carrom {
 
 namespace {
 
-/// In nanoseconds, on one core (docs/log/performance.md).
-struct Costs {
-    double disc;        ///< of a disc in a window of any length
-    double partner;     ///< and of each disc within a square of one reach
-    double hit;         ///< of predicting a disc again that was hit inside the window
-    double hit_partner; ///< and of each disc within a square of one reach
-};
-constexpr Costs in_cache{30, 1.3, 85, 3}, in_memory{60, 1.3, 370, 7};
+// In nanoseconds, on one core, with discs in cache. In main memory all take some 1.2 times that
+// (docs/log/performance.md).
+constexpr double disc = 30;       ///< of a disc in a window of any length
+constexpr double partner = 1.3;   ///< and of each disc within a square of one reach
+constexpr double hit = 85;        ///< of predicting a disc again that was hit inside the window
+constexpr double hit_partner = 3; ///< and of each disc within a square of one reach
 constexpr double disc_in_part =
     65; ///< of a disc in a part of a micro-step, what the part's end costs it included
 constexpr double partner_in_part = 0.7; ///< most pass by, and are seen to at little cost
@@ -23,17 +21,16 @@ constexpr double partner_in_part = 0.7; ///< most pass by, and are seen to at li
 /// along its path, which come in runs, and the other fast ones, which lie side by side.
 constexpr double fast_disc = 200, fast_partner = 1, fast_pair = 0.1;
 constexpr double largest_fast_share = 0.1;
-constexpr double discs_in_cache = 200'000; // a rank's, in its share of the last cache
 
 double cost_per_micro_step(const WindowNeeds& needs, double duration) {
-    const Costs& cost = needs.discs_per_rank > discs_in_cache ? in_memory : in_cache;
     const double reach = reach_of(needs, duration);
     const double in_reach = needs.n_discs * (std::min(reach, needs.box.x) / needs.box.x) *
                             (std::min(reach, needs.box.y) / needs.box.y);
     const bool is_part = duration < 1;
-    const double partner = is_part ? partner_in_part : cost.partner;
-    const double once = ((is_part ? disc_in_part : cost.disc) + partner * in_reach) / duration;
-    const double again = needs.hits_per_micro_step * (cost.hit + cost.hit_partner * in_reach);
+    const double once = ((is_part ? disc_in_part : disc) +
+                         (is_part ? partner_in_part : partner) * in_reach) /
+                        duration;
+    const double again = needs.hits_per_micro_step * (hit + hit_partner * in_reach);
     return duration > 1 ? once + again * (1 - 1 / duration) : once;
 }
 
@@ -61,6 +58,19 @@ SpeedSpread::SpeedSpread(const Counts& counts, double largest_speed) : largest(l
     }
     for (double& share : share_above)
         share /= static_cast<double>(std::max<std::uint64_t>(1, n_faster));
+}
+
+double SpeedSpread::mean() const {
+    double parts = 0.5;
+    for (std::size_t k = 1; k < n_parts; ++k) parts += share_above[k];
+    return largest * parts / n_parts;
+}
+
+double guess_of_hits(const WindowNeeds& needs) {
+    if (!needs.spread) return 0;
+    const double relative_speed = std::sqrt(2.0) * needs.spread->mean(),
+                 density = needs.n_discs / needs.box.area();
+    return std::min(1.0, 2 * density * 2 * needs.radius * relative_speed);
 }
 
 double reach_of(const WindowNeeds& needs, double duration) {

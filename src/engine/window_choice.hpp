@@ -31,6 +31,7 @@ struct SpeedSpread {
     double speed_of(std::size_t part) const {
         return largest * static_cast<double>(part) / n_parts;
     }
+    double mean() const; ///< to within half a part
 };
 
 /// What the choice depends on: lengths in the scene's unit, speed in lengths per micro-step.
@@ -43,6 +44,9 @@ struct WindowNeeds {
     double discs_per_rank = 0;
     const SpeedSpread* spread = nullptr; ///< if it is known
 };
+
+/// How often a disc will collide in a micro-step, from the mean speed in a thin gas.
+double guess_of_hits(const WindowNeeds& needs);
 
 /// How far two discs that meet inside a window of this duration can be apart at its anchor; the
 /// second: if neither is faster than `speed`.

@@ -34,9 +34,6 @@ TimeSteppedEngine<Dynamics>::TimeSteppedEngine(const Scene& scene, StoredState s
                                                const Tuning& tuning)
     : Base(scene, std::move(state), communicator, with_useful_threads(tuning, scene, communicator)),
       search_(dynamics_, tuning_.threads), local_(tuning_.threads), across_strips_(communicator) {
-    const double density = static_cast<double>(discs_.n_total()) / dynamics_.box().area();
-    hits_per_micro_step_ = std::min(1.0, 2 * density * dynamics_.diameter() *
-                                             communicator_.max(largest_speed_)); // a first guess
     this->distribute();
     discs_.forget_images();
     phases_ = {};
@@ -78,6 +75,7 @@ template <class Dynamics> Window TimeSteppedEngine<Dynamics>::redistribute(int n
         agree_on_speed();
         if (largest_speed_ > 0 && (n_windows_ == 0 || n_parts_ > 1)) // all ranks have agreed on it
             spread_ = survey_speeds(discs_.own(), largest_speed_, communicator_);
+        if (n_windows_ == 0) hits_per_micro_step_ = guess_of_hits(window_needs());
     }
     const Window window = choose(n_left);
     migrate_at(window.anchor());
