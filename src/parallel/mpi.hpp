@@ -49,8 +49,8 @@ std::string mpi_version();
 /// Runs `body` on every rank and turns what it throws into an exit code: the program's only try and
 /// catch. InputError: rank 0 prints each problem on a line of standard error, 2. CollectiveError:
 /// rank 0 prints it, its code. Anything else: prints rank and text, aborts all ranks. All ranks
-/// return the largest code of any. An InputError or CollectiveError that the other ranks have not
-/// met within `patience_seconds` aborts them too.
+/// return the largest code of any. Where the other ranks do not come to the same end within
+/// `patience_seconds`, a CollectiveError aborts them with its code, an InputError with 70.
 /// **Collective.**
 int run_on_all(const Communicator& communicator,
                const std::function<int(const Communicator&)>& body, double patience_seconds = 30);

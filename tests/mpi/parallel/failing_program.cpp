@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fails in the way its argument names, on all ranks, on rank 0, or on the last one while the others
 // wait for it.
+#include <chrono>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/errors.hpp"
@@ -11,12 +13,27 @@
 
 namespace {
 
+constexpr double patience_seconds = 1;
+
+/// Keeps a rank that leaves by an exception, as a disk does that stalls while files are removed.
+struct LateLeaver {
+    ~LateLeaver() {
+        if (is_late) std::this_thread::sleep_for(std::chrono::seconds(10));
+    }
+    bool is_late;
+};
+
 int fail_as(const std::string& kind, const carrom::Communicator& communicator) {
     const bool is_last = communicator.rank() + 1 == communicator.size();
     const carrom::InputError input_error({{"scene.toml", 7, "the radius is negative"}});
     if (kind == "input_error") throw input_error;
     if (kind == "collective_error")
         carrom::agree(communicator, !is_last, "the disk is full", carrom::ExitCode::output_failure);
+    if (kind == "late_leaver") {
+        const LateLeaver leaver{is_last};
+        carrom::agree(communicator, !communicator.is_root(), "the disk is full",
+                      carrom::ExitCode::output_failure);
+    }
     if (kind == "exception" && communicator.is_root()) throw std::runtime_error("out of luck");
     if (kind == "broken_invariant") carrom::ensure(!communicator.is_root(), "two is not three");
     if (kind == "mpi_error") {
@@ -25,7 +42,8 @@ int fail_as(const std::string& kind, const carrom::Communicator& communicator) {
     }
     if (kind == "different_codes") return communicator.rank() == 1 ? 5 : 0;
     if (kind == "lone_disagreement" && is_last)
-        carrom::agree(communicator, false, "the disk is full", carrom::ExitCode::output_failure, 1);
+        carrom::agree(communicator, false, "the disk is full", carrom::ExitCode::output_failure,
+                      patience_seconds);
     if (kind == "no_memory" && is_last)
         return static_cast<int>(std::vector<double>(std::size_t{1} << 59).size());
     if (kind == "lone_exception" && is_last) throw std::runtime_error("out of luck");
@@ -43,5 +61,5 @@ int main(int argc, char** argv) {
     const auto body = [&kind](const carrom::Communicator& communicator) {
         return fail_as(kind, communicator);
     };
-    return carrom::run_on_all(carrom::Communicator::world(), body, 1);
+    return carrom::run_on_all(carrom::Communicator::world(), body, patience_seconds);
 }
