@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -200,6 +201,13 @@ void wait_or_abort(MPI_Request& request, const std::string& failure, double pati
 
 void abort_from_signal(std::string_view text, int code) {
     static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
+    static volatile std::sig_atomic_t last_code;
+    last_code = code;
+    std::signal(SIGALRM, [](int) { std::_Exit(last_code); });
+    sigset_t alarms; // blocked where the caller handles one
+    ::sigemptyset(&alarms);
+    ::sigaddset(&alarms, SIGALRM);
+    ::sigprocmask(SIG_UNBLOCK, &alarms, nullptr);
     ::alarm(10);
     end_all(code);
 }

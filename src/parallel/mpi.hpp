@@ -43,7 +43,7 @@ void join_mpi();
 std::string mpi_version();
 
 /// Prints `text` as it is and ends all ranks with `code`: for handlers of signals that end the
-/// program. Should MPI not come to an end within ten seconds, this process does.
+/// program. Should MPI not come to an end within ten seconds, this process does, with `code`.
 [[noreturn]] void abort_from_signal(std::string_view text, int code);
 
 /// Runs `body` on every rank and turns what it throws into an exit code: the program's only try and

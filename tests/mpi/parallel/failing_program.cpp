@@ -2,16 +2,21 @@
 // Fails in the way its argument names, on all ranks, on rank 0, or on the last one while the others
 // wait for it.
 #include <chrono>
+#include <csignal>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include <mpi.h>
 
 #include "core/errors.hpp"
 #include "parallel/agreement.hpp"
 #include "parallel/mpi.hpp"
 
 namespace {
+
+bool is_abort_stuck = false; ///< as where a signal has come amid MPI's own bookkeeping
 
 constexpr double patience_seconds = 1;
 
@@ -46,6 +51,11 @@ int fail_as(const std::string& kind, const carrom::Communicator& communicator) {
                       patience_seconds);
     if (kind == "no_memory" && is_last)
         return static_cast<int>(std::vector<double>(std::size_t{1} << 59).size());
+    if (kind == "stuck_abort" && is_last) {
+        is_abort_stuck = true;
+        std::signal(SIGALRM, [](int) { carrom::abort_from_signal("the disk is full\n", 4); });
+        std::raise(SIGALRM);
+    }
     if (kind == "lone_exception" && is_last) throw std::runtime_error("out of luck");
     if (kind == "lone_broken_invariant") carrom::ensure(!is_last, "two is not three");
     if (kind == "lone_input_error" && is_last) throw input_error;
@@ -54,6 +64,12 @@ int fail_as(const std::string& kind, const carrom::Communicator& communicator) {
 }
 
 } // namespace
+
+/// Stands before MPI's own.
+extern "C" int MPI_Abort(MPI_Comm communicator, int code) {
+    while (is_abort_stuck) std::this_thread::sleep_for(std::chrono::seconds(1));
+    return PMPI_Abort(communicator, code);
+}
 
 int main(int argc, char** argv) {
     carrom::Mpi mpi(argc, argv);
