@@ -93,7 +93,10 @@ if strace -o /dev/null true 2>/dev/null; then
     # run. The half file stays.
     leaves_partial=yes
     transfers=(--set output.checkpoint.transfers=collective)
-    fault 0 pwrite64:error=EIO:when=$((n_writes / 2 - 5))+
+    traced 0 none
+    expect_code 0 'a collective run that is only traced'
+    n_writes=$(grep -c 'pwrite64(' trace)
+    fault 0 pwrite64:error=EIO:when=$((n_writes - 13))+ # its discs: nine writes, with nine to come
     fault 2 pwrite64:error=EIO:when=1+
 else
     echo 'skipped: failing disks (strace is not there, or may not trace here)'
