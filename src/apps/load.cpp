@@ -285,11 +285,10 @@ Loaded load(const RunOptions& given, const Problems& problems, const Communicato
         if (ranks.is_root() && !loaded.stored) append(all, problems_of_disc_lines(scene, *stream));
         agree_on_problems(ranks, all);
     }
-    if (!loaded.stored) {
-        Tuning tuning = options.tuning;
-        tuning.threads = options.threads.value_or(default_threads(ranks));
-        loaded.discs = first_discs(scene, stream.get(), ranks, tuning);
-    }
+    Tuning tuning = options.tuning;
+    tuning.threads = options.threads.value_or(default_threads(ranks));
+    check_threads(tuning.threads, ranks);
+    if (!loaded.stored) loaded.discs = first_discs(scene, stream.get(), ranks, tuning);
     prepare_outputs(scene, !loaded.stored, ranks);
     if (ranks.is_root())
         for (const std::string& warning : scene.warnings)

@@ -87,7 +87,7 @@ std::string tensor_text(const TensorEstimate& tensor) {
 }
 
 std::string state_text(const Averages& averages) {
-    const std::string pressure = fmt::format("P = {}", estimate_text(averages.pressure));
+    std::string pressure = fmt::format("P = {}", estimate_text(averages.pressure));
     if (std::isnan(averages.compressibility.value)) return pressure;
     return fmt::format("{}, Z = P A / (N kT) = {}", pressure,
                        estimate_text(averages.compressibility));

@@ -7,8 +7,8 @@ namespace carrom {
 
 std::string text_of(const Finding& f, const Scene& scene, const Obstacles* obstacles,
                     std::int64_t step) {
-    const std::string who = fmt::format("check failed at step {}: disc {} on rank {} ", step,
-                                        f.disc, f.rank);
+    std::string who = fmt::format("check failed at step {}: disc {} on rank {} ", step, f.disc,
+                                  f.rank);
     switch (f.invariant) {
     case Invariant::finite: return who + "has a number in its state that is not finite";
     case Invariant::owned_once:

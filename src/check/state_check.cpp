@@ -370,8 +370,9 @@ Finding StateCheck::first_unexplained(std::vector<Suspect> suspects) const {
 }
 
 double StateCheck::n_syncs_since(std::int64_t micro_step) const {
-    return static_cast<double>(micro_steps_done_ / scene_.sync_every -
-                               micro_step / scene_.sync_every);
+    const std::int64_t n_all = micro_steps_done_ / scene_.sync_every,
+                       n_before = micro_step / scene_.sync_every;
+    return static_cast<double>(n_all - n_before);
 }
 
 int StateCheck::slab_of_disc(DiscId id) const {

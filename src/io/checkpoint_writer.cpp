@@ -18,6 +18,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -216,7 +217,10 @@ void pack(std::span<const Disc> piece, std::uint64_t first, const SideOfPieces& 
         sums.add(mine);
     };
     std::vector<std::jthread> threads; // joined at the end
-    for (int k = 0; k < n_threads; ++k) threads.emplace_back(pack_blocks);
+    try {
+        for (int k = 0; k < n_threads; ++k) threads.emplace_back(pack_blocks);
+    } catch (const std::system_error&) { // no more threads are to be had: those at work do it all
+    }
     first_of_all();
     pack_blocks();
 }

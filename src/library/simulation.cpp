@@ -25,6 +25,7 @@ Tuning tuning_of(const Options& options, const Communicator& ranks) {
     Tuning tuning;
     const int usual = default_threads(ranks);
     tuning.threads = options.threads > 0 ? options.threads : usual;
+    check_threads(tuning.threads, ranks);
     return tuning;
 }
 

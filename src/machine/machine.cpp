@@ -8,8 +8,11 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <latch>
 #include <limits>
 #include <string_view>
+#include <system_error>
+#include <thread>
 #include <vector>
 
 #include <sched.h>
@@ -17,6 +20,8 @@
 #include <unistd.h>
 
 #include <hwy/targets.h>
+
+#include "parallel/agreement.hpp"
 
 namespace carrom {
 
@@ -135,6 +140,22 @@ int default_threads(const Communicator& ranks) {
     const int sharers = sharers_of(mine.key, ranks);
     const int asked = threads_from_environment();
     return asked > 0 ? asked : std::max(1, mine.count / sharers);
+}
+
+void check_threads(int threads, const Communicator& ranks) {
+    std::string failure;
+    std::latch may_end(1);
+    std::vector<std::jthread> others; // joined at the end
+    try {
+        for (int k = 1; k < threads; ++k) others.emplace_back([&may_end] { may_end.wait(); });
+    } catch (const std::system_error&) {
+        failure = "rank " + std::to_string(ranks.rank()) + " can start " +
+                  std::to_string(others.size() + 1) + " of its " + std::to_string(threads) +
+                  " threads only; take fewer by --threads, or raise the limits of threads and "
+                  "memory (ulimit -u, ulimit -v)";
+    }
+    may_end.count_down();
+    agree(ranks, failure.empty(), failure);
 }
 
 std::string warning_of_thread_variable() {

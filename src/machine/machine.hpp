@@ -30,6 +30,10 @@ std::string processor_name();
 /// among the ranks of its node that may use the same ones; at least 1. **Collective.**
 int default_threads(const Communicator& ranks);
 
+/// Throws CollectiveError where a rank cannot have so many threads at once: OpenMP itself would end
+/// the program there, with its own code. **Collective.**
+void check_threads(int threads, const Communicator& ranks);
+
 /// What to say where OMP_NUM_THREADS is set to something that is no number of threads; empty where
 /// all is well.
 std::string warning_of_thread_variable();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -63,6 +64,7 @@ void on_mpi_error(MPI_Comm*, int* code,
 struct Outcome {
     int code = 0;
     std::string text; ///< of an error that all ranks should have met; empty if the body returned
+    int code_alone = abort_code; ///< where other ranks do not come to the same end in time
 };
 
 Outcome run(const Communicator& communicator, const std::function<int(const Communicator&)>& body) {
@@ -71,7 +73,10 @@ Outcome run(const Communicator& communicator, const std::function<int(const Comm
     } catch (const InputError& error) {
         return {static_cast<int>(ExitCode::bad_input), error.what()};
     } catch (const CollectiveError& error) {
-        return {static_cast<int>(error.code()), error.what()};
+        // All ranks have agreed on it. One that comes late is slow at leaving: it removes files on
+        // a disk that stalls.
+        const int code = static_cast<int>(error.code());
+        return {code, error.what(), code};
     } catch (const std::exception& error) {
         abort_all("unexpected error", printable(error.what()));
     } catch (...) {
@@ -87,7 +92,7 @@ int agreed_code(const Communicator& communicator, const Outcome& outcome, double
     MPI_Request request = MPI_REQUEST_NULL;
     MPI_Iallreduce(&outcome.code, &largest, 1, MPI_INT, MPI_MAX, communicator.handle().comm,
                    &request);
-    wait_or_abort(request, outcome.text, patience_seconds, abort_code);
+    wait_or_abort(request, outcome.text, patience_seconds, outcome.code_alone);
     return largest;
 }
 
@@ -196,6 +201,13 @@ void wait_or_abort(MPI_Request& request, const std::string& failure, double pati
 
 void abort_from_signal(std::string_view text, int code) {
     static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
+    static volatile std::sig_atomic_t last_code;
+    last_code = code;
+    std::signal(SIGALRM, [](int) { std::_Exit(last_code); });
+    sigset_t alarms; // blocked where the caller handles one
+    ::sigemptyset(&alarms);
+    ::sigaddset(&alarms, SIGALRM);
+    ::sigprocmask(SIG_UNBLOCK, &alarms, nullptr);
     ::alarm(10);
     end_all(code);
 }

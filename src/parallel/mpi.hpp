@@ -43,14 +43,14 @@ void join_mpi();
 std::string mpi_version();
 
 /// Prints `text` as it is and ends all ranks with `code`: for handlers of signals that end the
-/// program. Should MPI not come to an end within ten seconds, this process does.
+/// program. Should MPI not come to an end within ten seconds, this process does, with `code`.
 [[noreturn]] void abort_from_signal(std::string_view text, int code);
 
 /// Runs `body` on every rank and turns what it throws into an exit code: the program's only try and
 /// catch. InputError: rank 0 prints each problem on a line of standard error, 2. CollectiveError:
 /// rank 0 prints it, its code. Anything else: prints rank and text, aborts all ranks. All ranks
-/// return the largest code of any. An InputError or CollectiveError that the other ranks have not
-/// met within `patience_seconds` aborts them too.
+/// return the largest code of any. Where the other ranks do not come to the same end within
+/// `patience_seconds`, a CollectiveError aborts them with its code, an InputError with 70.
 /// **Collective.**
 int run_on_all(const Communicator& communicator,
                const std::function<int(const Communicator&)>& body, double patience_seconds = 30);

@@ -281,8 +281,8 @@ void Simulation::forget_crossings_in(std::vector<Crossing>& crossings) {
 
 void Simulation::count_pair_distances(double bin_width, std::span<const DiscId> species_ends,
                                       std::span<std::uint64_t> counts) const {
-    const LocalView now = engine_->local_view(
-        bin_width * static_cast<double>(counts.size() / n_pair_kinds(species_ends.size())));
+    const std::size_t n_bins = counts.size() / n_pair_kinds(species_ends.size());
+    const LocalView now = engine_->local_view(bin_width * static_cast<double>(n_bins));
     carrom::count_pair_distances(now, bin_width, species_ends, n_threads_, counts);
     engine_->forget_images();
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <tuple>
 #include <unordered_set>
+#include <utility>
 
 #include "parallel/sample_sort.hpp"
 
@@ -158,7 +159,7 @@ void BoundaryResolution::sort(const Population& population, std::vector<Candidat
         if (communicator_.rank() == turn) partner = {turn + 1};
         if (communicator_.rank() == turn + 1) partner = {turn};
         std::vector<std::vector<DiscId>> out(partner.size());
-        if (communicator_.rank() == turn) out.front() = std::move(taken);
+        if (communicator_.rank() == turn) out.front() = std::exchange(taken, {});
         next_slice_.exchange(std::span<const int>(partner), out, handed_on);
         if (communicator_.rank() == turn + 1) taken = handed_on.items;
     }

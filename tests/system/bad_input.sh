@@ -191,6 +191,10 @@ refuse 'a wrong scene and a wrong place' $'--set discs.count\noutput.folder file
 ulimit -Sv 4194304
 refuse 'more discs than memory' 'good.toml: discs.count = 200000000 needs at least' \
     run good.toml --set discs.count=200000000 --set discs.packing=0.1
+ulimit -Sv 1048576
+run "$ranks" run good.toml --threads 1000
+expect_code 3 'more threads than memory'
+expect_told 'of its 1000 threads only; take fewer by --threads' 'more threads than memory'
 ulimit -Sv unlimited
 cmp -s good.toml kept.toml || complain 'an input was written to'
 finish
