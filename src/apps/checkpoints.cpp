@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 
 #include "apps/restart.hpp"
 #include "io/checkpoint.hpp"
@@ -102,7 +103,9 @@ void Checkpoints::remove_oldest() {
     if (removed.empty() || !ranks_.is_root()) return;
     removal_ = std::async(std::launch::async | std::launch::deferred,
                           [removed = std::move(removed)] {
-                              for (const std::string& path : removed) remove_file(path);
+                              std::error_code ignored;
+                              for (const std::string& path : removed)
+                                  std::filesystem::remove(path, ignored);
                           });
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -129,18 +130,15 @@ std::string header_text(const CheckpointHeader& header) {
 
 /// **Collective.**
 ExitCode info(const std::string& path, const Communicator& ranks) {
-    check_damage(path, ranks);
-    int is_checkpoint = 0;
+    const std::optional<CheckpointHeader> header = check_damage(path, ranks);
     std::string text;
     let_root(ranks, [&] {
         const FrameFile file(path);
         const FileSummary& summary = file.summary();
         text = summary_text(summary);
         if (summary.kind == FileKind::collisions) text += span_text(file);
-        is_checkpoint = summary.kind == FileKind::checkpoint ? 1 : 0;
     });
-    ranks.broadcast(is_checkpoint);
-    if (is_checkpoint == 1) text += header_text(read_checkpoint_header(path, ranks));
+    if (header) text += header_text(*header);
     if (ranks.is_root()) fmt::print("{}", text);
     return ExitCode::success;
 }

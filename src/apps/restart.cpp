@@ -125,8 +125,9 @@ std::vector<std::string> earlier_checkpoints(const Scene& scene, std::int64_t st
     std::vector<std::string> paths;
     for (const std::string& path : candidates_in(scene.checkpoint->folder, ranks, step)) {
         try {
-            const CheckpointHeader header = read_checkpoint_header(path, ranks);
-            if (header.step < step && physical_differences(scene_of(header, {}), scene).empty())
+            const std::optional<CheckpointHeader> header = check_damage(path, ranks);
+            if (header && header->step < step &&
+                physical_differences(scene_of(*header, {}), scene).empty())
                 paths.push_back(path);
         } catch (const CollectiveError&) {
         } catch (const InputError&) {

@@ -181,17 +181,14 @@ void verify_log(const FrameFile& file, const std::string& path) {
 }
 
 ExitCode verify(const std::string& path, const Communicator& ranks) {
-    check_damage(path, ranks);
-    int is_checkpoint = 0;
+    const bool is_checkpoint = check_damage(path, ranks).has_value();
     let_root(ranks, [&] {
         const FrameFile file(path);
         file.check_numbers();
-        is_checkpoint = file.summary().kind == FileKind::checkpoint ? 1 : 0;
         if (file.summary().kind == FileKind::trajectory) verify_frames(file, path);
         if (file.summary().kind == FileKind::collisions) verify_log(file, path);
     });
-    ranks.broadcast(is_checkpoint);
-    if (is_checkpoint == 1) verify_checkpoint(path, ranks);
+    if (is_checkpoint) verify_checkpoint(path, ranks);
     if (ranks.is_root()) fmt::print("{}: whole\n", path);
     return ExitCode::success;
 }

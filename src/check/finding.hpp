@@ -14,6 +14,12 @@ namespace carrom {
 
 /// `partner`, `value` and `bound` depend on the invariant (text_of).
 struct Finding {
+    Finding() = default; ///< nothing is found
+    Finding(Invariant broken, int owner, DiscId id, double how_much = 0, double allowed = 0,
+            DiscId other = 0)
+        : invariant(broken), rank(owner), is_found(1), disc(id), partner(other), value(how_much),
+          bound(allowed) {}
+
     Invariant invariant{};
     int rank = 0;
     int is_found = 0;

@@ -65,8 +65,7 @@ StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64
                              side.speed != 0;
     }
     if (effects_.obstacles.are_any()) obstacles_.emplace(scene.box, scene.radius, effects_);
-    known_.resize(slab_begin(communicator.rank() + 1, scene.n_discs, communicator.size()) -
-                  first_id_);
+    known_.resize(slab_of_rank(communicator.rank(), scene.n_discs, communicator.size()).size());
     for (Known& known : known_) known.free_from = micro_steps_done;
     total_mass_ = effects_.species.empty() ? static_cast<double>(scene.n_discs) : 0;
     for (const Species& one : effects_.species) {
@@ -171,7 +170,7 @@ Finding StateCheck::first_not_finite(std::span<const Disc> own,
                                      std::span<const double> spins) const {
     for (std::size_t i = 0; i < own.size(); ++i) {
         if (!is_finite(own[i]) || !std::isfinite(spins.empty() ? 0 : spins[i]))
-            return {Invariant::finite, communicator_.rank(), 1, own[i].id};
+            return {Invariant::finite, communicator_.rank(), own[i].id};
     }
     return {};
 }
@@ -186,7 +185,7 @@ Finding StateCheck::take_records(std::span<const Disc> own, std::span<const doub
     for (std::size_t i = 0; i < own.size(); ++i) {
         const Disc& disc = own[i];
         if (disc.id >= scene_.n_discs) {
-            finding = {Invariant::owned_once, communicator_.rank(), 1, disc.id, 0, 1, 0};
+            finding = {Invariant::owned_once, communicator_.rank(), disc.id, 1};
             continue;
         }
         const auto keeper = static_cast<std::size_t>(slab_of_disc(disc.id));
@@ -212,13 +211,8 @@ Finding StateCheck::take_records(std::span<const Disc> own, std::span<const doub
     }
     for (std::size_t i = 0; i < known_.size() && finding.is_found == 0; ++i) {
         if (n_owners[i] != 1)
-            finding = {Invariant::owned_once,
-                       known_[i].owner,
-                       1,
-                       first_id_ + i,
-                       0,
-                       static_cast<double>(n_owners[i]),
-                       1};
+            finding = {Invariant::owned_once, known_[i].owner, first_id_ + i,
+                       static_cast<double>(n_owners[i]), 1};
     }
     return finding;
 }
@@ -254,7 +248,7 @@ Finding StateCheck::first_out_of_place(const LocalView& now) const {
     std::optional<Finding> first;
     const auto add = [&](Invariant invariant, DiscId id, double value, double bound) {
         if (!first || invariant < first->invariant)
-            first = Finding{invariant, communicator_.rank(), 1, id, 0, value, bound};
+            first = Finding{invariant, communicator_.rank(), id, value, bound};
     };
     const bool is_filed = now.grid->is_valid(now.population.discs.size());
     for (std::size_t i = 0; i < now.population.n_own; ++i) {
@@ -290,8 +284,8 @@ Finding StateCheck::first_in_obstacle(const LocalView& now) const {
         const auto overlap = obstacles_->deepest_overlap(seen.x, seen.y,
                                                          species_.of(disc.id).radius, bound);
         if (overlap.body != ObstacleContact::no_body)
-            return {Invariant::clear, communicator_.rank(), 1,    disc.id,
-                    overlap.body,     overlap.depth,        bound};
+            return {Invariant::clear, communicator_.rank(), disc.id, overlap.depth, bound,
+                    overlap.body};
     }
     return {};
 }
@@ -300,16 +294,16 @@ Finding StateCheck::first_wrong_count() const {
     for (std::size_t i = 0; i < known_.size(); ++i) {
         const Known &now = known_[i], &then = before_[i];
         const auto walls = static_cast<double>(now.disc.wall_collisions -
-                                               then.disc.wall_collisions);
-        const auto pairs = static_cast<double>(now.disc.pair_collisions -
-                                               then.disc.pair_collisions);
+                                               then.disc.wall_collisions),
+                   pairs = static_cast<double>(now.disc.pair_collisions -
+                                               then.disc.pair_collisions),
+                   had_walls = static_cast<double>(now.walls),
+                   had_pairs = static_cast<double>(now.pairs);
         // `partner` says which of the two counters it is.
-        if (walls != static_cast<double>(now.walls))
-            return {Invariant::counters,           now.owner, 1, first_id_ + i, 0, walls,
-                    static_cast<double>(now.walls)};
-        if (pairs != static_cast<double>(now.pairs))
-            return {Invariant::counters,           now.owner, 1, first_id_ + i, 1, pairs,
-                    static_cast<double>(now.pairs)};
+        if (walls != had_walls)
+            return {Invariant::counters, now.owner, first_id_ + i, walls, had_walls, 0};
+        if (pairs != had_pairs)
+            return {Invariant::counters, now.owner, first_id_ + i, pairs, had_pairs, 1};
     }
     return {};
 }
@@ -317,7 +311,7 @@ Finding StateCheck::first_wrong_count() const {
 /// The lowest pair's finding stays.
 void StateCheck::keep_lowest(Finding& first, const Suspect& s) {
     if (first.is_found == 0 || std::pair(s.p.id, s.q.id) < std::pair(first.disc, first.partner))
-        first = {Invariant::overlap, s.owner, 1, s.p.id, s.q.id, s.depth, s.bound};
+        first = {Invariant::overlap, s.owner, s.p.id, s.depth, s.bound, s.q.id};
 }
 
 Finding StateCheck::first_overlap(const LocalView& now) const {

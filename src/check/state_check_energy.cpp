@@ -47,11 +47,10 @@ Finding StateCheck::first_other_motion() const {
         if (now.pairs == 0 && now.spin != before_[i].spin) // `partner` says that it is the spin
             return {Invariant::motion,
                     now.owner,
-                    1,
                     first_id_ + i,
-                    1,
                     std::fabs(now.spin - before_[i].spin),
-                    0};
+                    0,
+                    1};
         if (now.walls + now.pairs > 0) continue;
         const double wx = disc.vx - (then.vx * left + effects_.gravity.x * time),
                      wy = disc.vy - (then.vy * left + effects_.gravity.y * time);
@@ -59,7 +58,7 @@ Finding StateCheck::first_other_motion() const {
                                      : motion_bound * (1 + n_syncs_since(micro_steps_before_)) *
                                            (std::sqrt(squared_speed_of(then)) + gained);
         if (!(std::fabs(wx) <= bound && std::fabs(wy) <= bound))
-            return {Invariant::motion, now.owner, 1, first_id_ + i, 0, std::hypot(wx, wy), bound};
+            return {Invariant::motion, now.owner, first_id_ + i, std::hypot(wx, wy), bound};
     }
     return {};
 }
@@ -88,7 +87,7 @@ Finding StateCheck::first_other_energy(std::span<const Disc> own, Log log) {
     Finding finding;
     if (communicator_.is_root()) {
         if (const auto worst = worst_energy_change(all, pairs, may_lose_energy_))
-            finding = {Invariant::energy, 0, 1, worst->disc, 0, worst->share, worst->bound};
+            finding = {Invariant::energy, 0, worst->disc, worst->share, worst->bound};
     }
     const Finding of_all = first_other_total(own, mine);
     if (finding.is_found == 0) finding = of_all;
@@ -117,14 +116,9 @@ Finding StateCheck::first_other_total(std::span<const Disc> own,
         energy_ = energy;
     }
     const double drift = may_lose_energy_ ? energy - expected : std::fabs(energy - expected);
-    if (!(scale > 0) || drift <= allowed) return {};
+    if (!(scale > 0) || drift <= allowed || known_.empty()) return {};
     // Nobody in particular: the lowest disc that collided.
-    return {Invariant::energy,
-            0,
-            known_.empty() ? 0 : 1,
-            mine.empty() ? first_id_ : mine.front().disc,
-            0,
-            drift / scale,
+    return {Invariant::energy, 0, mine.empty() ? first_id_ : mine.front().disc, drift / scale,
             allowed / scale};
 }
 

@@ -55,13 +55,8 @@ std::vector<InputDisc> read_discs(const Scene& scene, std::istream* lines,
 }
 
 /// The ids this rank makes where places are functions of the id.
-struct Share {
-    DiscId first, last;
-};
-
-Share share_of(const Scene& scene, const Communicator& communicator) {
-    return {slab_begin(communicator.rank(), scene.n_discs, communicator.size()),
-            slab_begin(communicator.rank() + 1, scene.n_discs, communicator.size())};
+Slab share_of(const Scene& scene, const Communicator& communicator) {
+    return slab_of_rank(communicator.rank(), scene.n_discs, communicator.size());
 }
 
 std::vector<InputDisc> listed_discs(const Scene& scene, const Communicator& communicator) {

@@ -73,9 +73,8 @@ private:
 
     /// False where the discs have jammed. **Collective.**
     bool place_all_of(double radius) {
-        const std::uint64_t n = scene_.n_discs;
-        const std::uint64_t first = slab_begin(communicator_.rank(), n, communicator_.size());
-        const std::uint64_t last = slab_begin(communicator_.rank() + 1, n, communicator_.size());
+        const auto [first, last] = slab_of_rank(communicator_.rank(), scene_.n_discs,
+                                                communicator_.size());
         for (std::uint64_t id = first; id < last; ++id)
             if (species_.of(id).radius == radius)
                 unplaced_.push_back(static_cast<std::uint32_t>(id));

@@ -23,16 +23,16 @@ bool is_known_type(hid_t type) {
 void check_segments_of(const Dataset& dataset, hid_t creation, const std::string& name,
                        std::size_t bytes_per_number) {
     std::size_t n_parts = 0;
-    checked(H5Pget_virtual_count(creation, &n_parts), name.c_str());
+    checked(H5Pget_virtual_count(creation, &n_parts), name);
     std::string own(longest_path, '\0');
-    checked(H5Fget_name(dataset.id(), own.data(), own.size()), name.c_str());
+    checked(H5Fget_name(dataset.id(), own.data(), own.size()), name);
     const std::filesystem::path folder = std::filesystem::path(own.c_str()).parent_path();
     hssize_t n_found = 0;
     for (std::size_t k = 0; k < n_parts; ++k) {
         std::string file(longest_path, '\0');
-        checked(H5Pget_virtual_filename(creation, k, file.data(), file.size()), name.c_str());
+        checked(H5Pget_virtual_filename(creation, k, file.data(), file.size()), name);
         const std::filesystem::path part = file.c_str();
-        const Space space(checked(H5Pget_virtual_srcspace(creation, k), name.c_str()));
+        const Space space(checked(H5Pget_virtual_srcspace(creation, k), name));
         const hssize_t n = H5Sget_select_npoints(space.id());
         std::error_code error;
         const std::uintmax_t size = std::filesystem::file_size(folder / part, error);
@@ -41,40 +41,32 @@ void check_segments_of(const Dataset& dataset, hid_t creation, const std::string
             throw FileError(name + " has a part that is not there: " + part.string());
         n_found += n;
     }
-    const Space whole(checked(H5Dget_space(dataset.id()), name.c_str()));
+    const Space whole(checked(H5Dget_space(dataset.id()), name));
     if (n_found != H5Sget_simple_extent_npoints(whole.id()))
         throw FileError(name + " has other parts than this program writes");
 }
 
 } // namespace
 
-Dataset open_checked(hid_t parent, const std::string& name) {
-    Dataset dataset = open_dataset(parent, name.c_str());
-    const Type type(checked(H5Dget_type(dataset.id()), name.c_str()));
-    const Properties creation(checked(H5Dget_create_plist(dataset.id()), name.c_str()));
+Dataset open_checked(hid_t parent, const std::string& name, const std::optional<Shape>& shape) {
+    Dataset dataset = open_dataset(parent, name);
+    const Type type = stored_type(dataset.id());
+    const Properties creation(checked(H5Dget_create_plist(dataset.id()), name));
     if (!is_known_type(type.id()) || H5Pget_external_count(creation.id()) != 0)
         throw FileError(name + " is of another type than this program writes");
     if (H5Pget_layout(creation.id()) == H5D_VIRTUAL)
         check_segments_of(dataset, creation.id(), name, H5Tget_size(type.id()));
-    return dataset;
-}
-
-Dataset open_checked(hid_t parent, const std::string& name, const Shape& shape) {
-    Dataset dataset = open_checked(parent, name);
+    const auto is_right = [](std::optional<hsize_t> wanted, hsize_t size) {
+        return !wanted || *wanted == size;
+    };
     const std::vector<hsize_t> sizes = dimensions_of(dataset.id());
-    const bool is_right = std::equal(
-        shape.begin(), shape.end(), sizes.begin(), sizes.end(),
-        [](std::optional<hsize_t> wanted, hsize_t size) { return !wanted || *wanted == size; });
-    if (!is_right) throw FileError(name + " has another shape than this program writes");
+    if (shape && !std::equal(shape->begin(), shape->end(), sizes.begin(), sizes.end(), is_right))
+        throw FileError(name + " has another shape than this program writes");
     return dataset;
-}
-
-std::uint64_t length_of(hid_t file, const std::string& path) {
-    return n_rows_of(open_checked(file, path, {std::nullopt}).id());
 }
 
 std::uint64_t count_up_to(hid_t file, const std::string& path, std::int64_t last) {
-    const Dataset dataset = open_checked(file, path, {std::nullopt});
+    const Dataset dataset = open_checked(file, path, Shape{std::nullopt});
     std::uint64_t low = 0, high = n_rows_of(dataset.id());
     while (low < high) { // by halves: a log of collisions may have billions
         const std::uint64_t middle = low + (high - low) / 2;

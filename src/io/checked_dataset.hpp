@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a file says of a data set, held against what this program writes before a number of it is
-// read.
-//
-// What HDF5 itself does not survive has shown in a child process before (child_process.hpp). Price:
-// some calls that look at what is in memory already.
+// read. What HDF5 itself does not survive has shown in a child process before (child_process.hpp).
 #pragma once
 
 #include <optional>
@@ -17,24 +14,21 @@ namespace carrom::h5 {
 /// The axes that a data set must have; where there is none any length will do.
 using Shape = std::vector<std::optional<hsize_t>>;
 
-/// Opens a data set to be read. Throws FileError unless it is of numbers or of a text of fixed
-/// length, and all of it lies in this file, or in segments in the folder of this file that have
-/// room for it.
-Dataset open_checked(hid_t parent, const std::string& name);
+/// Opens a data set to be read. Throws FileError unless it is of that shape, if one is given, of
+/// numbers or of a text of fixed length, and all of it lies in this file, or in segments in the
+/// folder of this file that have room for it.
+Dataset open_checked(hid_t parent, const std::string& name,
+                     const std::optional<Shape>& shape = std::nullopt);
 
-/// The same for one of that shape.
-Dataset open_checked(hid_t parent, const std::string& name, const Shape& shape);
-
-/// How long a column is, and how many of its ascending numbers are <= `last`.
-std::uint64_t length_of(hid_t file, const std::string& path);
+/// How many of a column's ascending numbers are <= `last`.
 std::uint64_t count_up_to(hid_t file, const std::string& path, std::int64_t last);
 
 /// All of a column. Throws FileError.
 template <class Number> std::vector<Number> read_column(hid_t file, const std::string& path) {
-    const Dataset dataset = open_checked(file, path, {std::nullopt});
+    const Dataset dataset = open_checked(file, path, Shape{std::nullopt});
     std::vector<Number> numbers(n_rows_of(dataset.id()));
     if (!numbers.empty())
-        read_rows(dataset.id(), {0, numbers.size()}, type_of<Number>(), numbers.data());
+        read_rows(dataset.id(), {0, numbers.size()}, type_of(Number{}), numbers.data());
     return numbers;
 }
 

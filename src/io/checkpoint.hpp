@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -90,16 +91,14 @@ struct Checkpoint {
     StoredSamples samples;
 };
 
-/// Reads a checkpoint. If it is damaged in any way, or none, every rank throws CollectiveError,
-/// code 2, with the reason after the path; InputError if it is of version 0.1. **Collective.**
+/// Reads a checkpoint. If it is damaged in any way, of version 0.1, or none, every rank throws
+/// CollectiveError, code 2, with the reason after the path. **Collective.**
 Checkpoint read_checkpoint(const std::string& path, const Communicator& communicator);
 
-/// The same without the discs; the file is read to its end all the same, for its checksum.
-/// **Collective.**
-CheckpointHeader read_checkpoint_header(const std::string& path, const Communicator& communicator);
-
-/// Throws like `read_checkpoint` where a file is a damaged checkpoint or cannot be read at all;
-/// does nothing for other files of ours. **Collective.**
-void check_damage(const std::string& path, const Communicator& communicator);
+/// The header of a checkpoint whose bytes have their checksums: all are read. Throws like
+/// `read_checkpoint` where it is damaged or cannot be read at all. None of other files of ours,
+/// which are not checked. **Collective.**
+std::optional<CheckpointHeader> check_damage(const std::string& path,
+                                             const Communicator& communicator);
 
 } // namespace carrom

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/checkpoint_fields.hpp"
 
-#include <array>
 #include <cmath>
+#include <string_view>
 #include <type_traits>
 
 #include "io/checked_dataset.hpp"
@@ -10,54 +10,77 @@
 
 namespace carrom {
 
+namespace {
+
+constexpr const char *box_height_name = "box_height", *scene_path = "/carrom/scene";
+
+/// Of a frame that moves.
+template <class SomeFrame, class Visit> void visit_frame(SomeFrame& frame, const Visit& visit) {
+    visit("frame_x", frame.x);
+    visit("frame_y", frame.y);
+    visit("frame_vx", frame.vx);
+    visit("frame_vy", frame.vy);
+    visit("frame_slowing", frame.slowing);
+    visit("frame_clock", frame.clock);
+}
+template <class SomeFrame, class Visit> void visit_periods(SomeFrame& frame, const Visit& visit) {
+    visit("period_x", frame.period_x);
+    visit("period_y", frame.period_y);
+}
+
+/// What a recording keeps of a header.
+template <class Header, class Visit> void visit_recorded(Header& header, const Visit& visit) {
+    visit_header(header, [&](std::string_view name, auto& value) {
+        if (name.starts_with("scene_") || name == "n_discs") visit(name.data(), value);
+    });
+}
+
+auto writer_to(hid_t group) {
+    return [group](const char* name, const auto& value) { h5::write_scalar(group, name, value); };
+}
+auto reader_of(hid_t group) {
+    return [group](const char* name, auto& value) { h5::read_scalar(group, name, value); };
+}
+
+} // namespace
+
 hid_t type_of(const StateColumn& column) {
     return column.is_real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_UINT64;
 }
 
 void write_header(hid_t group, const CheckpointHeader& header) {
-    for (const HeaderField& entry : checkpoint_header)
-        std::visit([&](auto field) { h5::write_scalar(group, entry.name, header.*field); },
-                   entry.field);
-    if (!header.box().is_square()) h5::write_scalar(group, box_height_name, header.box_height);
+    const auto write = writer_to(group);
+    visit_header(header, write);
+    if (!header.box().is_square()) write(box_height_name, header.box_height);
     if (!header.frame.is_moving) return;
-    for (const FrameField& entry : checkpoint_frame)
-        h5::write_scalar(group, entry.name, header.frame.*entry.field);
-    if (header.frame.period_x == 0 && header.frame.period_y == 0) return;
-    for (const FrameField& entry : checkpoint_periods)
-        h5::write_scalar(group, entry.name, header.frame.*entry.field);
+    visit_frame(header.frame, write);
+    if (header.frame.period_x != 0 || header.frame.period_y != 0)
+        visit_periods(header.frame, write);
 }
 
 CheckpointHeader read_header(hid_t file) {
     const h5::Group group(h5::checked(H5Gopen2(file, run_path, H5P_DEFAULT), run_path));
+    const auto read = reader_of(group.id());
+    const auto has = [&](const char* name) { return H5Lexists(group.id(), name, H5P_DEFAULT) > 0; };
     CheckpointHeader header;
-    const auto read_frame = [&](const auto& fields) {
-        for (const FrameField& entry : fields)
-            h5::read_scalar(group.id(), entry.name, header.frame.*entry.field);
-    };
-    for (const HeaderField& entry : checkpoint_header)
-        std::visit([&](auto field) { h5::read_scalar(group.id(), entry.name, header.*field); },
-                   entry.field);
+    visit_header(header, read);
     header.box_height = header.box_size;
-    if (H5Lexists(group.id(), box_height_name, H5P_DEFAULT) > 0)
-        h5::read_scalar(group.id(), box_height_name, header.box_height);
-    header.frame.is_moving = H5Lexists(group.id(), checkpoint_frame[0].name, H5P_DEFAULT) > 0;
-    if (header.frame.is_moving) read_frame(checkpoint_frame);
-    if (H5Lexists(group.id(), checkpoint_periods[0].name, H5P_DEFAULT) > 0)
-        read_frame(checkpoint_periods);
-    for (std::size_t k = 0; k < n_side_columns; ++k)
-        if (h5::has(file, path_of(static_cast<SideColumn>(k))))
-            header.columns.add(static_cast<SideColumn>(k));
+    if (has(box_height_name)) read(box_height_name, header.box_height);
+    header.frame.is_moving = has("frame_x");
+    if (header.frame.is_moving) visit_frame(header.frame, read);
+    if (has("period_x")) visit_periods(header.frame, read);
+    for (const SideColumn column : all_side_columns)
+        if (h5::has(file, path_of(column))) header.columns.add(column);
     return header;
 }
 
 void write_species(hid_t file, const std::string& path, const std::vector<Species>& species) {
     if (species.empty()) return;
-    const h5::Group group = h5::create_group(file, path.c_str());
+    const h5::Group group = h5::create_group(file, path);
     const auto write = [&](const char* name, auto field) {
         std::vector<std::remove_cvref_t<decltype(species[0].*field)>> numbers;
         for (const Species& one : species) numbers.push_back(one.*field);
-        h5::write_whole(group.id(), name, std::array<hsize_t, 1>{numbers.size()},
-                        h5::type_of<typename decltype(numbers)::value_type>(), numbers.data());
+        h5::write_column(group.id(), name, numbers);
     };
     write("count", &Species::count);
     write("radius", &Species::radius);
@@ -85,13 +108,21 @@ std::vector<Species> read_species(hid_t file, const std::string& path, std::uint
     return species;
 }
 
-void broadcast(CheckpointHeader& header, const Communicator& communicator) {
-    for (const HeaderField& entry : checkpoint_header)
-        std::visit([&](auto field) { communicator.broadcast(header.*field); }, entry.field);
-    communicator.broadcast(header.box_height);
-    communicator.broadcast(header.frame);
-    communicator.broadcast(header.columns);
-    communicator.broadcast(header.species);
+void write_recorded_run(hid_t file, const CheckpointHeader& run) {
+    if (run.scene_text.empty()) return;
+    visit_recorded(run, writer_to(h5::create_group(file, scene_path).id()));
+    write_species(file, species_path, run.species);
+}
+
+void check_recorded_run(hid_t file, const DifferenceFrom& difference_from) {
+    if (!difference_from || !h5::has(file, scene_path)) return;
+    const h5::Group scene(h5::checked(H5Gopen2(file, scene_path, H5P_DEFAULT), scene_path));
+    CheckpointHeader there;
+    visit_recorded(there, reader_of(scene.id()));
+    there.species = read_species(file, species_path, there.n_discs);
+    if (const std::string difference = difference_from(there); !difference.empty())
+        throw FileError("is another run's (" + difference +
+                        "); name another file, or move it away");
 }
 
 } // namespace carrom

@@ -5,8 +5,8 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
-#include <variant>
 
 #include "core/disc_columns.hpp"
 #include "io/checkpoint.hpp"
@@ -28,69 +28,50 @@ inline std::string path_of(SideColumn column) {
     return std::string("/carrom/discs/") + info_of(column).name;
 }
 
-/// A dataset of /carrom/run: one value.
-struct HeaderField {
-    const char* name;
-    std::variant<std::string CheckpointHeader::*, double CheckpointHeader::*,
-                 std::int64_t CheckpointHeader::*, std::uint64_t CheckpointHeader::*>
-        field;
-};
-
-using H = CheckpointHeader;
-inline constexpr std::array<HeaderField, 17> checkpoint_header = {
-    {{"program_version", &H::program_version},
-     {"scene_name", &H::scene_name},
-     {"scene_text", &H::scene_text},
-     {"scene_overrides", &H::scene_overrides},
-     {"scene_lines_before_discs", &H::scene_lines_before_discs},
-     {"scene_discs_follow", &H::scene_discs_follow},
-     {"box_size", &H::box_size},
-     {"radius", &H::radius},
-     {"method", &H::method},
-     {"micro_steps", &H::micro_steps},
-     {"sync_every", &H::sync_every},
-     {"step", &H::step},
-     {"micro_steps_done", &H::micro_steps_done},
-     {"n_discs", &H::n_discs},
-     {"wall_collisions", &H::wall_collisions},
-     {"pair_collisions", &H::pair_collisions},
-     {"state_hash", &H::state_hash}}};
-
-/// The same for a rectangle.
-inline constexpr const char* box_height_name = "box_height";
-
-/// The same for a frame that moves.
-struct FrameField {
-    const char* name;
-    double Frame::* field;
-};
-inline constexpr std::array<FrameField, 6> checkpoint_frame = {{{"frame_x", &Frame::x},
-                                                                {"frame_y", &Frame::y},
-                                                                {"frame_vx", &Frame::vx},
-                                                                {"frame_vy", &Frame::vy},
-                                                                {"frame_slowing", &Frame::slowing},
-                                                                {"frame_clock", &Frame::clock}}};
+/// Calls `visit(name, value)` for each dataset of /carrom/run that all checkpoints have: one value.
+template <class Header, class Visit> void visit_header(Header& header, const Visit& visit) {
+    visit("program_version", header.program_version);
+    visit("scene_name", header.scene_name);
+    visit("scene_text", header.scene_text);
+    visit("scene_overrides", header.scene_overrides);
+    visit("scene_lines_before_discs", header.scene_lines_before_discs);
+    visit("scene_discs_follow", header.scene_discs_follow);
+    visit("box_size", header.box_size);
+    visit("radius", header.radius);
+    visit("method", header.method);
+    visit("micro_steps", header.micro_steps);
+    visit("sync_every", header.sync_every);
+    visit("step", header.step);
+    visit("micro_steps_done", header.micro_steps_done);
+    visit("n_discs", header.n_discs);
+    visit("wall_collisions", header.wall_collisions);
+    visit("pair_collisions", header.pair_collisions);
+    visit("state_hash", header.state_hash);
+}
 
 /// What measurements and trajectories go on with: one number for each disc.
 struct SampleColumn {
     const char* path;
     double FirstPlace::* field;
     bool StoredSamples::* is_there;
-
-    bool is_in(const StoredSamples& samples) const { return samples.*is_there; }
+    double most; ///< that measurements can go on with: in sides of the box where `in_sides`
+    bool in_sides = false;
 };
+inline constexpr double largest_double = std::numeric_limits<double>::max();
 inline constexpr std::array<SampleColumn, 8> sample_columns = {
-    {{"/carrom/measurements/first_x", &FirstPlace::x, &StoredSamples::have_first_places},
-     {"/carrom/measurements/first_y", &FirstPlace::y, &StoredSamples::have_first_places},
-     {"/carrom/measurements/lengths_x", &FirstPlace::lengths_x, &StoredSamples::have_lengths},
-     {"/carrom/measurements/lengths_y", &FirstPlace::lengths_y, &StoredSamples::have_lengths},
-     {"/carrom/measurements/first_vx", &FirstPlace::vx, &StoredSamples::have_velocities},
-     {"/carrom/measurements/first_vy", &FirstPlace::vy, &StoredSamples::have_velocities},
-     {"/carrom/trajectory/image_x", &FirstPlace::image_x, &StoredSamples::have_images},
-     {"/carrom/trajectory/image_y", &FirstPlace::image_y, &StoredSamples::have_images}}};
-/// And for one of a periodic box.
-inline constexpr std::array<FrameField, 2> checkpoint_periods = {
-    {{"period_x", &Frame::period_x}, {"period_y", &Frame::period_y}}};
+    {{"/carrom/measurements/first_x", &FirstPlace::x, &StoredSamples::have_first_places, 2, true},
+     {"/carrom/measurements/first_y", &FirstPlace::y, &StoredSamples::have_first_places, 2, true},
+     {"/carrom/measurements/lengths_x", &FirstPlace::lengths_x, &StoredSamples::have_lengths,
+      0x1p21},
+     {"/carrom/measurements/lengths_y", &FirstPlace::lengths_y, &StoredSamples::have_lengths,
+      0x1p21},
+     {"/carrom/measurements/first_vx", &FirstPlace::vx, &StoredSamples::have_velocities,
+      largest_double},
+     {"/carrom/measurements/first_vy", &FirstPlace::vy, &StoredSamples::have_velocities,
+      largest_double},
+     {"/carrom/trajectory/image_x", &FirstPlace::image_x, &StoredSamples::have_images, most_images},
+     {"/carrom/trajectory/image_y", &FirstPlace::image_y, &StoredSamples::have_images,
+      most_images}}};
 
 hid_t type_of(const StateColumn& column);
 
@@ -101,8 +82,13 @@ CheckpointHeader read_header(hid_t file);
 /// FileError.
 void write_species(hid_t file, const std::string& path, const std::vector<Species>& species);
 std::vector<Species> read_species(hid_t file, const std::string& path, std::uint64_t n_discs);
-/// Replaces the header on every rank by that of rank 0. **Collective.**
-void broadcast(CheckpointHeader& header, const Communicator& communicator);
+
+/// A recording's run, by which no other one goes on with it: its scene's text as checkpoints have
+/// it, and the species of discs that a file had. Writes nothing where `run` has no text. Throws
+/// FileError.
+void write_recorded_run(hid_t file, const CheckpointHeader& run);
+/// Throws FileError where the file names its run and `difference_from` knows a difference.
+void check_recorded_run(hid_t file, const DifferenceFrom& difference_from);
 
 /// Rows that are taken apart into columns, or put together from them, at a time: 1 MiB of discs, so
 /// that they stay in the L2 cache.

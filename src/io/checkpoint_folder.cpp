@@ -60,10 +60,8 @@ Obstacle obstacle_to_folder(const std::string& folder) {
     const int file = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file < 0) return obstacle("no file can be made there", errno);
     ::close(file);
-    remove_file(probe);
+    ::unlink(probe.c_str());
     return {};
 }
-
-void remove_file(const std::string& path) { ::unlink(path.c_str()); }
 
 } // namespace carrom

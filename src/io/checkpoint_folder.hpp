@@ -28,7 +28,4 @@ std::vector<FoundFile> find_checkpoints(const std::string& folder);
 /// anything does.
 Obstacle obstacle_to_folder(const std::string& folder);
 
-/// Removes a file if it is there.
-void remove_file(const std::string& path);
-
 } // namespace carrom

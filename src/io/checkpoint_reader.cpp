@@ -30,9 +30,6 @@ constexpr const char* measurements_path = "/carrom/measurements";
 constexpr const char* averages_path = "/carrom/averages";
 constexpr const char* sums_path = "/carrom/measurements/sums";
 
-/// In boxes, and in box lengths: the most that measurements can go on with.
-constexpr double farthest_place = 2, most_lengths = 0x1p21;
-
 /// What no writer of this program would write; a file with right checksums that has it was made by
 /// something else.
 void check_header(const CheckpointHeader& header) {
@@ -80,12 +77,23 @@ void check_disc_data(const Contents& contents) {
     for (const StateColumn& column : disc_columns) wanted.push_back(path_of(column));
     contents.header.columns.for_each([&](SideColumn column) { wanted.push_back(path_of(column)); });
     for (const SampleColumn& column : sample_columns)
-        if (column.is_in(contents.samples)) wanted.push_back(column.path);
+        if (contents.samples.*column.is_there) wanted.push_back(column.path);
     for (const std::string& path : wanted)
         if (!is_listed(contents.sums, path)) throw FileError("has no " + path);
     for (const DiscData& data : contents.sums.data)
         if (data.rows != contents.header.n_discs)
             throw FileError(data.path + " has not got as many discs as the file says");
+}
+
+/// Files of version 0.1 began with a text; HDF5 would find no fault with them.
+void refuse_old_format(const std::string& path) {
+    constexpr std::string_view family = "carrom checkpoint, format ";
+    std::string front(family.size(), '\0');
+    Descriptor(path, O_RDONLY).read(std::as_writable_bytes(std::span(front)), 0);
+    if (front == family)
+        throw FileError(fmt::format("is a checkpoint of carrom 0.1; this version reads format {} "
+                                    "only. Go on with it in version 0.1, or begin anew",
+                                    checkpoint_format));
 }
 
 void check_format(hid_t file) {
@@ -124,25 +132,14 @@ Contents looked_through(const std::string& path) {
     }
 }
 
-/// Files of version 0.1 began with a text; HDF5 would find no fault with them. They are whole, so
-/// this is an InputError and not damage. **Collective.**
-void refuse_old_format(const std::string& path, const Communicator& communicator) {
-    constexpr std::string_view family = "carrom checkpoint, format ";
-    std::array<char, family.size()> front{};
-    on_root(communicator, path, ExitCode::bad_input,
-            [&] { Descriptor(path, O_RDONLY).read(std::as_writable_bytes(std::span(front)), 0); });
-    std::vector<Problem> problems;
-    if (std::string_view(front.data(), front.size()) == family)
-        problems.push_back({path, 0,
-                            fmt::format("is a checkpoint of carrom 0.1; this version reads format "
-                                        "{} only. Go on with it in version 0.1, or begin anew",
-                                        checkpoint_format)});
-    agree_on_problems(communicator, problems);
-}
-
 /// **Collective.**
 void broadcast(Contents& contents, const Communicator& communicator) {
-    broadcast(contents.header, communicator);
+    CheckpointHeader& header = contents.header;
+    visit_header(header, [&](const char*, auto& value) { communicator.broadcast(value); });
+    communicator.broadcast(header.box_height);
+    communicator.broadcast(header.frame);
+    communicator.broadcast(header.columns);
+    communicator.broadcast(header.species);
     std::uint64_t n_data = contents.sums.data.size();
     communicator.broadcast(n_data);
     contents.sums.data.resize(n_data);
@@ -166,10 +163,9 @@ public:
     /// Throws CollectiveError on every rank unless all is well. **Collective.**
     WholeFile(const std::string& path, const Communicator& communicator)
         : path_(path), communicator_(communicator) {
-        refuse_old_format(path_, communicator_);
         on_root(communicator_, path_, ExitCode::bad_input, [&] {
-            try_in_child([&] { static_cast<void>(looked_through(path_)); });
-            contents = looked_through(path_);
+            refuse_old_format(path_);
+            look_in_child_first([&] { contents = looked_through(path_); });
         });
         broadcast(contents, communicator_);
         on_all(communicator_, path_, ExitCode::bad_input,
@@ -202,18 +198,16 @@ public:
 
 private:
     void check_numbers() {
-        std::vector<std::uint64_t> words; // summed word by word
+        std::vector<StateHash> sums(datasets_.size());
         on_all(communicator_, path_, ExitCode::bad_input, [&] {
-            for (std::size_t k = 0; k < datasets_.size(); ++k) {
-                const StateHash share = share_of_checksum(datasets_[k].id(), contents.sums.data[k],
-                                                          communicator_);
-                words.insert(words.end(), {share.low, share.high});
-            }
+            for (std::size_t k = 0; k < sums.size(); ++k)
+                sums[k] = share_of_checksum(datasets_[k].id(), contents.sums.data[k],
+                                            communicator_);
         });
-        communicator_.sum(words);
+        sum_over(communicator_, sums);
         std::string names;
-        for (std::size_t k = 0; k < datasets_.size(); ++k)
-            if (StateHash{words[2 * k], words[2 * k + 1]} != contents.sums.data[k].checksum)
+        for (std::size_t k = 0; k < sums.size(); ++k)
+            if (sums[k] != contents.sums.data[k].checksum)
                 names += (names.empty() ? "" : ", ") + contents.sums.data[k].path;
         on_root(communicator_, path_, ExitCode::bad_input, [&] {
             if (!names.empty())
@@ -229,18 +223,8 @@ private:
     std::vector<h5::Dataset> datasets_;
 };
 
-/// Ids of this rank.
-struct Share {
-    std::uint64_t begin = 0, end = 0;
-
-    Share(std::uint64_t n, const Communicator& communicator)
-        : begin(slab_begin(communicator.rank(), n, communicator.size())),
-          end(slab_begin(communicator.rank() + 1, n, communicator.size())) {}
-    std::uint64_t size() const { return end - begin; }
-};
-
 /// Reads some discs at a time, so that they stay in cache. Throws FileError.
-std::vector<Disc> read_discs(const WholeFile& file, const Share& share) {
+std::vector<Disc> read_discs(const WholeFile& file, const Slab& share) {
     std::vector<Disc> discs(share.size());
     std::vector<std::uint64_t> numbers(std::min(rows_per_piece, share.size()));
     for (std::uint64_t begin = 0; begin < share.size(); begin += rows_per_piece) {
@@ -256,25 +240,18 @@ std::vector<Disc> read_discs(const WholeFile& file, const Share& share) {
     return discs;
 }
 
-double most_of(const SampleColumn& column, double longest_side) {
-    if (column.is_there == &StoredSamples::have_velocities)
-        return std::numeric_limits<double>::max();
-    if (column.is_there == &StoredSamples::have_images) return most_images;
-    return column.is_there == &StoredSamples::have_lengths ? most_lengths
-                                                           : farthest_place * longest_side;
-}
-
 /// Throws FileError.
-std::vector<FirstPlace> read_places(const WholeFile& file, const Share& share) {
+std::vector<FirstPlace> read_places(const WholeFile& file, const Slab& share) {
     const StoredSamples& samples = file.contents.samples;
     if (!samples.have_first_places && !samples.have_images) return {};
     std::vector<FirstPlace> places(share.size());
     for (std::size_t i = 0; i < places.size(); ++i) places[i].id = share.begin + i;
     std::vector<double> numbers(share.size());
     for (const SampleColumn& column : sample_columns) {
-        if (!column.is_in(samples)) continue;
+        if (!(samples.*column.is_there)) continue;
         file.read(column.path, std::span(numbers), share.begin, H5T_NATIVE_DOUBLE);
-        const double most = most_of(column, file.contents.header.box().longest());
+        const double most = column.most *
+                            (column.in_sides ? file.contents.header.box().longest() : 1);
         for (std::size_t i = 0; i < places.size(); ++i) {
             if (!(std::fabs(numbers[i]) <= most))
                 throw FileError(std::string(column.path) + " holds what is no place");
@@ -295,24 +272,20 @@ StateHash hash_of(const Checkpoint& checkpoint) {
 
 } // namespace
 
-CheckpointHeader read_checkpoint_header(const std::string& path, const Communicator& communicator) {
-    WholeFile file(path, communicator);
-    file.close();
-    return file.contents.header;
-}
-
-void check_damage(const std::string& path, const Communicator& communicator) {
-    refuse_old_format(path, communicator);
+std::optional<CheckpointHeader> check_damage(const std::string& path,
+                                             const Communicator& communicator) {
     std::uint64_t is_checkpoint = 0;
     on_root(communicator, path, ExitCode::bad_input, [&] {
-        const auto look = [&] {
+        refuse_old_format(path);
+        look_in_child_first([&] {
             is_checkpoint = h5::has(h5::open_file(path, h5::Access::read).id(), run_path) ? 1 : 0;
-        };
-        try_in_child(look);
-        look();
+        });
     });
     communicator.broadcast(is_checkpoint);
-    if (is_checkpoint == 1) WholeFile(path, communicator).close();
+    if (is_checkpoint == 0) return std::nullopt;
+    WholeFile file(path, communicator);
+    file.close();
+    return std::move(file.contents.header);
 }
 
 Checkpoint read_checkpoint(const std::string& path, const Communicator& communicator) {
@@ -320,7 +293,8 @@ Checkpoint read_checkpoint(const std::string& path, const Communicator& communic
     Checkpoint checkpoint;
     checkpoint.header = file.contents.header;
     checkpoint.samples = file.contents.samples;
-    const Share share(checkpoint.header.n_discs, communicator);
+    const Slab share = slab_of_rank(communicator.rank(), checkpoint.header.n_discs,
+                                    communicator.size());
     on_all(communicator, path, ExitCode::bad_input, [&] {
         checkpoint.discs = read_discs(file, share);
         checkpoint.header.columns.for_each([&](SideColumn column) {
@@ -331,11 +305,10 @@ Checkpoint read_checkpoint(const std::string& path, const Communicator& communic
         checkpoint.samples.first_places = read_places(file, share);
     });
     file.close();
-    const StateHash mine = hash_of(checkpoint);
-    std::uint64_t sums[] = {mine.low, mine.high};
-    communicator.sum(sums);
+    StateHash hash = hash_of(checkpoint);
+    sum_over(communicator, {&hash, 1});
     on_root(communicator, path, ExitCode::bad_input, [&] {
-        if (to_string(StateHash{sums[0], sums[1]}) != checkpoint.header.state_hash)
+        if (to_string(hash) != checkpoint.header.state_hash)
             throw FileError("its discs do not have its state hash");
     });
     return checkpoint;

@@ -2,7 +2,6 @@
 // A checkpoint's HDF5 file with all its structure and none of its numbers.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -23,6 +22,7 @@ struct DiscTarget {
     std::string path;
     hid_t type; ///< of its numbers
     std::uint64_t bytes_per_row = 0;
+    std::string unit; ///< for other programs; of what they do not read there is none
     std::function<void(std::span<const Disc>, std::byte*)> put;
 };
 
@@ -41,20 +41,19 @@ struct SideOfPieces {
 std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples,
                                      const SideOfPieces& columns);
 
-/// What is known of a state only once all its discs have been seen.
-struct StateSums {
-    std::uint64_t wall_collisions = 0, pair_collisions = 0; ///< of discs: a pair counts twice
-    StateHash hash;
-};
+/// What is known of a state only once all its discs have been seen: sums of pairs of words, which
+/// threads and ranks may add up in any order. Collisions of discs with walls (`low`) and with discs
+/// (`high`; a pair counts twice), the state's hash, and the targets' checksums.
+using StateSums = std::vector<StateHash>;
+inline constexpr std::size_t place_of_collisions = 0, place_of_hash = 1, first_checksum = 2;
 
 /// Makes the file. The header's counters and hash and all checksums stay open. Of one rank; throws
 /// FileError.
 void create_structure(const std::string& path, CheckpointHeader header,
                       const StoredSamples& samples, const std::vector<DiscTarget>& targets);
 
-/// Writes what was left open, the targets' checksums and that of all other bytes included, and
-/// brings it to disk. Of one rank; throws FileError.
-void complete(const std::string& path, const StateSums& sums,
-              const std::vector<StateHash>& checksums);
+/// Writes what was left open, the checksum of all other bytes included, and brings it to disk. Of
+/// one rank; throws FileError.
+void complete(const std::string& path, const StateSums& sums);
 
 } // namespace carrom

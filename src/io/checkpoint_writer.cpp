@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rank 0 makes the file with all its structure and takes its room on disk. Then all ranks open it
-// and fill in the numbers of discs by H5Dwrite through MPI-IO. The places no longer move, so no
-// write changes HDF5's metadata. A rank's pieces begin at pages of their own, so that nodes whose
-// caches know nothing of each other do not share any.
+// All ranks fill in the numbers of discs (checkpoint.hpp). The places no longer move, so no write
+// changes HDF5's metadata. A rank's pieces begin at pages of their own, so that nodes whose caches
+// know nothing of each other do not share any.
 //
 // For independent transfers each rank has a handle of its own (of_this_rank). So no call on the
 // file waits for another rank: each rank sees its own failure, and then all agree. With one handle
@@ -12,7 +11,6 @@
 // Collective transfers need one handle for all ranks. A rank that fails leaves the others waiting
 // inside HDF5; then `agree`, or a deadline for closing, ends the run with the same exit code.
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <csignal>
 #include <mutex>
@@ -26,7 +24,6 @@
 #include <unistd.h>
 
 #include "io/checkpoint.hpp"
-#include "io/checkpoint_folder.hpp"
 #include "io/checkpoint_structure.hpp"
 #include "io/checksums.hpp"
 #include "io/files.hpp"
@@ -68,9 +65,6 @@ private:
 struct Batch {
     std::uint64_t first = 0, n_rows = 0;
     std::vector<std::vector<std::byte>> buffers;
-
-    bool is_empty() const { return n_rows == 0; }
-    void clear() { n_rows = 0; }
 };
 
 /// The file as this rank writes to it; knows of the first failure and writes nothing after it.
@@ -81,13 +75,11 @@ public:
                const Communicator& communicator)
         : path_(path), targets_(targets), communicator_(communicator),
           writers_(is_collective ? communicator : Communicator::of_this_rank()) {
-        on_all(communicator_, path_, ExitCode::output_failure,
-               [&] { bytes_.emplace(path_, O_WRONLY); }); // knows of failures from now on
-        on_all(communicator_, path_, ExitCode::output_failure,
-               [&] { file_ = h5::SharedFile(path_, h5::Access::write, writers_); });
-        on_all(communicator_, path_, ExitCode::output_failure, [&] {
+        on_all_ranks([&] { bytes_.emplace(path_, O_WRONLY); }); // knows of failures from now on
+        on_all_ranks([&] { file_ = h5::SharedFile(path_, h5::Access::write, writers_); });
+        on_all_ranks([&] {
             for (const DiscTarget& target : targets_)
-                datasets_.push_back(h5::open_dataset(file_.id(), target.path.c_str()));
+                datasets_.push_back(h5::open_dataset(file_.id(), target.path));
         });
     }
 
@@ -107,19 +99,18 @@ public:
     /// others do; they wait in vain then, and `agree` ends the run. **Collective.**
     void write_together(const Batch& batch) {
         for (std::size_t k = 0; k < targets_.size(); ++k)
-            on_all(communicator_, path_, ExitCode::output_failure,
-                   [&] { write(k, batch, h5::Transfer::collective); });
+            on_all_ranks([&] { write(k, batch, h5::Transfer::collective); });
     }
 
     /// Brings to disk what this rank has written: on several nodes it is in caches of their own.
     /// Then closes the file. **Collective.**
     void finish() {
-        on_all(communicator_, path_, ExitCode::output_failure, [&] {
+        on_all_ranks([&] {
             if (!failure_.empty()) throw FileError(failure_);
             bytes_->sync();
         });
         datasets_.clear();
-        on_all(communicator_, path_, ExitCode::output_failure, [&] {
+        on_all_ranks([&] {
             std::optional<Deadline> deadline;
             if (writers_.size() > 1) deadline.emplace();
             file_.close();
@@ -129,6 +120,9 @@ public:
 private:
     static constexpr std::uint64_t batches_between_syncs = 8;
 
+    template <class Act> void on_all_ranks(const Act& act) {
+        on_all(communicator_, path_, ExitCode::output_failure, act);
+    }
     void write(std::size_t k, const Batch& batch, h5::Transfer transfer) {
         h5::write_rows(datasets_[k].id(), {batch.first, batch.first + batch.n_rows},
                        targets_[k].type, batch.buffers[k].data(), transfer);
@@ -145,52 +139,25 @@ private:
     std::uint64_t n_batches_ = 0;
 };
 
-/// What is summed over discs while they are at hand; words, so that threads and ranks may add up.
-class Sums {
-public:
-    explicit Sums(std::size_t n_targets) : words_(4 + 2 * n_targets, 0) {}
-
-    void add(std::span<const Disc> discs, const SideOfPieces& side) {
-        for (const Disc& disc : discs) {
-            words_[0] += disc.wall_collisions;
-            words_[1] += disc.pair_collisions;
-        }
-        add(2, hash_of(discs));
-        side.columns.for_each([&](SideColumn column) {
-            for (const Disc& disc : discs) add(2, hash_of(column, disc.id, side.of(column, disc)));
-        });
-    }
-    void add_checksum(std::size_t target, const StateHash& checksum) {
-        add(4 + 2 * target, checksum);
-    }
-    void add(const Sums& other) {
-        for (std::size_t k = 0; k < words_.size(); ++k) words_[k] += other.words_[k];
-    }
-    void add_over(const Communicator& communicator) { communicator.sum(words_); }
-
-    StateSums state() const { return {words_[0], words_[1], {words_[2], words_[3]}}; }
-    StateHash checksum(std::size_t target) const {
-        return {words_[4 + 2 * target], words_[5 + 2 * target]};
-    }
-
-private:
-    void add(std::size_t k, const StateHash& hash) {
-        words_[k] += hash.low;
-        words_[k + 1] += hash.high;
-    }
-
-    std::vector<std::uint64_t> words_;
-};
+void add(std::span<const Disc> discs, const SideOfPieces& side, StateSums& sums) {
+    for (const Disc& disc : discs)
+        sums[place_of_collisions] += {disc.wall_collisions, disc.pair_collisions};
+    sums[place_of_hash] += hash_of(discs);
+    side.columns.for_each([&](SideColumn column) {
+        for (const Disc& disc : discs)
+            sums[place_of_hash] += hash_of(column, disc.id, side.of(column, disc));
+    });
+}
 
 /// Takes a piece apart into the targets' bytes, behind what is in the batch. Threads share the
 /// blocks. Meanwhile this thread, which alone may call MPI, does `first_of_all`. They wait for each
 /// other asleep: ranks may share their cores.
 template <class Act>
 void pack(std::span<const Disc> piece, std::uint64_t first, const SideOfPieces& side,
-          const std::vector<DiscTarget>& targets, Batch& batch, Sums& sums, int n_threads,
+          const std::vector<DiscTarget>& targets, Batch& batch, StateSums& sums, int n_threads,
           const Act& first_of_all) {
     const std::size_t before = batch.n_rows;
-    if (batch.is_empty()) batch.first = first;
+    if (batch.n_rows == 0) batch.first = first;
     batch.n_rows += piece.size();
     for (std::size_t k = 0; k < targets.size(); ++k)
         batch.buffers[k].resize(batch.n_rows * targets[k].bytes_per_row);
@@ -198,23 +165,24 @@ void pack(std::span<const Disc> piece, std::uint64_t first, const SideOfPieces& 
     std::atomic<std::size_t> next{0};
     std::mutex adding;
     const auto pack_blocks = [&] {
-        Sums mine(targets.size());
+        StateSums mine(sums.size());
         for (std::size_t block = next++; block < n_blocks; block = next++) {
             const std::size_t row = block * rows_per_block;
             const std::span<const Disc> discs = piece.subspan(
                 row, std::min<std::size_t>(rows_per_block, piece.size() - row));
-            mine.add(discs, side);
+            add(discs, side, mine);
             for (std::size_t k = 0; k < targets.size(); ++k) {
                 const std::size_t width = targets[k].bytes_per_row;
                 const std::span<std::byte> bytes = std::span(batch.buffers[k])
                                                        .subspan((before + row) * width,
                                                                 discs.size() * width);
                 targets[k].put(discs, bytes.data());
-                mine.add_checksum(k, checksum_of_block(bytes, first / rows_per_block + block));
+                mine[first_checksum + k] += checksum_of_block(bytes,
+                                                              first / rows_per_block + block);
             }
         }
         const std::lock_guard lock(adding);
-        sums.add(mine);
+        for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += mine[k];
     };
     std::vector<std::jthread> threads; // joined at the end
     try {
@@ -253,18 +221,18 @@ SideOfPieces in_pieces(std::span<const Disc> discs, const SideColumnSet& wanted,
 
 /// Fills the data sets with the ranks' pieces. Each piece is written while the next one is packed;
 /// collective transfers come at the end instead, one for each data set. **Collective.**
-Sums write_discs(const std::string& path, const std::vector<DiscTarget>& targets,
-                 std::span<const Disc> discs, const SideOfPieces& side, std::uint64_t n_discs,
-                 const WriteSettings& settings, const Communicator& communicator) {
+StateSums write_discs(const std::string& path, const std::vector<DiscTarget>& targets,
+                      std::span<const Disc> discs, const SideOfPieces& side, std::uint64_t n_discs,
+                      const WriteSettings& settings, const Communicator& communicator) {
     RankWriter writer(path, targets, settings.is_collective, communicator);
     PieceStream stream(communicator, discs, n_discs, [](const Disc& disc) { return disc.id; });
-    Sums sums(targets.size());
+    StateSums sums(first_checksum + targets.size());
     Batch next, last;
     next.buffers.resize(targets.size());
     last.buffers.resize(targets.size());
     const auto write_last = [&] {
-        if (!last.is_empty()) writer.write(last);
-        last.clear();
+        if (last.n_rows > 0) writer.write(last);
+        last.n_rows = 0;
     };
     for (std::uint64_t round = 0; round < stream.pieces().n_rounds(); ++round) {
         const std::span<const Disc> piece = stream.next();
@@ -275,7 +243,7 @@ Sums write_discs(const std::string& path, const std::vector<DiscTarget>& targets
     write_last();
     if (settings.is_collective) writer.write_together(next);
     writer.finish();
-    sums.add_over(communicator);
+    sum_over(communicator, sums);
     return sums;
 }
 
@@ -296,16 +264,14 @@ void write_checkpoint(const std::string& path, CheckpointHeader header, std::spa
                               2 * header.shown.species.size() * sizeof(Species);
         for (const DiscTarget& target : targets) bytes += header.n_discs * target.bytes_per_row;
         check_room(folder_of(path), bytes);
-        remove_file(partial.path()); // of a run that was killed
+        ::unlink(partial.path().c_str()); // of a run that was killed
         create_structure(partial.path(), header, samples, targets);
         reserve(partial.path());
     });
-    const Sums sums = write_discs(partial.path(), targets, discs, side, header.n_discs, settings,
-                                  communicator);
+    const StateSums sums = write_discs(partial.path(), targets, discs, side, header.n_discs,
+                                       settings, communicator);
     on_root(communicator, path, ExitCode::output_failure, [&] {
-        std::vector<StateHash> checksums;
-        for (std::size_t k = 0; k < targets.size(); ++k) checksums.push_back(sums.checksum(k));
-        complete(partial.path(), sums.state(), checksums);
+        complete(partial.path(), sums);
         rename_durably(partial.path(), path);
     });
 }

@@ -32,6 +32,9 @@ inline constexpr std::uint64_t rows_per_block = 1 << 10;
 /// What one block adds to its data set's checksum.
 StateHash checksum_of_block(std::span<const std::byte> bytes, std::uint64_t block);
 
+/// Adds up each of them over all ranks. **Collective.**
+void sum_over(const Communicator& communicator, std::span<StateHash> sums);
+
 /// Bytes [begin, end) of a file.
 struct ByteRange {
     std::uint64_t begin = 0, end = 0;

@@ -8,8 +8,8 @@
 
 namespace carrom {
 
-/// Calls `look` in a child process. Throws FileError with what it throws there, or where it does
-/// not come to an end within ten seconds of processor time and 4 GiB more memory.
-void try_in_child(const std::function<void()>& look);
+/// Calls `look` in a child process, then here. Throws FileError with what it throws, or where it
+/// does not come to an end there within ten seconds of processor time and 4 GiB more memory.
+void look_in_child_first(const std::function<void()>& look);
 
 } // namespace carrom

@@ -23,6 +23,8 @@ struct LoggedCollision {
     double impulse = 0;
 };
 
+class SegmentedFile;
+
 class CollisionLog {
 public:
     /// `communicator` must outlive this.
@@ -40,8 +42,7 @@ public:
     void append(std::span<const LoggedCollision> mine);
 
 private:
-    struct State;
-    std::unique_ptr<State> state_;
+    std::unique_ptr<SegmentedFile> file_;
     const Communicator& communicator_;
 };
 

@@ -50,29 +50,19 @@ std::vector<ColumnSource> sources_of_logs() {
     return sources;
 }
 
-/// Rows [begin, end) of a frame, as doubles; of a data set with one axis `frame` must be 0.
-void read_block(hid_t file, const ColumnSource& source, std::size_t frame, std::uint64_t begin,
-                std::uint64_t end, std::vector<double>& numbers) {
-    const std::string& path = source.dataset;
+/// Rows of a data set, with `width` numbers each, as doubles.
+std::vector<double> read_block(hid_t file, const std::string& path, const h5::Rows& rows,
+                               hsize_t width = 1) {
     const h5::Dataset dataset = h5::open_checked(file, path);
-    std::vector<hsize_t> count = h5::dimensions_of(dataset.id()), start(count.size(), 0);
-    if (count.empty() || count.size() > 3 || (count.size() == 3 ? count[2] : 1) != source.width)
+    const std::vector<hsize_t> sizes = h5::dimensions_of(dataset.id());
+    if (sizes.empty() || sizes.size() > 3 || (sizes.size() == 3 ? sizes[2] : 1) != width)
         throw FileError(path + " has another shape than this program writes");
-    const std::size_t axis = count.size() == 1 ? 0 : 1;
-    if (end > count[axis] || (axis == 1 && frame >= count[0]))
+    const bool has_frames = sizes.size() > 1;
+    if (rows.end > sizes[has_frames ? 1 : 0] || (has_frames && rows.frame >= sizes[0]))
         throw FileError(path + " is shorter than the others");
-    if (axis == 1) start[0] = frame, count[0] = 1;
-    start[axis] = begin;
-    count[axis] = end - begin;
-    numbers.resize((end - begin) * source.width);
-    const h5::Space place(h5::checked(H5Dget_space(dataset.id()), path.c_str())),
-        memory = h5::space(count);
-    h5::checked(H5Sselect_hyperslab(place.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(),
-                                    nullptr),
-                path.c_str());
-    h5::checked(H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, memory.id(), place.id(), H5P_DEFAULT,
-                        numbers.data()),
-                path.c_str());
+    std::vector<double> numbers((rows.end - rows.begin) * width);
+    h5::read_rows(dataset.id(), rows, H5T_NATIVE_DOUBLE, numbers.data());
+    return numbers;
 }
 
 /// The words of an attribute, each as long as the others, side by side.
@@ -92,21 +82,20 @@ std::string letters_of(hid_t file, const char* object, const char* name, hssize_
 }
 
 /// What all files say of the discs' system.
-void read_system(hid_t file, std::uint64_t n_discs, FileSummary& summary) {
-    summary.program_version = letters_of(file, "/h5md/creator", "version", 1);
-    h5::read_scalar(file, "/parameters/radius", summary.radius);
-    if (n_discs > 0) summary.species = read_species(file, h5md::shown_species_path, n_discs);
+void read_system(hid_t file, std::uint64_t n_discs, RecordedSystem& system) {
+    system.program_version = letters_of(file, "/h5md/creator", "version", 1);
+    h5::read_scalar(file, "/parameters/radius", system.radius);
+    if (n_discs > 0) system.species = read_species(file, h5md::shown_species_path, n_discs);
     const std::string boundary = letters_of(file, "/particles/discs/box", "boundary", 3);
-    summary.is_periodic_x = boundary.starts_with("periodic");
-    summary.is_periodic_y = boundary.substr(boundary.size() / 3).starts_with("periodic");
-    std::vector<double> open(4, 0);
-    if (h5::has(file, "/parameters/open_sides"))
-        read_block(file, {"", "/parameters/open_sides"}, 0, 0, 4, open);
-    for (std::size_t side = 0; side < open.size(); ++side)
-        summary.open_boundaries[side] = open[side] != 0;
-    if (!h5::has(file, "/parameters/wall_amplitudes")) return;
-    read_block(file, {"", "/parameters/wall_amplitudes"}, 0, 0, 4, open);
-    std::copy(open.begin(), open.end(), summary.amplitudes.begin());
+    system.is_periodic_x = boundary.starts_with("periodic");
+    system.is_periodic_y = boundary.substr(boundary.size() / 3).starts_with("periodic");
+    const auto read_sides = [&](const char* path, auto& sides) {
+        if (!h5::has(file, path)) return;
+        const std::vector<double> numbers = read_block(file, path, {0, sides.size()});
+        std::copy(numbers.begin(), numbers.end(), sides.begin());
+    };
+    read_sides("/parameters/open_sides", system.open_boundaries);
+    read_sides("/parameters/wall_amplitudes", system.amplitudes);
 }
 
 template <class Act> void with_path(const std::string& path, const Act& act) {
@@ -133,11 +122,10 @@ struct FrameFile::State {
 
 FrameFile::FrameFile(const std::string& path) : path_(path), state_(std::make_unique<State>()) {
     with_path(path_, [&] {
-        try_in_child([&] {
+        look_in_child_first([&] {
             open();
             try_all_parts();
         });
-        open();
     });
 }
 
@@ -146,11 +134,11 @@ FrameFile::FrameFile(FrameFile&&) noexcept = default;
 
 void FrameFile::open() {
     summary_ = {};
-    const bool has_segments = joins_segments(path_);
-    if (has_segments) state_->segments = check_segments(path_, false).segments;
+    const std::optional<Index> index = read_checked_index(path_, false);
+    if (index) state_->segments = index->segments;
     state_->file = h5::open_file(path_, h5::Access::read);
     const hid_t file = state_->file.id();
-    if (!has_segments && h5::has(file, "/carrom/recording"))
+    if (!index && h5::has(file, "/carrom/recording"))
         throw FileError("is damaged: it does not end with a checksum, as this program writes it");
     if (h5::has(file, run_path)) {
         const CheckpointHeader& header = state_->header = read_header(file);
@@ -165,7 +153,8 @@ void FrameFile::open() {
         summary_.kind = FileKind::collisions;
         for (const ColumnSource& source : state_->sources = sources_of_logs())
             summary_.columns.push_back(source.column);
-        summary_.n_rows = h5::length_of(file, state_->sources.front().dataset);
+        summary_.n_rows = h5::n_rows_of(
+            h5::open_checked(file, state_->sources.front().dataset, h5::Shape{std::nullopt}).id());
     } else if (h5::has(file, "/particles/discs")) {
         open_trajectory();
     } else {
@@ -184,7 +173,7 @@ void FrameFile::open_trajectory() {
         h5::Shape shape = {summary_.steps.size(), std::nullopt};
         if (source.width > 1) shape.push_back(source.width);
         const h5::Dataset values = h5::open_checked(file, source.dataset, shape);
-        const h5::Type type(h5::checked(H5Dget_type(values.id()), source.dataset.c_str()));
+        const h5::Type type = h5::stored_type(values.id());
         summary_.n_rows = h5::n_rows_of(values.id());
         if (H5Tget_class(type.id()) == H5T_FLOAT)
             summary_.bytes_per_number = H5Tget_size(type.id());
@@ -192,8 +181,8 @@ void FrameFile::open_trajectory() {
         state_->sources.push_back(source);
     }
     if (summary_.steps.empty()) return;
-    std::vector<double> edges;
-    read_block(file, {"", h5md::edges_path}, summary_.steps.size() - 1, 0, 3, edges);
+    const std::vector<double> edges = read_block(file, h5md::edges_path,
+                                                 {0, 3, summary_.steps.size() - 1});
     summary_.box = {edges[0], edges[1]};
 }
 
@@ -212,9 +201,7 @@ void FrameFile::try_all_parts() const {
 }
 
 void FrameFile::check_numbers() const {
-    with_path(path_, [&] {
-        if (joins_segments(path_)) check_segments(path_, true);
-    });
+    with_path(path_, [&] { static_cast<void>(read_checked_index(path_, true)); });
 }
 
 void FrameFile::read(std::size_t frame, std::uint64_t begin, std::uint64_t end, Rows& rows) const {
@@ -234,7 +221,8 @@ void FrameFile::read_stored(std::size_t frame, std::uint64_t begin, std::uint64_
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const ColumnSource& source = state_->sources[k];
         if (source.dataset != last)
-            read_block(state_->file.id(), source, frame, begin, end, numbers);
+            numbers = read_block(state_->file.id(), source.dataset, {begin, end, frame},
+                                 source.width);
         last = source.dataset;
         rows[k].resize(end - begin);
         for (std::uint64_t i = 0; i < end - begin; ++i)
@@ -250,7 +238,8 @@ void FrameFile::read_state(std::uint64_t begin, std::uint64_t end, Rows& rows) c
     std::vector<Disc> discs(end - begin);
     std::vector<std::uint64_t> bits(discs.size());
     for (const StateColumn& column : disc_columns) {
-        const h5::Dataset dataset = h5::open_checked(file, path_of(column), {header.n_discs});
+        const h5::Dataset dataset = h5::open_checked(file, path_of(column),
+                                                     h5::Shape{header.n_discs});
         h5::read_rows(dataset.id(), {begin, end}, type_of(column), bits.data());
         for (std::size_t i = 0; i < discs.size(); ++i) column.set(discs[i], bits[i]);
     }
@@ -268,7 +257,7 @@ void FrameFile::read_state(std::uint64_t begin, std::uint64_t end, Rows& rows) c
     std::size_t k = 6;
     header.columns.for_each([&](SideColumn column) {
         std::vector<double>& numbers = rows[k++];
-        read_block(file, {"", path_of(column)}, 0, begin, end, numbers);
+        numbers = read_block(file, path_of(column), {begin, end});
         for (double& number : numbers) number = number * (info_of(column).is_rate ? unit : 1) + 0.0;
     });
 }

@@ -3,37 +3,28 @@
 // with a row for each disc of a frame, or for each collision. A checkpoint is a file of one frame.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <carrom/box.hpp>
-
-#include "dynamics/species.hpp"
+#include "io/recorded_system.hpp"
 
 namespace carrom {
 
 enum class FileKind { checkpoint, trajectory, collisions };
 
-struct FileSummary {
+/// Its box is that of the last frame.
+struct FileSummary : RecordedSystem {
     FileKind kind = FileKind::checkpoint;
-    std::string program_version;
     /// The numbers of a row that the file has, in the scene's units. Of discs: x, y, vx, vy,
     /// pair_collisions, wall_collisions, then the columns beside the states (side_columns.hpp).
     std::vector<std::string> columns;
-    std::uint64_t n_rows = 0;              ///< discs, or collisions
-    Box box;                               ///< of the last frame
-    double radius = 0;                     ///< the largest one
-    std::vector<Species> species;          ///< empty where all discs have that radius and mass 1
-    std::size_t bytes_per_number = 8;      ///< of a trajectory's positions and velocities
-    std::vector<std::int64_t> steps;       ///< of the frames
-    std::string state_hash;                ///< of a checkpoint
-    std::array<bool, 4> open_boundaries{}; ///< left, right, bottom, top
-    std::array<double, 4> amplitudes{};    ///< of walls that oscillate, likewise
-    bool is_periodic_x = false, is_periodic_y = false;
+    std::uint64_t n_rows = 0;         ///< discs, or collisions
+    std::size_t bytes_per_number = 8; ///< of a trajectory's positions and velocities
+    std::vector<std::int64_t> steps;  ///< of the frames
+    std::string state_hash;           ///< of a checkpoint
 
     /// The place of a column, or that of the end where there is none.
     std::size_t place_of(std::string_view column) const;

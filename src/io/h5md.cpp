@@ -48,15 +48,13 @@ template <class Number>
 void write_fixed(hid_t discs, const char* name, hid_t type, std::uint64_t n, Number common,
                  const std::vector<Number>& values, const std::string& unit = "") {
     const h5::Properties creation = h5::dataset_creation();
-    h5::checked(H5Pset_fill_value(creation.id(), type, &common), name);
+    h5::set(creation, H5Pset_fill_value, type, &common);
     const hsize_t size = n, chunk = std::min<std::uint64_t>(n, 1 << 16);
     if (!values.empty()) {
-        h5::checked(H5Pset_chunk(creation.id(), 1, &chunk), name);
-        h5::checked(H5Pset_deflate(creation.id(), 1), name);
+        h5::set(creation, H5Pset_chunk, 1, &chunk);
+        h5::set(creation, H5Pset_deflate, 1u);
     }
-    h5::Dataset dataset(h5::checked(H5Dcreate2(discs, name, type, h5::space({&size, 1}).id(),
-                                               H5P_DEFAULT, creation.id(), H5P_DEFAULT),
-                                    name));
+    h5::Dataset dataset = h5::create_dataset(discs, name, type, {&size, 1}, creation);
     if (!values.empty())
         h5::checked(H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
                     name);
@@ -73,12 +71,10 @@ void write_system(hid_t file, const RecordedSystem& system) {
     if (system.open_boundaries != std::array<bool, 4>{}) {
         const auto& sides = system.open_boundaries;
         const std::array<std::int32_t, 4> flags = {sides[0], sides[1], sides[2], sides[3]};
-        h5::write_whole(parameters.id(), "open_sides", std::array<hsize_t, 1>{4}, H5T_NATIVE_INT32,
-                        flags.data());
+        h5::write_column(parameters.id(), "open_sides", flags);
     }
     if (system.amplitudes != std::array<double, 4>{})
-        h5::write_whole(parameters.id(), "wall_amplitudes", std::array<hsize_t, 1>{4},
-                        H5T_NATIVE_DOUBLE, system.amplitudes.data());
+        h5::write_column(parameters.id(), "wall_amplitudes", system.amplitudes);
     write_species(file, shown_species_path, system.species);
     create_box(h5::create_group(file, "/particles/discs").id(), system);
 }

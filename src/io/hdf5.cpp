@@ -50,18 +50,25 @@ herr_t take_text(unsigned number, const H5E_error2_t* error, void* text) {
 void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 /// When something was made is no part of it: the same contents are the same bytes.
-void leave_out_times(const Properties& creation) {
-    checked(H5Pset_obj_track_times(creation.id(), false), "cannot leave out times");
-}
+void leave_out_times(const Properties& creation) { set(creation, H5Pset_obj_track_times, false); }
 
 /// Groups whose order is kept are of the newer kind: their metadata have a checksum by HDF5, links
 /// included.
 void as_checked_group(const Properties& creation) {
     leave_out_times(creation);
-    checked(H5Pset_link_creation_order(creation.id(), H5P_CRT_ORDER_TRACKED),
-            "cannot keep an order of links");
-    checked(H5Pset_link_phase_change(creation.id(), most_links, most_links / 2),
-            "cannot keep links together");
+    set(creation, H5Pset_link_creation_order, unsigned{H5P_CRT_ORDER_TRACKED});
+    set(creation, H5Pset_link_phase_change, most_links, most_links / 2);
+}
+
+File opened(const std::string& path, Access access, hid_t list) {
+    const unsigned flags = access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR;
+    return File(checked(H5Fopen(path.c_str(), flags, list), "cannot be opened"));
+}
+
+Properties with_groups_on_the_way() {
+    Properties links = properties(H5P_LINK_CREATE);
+    set(links, H5Pset_create_intermediate_group, 1u);
+    return links;
 }
 
 Type text_type(std::size_t length) {
@@ -72,11 +79,16 @@ Type text_type(std::size_t length) {
     return type;
 }
 
-void write_attribute(hid_t object, const char* name, hid_t type, const Space& shape,
+void write_attribute(hid_t object, const std::string& name, hid_t type, const Space& shape,
                      const void* values) {
-    const Attribute attribute(
-        checked(H5Acreate2(object, name, type, shape.id(), H5P_DEFAULT, H5P_DEFAULT), name));
+    const Attribute attribute(checked(
+        H5Acreate2(object, name.c_str(), type, shape.id(), H5P_DEFAULT, H5P_DEFAULT), name));
     checked(H5Awrite(attribute.id(), type, values), name);
+}
+
+void write_and_close(Dataset dataset, const std::string& name, hid_t type, const void* values) {
+    checked(H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
+    dataset.close(name);
 }
 
 /// Rows of a data set, and as much memory without gaps.
@@ -88,6 +100,7 @@ Selection select(hid_t dataset, const Rows& rows) {
     std::vector<hsize_t> count = dimensions_of(dataset), start(count.size(), 0);
     if (count.empty()) throw FileError("a data set has no rows");
     const std::size_t axis = count.size() > 1 ? 1 : 0;
+    if (axis == 1) start[0] = rows.frame, count[0] = 1;
     start[axis] = rows.begin;
     count[axis] = rows.end - rows.begin;
     Selection selected{space(count),
@@ -97,18 +110,16 @@ Selection select(hid_t dataset, const Rows& rows) {
         checked(H5Sselect_none(selected.file.id()), "cannot select no rows");
         return selected;
     }
-    checked(H5Sselect_hyperslab(selected.file.id(), H5S_SELECT_SET, start.data(), nullptr,
-                                count.data(), nullptr),
-            "cannot select rows");
+    select(selected.file, start, count);
     return selected;
 }
 
 } // namespace
 
-void fail(const std::string& what) {
+void fail(std::string_view what) {
     std::string text;
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_text, &text);
-    throw FileError(what + (text.empty() ? "" : ": " + text));
+    throw FileError(std::string(what) + (text.empty() ? "" : ": " + text));
 }
 
 Properties properties(hid_t kind) {
@@ -118,15 +129,14 @@ Properties properties(hid_t kind) {
 Properties dataset_creation() {
     Properties creation = properties(H5P_DATASET_CREATE);
     leave_out_times(creation);
-    checked(H5Pset_attr_creation_order(creation.id(), H5P_CRT_ORDER_TRACKED),
-            "cannot keep an order of attributes"); // as for groups
+    set(creation, H5Pset_attr_creation_order, unsigned{H5P_CRT_ORDER_TRACKED}); // as for groups
     return creation;
 }
 
 Properties allocated_creation() {
     Properties creation = dataset_creation();
-    checked(H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY), "cannot allocate");
-    checked(H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER), "cannot allocate");
+    set(creation, H5Pset_alloc_time, H5D_ALLOC_TIME_EARLY);
+    set(creation, H5Pset_fill_time, H5D_FILL_TIME_NEVER);
     return creation;
 }
 
@@ -136,13 +146,26 @@ Space space(std::span<const hsize_t> dimensions) {
                 "cannot make a data space"));
 }
 
-File create_empty_file(const std::string& path) {
+void select(const Space& space, std::span<const hsize_t> start, std::span<const hsize_t> count) {
+    checked(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(),
+                                nullptr),
+            "cannot select rows");
+}
+
+void create_file(const std::string& path, const std::function<void(hid_t file)>& build) {
     be_quiet();
     const Properties creation = properties(H5P_FILE_CREATE), access = properties(H5P_FILE_ACCESS);
     as_checked_group(creation);
-    checked(H5Pset_alignment(access.id(), 1 << 16, 1 << 12), "cannot align data sets to pages");
-    return File(checked(H5Fcreate(path.c_str(), H5F_ACC_EXCL, creation.id(), access.id()),
-                        "cannot be created"));
+    set(access, H5Pset_alignment, hsize_t{1} << 16, hsize_t{1} << 12);
+    File file(checked(H5Fcreate(path.c_str(), H5F_ACC_EXCL, creation.id(), access.id()),
+                      "cannot be created"));
+    try {
+        build(file.id());
+        file.close("cannot be written");
+    } catch (...) {
+        file.abandon(); // closing would try to write again
+        throw;
+    }
 }
 
 File open_file(const std::string& path, Access access) {
@@ -150,10 +173,7 @@ File open_file(const std::string& path, Access access) {
     if (H5Fis_hdf5(path.c_str()) == 0)
         throw FileError("is no HDF5 file, so none that carrom has written");
     try {
-        return File(
-            checked(H5Fopen(path.c_str(), access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR,
-                            H5P_DEFAULT),
-                    "cannot be opened"));
+        return opened(path, access, H5P_DEFAULT);
     } catch (const FileError& error) {
         if (std::string_view(error.what()).find("truncated file") == std::string_view::npos) throw;
         throw FileError("is cut short, or its first bytes are damaged");
@@ -169,10 +189,8 @@ SharedFile::SharedFile(const std::string& path, Access access, const Communicato
     const Properties list = properties(H5P_FILE_ACCESS);
     checked(H5Pset_fapl_mpio(list.id(), native(communicator), MPI_INFO_NULL),
             "cannot choose MPI-IO");
-    checked(H5Pset_all_coll_metadata_ops(list.id(), true), "cannot choose collective metadata");
-    file_ = File(checked(
-        H5Fopen(path.c_str(), access == Access::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR, list.id()),
-        "cannot be opened"));
+    set(list, H5Pset_all_coll_metadata_ops, true);
+    file_ = opened(path, access, list.id());
 }
 
 bool has(hid_t file, const std::string& path) {
@@ -182,28 +200,39 @@ bool has(hid_t file, const std::string& path) {
     }
 }
 
-Group create_group(hid_t parent, const char* name) {
-    const Properties links = properties(H5P_LINK_CREATE);
-    checked(H5Pset_create_intermediate_group(links.id(), 1), name);
+Group create_group(hid_t parent, const std::string& name) {
     const Properties creation = properties(H5P_GROUP_CREATE);
     as_checked_group(creation);
-    return Group(checked(H5Gcreate2(parent, name, links.id(), creation.id(), H5P_DEFAULT), name));
+    return Group(checked(
+        H5Gcreate2(parent, name.c_str(), with_groups_on_the_way().id(), creation.id(), H5P_DEFAULT),
+        name));
 }
 
-Dataset open_dataset(hid_t parent, const char* name) {
-    return Dataset(checked(H5Dopen2(parent, name, H5P_DEFAULT), name));
+Dataset create_dataset(hid_t parent, const std::string& name, hid_t type,
+                       std::span<const hsize_t> dimensions, const Properties& creation) {
+    return Dataset(checked(H5Dcreate2(parent, name.c_str(), type, space(dimensions).id(),
+                                      with_groups_on_the_way().id(), creation.id(), H5P_DEFAULT),
+                           name));
 }
 
-void write_attribute(hid_t object, const char* name, const std::string& text) {
+Dataset open_dataset(hid_t parent, const std::string& name) {
+    return Dataset(checked(H5Dopen2(parent, name.c_str(), H5P_DEFAULT), name));
+}
+
+Type stored_type(hid_t dataset) {
+    return Type(checked(H5Dget_type(dataset), "cannot look at a dataset"));
+}
+
+void write_attribute(hid_t object, const std::string& name, const std::string& text) {
     write_attribute(object, name, text_type(text.size()).id(), space({}), text.c_str());
 }
 
-void write_attribute(hid_t object, const char* name, std::span<const std::int32_t> numbers) {
+void write_attribute(hid_t object, const std::string& name, std::span<const std::int32_t> numbers) {
     const hsize_t length = numbers.size();
     write_attribute(object, name, H5T_NATIVE_INT32, space({&length, 1}), numbers.data());
 }
 
-void write_attribute(hid_t object, const char* name, const std::vector<std::string>& words) {
+void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& words) {
     std::size_t longest = 1;
     for (const std::string& word : words) longest = std::max(longest, word.size());
     std::string letters;
@@ -215,52 +244,44 @@ void write_attribute(hid_t object, const char* name, const std::vector<std::stri
     write_attribute(object, name, text_type(longest).id(), space({&length, 1}), letters.data());
 }
 
-void write_any_length(hid_t object, const char* name, const std::string& text) {
+void write_any_length(hid_t object, const std::string& name, const std::string& text) {
     const char* const letters = text.c_str();
     write_attribute(object, name, text_type(H5T_VARIABLE).id(), space({}), &letters);
 }
 
-void write_text(hid_t parent, const char* name, const std::string& text) {
+/// Small writes reach the file when the dataset is closed.
+void write_whole(hid_t parent, const std::string& name, std::span<const hsize_t> dimensions,
+                 hid_t type, const void* values) {
+    write_and_close(create_dataset(parent, name, type, dimensions, dataset_creation()), name, type,
+                    values);
+}
+
+void write_scalar(hid_t parent, const std::string& name, const std::string& text) {
     write_whole(parent, name, {}, text_type(text.size()).id(), text.c_str());
 }
 
-void overwrite_text(hid_t parent, const char* name, const std::string& text) {
-    overwrite(parent, name, text_type(text.size()).id(), text.c_str());
+void overwrite(hid_t parent, const std::string& name, std::uint64_t number) {
+    write_and_close(open_dataset(parent, name), name, type_of(number), &number);
 }
 
-std::string read_text(hid_t parent, const char* name) {
-    const Type type(
-        checked(H5Dget_type(open_checked(parent, name).id()), "cannot look at a dataset"));
+void overwrite(hid_t parent, const std::string& name, const std::string& text) {
+    write_and_close(open_dataset(parent, name), name, text_type(text.size()).id(), text.c_str());
+}
+
+void read_single(hid_t parent, const std::string& name, hid_t type, void* value) {
+    const Dataset dataset = open_checked(parent, name, Shape{});
+    if (H5Tget_class(stored_type(dataset.id()).id()) != H5Tget_class(type))
+        throw FileError(name + " is of another type than this program writes");
+    checked(H5Dread(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value), name);
+}
+
+void read_scalar(hid_t parent, const std::string& name, std::string& text) {
+    const Type type = stored_type(open_checked(parent, name).id());
     if (H5Tget_class(type.id()) != H5T_STRING || H5Tget_size(type.id()) > longest_text)
-        throw FileError(std::string(name) + " is not a text of ours");
-    std::string text(H5Tget_size(type.id()), '\0');
+        throw FileError(name + " is not a text of ours");
+    text.resize(H5Tget_size(type.id()));
     read_single(parent, name, type.id(), text.data());
     text.resize(text.find_last_not_of('\0') + 1); // the padding
-    return text;
-}
-
-/// Small writes reach the file when the dataset is closed.
-void write_whole(hid_t parent, const char* name, std::span<const hsize_t> dimensions, hid_t type,
-                 const void* values) {
-    Dataset dataset(checked(H5Dcreate2(parent, name, type, space(dimensions).id(), H5P_DEFAULT,
-                                       dataset_creation().id(), H5P_DEFAULT),
-                            name));
-    checked(H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
-    dataset.close(name);
-}
-
-void overwrite(hid_t parent, const char* name, hid_t type, const void* values) {
-    Dataset dataset = open_dataset(parent, name);
-    checked(H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
-    dataset.close(name);
-}
-
-void read_single(hid_t parent, const char* name, hid_t type, void* value) {
-    const Dataset dataset = open_checked(parent, name, Shape{});
-    const Type stored(checked(H5Dget_type(dataset.id()), name));
-    if (H5Tget_class(stored.id()) != H5Tget_class(type))
-        throw FileError(std::string(name) + " is of another type than this program writes");
-    checked(H5Dread(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value), name);
 }
 
 std::vector<hsize_t> dimensions_of(hid_t dataset) {
@@ -287,9 +308,8 @@ void write_rows(hid_t dataset, const Rows& rows, hid_t type, const void* numbers
                 Transfer transfer) {
     const Selection selected = select(dataset, rows);
     const Properties list = properties(H5P_DATASET_XFER);
-    checked(H5Pset_dxpl_mpio(list.id(), transfer == Transfer::collective ? H5FD_MPIO_COLLECTIVE
-                                                                         : H5FD_MPIO_INDEPENDENT),
-            "cannot choose a way to write");
+    set(list, H5Pset_dxpl_mpio,
+        transfer == Transfer::collective ? H5FD_MPIO_COLLECTIVE : H5FD_MPIO_INDEPENDENT);
     checked(H5Dwrite(dataset, type, selected.memory.id(), selected.file.id(), list.id(), numbers),
             "cannot be written");
 }

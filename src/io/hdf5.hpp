@@ -3,13 +3,14 @@
 // module sees it.
 //
 // A throw on one rank alone would leave the others waiting, so a collective call stands alone in
-// the body of an `on_all` (on_all.hpp), which brings the ranks together again.
+// the body of an `on_all` (files.hpp), which brings the ranks together again.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
-#include <type_traits>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,10 +21,10 @@
 namespace carrom::h5 {
 
 /// Throws FileError with `what` and the cause that HDF5 gives.
-[[noreturn]] void fail(const std::string& what);
+[[noreturn]] void fail(std::string_view what);
 
 /// Hands on what HDF5 has returned, or throws.
-template <class Result> Result checked(Result result, const char* what) {
+template <class Result> Result checked(Result result, std::string_view what) {
     if (result < 0) fail(what);
     return result;
 }
@@ -45,7 +46,7 @@ public:
     hid_t id() const { return id_; }
 
     /// What has been written must be closed with this: some failures show only here.
-    void close(const char* what) {
+    void close(std::string_view what) {
         if (id_ >= 0) checked(close_function(std::exchange(id_, -1)), what);
     }
 
@@ -65,12 +66,19 @@ using Attribute = Handle<H5Aclose>;
 using Properties = Handle<H5Pclose>;
 
 Properties properties(hid_t kind);
+/// Calls one of H5Pset_..., which fail for want of memory only.
+template <class Set, class... Values>
+void set(const Properties& list, const Set& set_values, Values... values) {
+    checked(set_values(list.id(), values...), "cannot set a property");
+}
 /// For a new dataset, which is not to say when it was made: the same contents are the same bytes.
 Properties dataset_creation();
 /// The same for one that has its place in the file at once, and no numbers yet.
 Properties allocated_creation();
 /// Of one number where there are no dimensions.
 Space space(std::span<const hsize_t> dimensions);
+/// Chooses `count` numbers along each axis from `start` on.
+void select(const Space& space, std::span<const hsize_t> start, std::span<const hsize_t> count);
 
 enum class Access { read, write };
 File open_file(const std::string& path, Access access);
@@ -98,62 +106,60 @@ private:
 /// for.
 bool has(hid_t file, const std::string& path);
 /// Makes the groups on the way too.
-Group create_group(hid_t parent, const char* name);
+Group create_group(hid_t parent, const std::string& name);
+Dataset create_dataset(hid_t parent, const std::string& name, hid_t type,
+                       std::span<const hsize_t> dimensions, const Properties& creation);
 /// To be written to; what is to be read may be damaged: see checked_dataset.hpp.
-Dataset open_dataset(hid_t parent, const char* name);
+Dataset open_dataset(hid_t parent, const std::string& name);
+/// Of the numbers or the text that a data set holds.
+Type stored_type(hid_t dataset);
 
-/// Attributes and scalars; texts are of fixed length, UTF-8.
-void write_attribute(hid_t object, const char* name, const std::string& text);
-void write_attribute(hid_t object, const char* name, std::span<const std::int32_t> numbers);
-void write_attribute(hid_t object, const char* name, const std::vector<std::string>& words);
+inline hid_t type_of(double) { return H5T_NATIVE_DOUBLE; }
+inline hid_t type_of(std::int32_t) { return H5T_NATIVE_INT32; }
+inline hid_t type_of(std::int64_t) { return H5T_NATIVE_INT64; }
+inline hid_t type_of(std::uint64_t) { return H5T_NATIVE_UINT64; }
+
+/// Attributes; texts are of fixed length, UTF-8.
+void write_attribute(hid_t object, const std::string& name, const std::string& text);
+void write_attribute(hid_t object, const std::string& name, std::span<const std::int32_t> numbers);
+void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& words);
 /// A text of any length, as h5py writes them: it takes others for bytes.
-void write_any_length(hid_t object, const char* name, const std::string& text);
-void write_text(hid_t parent, const char* name, const std::string& text);
-/// Replaces a text by one as long.
-void overwrite_text(hid_t parent, const char* name, const std::string& text);
-std::string read_text(hid_t parent, const char* name);
+void write_any_length(hid_t object, const std::string& name, const std::string& text);
 
-/// A dataset of one value or one row of values for each of the numbers, written at once by this
-/// process.
-void write_whole(hid_t parent, const char* name, std::span<const hsize_t> dimensions, hid_t type,
-                 const void* values);
+/// A new data set, written at once by this process; of one value where there are no dimensions.
+void write_whole(hid_t parent, const std::string& name, std::span<const hsize_t> dimensions,
+                 hid_t type, const void* values);
+template <class Numbers>
+void write_column(hid_t parent, const std::string& name, const Numbers& numbers) {
+    const hsize_t n = numbers.size();
+    write_whole(parent, name, {&n, 1}, type_of(typename Numbers::value_type{}), numbers.data());
+}
+template <class Number>
+void write_scalar(hid_t parent, const std::string& name, const Number& number) {
+    write_whole(parent, name, {}, type_of(number), &number);
+}
+void write_scalar(hid_t parent, const std::string& name, const std::string& text);
 
-/// Replaces all of a data set.
-void overwrite(hid_t parent, const char* name, hid_t type, const void* values);
-/// Reads a data set of one value.
-void read_single(hid_t parent, const char* name, hid_t type, void* value);
+/// Replaces one value; a text by one as long.
+void overwrite(hid_t parent, const std::string& name, std::uint64_t number);
+void overwrite(hid_t parent, const std::string& name, const std::string& text);
 
-template <class Number> hid_t type_of() {
-    if constexpr (std::is_same_v<Number, double>)
-        return H5T_NATIVE_DOUBLE;
-    else if constexpr (std::is_same_v<Number, std::int64_t>)
-        return H5T_NATIVE_INT64;
-    else {
-        static_assert(std::is_same_v<Number, std::uint64_t>);
-        return H5T_NATIVE_UINT64;
-    }
+/// Reads one value.
+void read_single(hid_t parent, const std::string& name, hid_t type, void* value);
+template <class Number> void read_scalar(hid_t parent, const std::string& name, Number& number) {
+    read_single(parent, name, type_of(number), &number);
 }
-template <class Value> void write_scalar(hid_t parent, const char* name, const Value& value) {
-    if constexpr (std::is_same_v<Value, std::string>)
-        write_text(parent, name, value);
-    else
-        write_whole(parent, name, {}, type_of<Value>(), &value);
-}
-template <class Value> void read_scalar(hid_t parent, const char* name, Value& value) {
-    if constexpr (std::is_same_v<Value, std::string>)
-        value = read_text(parent, name);
-    else
-        read_single(parent, name, type_of<Value>(), &value);
-}
+void read_scalar(hid_t parent, const std::string& name, std::string& text);
 
 /// The dimensions of a dataset.
 std::vector<hsize_t> dimensions_of(hid_t dataset);
 
+/// Rows run along a data set's only axis, or along the second one, behind that of frames, where it
+/// has several.
 struct Rows {
-    std::uint64_t begin = 0, end = 0;
+    std::uint64_t begin = 0, end = 0, frame = 0;
 };
 
-/// Rows run along a data set's only axis, or along the second one where it has several.
 std::uint64_t n_rows_of(hid_t dataset);
 
 /// Rows, at least one, of a data set. Not collective: a rank's rows are one large piece of the
@@ -168,20 +174,8 @@ enum class Transfer { independent, collective };
 void write_rows(hid_t dataset, const Rows& rows, hid_t type, const void* numbers,
                 Transfer transfer);
 
-/// A new file where there is none, nor a symbolic link, of that name. Large data sets begin at
-/// pages of 4096 bytes.
-File create_empty_file(const std::string& path);
-
-/// The same, filled by `build(file)` and closed.
-template <class Build> void create_file(const std::string& path, const Build& build) {
-    File file = create_empty_file(path);
-    try {
-        build(file.id());
-        file.close("cannot be written");
-    } catch (...) {
-        file.abandon(); // closing would try to write again
-        throw;
-    }
-}
+/// Makes a new file where there is none, nor a symbolic link, of that name, filled by
+/// `build(file)`. Large data sets begin at pages of 4096 bytes.
+void create_file(const std::string& path, const std::function<void(hid_t file)>& build);
 
 } // namespace carrom::h5

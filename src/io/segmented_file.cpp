@@ -25,15 +25,19 @@ std::vector<hsize_t> sizes_of(const RecordedColumn& column, std::uint64_t n_rows
     return sizes;
 }
 
+Index index_of(const std::string& path, bool are_rows_wanted) {
+    std::optional<Index> index = read_checked_index(path, are_rows_wanted);
+    if (!index) throw FileError("does not end as a recording of this program does");
+    return std::move(*index);
+}
+
 /// The first rows of all that have these sizes.
 h5::Space rows_of(const std::vector<hsize_t>& sizes, std::uint64_t first, std::uint64_t n_rows) {
     h5::Space space = h5::space(sizes);
     std::vector<hsize_t> start(sizes.size(), 0), count = sizes;
     start[0] = first;
     count[0] = n_rows;
-    h5::checked(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(),
-                                    nullptr),
-                "cannot choose rows");
+    h5::select(space, start, count);
     return space;
 }
 
@@ -54,7 +58,7 @@ void SegmentedFile::begin() {
     on_root(communicator_, path_, ExitCode::output_failure, [&] {
         check_room(folder_of(path_), least_room);
         index_.segments.clear();
-        n_rows_ = first_unsynced_ = 0;
+        n_rows_ = 0;
         commit_here();
     });
 }
@@ -77,17 +81,15 @@ bool SegmentedFile::go_on(const std::string& step, std::int64_t last,
 void SegmentedFile::take_over(const std::string& step, std::int64_t last,
                               const std::function<void(hid_t file)>& check) {
     std::uint64_t n_rows = 0;
-    const auto look = [&] {
-        const Index index = check_segments(path_, false);
+    look_in_child_first([&] {
+        const Index index = index_of(path_, false);
         const h5::File file = h5::open_file(path_, h5::Access::read);
         check(file.id());
         check_columns(file.id(), index);
         n_rows = h5::count_up_to(file.id(), step, last);
-    };
-    try_in_child(look);
-    look();
-    index_ = check_segments(path_, true);
-    n_rows_ = first_unsynced_ = 0;
+    });
+    index_ = index_of(path_, true);
+    n_rows_ = 0;
     for (const FileSegment& segment : index_.segments) n_rows_ += segment.rows;
     cut(n_rows);
 }
@@ -99,9 +101,8 @@ void SegmentedFile::check_columns(hid_t file, const Index& index) const {
         if (!is_same) break;
         const h5::Dataset dataset = h5::open_checked(file, column.path);
         const std::vector<hsize_t> sizes = h5::dimensions_of(dataset.id());
-        const h5::Type type(h5::checked(H5Dget_type(dataset.id()), "cannot look at a dataset"));
         is_same = !sizes.empty() && sizes == sizes_of(column, sizes[0]) &&
-                  H5Tequal(type.id(), column.type) > 0;
+                  H5Tequal(h5::stored_type(dataset.id()).id(), column.type) > 0;
     }
     if (!is_same)
         throw FileError("has other columns than this run records; see output.trajectory.fields");
@@ -117,8 +118,7 @@ void SegmentedFile::cut(std::uint64_t n_rows) {
     if (segments.empty()) return;
     FileSegment& segment = segments.back();
     segment.rows -= n_rows_ - n_rows;
-    hashers_ = hash_rows(segment_path(path_, segment.name), segment, index_.row_bytes,
-                         segment.rows);
+    hashers_ = hash_rows(segment_path(path_, segment.name), segment, index_.row_bytes);
     segment.numbers = sum_of(hashers_);
     n_rows_ = n_rows;
 }
@@ -134,16 +134,11 @@ void SegmentedFile::make_segment() {
     std::error_code error;
     std::filesystem::create_directories(folder_of(path), error);
     ::unlink(path.c_str()); // of a run that was killed
-    const h5::Properties links = h5::properties(H5P_LINK_CREATE);
-    h5::checked(H5Pset_create_intermediate_group(links.id(), 1), "cannot make groups");
     h5::create_file(path, [&](hid_t file) {
         for (const RecordedColumn& column : columns_) {
-            const h5::Properties creation = h5::allocated_creation();
-            const h5::Dataset dataset(
-                h5::checked(H5Dcreate2(file, column.path.c_str(), column.type,
-                                       h5::space(sizes_of(column, segment.room)).id(), links.id(),
-                                       creation.id(), H5P_DEFAULT),
-                            column.path.c_str()));
+            const h5::Dataset dataset = h5::create_dataset(file, column.path, column.type,
+                                                           sizes_of(column, segment.room),
+                                                           h5::allocated_creation());
             segment.places.push_back(H5Dget_offset(dataset.id()));
         }
     });
@@ -154,6 +149,7 @@ void SegmentedFile::make_segment() {
 
 std::uint64_t SegmentedFile::room() {
     if (segments().empty() || segments().back().rows == segments().back().room) {
+        sync_segment();
         open_.reset();
         make_segment();
     }
@@ -203,31 +199,29 @@ void SegmentedFile::write_virtual(hid_t file, const RecordedColumn& column) cons
     // Where a segment is missing, readers shall not see zeros.
     const double not_a_number = std::numeric_limits<double>::quiet_NaN();
     const std::int64_t none = -1;
-    const bool is_real = H5Tget_class(column.type) == H5T_FLOAT;
-    h5::checked(H5Pset_fill_value(creation.id(), is_real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64,
-                                  is_real ? static_cast<const void*>(&not_a_number) : &none),
-                "cannot choose what stands for missing numbers");
-    h5::Dataset dataset(
-        h5::checked(H5Dcreate2(file, column.path.c_str(), column.type, h5::space(sizes).id(),
-                               H5P_DEFAULT, creation.id(), H5P_DEFAULT),
-                    column.path.c_str()));
+    if (H5Tget_class(column.type) == H5T_FLOAT)
+        h5::set(creation, H5Pset_fill_value, H5T_NATIVE_DOUBLE, &not_a_number);
+    else
+        h5::set(creation, H5Pset_fill_value, H5T_NATIVE_INT64, &none);
+    h5::Dataset dataset = h5::create_dataset(file, column.path, column.type, sizes, creation);
     h5md::write_unit(dataset.id(), column.unit);
-    dataset.close(column.path.c_str());
+    dataset.close(column.path);
 }
 
 void SegmentedFile::commit() {
     on_root(communicator_, path_, ExitCode::output_failure, [&] { commit_here(); });
 }
 
+/// The last one, and its name in the folder; those before it are on disk.
+void SegmentedFile::sync_segment() const {
+    if (segments().empty()) return;
+    const std::string path = segment_path(path_, segments().back().name);
+    Descriptor(path, O_WRONLY | O_NOFOLLOW).sync();
+    Descriptor(folder_of(path), O_RDONLY | O_DIRECTORY).sync();
+}
+
 void SegmentedFile::commit_here() {
-    for (; first_unsynced_ < segments().size(); ++first_unsynced_)
-        Descriptor(segment_path(path_, segments()[first_unsynced_].name), O_WRONLY | O_NOFOLLOW)
-            .sync();
-    if (!segments().empty()) {
-        --first_unsynced_; // more is written to the last one
-        Descriptor(folder_of(segment_path(path_, segments().back().name)), O_RDONLY | O_DIRECTORY)
-            .sync();
-    }
+    sync_segment();
     replace_file(path_, [this](const std::string& beside) {
         h5::create_file(beside, [this](hid_t file) {
             build_(file);

@@ -87,6 +87,7 @@ private:
     void make_segment();
     void check_columns(hid_t file, const Index& index) const;
     void cut(std::uint64_t n_rows);
+    void sync_segment() const;
     void commit_here();
     void write_virtual(hid_t file, const RecordedColumn& column) const;
 
@@ -96,7 +97,6 @@ private:
     const Communicator& communicator_;
     Index index_;
     std::uint64_t n_rows_ = 0;
-    std::size_t first_unsynced_ = 0;     ///< among the segments
     ColumnHashers hashers_;              ///< of the last segment
     std::vector<std::uint64_t> written_; ///< bytes of each column since the last `add`
     std::unique_ptr<Descriptor> open_;   ///< the last segment, during an addition

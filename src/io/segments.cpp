@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/segments.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cstring>
 #include <filesystem>
 #include <string_view>
-#include <utility>
 
 #include <fcntl.h>
 
@@ -47,6 +44,27 @@ std::vector<std::byte> bytes_of_index(const std::string& path) {
     return read_end(file, 0);
 }
 
+Index read_index(hid_t file, const std::string& path) {
+    Index index{h5::read_column<std::uint64_t>(file, columns_path), {}};
+    const auto numbers = h5::read_column<std::uint64_t>(file, segments_path);
+    const std::size_t n = n_fixed + index.row_bytes.size();
+    bool is_sound = !index.row_bytes.empty() && numbers.size() % n == 0;
+    for (std::size_t k = 0; is_sound && k < numbers.size() / n; ++k) {
+        const auto row = std::span(numbers).subspan(k * n, n);
+        index.segments.push_back({segment_name(path, k + 1),
+                                  row[0],
+                                  row[1],
+                                  {row[2], row[3]},
+                                  {row[4], row[5]},
+                                  {row.begin() + n_fixed, row.end()}});
+        for (const std::uint64_t bytes : index.row_bytes)
+            is_sound = is_sound && bytes > 0 && row[0] <= row[1] &&
+                       row[1] <= largest_column / bytes;
+    }
+    if (!is_sound) throw FileError("its list of segments is not one that this program writes");
+    return index;
+}
+
 } // namespace
 
 std::string segment_name(const std::string& path, std::size_t number) {
@@ -71,10 +89,11 @@ StateHash sum_of(const ColumnHashers& hashers) {
 }
 
 ColumnHashers hash_rows(const std::string& path, const FileSegment& segment,
-                        const std::vector<std::uint64_t>& row_bytes, std::uint64_t rows) {
+                        const std::vector<std::uint64_t>& row_bytes) {
     ColumnHashers hashers = hashers_of_columns(row_bytes.size());
     for (std::size_t k = 0; k < row_bytes.size(); ++k)
-        hashers[k].add_bytes_of(path, {segment.places[k], segment.places[k] + rows * row_bytes[k]});
+        hashers[k].add_bytes_of(
+            path, {segment.places[k], segment.places[k] + segment.rows * row_bytes[k]});
     return hashers;
 }
 
@@ -86,27 +105,6 @@ StateHash hash_of_structure(const std::string& path, const FileSegment& segment,
     return checksum_of_others(path, columns);
 }
 
-Index read_index(hid_t file, const std::string& path) {
-    Index index{h5::read_column<std::uint64_t>(file, columns_path), {}};
-    const auto numbers = h5::read_column<std::uint64_t>(file, segments_path);
-    const std::size_t n = n_fixed + index.row_bytes.size();
-    bool is_sound = !index.row_bytes.empty() && numbers.size() % n == 0;
-    for (std::size_t k = 0; is_sound && k < numbers.size() / n; ++k) {
-        const auto row = std::span(numbers).subspan(k * n, n);
-        index.segments.push_back({segment_name(path, k + 1),
-                                  row[0],
-                                  row[1],
-                                  {row[2], row[3]},
-                                  {row[4], row[5]},
-                                  {row.begin() + n_fixed, row.end()}});
-        for (const std::uint64_t bytes : index.row_bytes)
-            is_sound = is_sound && bytes > 0 && row[0] <= row[1] &&
-                       row[1] <= largest_column / bytes;
-    }
-    if (!is_sound) throw FileError("its list of segments is not one that this program writes");
-    return index;
-}
-
 void write_index(hid_t file, const Index& index) {
     std::vector<std::uint64_t> numbers;
     for (const FileSegment& one : index.segments) {
@@ -115,10 +113,8 @@ void write_index(hid_t file, const Index& index) {
         numbers.insert(numbers.end(), one.places.begin(), one.places.end());
     }
     static_cast<void>(h5::create_group(file, "/carrom/recording"));
-    h5::write_whole(file, columns_path, std::array<hsize_t, 1>{index.row_bytes.size()},
-                    H5T_STD_U64LE, index.row_bytes.data());
-    h5::write_whole(file, segments_path, std::array<hsize_t, 1>{numbers.size()}, H5T_STD_U64LE,
-                    numbers.data());
+    h5::write_column(file, columns_path, index.row_bytes);
+    h5::write_column(file, segments_path, numbers);
 }
 
 void seal_index(const std::string& path) {
@@ -133,11 +129,9 @@ void seal_index(const std::string& path) {
     file.sync();
 }
 
-bool joins_segments(const std::string& path) { return !bytes_of_index(path).empty(); }
-
-Index check_segments(const std::string& path, bool are_rows_wanted) {
+std::optional<Index> read_checked_index(const std::string& path, bool are_rows_wanted) {
     const std::vector<std::byte> bytes = bytes_of_index(path);
-    if (bytes.empty()) throw FileError("does not end as a recording of this program does");
+    if (bytes.empty()) return std::nullopt;
     const std::size_t hashed = bytes.size() - sizeof(StateHash);
     const StateHash wanted = hash_of(std::span(bytes).first(hashed));
     if (std::memcmp(&wanted, bytes.data() + hashed, sizeof wanted) != 0)
@@ -149,7 +143,7 @@ Index check_segments(const std::string& path, bool are_rows_wanted) {
             if (hash_of_structure(part, segment, index.row_bytes) != segment.structure)
                 throw FileError("its structure is damaged");
             if (are_rows_wanted &&
-                sum_of(hash_rows(part, segment, index.row_bytes, segment.rows)) != segment.numbers)
+                sum_of(hash_rows(part, segment, index.row_bytes)) != segment.numbers)
                 throw FileError("its numbers are damaged");
         } catch (const FileError& error) {
             throw FileError(fmt::format("its part {}: {}", segment.name, error.what()));

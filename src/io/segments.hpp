@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,23 +41,20 @@ using ColumnHashers = std::vector<Hasher>;
 ColumnHashers hashers_of_columns(std::size_t n_columns);
 StateHash sum_of(const ColumnHashers& hashers);
 
-/// Of a segment's rows up to `rows`. Throws FileError.
+/// Of a segment's rows. Throws FileError.
 ColumnHashers hash_rows(const std::string& path, const FileSegment& segment,
-                        const std::vector<std::uint64_t>& row_bytes, std::uint64_t rows);
+                        const std::vector<std::uint64_t>& row_bytes);
 StateHash hash_of_structure(const std::string& path, const FileSegment& segment,
                             const std::vector<std::uint64_t>& row_bytes);
 
-Index read_index(hid_t file, const std::string& path);
 void write_index(hid_t file, const Index& index);
 
 /// Appends the mark and the checksum to a file that joins segments, and brings it to disk.
 void seal_index(const std::string& path);
 
-/// Whether a file is one that joins segments, by its last bytes.
-bool joins_segments(const std::string& path);
-
-/// Checks such a file's own bytes and the structure of its segments, and all their rows where
-/// `are_rows_wanted`. Returns its index. Throws FileError, naming the segment.
-Index check_segments(const std::string& path, bool are_rows_wanted);
+/// The index of a file that joins segments, none if by its last bytes it is no such file. Checks
+/// the file's own bytes and the structure of its segments, and all their rows where
+/// `are_rows_wanted`. Throws FileError, naming the segment.
+std::optional<Index> read_checked_index(const std::string& path, bool are_rows_wanted);
 
 } // namespace carrom

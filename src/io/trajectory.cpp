@@ -9,11 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "io/checked_dataset.hpp"
+#include "io/checkpoint_fields.hpp"
 #include "io/h5md.hpp"
-#include "io/recorded_run.hpp"
 #include "io/segmented_file.hpp"
 #include "io/xdmf.hpp"
 #include "parallel/exchange.hpp"
@@ -23,64 +21,57 @@ namespace carrom {
 namespace {
 
 constexpr std::uint64_t discs_at_a_time = std::uint64_t{1} << 16;
+constexpr const char* discs_path = "/particles/discs/";
 
-/// A disc as it travels to rank 0: what it shows at the time of the frame.
+/// Where a disc's numbers stand among its words. A vector's third component is 0.
+enum Place : std::size_t {
+    position = 0,
+    velocity = 3,
+    collisions = 6, ///< with walls, with discs
+    psi6 = 8,
+    neighbours = 10,
+    image = 11,
+    side_columns = 14,
+    n_words = side_columns + n_side_columns
+};
+
+/// A disc as it travels to rank 0: what it shows at the time of the frame, in words; real numbers
+/// by their bits.
 struct ShownDisc {
     DiscId id = 0;
-    double position[2] = {}, velocity[2] = {};
-    std::uint64_t collisions[2] = {}; ///< with walls, with discs
-    std::int32_t image[2] = {};
-    double columns[n_side_columns] = {};
-    double psi6[2] = {};
-    std::uint64_t n_neighbours = 0;
+    std::array<std::uint64_t, n_words> words{};
+
+    void set(std::size_t place, double number) {
+        words[place] = std::bit_cast<std::uint64_t>(number);
+    }
 };
 
-/// What a frame has of each disc.
+/// What a frame has of each disc: `width` of its words from `place` on.
 struct Field {
-    const char* name;
-    hsize_t width; ///< numbers of a disc
-    hid_t type;
+    std::string name;
+    std::size_t place;
+    hsize_t width;
+    hid_t type; ///< in the file; of whole numbers it has the lowest bytes
     std::string unit;
-    /// Component k, in the low bits; those of a double where it is real.
-    std::function<std::uint64_t(const ShownDisc&, std::size_t k)> bits;
 };
-
-std::uint64_t bits_of(double number) { return std::bit_cast<std::uint64_t>(number); }
 
 std::vector<Field> fields_of(const TrajectoryLayout& layout) {
     const auto unit = std::bind_front(h5md::unit_of, std::cref(layout.system));
     const hid_t real = layout.is_single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
     std::vector<Field> fields;
-    if (layout.has_position)
-        fields.push_back(
-            {"position", 3, real, unit(1, 0), [](const ShownDisc& disc, std::size_t k) {
-                 return bits_of(k < 2 ? disc.position[k] : 0);
-             }});
-    if (layout.has_velocity)
-        fields.push_back(
-            {"velocity", 3, real, unit(1, -1), [](const ShownDisc& disc, std::size_t k) {
-                 return bits_of(k < 2 ? disc.velocity[k] : 0);
-             }});
-    if (layout.has_collisions)
-        fields.push_back({"collisions", 2, H5T_STD_U64LE, "",
-                          [](const ShownDisc& disc, std::size_t k) { return disc.collisions[k]; }});
-    if (layout.has_psi6)
-        fields.push_back({"psi6", 2, real, "", [](const ShownDisc& disc, std::size_t k) {
-                              return bits_of(disc.psi6[k]);
-                          }});
-    if (layout.has_neighbours)
-        fields.push_back({"neighbours", 1, H5T_STD_U64LE, "",
-                          [](const ShownDisc& disc, std::size_t) { return disc.n_neighbours; }});
-    if (layout.has_image)
-        fields.push_back({"image", 3, H5T_STD_I32LE, "", [](const ShownDisc& disc, std::size_t k) {
-                              return static_cast<std::uint64_t>(k < 2 ? disc.image[k] : 0);
-                          }});
+    const auto add = [&](bool is_wanted, Field field) {
+        if (is_wanted) fields.push_back(std::move(field));
+    };
+    add(layout.has_position, {"position", position, 3, real, unit(1, 0)});
+    add(layout.has_velocity, {"velocity", velocity, 3, real, unit(1, -1)});
+    add(layout.has_collisions, {"collisions", collisions, 2, H5T_STD_U64LE, ""});
+    add(layout.has_psi6, {"psi6", psi6, 2, real, ""});
+    add(layout.has_neighbours, {"neighbours", neighbours, 1, H5T_STD_U64LE, ""});
+    add(layout.has_image, {"image", image, 3, H5T_STD_I32LE, ""});
     layout.columns.for_each([&](SideColumn column) {
-        fields.push_back(
-            {info_of(column).shown, 1, real, unit(0, info_of(column).is_rate ? -1 : 0),
-             [place = static_cast<std::size_t>(column)](const ShownDisc& disc, std::size_t) {
-                 return bits_of(disc.columns[place]);
-             }});
+        const SideColumnInfo& info = info_of(column);
+        fields.push_back({info.shown, side_columns + static_cast<std::size_t>(column), 1, real,
+                          unit(0, info.is_rate ? -1 : 0)});
     });
     return fields;
 }
@@ -89,12 +80,9 @@ std::vector<Field> fields_of(const TrajectoryLayout& layout) {
 std::vector<RecordedColumn> columns_of(const TrajectoryLayout& layout) {
     std::vector<RecordedColumn> columns;
     for (const Field& field : fields_of(layout)) {
-        RecordedColumn column{fmt::format("/particles/discs/{}/value", field.name),
-                              field.type,
-                              {layout.system.n_discs},
-                              field.unit};
-        if (field.width > 1) column.row.push_back(field.width);
-        columns.push_back(std::move(column));
+        std::vector<hsize_t> row = {layout.system.n_discs};
+        if (field.width > 1) row.push_back(field.width);
+        columns.push_back({discs_path + field.name + "/value", field.type, row, field.unit});
     }
     columns.push_back({h5md::step_path, H5T_STD_I64LE, {}});
     columns.push_back({h5md::time_path, H5T_IEEE_F64LE, {}, h5md::unit_of(layout.system, 0, 1)});
@@ -109,8 +97,7 @@ void write_structure(hid_t file, const TrajectoryLayout& layout) {
     write_recorded_run(file, layout.run);
     static_cast<void>(h5::create_group(file, "/particles/discs/box/edges"));
     for (const Field& field : fields_of(layout)) {
-        const h5::Group element = h5::create_group(
-            file, (std::string("/particles/discs/") + field.name).c_str());
+        const h5::Group element = h5::create_group(file, discs_path + field.name);
         for (const auto& [name, path] :
              {std::pair("step", h5md::step_path), std::pair("time", h5md::time_path)})
             h5::checked(H5Lcreate_soft(path, element.id(), name, H5P_DEFAULT, H5P_DEFAULT), name);
@@ -150,9 +137,10 @@ private:
         std::size_t n = 0;
         while (n < images_.size() && images_[n].id < end) ++n;
         const auto place = [&](std::span<const DiscImage> some) {
-            for (const DiscImage& image : some) {
-                slab_[image.id - begin].image[0] = image.x;
-                slab_[image.id - begin].image[1] = image.y;
+            for (const DiscImage& one : some) {
+                ShownDisc& shown = slab_[one.id - begin];
+                shown.words[image] = static_cast<std::uint64_t>(one.x);
+                shown.words[image + 1] = static_cast<std::uint64_t>(one.y);
             }
         };
         stream_to_root(communicator_, images_.first(n), place, end - begin);
@@ -162,18 +150,22 @@ private:
     ShownDisc shown(LocalIndex i) const {
         const Disc& disc = discs_[i];
         const double unit = layout_.velocity_unit;
-        ShownDisc shown = {disc.id,
-                           {disc.x_at(clock_), disc.y_at(clock_)},
-                           {disc.vx * unit, disc.vy * unit},
-                           {disc.wall_collisions, disc.pair_collisions}};
+        ShownDisc shown;
+        shown.id = disc.id;
+        shown.set(position, disc.x_at(clock_));
+        shown.set(position + 1, disc.y_at(clock_));
+        shown.set(velocity, disc.vx * unit);
+        shown.set(velocity + 1, disc.vy * unit);
+        shown.words[collisions] = disc.wall_collisions;
+        shown.words[collisions + 1] = disc.pair_collisions;
         layout_.columns.for_each([&](SideColumn column) {
-            shown.columns[static_cast<std::size_t>(column)] = columns_[column][i] *
-                                                              (info_of(column).is_rate ? unit : 1);
+            shown.set(side_columns + static_cast<std::size_t>(column),
+                      columns_[column][i] * (info_of(column).is_rate ? unit : 1));
         });
         if (!orders_.empty() && orders_[i].has_cell()) {
-            shown.psi6[0] = orders_[i].real;
-            shown.psi6[1] = orders_[i].imaginary;
-            shown.n_neighbours = static_cast<std::uint64_t>(orders_[i].n_neighbours);
+            shown.set(psi6, orders_[i].real);
+            shown.set(psi6 + 1, orders_[i].imaginary);
+            shown.words[neighbours] = static_cast<std::uint64_t>(orders_[i].n_neighbours);
         }
         return shown;
     }
@@ -198,7 +190,7 @@ std::vector<std::byte> bytes_of(const Field& field, std::span<const ShownDisc> s
     bytes.reserve(slab.size() * field.width * sizeof(double));
     for (const ShownDisc& disc : slab)
         for (std::size_t k = 0; k < field.width; ++k) {
-            const std::uint64_t bits = field.bits(disc, k);
+            const std::uint64_t bits = disc.words[field.place + k];
             const auto single = static_cast<float>(std::bit_cast<double>(bits));
             const auto number = is_single ? std::as_bytes(std::span(&single, 1))
                                           : std::as_bytes(std::span(&bits, 1)).first(size);
@@ -209,39 +201,29 @@ std::vector<std::byte> bytes_of(const Field& field, std::span<const ShownDisc> s
 
 } // namespace
 
-struct Trajectory::State {
-    State(const std::string& path, const TrajectoryLayout& layout, const Communicator& communicator)
-        : file(
-              path, columns_of(layout), [&layout](hid_t index) { write_structure(index, layout); },
-              communicator) {}
-    SegmentedFile file;
-    std::vector<std::int64_t> steps; ///< of the frames there are, on rank 0
-    std::size_t n_described = 0;     ///< of them in the XDMF file
-};
-
 Trajectory::Trajectory(const std::string& path, const TrajectoryLayout& layout,
                        const Communicator& communicator)
-    : path_(path), layout_(layout), communicator_(communicator) {
-    state_ = std::make_unique<State>(path_, layout_, communicator_);
-}
+    : path_(path), layout_(layout), communicator_(communicator),
+      file_(std::make_unique<SegmentedFile>(
+          path, columns_of(layout), [this](hid_t index) { write_structure(index, layout_); },
+          communicator)) {}
 
 Trajectory::~Trajectory() = default;
 
 void Trajectory::begin() {
-    state_->file.begin();
-    state_->steps.clear();
+    file_->begin();
+    steps_.clear();
 }
 
 std::int64_t Trajectory::go_on(std::int64_t step, const DifferenceFrom& difference_from) {
-    std::vector<std::int64_t>& steps = state_->steps;
-    const bool is_there = state_->file.go_on(h5md::step_path, step, [&](hid_t file) {
+    const bool is_there = file_->go_on(h5md::step_path, step, [&](hid_t file) {
         if (!h5::has(file, "/particles/discs")) throw FileError("is no trajectory");
         check_recorded_run(file, difference_from);
-        steps = h5::read_column<std::int64_t>(file, h5md::step_path);
+        steps_ = h5::read_column<std::int64_t>(file, h5md::step_path);
     });
     if (!is_there || !communicator_.is_root()) return -1;
-    steps.resize(state_->file.n_rows());
-    return steps.empty() ? -1 : steps.back();
+    steps_.resize(file_->n_rows());
+    return steps_.empty() ? -1 : steps_.back();
 }
 
 void Trajectory::append(std::int64_t step, std::span<const Disc> discs, double clock,
@@ -252,7 +234,7 @@ void Trajectory::append(std::int64_t step, std::span<const Disc> discs, double c
     layout_.columns.for_each([&](SideColumn column) {
         ensure(columns[column].size() == discs.size(), "a column does not run along the discs");
     });
-    SegmentedFile& file = state_->file;
+    SegmentedFile& file = *file_;
     file.attempt([&] { static_cast<void>(file.room()); });
     SlabStream stream(discs, columns, orders, images, clock, layout_, communicator_);
     const std::vector<Field> fields = fields_of(layout_);
@@ -274,22 +256,21 @@ void Trajectory::append(std::int64_t step, std::span<const Disc> discs, double c
         file.add(1);
     });
     file.finish_addition();
-    state_->steps.push_back(step);
+    steps_.push_back(step);
 }
 
 void Trajectory::commit() {
-    state_->file.commit();
+    file_->commit();
     // Its length is that of all frames: often enough, and never for long.
     if (communicator_.any(communicator_.is_root() &&
-                          state_->steps.size() >=
-                              state_->n_described + state_->n_described / 4 + 1))
+                          steps_.size() >= n_described_ + n_described_ / 4 + 1))
         describe();
 }
 
 void Trajectory::describe() {
     on_root(communicator_, path_, ExitCode::output_failure, [&] {
-        write_xdmf(path_, layout_, state_->file.segments(), state_->steps);
-        state_->n_described = state_->steps.size();
+        write_xdmf(path_, layout_, file_->segments(), steps_);
+        n_described_ = steps_.size();
     });
 }
 

@@ -10,6 +10,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/bond_order.hpp"
 #include "core/disc.hpp"
@@ -30,6 +31,8 @@ struct TrajectoryLayout {
     bool is_single = true; ///< float32, else float64
     CheckpointHeader run; ///< of which run it is: scene and classes. No text: the file will not say
 };
+
+class SegmentedFile;
 
 class Trajectory {
 public:
@@ -62,11 +65,12 @@ public:
     void describe();
 
 private:
-    struct State;
-    std::unique_ptr<State> state_;
     std::string path_;
     TrajectoryLayout layout_;
     const Communicator& communicator_;
+    std::unique_ptr<SegmentedFile> file_;
+    std::vector<std::int64_t> steps_; ///< of the frames there are, on rank 0
+    std::size_t n_described_ = 0;     ///< of them in the XDMF file
 };
 
 } // namespace carrom

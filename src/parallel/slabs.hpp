@@ -15,6 +15,16 @@ inline std::uint64_t slab_begin(int rank, std::uint64_t n, int size) {
     return r * (n / p) + std::min(r, n % p);
 }
 
+/// Ids [begin, end).
+struct Slab {
+    std::uint64_t begin = 0, end = 0;
+
+    std::uint64_t size() const { return end - begin; }
+};
+inline Slab slab_of_rank(int rank, std::uint64_t n, int size) {
+    return {slab_begin(rank, n, size), slab_begin(rank + 1, n, size)};
+}
+
 /// The rank whose slab holds `id` < n.
 inline int slab_of(std::uint64_t id, std::uint64_t n, int size) {
     const auto p = static_cast<std::uint64_t>(size);

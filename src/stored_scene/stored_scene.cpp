@@ -12,7 +12,10 @@
 
 namespace carrom {
 
-CheckpointHeader header_of(const Scene& scene) {
+namespace {
+
+/// What does not change with the steps.
+CheckpointHeader run_of(const Scene& scene) {
     CheckpointHeader header;
     header.program_version = version();
     header.scene_name = scene.name;
@@ -25,12 +28,15 @@ CheckpointHeader header_of(const Scene& scene) {
     header.method = scene.method == Method::time_stepped ? "time-stepped" : "event-driven";
     header.micro_steps = scene.micro_steps;
     header.sync_every = scene.sync_every;
+    header.n_discs = scene.n_discs;
     if (has_column(scene, DiscColumn::radius)) header.species = scene.effects.species;
     return header;
 }
 
+} // namespace
+
 CheckpointHeader header_now(const Scene& scene, const Simulation& simulation) {
-    CheckpointHeader header = header_of(scene);
+    CheckpointHeader header = run_of(scene);
     header.step = simulation.step();
     header.micro_steps_done = simulation.micro_steps_done();
     header.frame = simulation.frame();
@@ -66,12 +72,6 @@ void refuse_other_run(const CheckpointHeader& header, const Scene& scene,
     if (header.columns != side_columns_of(there))
         problems.push_back({place, 0, "its scene and its columns of discs do not agree"});
     if (!problems.empty()) throw InputError(std::move(problems));
-}
-
-CheckpointHeader run_of(const Scene& scene) {
-    CheckpointHeader run = header_of(scene);
-    run.n_discs = scene.n_discs;
-    return run;
 }
 
 std::string first_difference(const CheckpointHeader& there, const Scene& scene) {

@@ -13,14 +13,8 @@
 
 namespace carrom {
 
-/// The scene as a checkpoint keeps it. Step, frame and counts are left for the writer.
-CheckpointHeader header_of(const Scene& scene);
-
 /// The header of a checkpoint of the present step. Not collective.
 CheckpointHeader header_now(const Scene& scene, const Simulation& simulation);
-
-/// The same as a recording keeps it, for all of a run's steps.
-CheckpointHeader run_of(const Scene& scene);
 
 /// The scene of a file, with more settings (`key=value`) on top. Throws InputError.
 Scene scene_of(const CheckpointHeader& header, const std::vector<std::string>& more_overrides);

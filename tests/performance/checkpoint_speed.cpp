@@ -37,37 +37,28 @@ using Buffers = std::vector<std::vector<std::byte>>;
 
 constexpr std::uint64_t pieces_between_syncs = 8;
 
-/// Sums of this rank, words as all ranks add them up.
-using Words = std::vector<std::uint64_t>;
-
-void add(Words& words, std::size_t place, const StateHash& hash) {
-    words[place] += hash.low;
-    words[place + 1] += hash.high;
-}
-
 void pack(std::span<const Disc> piece, std::uint64_t first, const std::vector<DiscTarget>& targets,
-          Buffers& buffers, Words& sums, int n_threads) {
+          Buffers& buffers, StateSums& sums, int n_threads) {
     for (std::size_t k = 0; k < targets.size(); ++k)
         buffers[k].resize(piece.size() * targets[k].bytes_per_row);
     const std::size_t n_blocks = (piece.size() + rows_per_block - 1) / rows_per_block;
 #pragma omp parallel num_threads(n_threads)
     {
-        Words mine(sums.size(), 0);
+        StateSums mine(sums.size());
 #pragma omp for schedule(static)
         for (std::size_t block = 0; block < n_blocks; ++block) {
             const std::size_t row = block * rows_per_block;
             const auto discs = piece.subspan(
                 row, std::min<std::size_t>(rows_per_block, piece.size() - row));
-            for (const Disc& disc : discs) {
-                mine[0] += disc.wall_collisions;
-                mine[1] += disc.pair_collisions;
-            }
-            add(mine, 2, hash_of(discs));
+            for (const Disc& disc : discs)
+                mine[place_of_collisions] += {disc.wall_collisions, disc.pair_collisions};
+            mine[place_of_hash] += hash_of(discs);
             for (std::size_t k = 0; k < targets.size(); ++k) {
                 const std::size_t width = targets[k].bytes_per_row;
                 const auto bytes = std::span(buffers[k]).subspan(row * width, discs.size() * width);
                 targets[k].put(discs, bytes.data());
-                add(mine, 4 + 2 * k, checksum_of_block(bytes, first / rows_per_block + block));
+                mine[first_checksum + k] += checksum_of_block(bytes,
+                                                              first / rows_per_block + block);
             }
         }
 #pragma omp critical(sums_of_a_piece)
@@ -80,20 +71,20 @@ std::vector<std::uint64_t> places_of(const std::string& path,
     const h5::File file = h5::open_file(path, h5::Access::read);
     std::vector<std::uint64_t> places;
     for (const DiscTarget& target : targets)
-        places.push_back(H5Dget_offset(h5::open_dataset(file.id(), target.path.c_str()).id()));
+        places.push_back(H5Dget_offset(h5::open_dataset(file.id(), target.path).id()));
     return places;
 }
 
 /// Packs a piece while the one before is written. **Collective.**
-Words write_numbers(const std::string& path, const std::vector<DiscTarget>& targets,
-                    std::span<const Disc> discs, std::uint64_t n_discs, int n_threads,
-                    const Communicator& communicator) {
+StateSums write_numbers(const std::string& path, const std::vector<DiscTarget>& targets,
+                        std::span<const Disc> discs, std::uint64_t n_discs, int n_threads,
+                        const Communicator& communicator) {
     std::vector<std::uint64_t> places(targets.size());
     if (communicator.is_root()) places = places_of(path, targets);
     for (std::uint64_t& place : places) communicator.broadcast(place);
     const Descriptor file(path, O_WRONLY);
     PieceStream stream(communicator, discs, n_discs, [](const Disc& disc) { return disc.id; });
-    Words sums(4 + 2 * targets.size(), 0);
+    StateSums sums(first_checksum + targets.size());
     std::array<Buffers, 2> buffers;
     buffers.fill(Buffers(targets.size()));
     std::future<void> under_way;
@@ -111,7 +102,7 @@ Words write_numbers(const std::string& path, const std::vector<DiscTarget>& targ
     }
     if (under_way.valid()) under_way.get();
     file.sync();
-    communicator.sum(sums);
+    sum_over(communicator, sums);
     return sums;
 }
 
@@ -127,13 +118,10 @@ void write_plainly(const std::string& path, CheckpointHeader header, std::span<c
         create_structure(partial, header, samples, targets);
         reserve(partial);
     });
-    const Words sums = write_numbers(partial, targets, discs, header.n_discs, n_threads,
-                                     communicator);
+    const StateSums sums = write_numbers(partial, targets, discs, header.n_discs, n_threads,
+                                         communicator);
     on_root(communicator, path, ExitCode::output_failure, [&] {
-        std::vector<StateHash> checksums;
-        for (std::size_t k = 0; k < targets.size(); ++k)
-            checksums.push_back({sums[4 + 2 * k], sums[5 + 2 * k]});
-        complete(partial, {sums[0], sums[1], {sums[2], sums[3]}}, checksums);
+        complete(partial, sums);
         rename_durably(partial, path);
     });
 }

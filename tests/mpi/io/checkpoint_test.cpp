@@ -55,7 +55,7 @@ TEST_CASE("spins are read as they were written, and are part of the state hash")
             write_checkpoint(path, turning, mine, world, {2}, {}, columns.spans());
             const Checkpoint read = read_checkpoint(path, world);
             CHECK(read.header.columns.has(SideColumn::spin));
-            CHECK(read_checkpoint_header(path, world).columns.has(SideColumn::spin));
+            CHECK(check_damage(path, world)->columns.has(SideColumn::spin));
             CHECK(read.header.state_hash == to_string(hash));
             const std::vector<double>& spins = read.columns[SideColumn::spin];
             REQUIRE(spins.size() == read.discs.size());
@@ -80,7 +80,7 @@ TEST_CASE("the header comes back whole") {
     wanted.species = {{2, 1.5, 3}, {1, 0.5, 1}};
     wanted.scene_text += std::string(200000, 'x') + '\n'; // longer than HDF5's attributes may be
     write_checkpoint(folder.file("a.h5"), wanted, share(3, world, 0), world);
-    for (const CheckpointHeader& header : {read_checkpoint_header(folder.file("a.h5"), world),
+    for (const CheckpointHeader& header : {*check_damage(folder.file("a.h5"), world),
                                            read_checkpoint(folder.file("a.h5"), world).header}) {
         CHECK(header.program_version == wanted.program_version);
         CHECK(header.scene_name == wanted.scene_name);
@@ -111,7 +111,7 @@ TEST_CASE("a rectangle's edges come back, and a square's file has one edge as ev
         wanted.set_box(box);
         const std::string path = folder.file("a.h5");
         write_checkpoint(path, wanted, share(3, world, 0), world);
-        CHECK(read_checkpoint_header(path, world).box() == box);
+        CHECK(check_damage(path, world)->box() == box);
         CHECK(read_checkpoint(path, world).header.box() == box);
         if (world.is_root()) CHECK(has_height(path) == !box.is_square());
         world.barrier();

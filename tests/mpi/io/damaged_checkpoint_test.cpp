@@ -143,7 +143,7 @@ void write_checksums_again(const std::string& path, const std::string& dropped) 
             0);
     sums.others = checksum_of_others(path, sums.left_out());
     file = h5::open_file(path, h5::Access::write);
-    h5::overwrite_text(file.id(), checksums_path, sums.text());
+    h5::overwrite(file.id(), checksums_path, sums.text());
     file.close("");
 }
 
@@ -186,7 +186,7 @@ TEST_CASE("a forged checkpoint with right checksums is refused where its places 
             if (std::isfinite(number) && column.is_there == &StoredSamples::have_velocities)
                 continue;
             const std::string other = forged("", [&](hid_t file) {
-                h5::write_rows(h5::open_dataset(file, name.c_str()).id(), {7, 8}, H5T_NATIVE_DOUBLE,
+                h5::write_rows(h5::open_dataset(file, name).id(), {7, 8}, H5T_NATIVE_DOUBLE,
                                &number, h5::Transfer::independent);
             });
             CHECK(other.find(name + " holds what is no place") != std::string::npos);

@@ -8,38 +8,14 @@
 #include <string>
 #include <vector>
 
-#include <unistd.h>
-
-#include "catch.hpp"
-
-#include "core/errors.hpp"
+#include "checkpoint_tools.hpp"
 #include "io/collision_log.hpp"
 #include "io/frame_file.hpp"
 
 using namespace carrom;
+using test::TestFolder;
 
 namespace {
-
-class TestFolder {
-public:
-    explicit TestFolder(const Communicator& world)
-        : world_(world), path_("/tmp/carrom_recording_test_" + std::to_string(::getpid())) {
-        world_.broadcast(path_);
-        if (world_.is_root()) std::filesystem::create_directories(path_);
-        world_.barrier();
-    }
-    ~TestFolder() {
-        world_.barrier();
-        if (world_.is_root()) std::filesystem::remove_all(path_);
-    }
-    TestFolder(const TestFolder&) = delete;
-    TestFolder& operator=(const TestFolder&) = delete;
-    std::string file(const char* name) const { return path_ + "/" + name; }
-
-private:
-    const Communicator& world_;
-    std::string path_;
-};
 
 /// Numbers that are exact in single precision, different for every disc and step.
 Disc disc_at(DiscId id, std::int64_t step) {
