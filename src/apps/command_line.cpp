@@ -8,13 +8,13 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
-#include "apps/accuracy_command.hpp"
-#include "apps/file_commands.hpp"
-#include "apps/keys_command.hpp"
-#include "apps/replicas_command.hpp"
 #include "apps/run_command.hpp"
-#include "apps/version_text.hpp"
+#include "apps/subcommands.hpp"
+#include "io/start_io.hpp"
+#include "machine/machine.hpp"
+#include "parallel/mpi.hpp"
 
 namespace carrom {
 
@@ -55,6 +55,19 @@ Action printed(std::string text) {
         if (ranks.is_root()) std::fputs((text + '\n').c_str(), stdout);
         return ExitCode::success;
     }};
+}
+
+/// What a report of a problem should say. Needs no MPI.
+std::string version_text() {
+    const BuildFacts facts = build_facts();
+    return fmt::format("carrom {}\n"
+                       "commit    {}\n"
+                       "compiler  {}\n"
+                       "MPI       {}\n"
+                       "HDF5      {}\n"
+                       "vectors   {}",
+                       version(), facts.commit, facts.compiler, mpi_version(), hdf5_version(),
+                       vector_target());
 }
 
 Action refused(const std::string& reason) {

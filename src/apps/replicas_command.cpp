@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/replicas_command.hpp"
+#include "apps/subcommands.hpp"
 
 #include <algorithm>
 #include <cstdint>
