@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/load.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -146,6 +147,21 @@ std::vector<std::string> follow_with_discs_from(const Scene& scene,
     return settings;
 }
 
+/// A run writes into one folder; a wrong one has a problem already.
+void check_folder(const Scene& scene, Problems& problems) {
+    const bool is_needed = scene.checkpoint || scene.trajectory || scene.collisions ||
+                           scene.measurements;
+    const auto is_of_folder = [](const Problem& problem) {
+        return problem.place == "--set output.folder" ||
+               problem.text.starts_with("'output.folder'");
+    };
+    if (is_needed && scene.folder.empty() &&
+        std::none_of(problems.begin(), problems.end(), is_of_folder))
+        problems.push_back({scene.name, 0,
+                            "'output.folder' is missing: the folder for what the run writes; "
+                            "-o FOLDER sets it too"});
+}
+
 /// The scene; `stream`, on rank 0, is left at the first line of discs. **Collective.**
 Scene load_scene(const RunOptions& options, const Problems& problems_so_far,
                  const Communicator& ranks, std::unique_ptr<std::istream>& stream) {
@@ -182,6 +198,7 @@ Scene load_scene(const RunOptions& options, const Problems& problems_so_far,
             text.columns = load_columns(scene, stream.get(), ranks);
             read_again();
         }
+        check_folder(scene, same_everywhere);
         const bool are_lines_wrong = text.columns && !text.columns->is_whole;
         if (ranks.is_root()) append(problems, same_everywhere);
         if (ranks.is_root() && (!problems.empty() || are_lines_wrong)) {
@@ -266,6 +283,9 @@ Loaded load(const RunOptions& given, const Problems& problems, const Communicato
     if (goes_on(options)) {
         found = restart_candidates(options, loaded.scene, ranks);
         load_restart(options, loaded, ranks);
+        Problems missing; // from a checkpoint of the library, whose scenes need no folder
+        check_folder(loaded.scene, missing);
+        if (!missing.empty()) throw InputError(missing);
     }
     const Scene& scene = loaded.scene;
     try {
