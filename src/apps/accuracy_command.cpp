@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/accuracy_command.hpp"
+#include "apps/subcommands.hpp"
 
 #include <memory>
 #include <string>
-#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -32,7 +31,10 @@ struct AccuracyOptions {
     RunOptions run;
     StudyOptions study;
     bool of_distances = false;
+    std::string share, arithmetic = "all"; ///< as the command line has them
 };
+
+constexpr int most = 1000000;
 
 ExitCode study(const AccuracyOptions& options, std::vector<Problem> problems,
                const Communicator& ranks) {
@@ -49,89 +51,70 @@ ExitCode study(const AccuracyOptions& options, std::vector<Problem> problems,
     return ExitCode::success;
 }
 
-/// The words of the command line as they stand.
-struct AccuracyWords {
-    RunWords run;
-    std::string table, starts, repetitions, collisions, approach, micro_steps, share, threads;
-    std::string arithmetic = "all";
-    bool of_distances = false;
-};
-
-AccuracyOptions checked(const AccuracyWords& words, std::vector<Problem>& problems) {
-    AccuracyOptions options;
-    options.run = checked_run_options(words.run, problems);
-    options.of_distances = words.of_distances;
+AccuracyOptions completed(AccuracyOptions options, std::vector<Problem>& problems) {
+    options.run = completed(options.run, problems);
     StudyOptions& study = options.study;
     study.quiet = options.run.quiet;
-    if (!words.table.empty()) study.table = words.table;
-    constexpr int most = 1000000;
-    const auto take = [&problems](auto& number, const char* option, const std::string& word,
-                                  auto least, auto largest) {
-        using Number = std::remove_reference_t<decltype(number)>;
-        number = number_of<Number>(option, word, least, largest, problems).value_or(number);
-    };
-    take(study.n_starts, "--starts", words.starts, 1, most);
-    take(study.n_repetitions, "--repetitions", words.repetitions, 1, most);
-    take(study.collisions, "--collisions", words.collisions, 1e-3, most);
-    take(study.approach, "--approach", words.approach, 1e-3, most);
-    take(study.most_micro_steps, "--micro-steps", words.micro_steps, 1, most);
-    take(study.threads, "--threads", words.threads, 1, 1024);
-    if (words.arithmetic == "default")
+    if (options.arithmetic == "default")
         study.formulas = Formulas::usual;
-    else if (words.arithmetic == "stable")
+    else if (options.arithmetic == "stable")
         study.formulas = Formulas::stable;
-    else if (words.arithmetic != "all")
+    else if (options.arithmetic != "all")
         problems.push_back(
             {"--arithmetic", 0,
-             fmt::format("must be all, stable or default, not \"{}\"", words.arithmetic)});
-    if (const std::size_t slash = words.share.find('/'); slash != std::string::npos) {
-        take(study.share, "--share", words.share.substr(0, slash), 1, most);
-        take(study.n_shares, "--share", words.share.substr(slash + 1), 1, most);
+             fmt::format("must be all, stable or default, not \"{}\"", options.arithmetic)});
+    const std::string& share = options.share;
+    if (const std::size_t slash = share.find('/'); slash != std::string::npos) {
+        number(study.share, 1, most)("--share", share.substr(0, slash), problems);
+        number(study.n_shares, 1, most)("--share", share.substr(slash + 1), problems);
     }
-    if (!words.share.empty() &&
-        (words.share.find('/') == std::string::npos || study.share > study.n_shares))
+    if (!share.empty() && (share.find('/') == std::string::npos || study.share > study.n_shares))
         problems.push_back(
-            {"--share", 0, fmt::format("must be K/N with K from 1 to N, not \"{}\"", words.share)});
+            {"--share", 0, fmt::format("must be K/N with K from 1 to N, not \"{}\"", share)});
     return options;
 }
 
-std::vector<Option> options_of(AccuracyWords& words) {
+std::vector<Option> options_of(AccuracyOptions& options) {
+    RunOptions& run = options.run;
+    StudyOptions& study = options.study;
     return {
-        {"INPUT", "", "SCENE.toml or FILE.in", &words.run.input, true},
-        {"--output", "FILE", "The new table of CSV; default accuracy.csv", &words.table},
-        {"--starts", "N", "Starts for each setting; default 8", &words.starts},
+        {"INPUT", "", "SCENE.toml or FILE.in", &run.input, true},
+        {"--output", "FILE", "The new table of CSV; default accuracy.csv", &study.table},
+        {"--starts", "N", "Starts for each setting; default 8", number(study.n_starts, 1, most)},
         {"--repetitions", "R", "Of each trial, in turns, for its cost; default 3",
-         &words.repetitions},
+         number(study.n_repetitions, 1, most)},
         {"--collisions", "C", "Collisions of a disc with others per trial; default 100",
-         &words.collisions},
-        {"--approach", "C", "And before it, to come to equilibrium; default 20", &words.approach},
-        {"--micro-steps", "K", "Largest K of 1, 2, 4, ...; default 256", &words.micro_steps},
+         number(study.collisions, 1e-3, double{most})},
+        {"--approach", "C", "And before it, to come to equilibrium; default 20",
+         number(study.approach, 1e-3, double{most})},
+        {"--micro-steps", "K", "Largest K of 1, 2, 4, ...; default 256",
+         number(study.most_micro_steps, std::int64_t{1}, std::int64_t{most})},
         {"--arithmetic", "all|stable|default",
          "all: both precisions and formulas; stable: both precisions; default: what runs use",
-         &words.arithmetic},
+         &options.arithmetic},
         {"--distances", "",
          "Distances to the exact run along time, in the place of rates and costs; K = 1, 16, 256",
-         &words.of_distances},
-        {"--share", "K/N", "The K-th of N shares of the trials only", &words.share},
-        {"--threads", "T", "Threads; default 1", &words.threads},
-        {"--set", "KEY=VALUE", "Set any scene key; may be repeated", &words.run.overrides},
-        {"--quiet", "", "No progress", &words.run.quiet},
+         &options.of_distances},
+        {"--share", "K/N", "The K-th of N shares of the trials only", &options.share},
+        {"--threads", "T", "Threads; default 1", number(study.threads, 1, 1024)},
+        {"--set", "KEY=VALUE", "Set any scene key; may be repeated", &run.overrides},
+        {"--quiet", "", "No progress", &run.quiet},
     };
 }
 
 } // namespace
 
 Subcommand accuracy_subcommand() {
-    const auto words = std::make_shared<AccuracyWords>();
-    const auto action = [words](std::vector<Problem>& problems) -> Action {
-        AccuracyOptions options = checked(*words, problems);
+    const auto given = std::make_shared<AccuracyOptions>();
+    const auto action = [given](std::vector<Problem>& problems) -> Action {
+        AccuracyOptions options = completed(*given, problems);
         return {[options = std::move(options), problems](const Communicator& ranks) {
                     return study(options, problems, ranks);
                 },
                 true};
     };
     return {"accuracy", "Measure what accuracy costs: a scene under many settings", accuracy_footer,
-            options_of(*words), action};
+            options_of(*given), action};
 }
 
 } // namespace carrom

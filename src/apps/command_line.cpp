@@ -8,13 +8,13 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
-#include "apps/accuracy_command.hpp"
-#include "apps/file_commands.hpp"
-#include "apps/keys_command.hpp"
-#include "apps/replicas_command.hpp"
 #include "apps/run_command.hpp"
-#include "apps/version_text.hpp"
+#include "apps/subcommands.hpp"
+#include "io/start_io.hpp"
+#include "machine/machine.hpp"
+#include "parallel/mpi.hpp"
 
 namespace carrom {
 
@@ -57,6 +57,19 @@ Action printed(std::string text) {
     }};
 }
 
+/// What a report of a problem should say. Needs no MPI.
+std::string version_text() {
+    const BuildFacts facts = build_facts();
+    return fmt::format("carrom {}\n"
+                       "commit    {}\n"
+                       "compiler  {}\n"
+                       "MPI       {}\n"
+                       "HDF5      {}\n"
+                       "vectors   {}",
+                       version(), facts.commit, facts.compiler, mpi_version(), hdf5_version(),
+                       vector_target());
+}
+
 Action refused(const std::string& reason) {
     return failing({{"command line", 0, reason + " (see carrom --help)"}});
 }
@@ -79,11 +92,11 @@ void declare(CLI::App& command, const Option& option) {
     CLI::Option* declared = nullptr;
     if (std::string* const* word = std::get_if<std::string*>(&option.value))
         declared = command.add_option(option.name, **word, option.help);
+    else if (std::vector<std::string>* const* words = std::get_if<std::vector<std::string>*>(
+                 &option.value))
+        declared = command.add_option(option.name, **words, option.help)->allow_extra_args(false);
     else
-        declared = command
-                       .add_option(option.name, *std::get<std::vector<std::string>*>(option.value),
-                                   option.help)
-                       ->allow_extra_args(false);
+        declared = command.add_option(option.name)->description(option.help);
     declared->type_name(option.type_name)->required(option.is_required)->group(option.group);
 }
 
@@ -117,10 +130,19 @@ void add_empty_values(const CLI::App& command, std::vector<Problem>& problems) {
     }
 }
 
+void take_words(const Subcommand& subcommand, const CLI::App& command,
+                std::vector<Problem>& problems) {
+    for (const Option& option : subcommand.options)
+        if (const TakeWord* take = std::get_if<TakeWord>(&option.value))
+            for (const std::string& word : command.get_option(option.name)->results())
+                if (!word.empty()) (*take)(option.name, word, problems);
+}
+
 Action action_of(const Subcommand& subcommand, const CLI::App& command) {
     std::vector<Problem> problems = leftovers(subcommand, command);
     add_empty_values(command, problems);
     const bool are_words_certain = problems.empty();
+    take_words(subcommand, command, problems);
     Action action = subcommand.action(problems);
     return are_words_certain ? action : failing(std::move(problems));
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/file_commands.hpp"
+#include "apps/subcommands.hpp"
 
 #include <fstream>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <optional>
 
@@ -124,25 +123,19 @@ ExitCode compare(const CompareOptions& options, const Communicator& ranks) {
 } // namespace
 
 Subcommand compare_subcommand() {
-    struct Words {
-        std::string output, scene, tolerance;
-        std::vector<std::string> overrides;
-    };
-    const auto words = std::make_shared<Words>();
-    const auto action = [words](std::vector<Problem>& problems) -> Action {
-        CompareOptions options{words->output, words->scene, words->overrides, {}};
-        options.tolerance = number_of<double>("--tolerance", words->tolerance, 0.0,
-                                              std::numeric_limits<double>::max(), problems);
+    const auto options = std::make_shared<CompareOptions>();
+    const auto action = [options](std::vector<Problem>& problems) -> Action {
         if (!problems.empty()) return failing(problems);
-        return {[options](const Communicator& ranks) { return compare(options, ranks); }, true};
+        return {[options](const Communicator& ranks) { return compare(*options, ranks); }, true};
     };
     return {"compare",
             "Grade the output of another program for the same scene",
             compare_footer,
-            {{"OUTPUT", "", "Lines of discs; - for standard input", &words->output, true},
-             {"SCENE", "", "SCENE.toml or FILE.in", &words->scene, true},
-             {"--tolerance", "X", "Of each number; default 1e-6 of the radius", &words->tolerance},
-             {"--set", "KEY=VALUE", "Set any scene key; may be repeated", &words->overrides}},
+            {{"OUTPUT", "", "Lines of discs; - for standard input", &options->output, true},
+             {"SCENE", "", "SCENE.toml or FILE.in", &options->scene, true},
+             {"--tolerance", "X", "Of each number; default 1e-6 of the radius",
+              number(options->tolerance, 0.0, largest_double)},
+             {"--set", "KEY=VALUE", "Set any scene key; may be repeated", &options->overrides}},
             action};
 }
 

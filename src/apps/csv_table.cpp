@@ -2,14 +2,12 @@
 #include "apps/csv_table.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <utility>
 
-#include <unistd.h>
-
 #include "apps/data_output.hpp"
+#include "apps/report_file.hpp"
 #include "core/errors.hpp"
 
 namespace carrom {
@@ -35,24 +33,10 @@ CsvTable::CsvTable(std::string path, std::string header)
 }
 
 void CsvTable::append(const std::string& line) {
-    if (!file_) {
-        file_.reset(std::fopen(path_.c_str(), "wbx")); // x: not over a file that came meanwhile
-        if (!file_) fail_with(path_, std::strerror(errno));
-        std::setbuf(file_.get(), nullptr);
-        write(header_);
-    }
-    write(line);
-}
-
-void CsvTable::write(const std::string& line) {
-    const std::string text = line + '\n';
-    const std::size_t written = std::fwrite(text.data(), 1, text.size(), file_.get());
-    if (written < text.size()) {
-        const int error = errno;
-        static_cast<void>(::ftruncate(fileno(file_.get()), size_)); // half a line is no line
-        fail_with(path_, std::strerror(error));
-    }
-    size_ += static_cast<long>(text.size());
+    const std::string text = (has_begun_ ? "" : header_ + '\n') + line + '\n';
+    const int error = append_whole(path_, text, !has_begun_);
+    if (error != 0) fail_with(path_, std::strerror(error));
+    has_begun_ = true;
 }
 
 std::string plain_field(std::string text) {

@@ -3,8 +3,6 @@
 // several processes are put together by concatenation.
 #pragma once
 
-#include <cstdio>
-#include <memory>
 #include <string>
 
 namespace carrom {
@@ -19,14 +17,8 @@ public:
     void append(const std::string& line);
 
 private:
-    struct Closer {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-    void write(const std::string& line);
-
     std::string path_, header_;
-    std::unique_ptr<std::FILE, Closer> file_;
-    long size_ = 0; ///< of whole lines
+    bool has_begun_ = false;
 };
 
 /// A text that needs no quotes in CSV.

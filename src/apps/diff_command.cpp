@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/file_commands.hpp"
+#include "apps/subcommands.hpp"
 
 #include <array>
 #include <memory>

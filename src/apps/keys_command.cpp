@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/keys_command.hpp"
+#include "apps/subcommands.hpp"
 
 #include <cstdio>
 #include <memory>

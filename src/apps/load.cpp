@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/load.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -70,28 +71,14 @@ std::vector<NamedFile> read_by(const RunOptions& options) {
     return sources;
 }
 
-/// What disks or rights keep from being written; places that cannot be right go to `problems`.
-Problems check_destinations(const RunOptions& options, Problems& problems) {
-    Problems failures, found = problems_with(named_by(options), read_by(options));
-    const auto check = [&](const char* option, const std::string& path, const Obstacle& obstacle) {
-        if (!obstacle.text.empty())
-            (obstacle.is_failure ? failures : problems)
-                .push_back({fmt::format("{} {}", option, path), 0, obstacle.text});
-    };
+/// What the places have that the options name.
+void check_destinations(const RunOptions& options, PlaceProblems& found) {
+    const Problems shared = problems_with(named_by(options), read_by(options));
     if (!options.output.empty())
-        check("--output", options.output, obstacle_to_opening(options.output));
-    if (!options.report.empty() && found.empty())
-        check("--report", options.report, obstacle_to_writing(options.report));
-    append(problems, found);
-    return failures;
-}
-
-/// Ends with code 2 where there are problems, with code 4 where there are only failures.
-/// **Collective.**
-void agree_on_both(const Communicator& ranks, Problems problems, const Problems& failures) {
-    if (!problems.empty()) append(problems, failures);
-    agree_on_problems(ranks, problems);
-    agree(ranks, failures.empty(), InputError(failures).what(), ExitCode::output_failure);
+        found.note("--output", options.output, obstacle_to_opening(options.output));
+    if (!options.report.empty() && shared.empty())
+        found.note("--report", options.report, obstacle_to_writing(options.report));
+    append(found.problems, shared);
 }
 
 /// What is wrong with the lines of discs of a run that will not begin, so that all is printed at
@@ -146,15 +133,31 @@ std::vector<std::string> follow_with_discs_from(const Scene& scene,
     return settings;
 }
 
+/// A run writes into one folder; a wrong one has a problem already.
+void check_folder(const Scene& scene, Problems& problems) {
+    const bool is_needed = scene.checkpoint || scene.trajectory || scene.collisions ||
+                           scene.measurements;
+    const auto is_of_folder = [](const Problem& problem) {
+        return problem.place == "--set output.folder" ||
+               problem.text.starts_with("'output.folder'");
+    };
+    if (is_needed && scene.folder.empty() &&
+        std::none_of(problems.begin(), problems.end(), is_of_folder))
+        problems.push_back({scene.name, 0,
+                            "'output.folder' is missing: the folder for what the run writes; "
+                            "-o FOLDER sets it too"});
+}
+
 /// The scene; `stream`, on rank 0, is left at the first line of discs. **Collective.**
 Scene load_scene(const RunOptions& options, const Problems& problems_so_far,
                  const Communicator& ranks, std::unique_ptr<std::istream>& stream) {
-    Problems problems, failures; // of all ranks together: each one is listed by one rank
+    PlaceProblems found; // of all ranks together: each one is listed by one rank
+    Problems& problems = found.problems;
     SceneText text;
     bool is_readable = true;
     if (ranks.is_root()) {
         problems = problems_so_far;
-        failures = check_destinations(options, problems);
+        check_destinations(options, found);
         is_readable = !options.input.empty() && collect(problems, [&] {
             stream = open(options.input);
             text = read_scene_text(*stream,
@@ -182,6 +185,7 @@ Scene load_scene(const RunOptions& options, const Problems& problems_so_far,
             text.columns = load_columns(scene, stream.get(), ranks);
             read_again();
         }
+        check_folder(scene, same_everywhere);
         const bool are_lines_wrong = text.columns && !text.columns->is_whole;
         if (ranks.is_root()) append(problems, same_everywhere);
         if (ranks.is_root() && (!problems.empty() || are_lines_wrong)) {
@@ -192,19 +196,19 @@ Scene load_scene(const RunOptions& options, const Problems& problems_so_far,
             append(problems, problems_of_outputs(options, scene, read_for(options, scene)));
         }
     }
-    agree_on_both(ranks, std::move(problems), failures);
+    found.agree(ranks);
     return scene;
 }
 
 /// A restart without a scene has fewer things to go wrong. **Collective.**
 void check_without_scene(const RunOptions& options, const Problems& problems_so_far,
                          const Communicator& ranks) {
-    Problems problems, failures;
+    PlaceProblems found;
     if (ranks.is_root()) {
-        problems = problems_so_far;
-        failures = check_destinations(options, problems);
+        found.problems = problems_so_far;
+        check_destinations(options, found);
     }
-    agree_on_both(ranks, std::move(problems), failures);
+    found.agree(ranks);
 }
 
 /// A mistake in the number of discs would end in the middle, without a word of why. **Collective.**
@@ -266,6 +270,9 @@ Loaded load(const RunOptions& given, const Problems& problems, const Communicato
     if (goes_on(options)) {
         found = restart_candidates(options, loaded.scene, ranks);
         load_restart(options, loaded, ranks);
+        Problems missing; // from a checkpoint of the library, whose scenes need no folder
+        check_folder(loaded.scene, missing);
+        if (!missing.empty()) throw InputError(missing);
     }
     const Scene& scene = loaded.scene;
     try {

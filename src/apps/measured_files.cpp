@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/measured_files.hpp"
 
-#include <cerrno>
 #include <cstring>
 #include <filesystem>
-
-#include <fcntl.h>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -30,23 +26,6 @@ std::string lines_of(const std::vector<std::vector<double>>& rows) {
         text += '\n';
     }
     return text;
-}
-
-/// All of it or nothing. Returns what went wrong, empty if nothing did.
-std::string append_to(const std::string& path, const std::string& text) {
-    const int file = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-    int error = file < 0 ? errno : 0;
-    const off_t size = file < 0 ? 0 : ::lseek(file, 0, SEEK_END);
-    for (std::size_t begin = 0; error == 0 && begin < text.size();) {
-        const ssize_t written = ::write(file, text.data() + begin, text.size() - begin);
-        if (written >= 0)
-            begin += static_cast<std::size_t>(written);
-        else if (errno != EINTR)
-            error = errno;
-    }
-    if (error != 0 && file >= 0) static_cast<void>(::ftruncate(file, size)); // no half line
-    if (file >= 0 && ::close(file) != 0 && error == 0) error = errno;
-    return error == 0 ? "" : "cannot write " + path + ": " + std::strerror(error);
 }
 
 } // namespace
@@ -77,8 +56,10 @@ void ThermoFile::add_rows_of(const Sampler& sampler) {
     std::string failure;
     if (ranks_.is_root()) {
         const std::string path = path_of(scene_, *rows);
-        failure = n_written_ == 0 ? write_whole_file(path, csv_of(*rows, scene_.name))
-                                  : append_to(path, lines_of(rows->rows));
+        if (n_written_ == 0)
+            failure = write_whole_file(path, csv_of(*rows, scene_.name));
+        else if (const int error = append_whole(path, lines_of(rows->rows)); error != 0)
+            failure = "cannot write " + path + ": " + std::strerror(error);
     }
     agree(ranks_, failure.empty(), failure, ExitCode::output_failure);
     n_written_ += rows->rows.size();

@@ -4,38 +4,40 @@
 
 #include <charconv>
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/core.h>
 
-#include "core/errors.hpp"
+#include "apps/subcommand.hpp"
 
 namespace carrom {
 
-inline constexpr double least_above_0 = std::numeric_limits<double>::min();
+inline constexpr double least_above_0 = std::numeric_limits<double>::min(),
+                        largest_double = std::numeric_limits<double>::max();
 
-/// A finite number from `least` to `most`. Nothing for an empty word, which leaves the default, and
-/// for a wrong one, of which a problem is noted; `why` says where the limits come from.
-template <class Number>
-std::optional<Number> number_of(const char* option, const std::string& word, Number least,
-                                Number most, std::vector<Problem>& problems,
-                                const std::string& why = "") {
-    if (word.empty()) return std::nullopt;
-    Number value{};
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    const bool is_number = error == std::errc{} && end == word.data() + word.size();
-    if (is_number && value >= least && value <= most) return value; // no NaN is
-    using Limits = std::numeric_limits<Number>;
-    const char* const kind = Limits::is_integer ? "a whole number" : "a number";
-    std::string range = fmt::format("from {} to {}", least, most);
-    if (most == Limits::max()) range = fmt::format("from {} on", least);
-    if constexpr (!Limits::is_integer)
-        if (least == least_above_0) range = "above 0";
-    problems.push_back(
-        {option, 0, fmt::format("must be {} {}{}, not \"{}\"", kind, range, why, word)});
-    return std::nullopt;
+/// Sets `number`, or an optional one, to a finite number from `least` to `most`; `why` says where
+/// the limits come from. `number` must live as long as what is returned.
+template <class Target, class Number>
+TakeWord number(Target& number, Number least, Number most, const char* why = "") {
+    return [=, &number](const char* option, const std::string& word,
+                        std::vector<Problem>& problems) {
+        Number value{};
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+        const bool is_number = error == std::errc{} && end == word.data() + word.size();
+        if (is_number && value >= least && value <= most) { // no NaN is
+            number = value;
+            return;
+        }
+        using Limits = std::numeric_limits<Number>;
+        const char* const kind = Limits::is_integer ? "a whole number" : "a number";
+        std::string range = fmt::format("from {} to {}", least, most);
+        if (most == Limits::max()) range = fmt::format("from {} on", least);
+        if constexpr (!Limits::is_integer)
+            if (least == least_above_0) range = "above 0";
+        problems.push_back(
+            {option, 0, fmt::format("must be {} {}{}, not \"{}\"", kind, range, why, word)});
+    };
 }
 
 } // namespace carrom

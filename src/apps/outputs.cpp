@@ -21,51 +21,6 @@ namespace {
 
 constexpr const char* folder_key = "output.folder";
 
-/// What rank 0 finds, and the locks it takes on the way.
-class Claims {
-public:
-    void check(const char* key, const std::string& path, const Obstacle& found) {
-        if (found.text.empty()) return;
-        (found.is_failure ? failures_ : problems_)
-            .push_back({fmt::format("{} {}", key, path), 0, found.text});
-    }
-
-    void lock(const std::string& folder) {
-        const WriteLock& lock = locks_.emplace_back(folder + "/.carrom.lock");
-        if (!lock.obstacle().empty()) check(folder_key, folder, {lock.obstacle()});
-        if (!lock.holder().empty())
-            check(folder_key, folder,
-                  {fmt::format("another run is writing there ({}); wait for its end, or name "
-                               "another folder",
-                               lock.holder())});
-    }
-
-    void add(const std::vector<Problem>& problems) {
-        problems_.insert(problems_.end(), problems.begin(), problems.end());
-    }
-    bool is_clear() const { return problems_.empty() && failures_.empty(); }
-
-    std::vector<Problem> all() const {
-        std::vector<Problem> found = problems_;
-        found.insert(found.end(), failures_.begin(), failures_.end());
-        return found;
-    }
-
-    /// **Collective.**
-    std::vector<WriteLock> agreed(const Communicator& ranks) {
-        std::string text;
-        for (const Problem& failure : failures_)
-            text += (text.empty() ? "" : "\n") + to_string(failure);
-        agree_on_problems(ranks, problems_.empty() ? problems_ : all());
-        agree(ranks, text.empty(), text, ExitCode::output_failure);
-        return std::move(locks_);
-    }
-
-private:
-    std::vector<Problem> problems_, failures_;
-    std::vector<WriteLock> locks_;
-};
-
 /// What would keep a folder from being made, without making it.
 Obstacle obstacle_to_making(const std::string& folder) {
     std::error_code ignored;
@@ -102,43 +57,74 @@ std::string obstacle_in_folder(const RunOptions& options, const Scene& scene) {
     return fmt::format("has {} of another run ({}); name another folder", trace, difference);
 }
 
-/// Makes nothing and locks nothing unless `may_begin`, and then only if all is right.
-void check_places(Claims& claims, const RunOptions& options, const Scene& scene,
+WriteLock locked(const std::string& folder, PlaceProblems& found) {
+    WriteLock lock(folder + "/.carrom.lock");
+    found.note(folder_key, folder, {lock.obstacle()});
+    if (!lock.holder().empty())
+        found.note(folder_key, folder,
+                   {fmt::format("another run is writing there ({}); wait for its end, or name "
+                                "another folder",
+                                lock.holder())});
+    return lock;
+}
+
+/// Makes nothing and locks nothing unless there are `locks` to add to, and then only if all is
+/// right.
+void check_places(PlaceProblems& found, const RunOptions& options, const Scene& scene,
                   const std::vector<NamedFile>& sources, std::vector<NamedFile> destinations,
-                  bool may_begin) {
+                  std::vector<WriteLock>* locks) {
     const std::string& folder = scene.folder;
     if (!folder.empty())
         for (const std::string& path : files_of_run(folder))
             if (!goes_on(options) || path != scene_copy_of(folder))
                 destinations.push_back({"a file of output.folder,", path});
-    claims.add(problems_with(destinations, sources));
+    for (const Problem& problem : problems_with(destinations, sources))
+        found.problems.push_back(problem);
     if (folder.empty()) return;
     std::error_code ignored;
-    const bool may_try = (may_begin && claims.is_clear()) ||
-                         std::filesystem::exists(folder, ignored);
-    claims.check(folder_key, folder,
-                 may_try ? obstacle_to_folder(folder) : obstacle_to_making(folder));
-    if (!claims.is_clear()) return;
-    if (may_begin) claims.lock(folder);
-    if (claims.is_clear()) claims.check(folder_key, folder, {obstacle_in_folder(options, scene)});
+    const bool may_try = (locks && found.all().empty()) || std::filesystem::exists(folder, ignored);
+    found.note(folder_key, folder,
+               may_try ? obstacle_to_folder(folder) : obstacle_to_making(folder));
+    if (!found.all().empty()) return;
+    if (locks) locks->push_back(locked(folder, found));
+    if (found.all().empty()) found.note(folder_key, folder, {obstacle_in_folder(options, scene)});
 }
 
 } // namespace
+
+void PlaceProblems::note(const std::string& key, const std::string& path, const Obstacle& found) {
+    if (found.text.empty()) return;
+    (found.is_failure ? failures : problems)
+        .push_back({fmt::format("{} {}", key, path), 0, found.text});
+}
+
+std::vector<Problem> PlaceProblems::all() const {
+    std::vector<Problem> found = problems;
+    found.insert(found.end(), failures.begin(), failures.end());
+    return found;
+}
+
+void PlaceProblems::agree(const Communicator& ranks) const {
+    agree_on_problems(ranks, problems.empty() ? problems : all());
+    carrom::agree(ranks, failures.empty(), InputError(failures).what(), ExitCode::output_failure);
+}
 
 std::vector<WriteLock> claim_outputs(const RunOptions& options, const Scene& scene,
                                      const std::vector<NamedFile>& sources,
                                      const std::vector<NamedFile>& others,
                                      const Communicator& ranks) {
-    Claims claims;
-    if (ranks.is_root()) check_places(claims, options, scene, sources, others, true);
-    return claims.agreed(ranks);
+    PlaceProblems found;
+    std::vector<WriteLock> locks;
+    if (ranks.is_root()) check_places(found, options, scene, sources, others, &locks);
+    found.agree(ranks);
+    return locks;
 }
 
 std::vector<Problem> problems_of_outputs(const RunOptions& options, const Scene& scene,
                                          const std::vector<NamedFile>& sources) {
-    Claims claims;
-    check_places(claims, options, scene, sources, {}, false);
-    return claims.all();
+    PlaceProblems found;
+    check_places(found, options, scene, sources, {}, nullptr);
+    return found.all();
 }
 
 void prepare_outputs(const Scene& scene, bool begins_anew, const Communicator& ranks) {

@@ -3,15 +3,30 @@
 // belongs to another run, and that no other run is writing there now.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "apps/destinations.hpp"
 #include "apps/run_options.hpp"
+#include "core/write_problem.hpp"
 #include "io/write_lock.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
 
 namespace carrom {
+
+/// What is wrong with places to write to: `failures` are those of disks and rights, where the place
+/// could be right.
+struct PlaceProblems {
+    std::vector<Problem> problems, failures;
+
+    /// Adds what was found, if anything; `key` is what names the path.
+    void note(const std::string& key, const std::string& path, const Obstacle& found);
+    std::vector<Problem> all() const;
+    /// Ends with code 2 where there are problems, with code 4 where there are only failures.
+    /// **Collective.**
+    void agree(const Communicator& ranks) const;
+};
 
 /// Throws InputError on every rank where the run cannot have its folder, or where it would write to
 /// `sources`, files that are read, or to one place twice; `others` is what else is written.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/replicas_command.hpp"
+#include "apps/subcommands.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -131,49 +132,37 @@ ExitCode run_replicas(const ReplicasOptions& options, const std::vector<Problem>
     return ExitCode::success;
 }
 
-struct ReplicasWords {
-    RunWords run;
-    std::string count, folder;
-};
-
-std::vector<Option> options_of(ReplicasWords& words) {
+std::vector<Option> options_of(ReplicasOptions& options) {
+    RunOptions& run = options.run;
     return {
-        {"INPUT", "", "SCENE.toml, whose discs are generated", &words.run.input, true},
-        {"--count", "N", "Replicas, 1 to 10000", &words.count, true},
+        {"INPUT", "", "SCENE.toml, whose discs are generated", &run.input, true},
+        {"--count", "N", "Replicas, 1 to 10000",
+         number(options.count, std::int64_t{1}, std::int64_t{10000}), true},
         {"-o,--folder", "FOLDER", "For the replicas' folders and what they say together",
-         &words.folder, true},
-        {"--threads", "T", "Threads of each; default 1", &words.run.threads},
+         &options.folder, true},
+        {"--threads", "T", "Threads of each; default 1", number(run.threads, 1, 1024)},
         {"--steps", "S", "The last step, counted from the scene's start, instead of the input's",
-         &words.run.steps},
-        {"--set", "KEY=VALUE", "Set any scene key; may be repeated", &words.run.overrides},
-        {"--quiet", "", "No averages on the terminal", &words.run.quiet},
+         number(run.steps, std::int64_t{0}, std::numeric_limits<std::int64_t>::max())},
+        {"--set", "KEY=VALUE", "Set any scene key; may be repeated", &run.overrides},
+        {"--quiet", "", "No averages on the terminal", &run.quiet},
     };
-}
-
-ReplicasOptions checked(const ReplicasWords& words, std::vector<Problem>& problems) {
-    ReplicasOptions options;
-    options.run = checked_run_options(words.run, problems);
-    if (!options.run.threads) options.run.threads = 1;
-    options.folder = words.folder;
-    options.count = number_of("--count", words.count, std::int64_t{1}, std::int64_t{10000},
-                              problems)
-                        .value_or(0);
-    return options;
 }
 
 } // namespace
 
 Subcommand replicas_subcommand() {
-    const auto words = std::make_shared<ReplicasWords>();
-    const auto action = [words](std::vector<Problem>& problems) -> Action {
-        ReplicasOptions options = checked(*words, problems);
+    const auto given = std::make_shared<ReplicasOptions>();
+    given->run.threads = 1;
+    const auto action = [given](std::vector<Problem>& problems) -> Action {
+        ReplicasOptions options = *given;
+        options.run = completed(options.run, problems);
         return {[options = std::move(options), problems](const Communicator& ranks) {
                     return run_replicas(options, problems, ranks);
                 },
                 true, true};
     };
     return {"replicas", "Run a scene many times from different seeds, and average", replicas_footer,
-            options_of(*words), action};
+            options_of(*given), action};
 }
 
 } // namespace carrom

@@ -14,6 +14,18 @@ namespace carrom {
 
 namespace {
 
+/// Returns 0 or an errno.
+int write_all(int file, const std::string& text) {
+    for (std::size_t begin = 0; begin < text.size();) {
+        const ssize_t written = ::write(file, text.data() + begin, text.size() - begin);
+        if (written >= 0)
+            begin += static_cast<std::size_t>(written);
+        else if (errno != EINTR)
+            return errno;
+    }
+    return 0;
+}
+
 /// A new file beside the place of another one, removed unless it is renamed. Its name is no other
 /// file's, and no link is followed: `errno` says what is wrong where `number` is negative.
 class FileBeside {
@@ -36,14 +48,8 @@ public:
 
     /// These return 0 or an errno.
     int write(const std::string& text) const {
-        for (std::size_t begin = 0; begin < text.size();) {
-            const ssize_t written = ::write(number, text.data() + begin, text.size() - begin);
-            if (written >= 0)
-                begin += static_cast<std::size_t>(written);
-            else if (errno != EINTR)
-                return errno;
-        }
-        return ::fsync(number) == 0 ? 0 : errno;
+        const int error = write_all(number, text);
+        return error == 0 && ::fsync(number) != 0 ? errno : error;
     }
     int close() { return ::close(std::exchange(number, -1)) == 0 ? 0 : errno; }
     int rename_to(const std::string& path) {
@@ -78,6 +84,17 @@ std::string write_whole_file(const std::string& path, const std::string& text) {
     if (error == 0) error = file.close();
     if (error == 0) error = file.rename_to(path);
     return error == 0 ? "" : "cannot write " + path + ": " + std::strerror(error);
+}
+
+int append_whole(const std::string& path, const std::string& text, bool is_new) {
+    const int flags = O_WRONLY | O_APPEND | O_CLOEXEC | (is_new ? O_CREAT | O_EXCL : 0);
+    const int file = ::open(path.c_str(), flags, 0666);
+    if (file < 0) return errno;
+    const off_t size = ::lseek(file, 0, SEEK_END);
+    int error = write_all(file, text);
+    if (error != 0) static_cast<void>(::ftruncate(file, size)); // no half line
+    if (::close(file) != 0 && error == 0) error = errno;
+    return error;
 }
 
 } // namespace carrom

@@ -17,4 +17,8 @@ Obstacle obstacle_to_writing(const std::string& path);
 /// Replaces `path` by a file with this text. Returns what went wrong, empty if nothing did.
 std::string write_whole_file(const std::string& path, const std::string& text);
 
+/// Adds text at the end of a file, all of it or nothing; where it `is_new` there must be no file
+/// yet. Returns 0 or an errno.
+int append_whole(const std::string& path, const std::string& text, bool is_new = false);
+
 } // namespace carrom

@@ -178,9 +178,9 @@ ExitCode run_scene(const RunOptions& options, const std::vector<Problem>& proble
 }
 
 Subcommand run_subcommand() {
-    const auto words = std::make_shared<RunWords>();
-    const auto action = [words](std::vector<Problem>& problems) -> Action {
-        RunOptions options = checked_run_options(*words, problems);
+    const auto given = std::make_shared<RunOptions>();
+    const auto action = [given](std::vector<Problem>& problems) -> Action {
+        RunOptions options = completed(*given, problems);
         const bool has_input = !options.input.empty() || goes_on(options);
         if (!has_input)
             problems.push_back({"carrom run", 0,
@@ -193,7 +193,7 @@ Subcommand run_subcommand() {
                 true, !reads_input};
     };
     return {"run",      "Run a scene",
-            run_footer, run_options(*words),
+            run_footer, run_options(*given),
             action,     "one input is enough; carrom run takes one at a time"};
 }
 

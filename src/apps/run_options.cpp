@@ -9,100 +9,75 @@
 
 namespace carrom {
 
-std::vector<Option> run_options(RunWords& words) {
+std::vector<Option> run_options(RunOptions& run) {
+    constexpr auto unbounded = std::numeric_limits<std::int64_t>::max();
     constexpr const char* costs = "Cost only, never bits";
     return {
-        {"INPUT", "", "SCENE.toml, FILE.in, or - for standard input", &words.input},
+        {"INPUT", "", "SCENE.toml, FILE.in, or - for standard input", &run.input},
         {"--threads", "T",
          "Threads per rank; default OMP_NUM_THREADS if set, else this rank's share of the cores",
-         &words.threads},
+         number(run.threads, 1, 1024)},
         {"-o,--folder", "FOLDER",
-         "The folder for all that the run writes, instead of output.folder", &words.folder},
+         "The folder for all that the run writes, instead of output.folder", &run.folder},
         {"--resume", "",
          "Go on with the run of that folder, from its newest whole checkpoint; INPUT may be left "
          "out",
-         &words.resume},
+         &run.resume},
         {"--overwrite", "", "Begin anew in a folder that has a run: remove what it has written",
-         &words.overwrite},
+         &run.overwrite},
         {"--restart", "FILE|FOLDER|latest",
          "Go on from a checkpoint: a FILE, a FOLDER (its newest whole one), or `latest` in the "
          "scene's folder; INPUT may be left out with FILE and FOLDER",
-         &words.restart},
+         &run.restart},
         {"--steps", "S", "The last step, counted from the scene's start, instead of the input's",
-         &words.steps},
+         number(run.steps, std::int64_t{0}, unbounded)},
         {"--accuracy", "X",
          "Let a short pilot choose the fastest method and micro-steps whose collision rate and "
          "pressure are within this share of the truth",
-         &words.accuracy},
+         number(run.accuracy, least_above_0, largest_double)},
         {"--set", "KEY=VALUE", "Set any scene key, as in --set time.steps=100; may be repeated",
-         &words.overrides},
+         &run.overrides},
         {"--digits", "D",
          "17 (the default): 17 significant digits, which read back as the same bits; 1 to 16: "
          "that many decimals (8 gives the course program's look)",
-         &words.digits},
+         number(run.digits, 1, RunOptions::round_trip_digits)},
         {"--output", "FILE",
          "Write the lines to FILE, not to standard output (under mpirun only so a full disk is "
          "noticed)",
-         &words.output},
-        {"--report", "FILE", "Write the summary's numbers to FILE as JSON", &words.report},
+         &run.output},
+        {"--report", "FILE", "Write the summary's numbers to FILE as JSON", &run.report},
         {"--quiet", "", "No progress and no summary; errors and warnings are still printed",
-         &words.quiet},
+         &run.quiet},
         {"--check", "",
          "After every step check the state's invariants; a broken one ends the run with code 70 "
          "and leaves a scene of the discs around it",
-         &words.check},
+         &run.check},
         {"--window", "W",
          "Micro-steps per window; below 1 a micro-step is cut into parts, at most 100000",
-         &words.window, false, costs},
-        {"--cell-width", "C", "Width of a cell, in reaches of the window", &words.cell_width, false,
-         costs},
+         number(run.tuning.window, 1e-5, largest_double,
+                " (a hundred thousand windows to a micro-step)"),
+         false, costs},
+        {"--cell-width", "C", "Width of a cell, in reaches of the window",
+         number(run.tuning.cell_width, least_above_0, largest_double), false, costs},
         {"--rebalance-every", "K", "Syncs between looks at the load; 0 keeps the first strips",
-         &words.rebalance_every, false, costs},
+         number(run.tuning.rebalance_every, std::int64_t{0}, unbounded), false, costs},
         {"--rebalance-above", "X",
          "Largest over mean load that is tolerated; 0 moves the cuts at every look",
-         &words.rebalance_above, false, costs},
+         number(run.tuning.rebalance_above, 0.0, largest_double), false, costs},
     };
 }
 
-RunOptions checked_run_options(const RunWords& words, std::vector<Problem>& problems) {
-    constexpr double largest = std::numeric_limits<double>::max();
-    constexpr auto unbounded = std::numeric_limits<std::int64_t>::max();
-    const auto number = [&problems](const char* option, const std::string& word, auto least,
-                                    auto most, const char* why = "") {
-        return number_of(option, word, least, most, problems, why);
+RunOptions completed(RunOptions options, std::vector<Problem>& problems) {
+    const auto set = [&options](const char* key, const auto& value) {
+        options.overrides.push_back(fmt::format("{}={}", key, value));
     };
-    RunOptions options;
-    options.input = words.input;
-    options.restart = words.restart;
-    options.overrides = words.overrides;
-    options.output = words.output;
-    options.report = words.report;
-    options.quiet = words.quiet;
-    options.check = words.check;
-    options.folder = words.folder;
-    options.resume = words.resume;
-    options.overwrite = words.overwrite;
-    if (!words.folder.empty()) options.overrides.push_back("output.folder=" + words.folder);
-    if (words.resume && !words.restart.empty())
+    if (!options.folder.empty()) set("output.folder", options.folder);
+    if (options.accuracy) set("time.accuracy", *options.accuracy);
+    if (options.steps) set("time.steps", *options.steps);
+    if (options.resume && !options.restart.empty())
         problems.push_back({"--resume", 0, "takes the newest checkpoint; leave --restart out"});
-    if (words.overwrite && (words.resume || !words.restart.empty()))
+    if (options.overwrite && (options.resume || !options.restart.empty()))
         problems.push_back({"--overwrite", 0, "begins anew; leave --resume and --restart out"});
-    options.threads = number("--threads", words.threads, 1, 1024);
-    options.digits =
-        number("--digits", words.digits, 1, RunOptions::round_trip_digits).value_or(options.digits);
-    if (const auto accuracy = number("--accuracy", words.accuracy, least_above_0, largest))
-        options.overrides.push_back(fmt::format("time.accuracy={}", *accuracy));
-    if (const auto steps = number("--steps", words.steps, std::int64_t{0}, unbounded))
-        options.overrides.push_back(fmt::format("time.steps={}", *steps));
-    Tuning& tuning = options.tuning;
-    tuning.window = number("--window", words.window, 1e-5, largest,
-                           " (a hundred thousand windows to a micro-step)");
-    tuning.cell_width = number("--cell-width", words.cell_width, least_above_0, largest);
-    tuning.rebalance_every = number("--rebalance-every", words.rebalance_every, std::int64_t{0},
-                                    unbounded)
-                                 .value_or(tuning.rebalance_every);
-    tuning.rebalance_above = number("--rebalance-above", words.rebalance_above, 0.0, largest)
-                                 .value_or(tuning.rebalance_above);
     return options;
 }
 

@@ -2,6 +2,7 @@
 // The options of `carrom run`, checked one by one so that all wrong ones are printed at once.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,21 +28,16 @@ struct RunOptions {
     bool quiet = false;
     bool check = false; ///< hold every step to its invariants
     std::optional<int> threads;
+    std::optional<std::int64_t> steps; ///< these two are among the overrides too
+    std::optional<double> accuracy;
     Tuning tuning; ///< but for `threads`, which needs to know the machine
 };
 
-/// The words of the command line as they stand.
-struct RunWords {
-    std::string input, restart, folder, threads, steps, accuracy, digits, output, report;
-    std::string window, cell_width, rebalance_every, rebalance_above;
-    std::vector<std::string> overrides;
-    bool quiet = false, check = false, resume = false, overwrite = false;
-};
+/// The options of `carrom run`, which set `run`; it must live as long.
+std::vector<Option> run_options(RunOptions& run);
 
-/// The options of `carrom run`, which set `words`.
-std::vector<Option> run_options(RunWords& words);
-
-/// Appends what is wrong with the words to `problems`.
-RunOptions checked_run_options(const RunWords& words, std::vector<Problem>& problems);
+/// The same once all options are there, with `overrides` for those that set a key. Appends what
+/// does not go together to `problems`.
+RunOptions completed(RunOptions options, std::vector<Problem>& problems);
 
 } // namespace carrom

@@ -25,13 +25,17 @@ struct Action {
 /// An action that throws these problems.
 Action failing(std::vector<Problem> problems);
 
-/// The word behind an option (all of them, where it may be repeated) goes to `value` as it stands;
-/// a switch sets it.
+/// Takes the word behind an option, or notes what is wrong with it.
+using TakeWord = std::function<void(const char* option, const std::string& word,
+                                    std::vector<Problem>& problems)>;
+
+/// The word behind an option (all of them, where it may be repeated) goes to `value` as it stands,
+/// or is taken as a number (number_words.hpp); a switch sets it.
 struct Option {
     const char* name;      ///< "--threads"; without dashes it is known by its place
     const char* type_name; ///< of the word that follows, as in "FILE"; empty for a switch
     const char* help;
-    std::variant<std::string*, std::vector<std::string>*, bool*> value;
+    std::variant<std::string*, std::vector<std::string>*, bool*, TakeWord> value;
     bool is_required = false;
     const char* group = "Options"; ///< of the help
 };

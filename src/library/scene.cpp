@@ -25,11 +25,7 @@ SceneText text_of(const Scene::Source& source) {
 }
 
 carrom::Scene read(const SceneText& text, const Scene& scene) {
-    // The library writes where it is told to. Measurements ask for a folder.
-    std::vector<std::string> settings = {"output.folder=."};
-    const std::vector<std::string>& own = scene.source().settings;
-    settings.insert(settings.end(), own.begin(), own.end());
-    return with_named_keys([&] { return read_scene(text, settings); });
+    return with_named_keys([&] { return read_scene(text, scene.source().settings); });
 }
 
 /// The scene with the radii, masses and spins of its file of discs. **Collective.**

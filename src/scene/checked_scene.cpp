@@ -50,14 +50,7 @@ void derive_defaults(const Check& check) {
 /// All that a run writes has its place in one folder; a run that has one stores checkpoints.
 void place_outputs(const Check& check) {
     Scene& scene = check.scene;
-    const bool needs_folder = scene.checkpoint || scene.trajectory || scene.collisions ||
-                              scene.measurements;
-    if (scene.folder.empty()) {
-        if (needs_folder && !check.settings.has("output.folder"))
-            check.refuse({}, "'output.folder' is missing: the folder for what the run writes; "
-                             "-o FOLDER sets it too");
-        return;
-    }
+    if (scene.folder.empty()) return;
     if (!scene.checkpoint) scene.checkpoint.emplace();
     scene.checkpoint->folder = scene.folder + "/checkpoints";
     if (scene.trajectory) scene.trajectory->file = scene.folder + "/trajectory.h5";

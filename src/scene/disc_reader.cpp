@@ -8,7 +8,6 @@
 
 #include "scene/disc_columns.hpp"
 #include "scene/limits.hpp"
-#include "scene/line_reader.hpp"
 #include "scene/number.hpp"
 
 namespace carrom {
@@ -24,28 +23,20 @@ std::string columns_text(const std::vector<DiscColumn>& columns) {
 
 } // namespace
 
-class DiscReader::Lines : public LineReader {
-public:
-    using LineReader::LineReader;
-};
-
 DiscReader::DiscReader(std::istream& stream, const Scene& scene)
     : scene_(scene), species_(scene.effects.species, scene.radius),
       place_(scene.discs_file.empty() && scene.discs_from.empty() ? scene.name : discs_path(scene)),
-      lines_(std::make_unique<Lines>(stream,
-                                     scene.discs_file.empty() ? scene.lines_before_discs : 0)) {}
-
-DiscReader::~DiscReader() = default;
+      lines_(stream, scene.discs_file.empty() ? scene.lines_before_discs : 0) {}
 
 bool DiscReader::read(std::vector<InputDisc>& chunk, std::size_t limit) {
     chunk.clear();
     std::string_view line;
-    while (chunk.size() < limit && n_problems_ < most_wrong_lines && lines_->next(line)) {
-        if (lines_->is_cut()) {
+    while (chunk.size() < limit && n_problems_ < most_wrong_lines && lines_.next(line)) {
+        if (lines_.is_cut()) {
             refuse(fmt::format("a line of more than {} characters", LineReader::longest_line));
             continue;
         }
-        if (lines_->line_number() == 1 && line.starts_with(byte_order_mark))
+        if (lines_.line_number() == 1 && line.starts_with(byte_order_mark))
             line.remove_prefix(byte_order_mark.size());
         InputDisc disc;
         if (!trimmed(line).empty() && parse(line, disc)) chunk.push_back(disc);
@@ -60,11 +51,11 @@ std::vector<Problem> DiscReader::problems() const {
             {place_, 0,
              fmt::format("and {} more lines with problems{}", n_problems_ - problems_.size(),
                          n_problems_ < most_wrong_lines ? "" : "; it was not read beyond them")});
-    if (lines_->is_endless())
+    if (lines_.is_endless())
         all.push_back(
-            {place_, lines_->line_number(), "this line does not end: it was not read beyond"});
-    if (lines_->has_failed())
-        all.push_back({place_, lines_->line_number(), "cannot be read beyond this line"});
+            {place_, lines_.line_number(), "this line does not end: it was not read beyond"});
+    if (lines_.has_failed())
+        all.push_back({place_, lines_.line_number(), "cannot be read beyond this line"});
     if (n_seen_ < scene_.n_discs) all.push_back({place_, 0, missing_ids()});
     return all;
 }
@@ -135,7 +126,7 @@ bool DiscReader::note_id(std::string_view word, DiscId& id) {
 void DiscReader::refuse(std::string text) {
     n_problems_ += 1;
     if (problems_.size() < most_problems)
-        problems_.push_back({place_, lines_->line_number(), std::move(text)});
+        problems_.push_back({place_, lines_.line_number(), std::move(text)});
 }
 
 std::uint64_t DiscReader::most_discs() const {

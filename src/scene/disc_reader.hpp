@@ -10,12 +10,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <istream>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/errors.hpp"
+#include "scene/line_reader.hpp"
 #include "scene/scene.hpp"
 
 namespace carrom {
@@ -29,7 +29,6 @@ public:
     /// Reads `stream`, which stands at the first disc; `stream` and `scene` must outlive the
     /// reader.
     DiscReader(std::istream& stream, const Scene& scene);
-    ~DiscReader();
 
     /// Replaces `chunk` by the next discs, at most `limit`; false once there are none left.
     bool read(std::vector<InputDisc>& chunk, std::size_t limit);
@@ -39,8 +38,6 @@ public:
     std::vector<Problem> problems() const;
 
 private:
-    class Lines;
-
     bool parse(std::string_view line, InputDisc& disc);
     bool has_seen(DiscId id) const { return id < seen_.size() && seen_[id]; }
     bool note_id(std::string_view word, DiscId& id);
@@ -52,7 +49,7 @@ private:
     const Scene& scene_;
     SpeciesTable species_;
     std::string place_;
-    std::unique_ptr<Lines> lines_;
+    LineReader lines_;
     std::vector<bool> seen_; ///< by id, as far as ids have come
     std::uint64_t n_seen_ = 0;
     std::vector<std::string_view> words_;

@@ -75,7 +75,7 @@ struct Key {
     std::vector<std::pair<std::string_view, std::string_view>> old_words = {}; ///< and new ones
     std::function<Value(const Scene&)> get = {}; ///< nothing where it is not to be written
     std::function<void(Scene&, const Value&)> set = {};
-    std::function<bool(const Scene&, const Scene&)> is_same = {};
+    std::function<bool(const Scene&, const Scene&)> compare = {}; ///< where values say too little
 
     using Names = std::vector<std::string_view>;
     Key&& by_default(std::string_view text) && { return fallback = text, std::move(*this); }
@@ -93,6 +93,9 @@ struct Key {
 
     std::string_view table() const { return std::string_view(name).substr(0, name.rfind('.')); }
     bool has_rows() const { return kind == Kind::rows || kind == Kind::tables; }
+    bool is_same(const Scene& a, const Scene& b) const {
+        return compare ? compare(a, b) : get(a) == get(b);
+    }
     bool has_meaning(const Scene& scene) const { return !need || need->holds(scene); }
 };
 

@@ -180,9 +180,6 @@ Key key(std::string name, std::string_view unit, std::string_view help, const Ge
             add_words<typename Member::value_type>(declared);
     declared.get = [member](const Scene& scene) { return value_of(member(scene)); };
     declared.set = [member](Scene& scene, const Value& value) { assign(member(scene), value); };
-    declared.is_same = [member](const Scene& a, const Scene& b) {
-        return value_of(member(a)) == value_of(member(b));
-    };
     return declared;
 }
 
@@ -212,11 +209,6 @@ Key flags_key(std::string name, std::string_view unit, std::string_view help, co
             flag.of(member(scene)) = std::any_of(words.begin(), words.end(), [&](const Value& one) {
                 return std::get<std::string>(one.data) == flag.word;
             });
-    };
-    declared.is_same = [member, flags](const Scene& a, const Scene& b) {
-        Object first = member(a), second = member(b);
-        return std::all_of(flags.begin(), flags.end(),
-                           [&](const auto& flag) { return flag.of(first) == flag.of(second); });
     };
     return declared;
 }

@@ -130,7 +130,7 @@ Key list_key() {
                   .with_rows({{"", "[x, y, vx, vy] or [x, y, vx, vy, radius, mass]", 4, 7}});
     key.get = get_list;
     key.set = set_list;
-    key.is_same = [](const Scene& a, const Scene& b) { return a.listed_discs == b.listed_discs; };
+    key.compare = [](const Scene& a, const Scene& b) { return a.listed_discs == b.listed_discs; };
     return key;
 }
 
@@ -146,7 +146,7 @@ Key species_key() {
                   .with_rows(fields);
     key.get = get_species;
     key.set = set_species;
-    key.is_same = [](const Scene& a, const Scene& b) {
+    key.compare = [](const Scene& a, const Scene& b) {
         return a.effects.species == b.effects.species;
     };
     return key;
@@ -163,7 +163,6 @@ Key packing_key() {
                   .excludes({"discs.radius"});
     key.get = [](const Scene&) { return Value{}; };
     key.set = [](Scene&, const Value&) {};
-    key.is_same = [](const Scene&, const Scene&) { return true; };
     return key;
 }
 

@@ -26,7 +26,6 @@ Key choice(std::string name, std::string_view help, std::vector<std::string_view
         return word.empty() ? Value{} : Value{word};
     };
     key.set = [take](Scene& s, const Value& value) { take(s, std::get<std::string>(value.data)); };
-    key.is_same = [word_of](const Scene& a, const Scene& b) { return word_of(a) == word_of(b); };
     return key;
 }
 
@@ -37,9 +36,6 @@ Key collision_log() {
     key.get = [](const Scene& s) { return Value{s.collisions.has_value()}; };
     key.set = [](Scene& s, const Value& value) {
         if (std::get<bool>(value.data)) s.collisions.emplace();
-    };
-    key.is_same = [](const Scene& a, const Scene& b) {
-        return a.collisions.has_value() == b.collisions.has_value();
     };
     return key;
 }

@@ -171,6 +171,10 @@ refuse 'wrong options and a wrong scene at once' $'--threads: must be\n--set dis
     run good.toml --threads none --set discs.count=-1
 
 # Places to write to.
+for output in output.checkpoint.keep=1 output.collisions=true output.trajectory.every_steps=1; do
+    refuse "$output without a folder" "good.toml: 'output.folder' is missing: the folder for what" \
+        run good.toml --set $output
+done
 run "$ranks" run good.toml --report nowhere/report.json
 expect_code 2 'a report in a folder that is not there'
 expect_told '--report nowhere/report.json: cannot be written' \

@@ -18,6 +18,11 @@ def is_progress(line: str) -> bool:
     return _STEP.match(line) is not None
 
 
+def is_interactive() -> bool:
+    """Whether somebody sees standard error: on a terminal or in a notebook."""
+    return sys.stderr.isatty() or "ipykernel" in sys.modules
+
+
 @contextmanager
 def progress_display(wanted: bool | Callable[[int, int], None] | None) -> Iterator[Show]:
     """Give a function that shows a line of progress. The line is wiped at the end."""
@@ -25,7 +30,7 @@ def progress_display(wanted: bool | Callable[[int, int], None] | None) -> Iterat
         yield _caller(wanted)
         return
     if wanted is None:
-        wanted = sys.stderr.isatty() or "ipykernel" in sys.modules
+        wanted = is_interactive()
     if not wanted:
         yield lambda line: None
         return

@@ -25,7 +25,7 @@ from carrom.errors import (
 from carrom.process import Process
 from carrom.program import find_launcher, find_program
 from carrom.progress import progress_display
-from carrom.runs import Run
+from carrom.runs import SCENE_FILES, Run
 from carrom.scene import SceneLike, flattened, read_scene, scene_file, set_words
 
 ProgressLike = bool | Callable[[int, int], None] | None
@@ -186,7 +186,7 @@ def _prepared(folder: Path, is_new: bool, overwrite: bool = False) -> Iterator[P
 
 def _scene_files(folder: Path) -> list[tuple[str, int, int]]:
     """What changes when the program begins a run in a folder."""
-    paths = [folder / name for name in ("scene.toml", "scene.in")]
+    paths = [folder / name for name in SCENE_FILES]
     stats = [(path.name, path.stat()) for path in paths if path.exists()]
     return [(name, stat.st_ino, stat.st_mtime_ns) for name, stat in stats]
 

@@ -20,6 +20,8 @@ from carrom.scene import flattened, parsed, read_scene
 from carrom.tables import Table, Tables
 
 _COLLISIONS = "carrom/collisions"
+SCENE_FILES = ("scene.toml", "scene.in")
+"""A run keeps a copy of its scene under one of these names."""
 _IN_REPORTS = {"first_step", "steps", "state_hash"}
 
 
@@ -62,7 +64,7 @@ class Run:
         """The scene, with what the command line set. Legacy text has no keys: {}."""
         if self.folder is None:
             return self._scene_of_file()
-        for name in ("scene.toml", "scene.in"):
+        for name in SCENE_FILES:
             if (self.folder / name).exists():
                 return read_scene(self.folder / name)
         raise NoDataError(f"{self.name}: has no scene.toml")
@@ -247,7 +249,7 @@ def read_lines(
         raise FileError(f"{path}: are no lines of discs: {error}") from None
 
 
-_SIGNS_OF_A_RUN = ("scene.toml", "scene.in", "report.json", "checkpoints", "trajectory.h5")
+_SIGNS_OF_A_RUN = (*SCENE_FILES, "report.json", "checkpoints", "trajectory.h5")
 
 
 def open_run(path: str | os.PathLike[str]) -> Run:

@@ -206,7 +206,7 @@ def scene_file(scene: SceneLike, overrides: Mapping[str, Any], folder: Path) -> 
         yield SceneFile(Path(scene), words)
         return
     if isinstance(scene, Mapping):
-        text = to_toml(_with_absolute_files(merged(scene, overrides)))
+        text = to_toml(with_absolute_files(merged(scene, overrides)))
         words = []
     else:
         text = str(scene)
@@ -240,11 +240,11 @@ def set_words(overrides: Mapping[str, Any]) -> list[str]:
     return words
 
 
-def _with_absolute_files(scene: dict[str, Any]) -> dict[str, Any]:
-    """Name `discs.file` from the working folder: the program looks beside the scene."""
+def with_absolute_files(scene: dict[str, Any], beside: Path = Path()) -> dict[str, Any]:
+    """Name `discs.file` in full: the program looks beside the scene that it is given."""
     discs = scene.get("discs")
     if isinstance(discs, dict) and isinstance(discs.get("file"), str | os.PathLike):
-        discs["file"] = str(Path(discs["file"]).absolute())
+        discs["file"] = str((beside / discs["file"]).absolute())
     return scene
 
 

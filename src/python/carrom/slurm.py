@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from carrom.errors import CarromError, ProgramNotFoundError
-from carrom.scene import set_words
-from carrom.sweeps import Point, write_scene
+from carrom.runs import SCENE_FILES
+from carrom.scene import set_words, to_toml
+from carrom.sweeps import Point
 
 _SCRIPT = r"""#!/bin/bash
 # Runs line SLURM_ARRAY_TASK_ID of {commands}. Written by carrom.sweep.
@@ -96,7 +97,7 @@ def _command(
     else:
         (folder / "scenes").mkdir(exist_ok=True)
         scene = folder / "scenes" / f"{point.name}.toml"
-        write_scene(point, scene)
+        scene.write_text(to_toml(point.scene), encoding="utf-8")
         words = [str(scene)]
     launch = [launcher, "-n", str(ranks)] if ranks > 1 else []
     start = [*launch, str(program), "run"]
@@ -104,7 +105,7 @@ def _command(
     begin = shlex.join(["exec", *start, *words, *common])
     steps = [] if point.steps is None else ["--steps", str(point.steps)]
     resume = shlex.join(["exec", *start, "--resume", *common, *steps])
-    begun = shlex.join(["ls", *(str(run_folder / name) for name in ("scene.toml", "scene.in"))])
+    begun = shlex.join(["ls", *(str(run_folder / name) for name in SCENE_FILES)])
     return f"{{ if {begun} 2>/dev/null | grep -q .; then {resume}; else {begin}; fi; }}"
 
 

@@ -16,6 +16,7 @@ from typing import Any
 from carrom.errors import CarromError
 from carrom.process import process_watch
 from carrom.program import find_launcher, find_program
+from carrom.progress import is_interactive
 from carrom.running import resume, run
 from carrom.scene import SceneLike
 from carrom.slurm import submit
@@ -93,7 +94,7 @@ def _run_all(
     sweep: Sweep, points: Sequence[Point], workers: int, jobs: dict[str, Any], progress: bool | None
 ) -> None:
     """Run points side by side. Ctrl-C lets all runs store a checkpoint."""
-    is_shown = progress if progress is not None else _is_interactive()
+    is_shown = progress if progress is not None else is_interactive()
     stop = threading.Event()
     with concurrent.futures.ThreadPoolExecutor(workers) as pool:
         futures = {pool.submit(_run_point, point, jobs, stop): point for point in points}
@@ -123,10 +124,6 @@ def _completed(futures: Iterable[Future[None]]) -> Iterator[Future[None]]:
             waiting, timeout=0.2, return_when=concurrent.futures.FIRST_COMPLETED
         )
         yield from done
-
-
-def _is_interactive() -> bool:
-    return sys.stderr.isatty() or "ipykernel" in sys.modules
 
 
 def _run_point(point: Point, jobs: dict[str, Any], stop: threading.Event) -> None:

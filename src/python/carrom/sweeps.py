@@ -15,10 +15,18 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from carrom.errors import CarromError, FileError, NoDataError, ProgramError
+from carrom.errors import CarromError, FileError, NoDataError
 from carrom.physics import average, compressibility
-from carrom.runs import Run
-from carrom.scene import SceneLike, flattened, is_text, merged, read_scene, to_toml, toml_value
+from carrom.runs import SCENE_FILES, Run
+from carrom.scene import (
+    SceneLike,
+    flattened,
+    is_text,
+    merged,
+    read_scene,
+    toml_value,
+    with_absolute_files,
+)
 from carrom.tables import Table
 
 Quantity = Callable[[Run], float | tuple[float, float]]
@@ -109,7 +117,7 @@ class Point:
     @property
     def has_begun(self) -> bool:
         """Whether the folder has a run."""
-        return any((self.folder / name).exists() for name in ("scene.toml", "scene.in"))
+        return any((self.folder / name).exists() for name in SCENE_FILES)
 
     def _check(self, run: Run) -> None:
         wanted = self.scene if isinstance(self.scene, dict) else merged({}, self.overrides)
@@ -252,7 +260,8 @@ def grid_points(
     if repeats > 1 and "discs.seed" in keys:
         raise ValueError("repeats choose seeds: discs.seed cannot be in the grid too")
     is_legacy = _is_legacy(scene)
-    base = {} if is_legacy else _with_files(read_scene(scene), scene)
+    beside = Path() if isinstance(scene, Mapping) or is_text(scene) else Path(scene).parent
+    base = {} if is_legacy else with_absolute_files(read_scene(scene), beside)
     for combination in itertools.product(*keys.values()):
         values = dict(zip(keys, combination, strict=True))
         all_set = flattened(overrides) | values
@@ -312,28 +321,7 @@ def _is_legacy(scene: SceneLike) -> bool:
     return not os.fspath(scene).endswith(".toml")
 
 
-def _with_files(scene: dict[str, Any], source: SceneLike) -> dict[str, Any]:
-    """Name `discs.file` in full: points are run from elsewhere."""
-    discs = scene.get("discs", {})
-    if isinstance(discs, dict) and "file" in discs:
-        beside = Path() if isinstance(source, Mapping) or is_text(source) else Path(source).parent
-        discs["file"] = str((beside / discs["file"]).absolute())
-    return scene
-
-
 def _word(value: Any) -> str:
     """Write a value for the name of a folder."""
     text = value if isinstance(value, str) else toml_value(value)
     return text if _PLAIN.fullmatch(text) else f"{zlib.crc32(text.encode()):08x}"
-
-
-def write_scene(point: Point, path: Path) -> None:
-    """Write the scene of a point as TOML."""
-    if isinstance(point.scene, Path):
-        raise TypeError(f"{point.scene}: legacy text is no TOML")
-    path.write_text(to_toml(point.scene), encoding="utf-8")
-
-
-def describe(error: Exception) -> str:
-    """Return the last line of an error."""
-    return error.lines[-1] if isinstance(error, ProgramError) and error.lines else str(error)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "catch.hpp"
@@ -17,9 +18,17 @@ struct Checked {
     std::vector<Problem> problems;
 };
 
-Checked checked(const RunWords& words) {
+/// Options that are numbers, and their words.
+using Words = std::vector<std::pair<std::string, std::string>>;
+
+Checked checked(const Words& words, RunOptions given = {}) {
     Checked result;
-    result.options = checked_run_options(words, result.problems);
+    const std::vector<Option> options = run_options(given);
+    for (const auto& [name, word] : words)
+        for (const Option& option : options)
+            if (option.name == name)
+                std::get<TakeWord>(option.value)(option.name, word, result.problems);
+    result.options = completed(given, result.problems);
     return result;
 }
 
@@ -55,25 +64,22 @@ TEST_CASE("Options that are not given keep their defaults") {
 }
 
 TEST_CASE("Steps are an override like any other, and the last word") {
-    RunWords words;
-    words.overrides = {"time.steps=3", "box.size=4"};
-    words.steps = "12";
-    const auto [options, problems] = checked(words);
+    RunOptions given;
+    given.overrides = {"time.steps=3", "box.size=4"};
+    const auto [options, problems] = checked({{"--steps", "12"}}, given);
     CHECK(problems.empty());
     CHECK(options.overrides ==
           std::vector<std::string>{"time.steps=3", "box.size=4", "time.steps=12"});
 }
 
 TEST_CASE("Every wrong option is told, each by its name") {
-    RunWords words;
-    words.threads = "0";
-    words.steps = "1.5";
-    words.digits = "18";
-    words.window = "nan";
-    words.cell_width = "0";
-    words.rebalance_every = "-1";
-    words.rebalance_above = "x";
-    const auto [options, problems] = checked(words);
+    const auto [options, problems] = checked({{"--threads", "0"},
+                                              {"--steps", "1.5"},
+                                              {"--digits", "18"},
+                                              {"--window", "nan"},
+                                              {"--cell-width", "0"},
+                                              {"--rebalance-every", "-1"},
+                                              {"--rebalance-above", "x"}});
     std::vector<std::string> places;
     for (const Problem& problem : problems) places.push_back(problem.place);
     std::sort(places.begin(), places.end());
@@ -83,12 +89,9 @@ TEST_CASE("Every wrong option is told, each by its name") {
 }
 
 TEST_CASE("A window may be a hundred-thousandth of a micro-step, and no shorter") {
-    RunWords words;
-    words.window = "1e-5";
-    CHECK(checked(words).problems.empty());
+    CHECK(checked({{"--window", "1e-5"}}).problems.empty());
     for (const char* wrong : {"0.99e-5", "1e-300", "0", "-1", "inf"}) {
-        words.window = wrong;
-        const auto [options, problems] = checked(words);
+        const auto [options, problems] = checked({{"--window", wrong}});
         REQUIRE(problems.size() == 1);
         CHECK(problems[0].text.find("a number from 1e-05 on") != std::string::npos);
         CHECK_FALSE(options.tuning.window.has_value());
@@ -96,9 +99,8 @@ TEST_CASE("A window may be a hundred-thousandth of a micro-step, and no shorter"
 }
 
 TEST_CASE("Zero is a number of steps, and switches rebalancing off or on at every look") {
-    RunWords words;
-    words.steps = words.rebalance_every = words.rebalance_above = "0";
-    const auto [options, problems] = checked(words);
+    const auto [options, problems] = checked(
+        {{"--steps", "0"}, {"--rebalance-every", "0"}, {"--rebalance-above", "0"}});
     CHECK(problems.empty());
     CHECK(options.overrides == std::vector<std::string>{"time.steps=0"});
     CHECK(options.tuning.rebalance_every == 0);

@@ -306,13 +306,11 @@ TEST_CASE("Outputs to files are read and checked") {
     CHECK(!plain.collisions);
 
     for (const char* wrong :
-         {"[output.checkpoint]\nkeep = 1", "[output]\nfolder = ''", "[output]\ncollisions = true",
-          "[output]\nfolder = 'a'\n[output.checkpoint]\nkeep = 0",
+         {"[output]\nfolder = ''", "[output]\nfolder = 'a'\n[output.checkpoint]\nkeep = 0",
           "[output]\nfolder = 'a'\n[output.checkpoint]\nevery_steps = 0",
           "[output]\nfolder = 'a'\n[output.checkpoint]\nevery_minutes = 0",
           "[output]\nfolder = 'a'\n[output.checkpoint]\nat_end = 1",
           "[output]\nfolder = 'a'\n[output.checkpoint]\nevery = 1",
-          "[output.trajectory]\nevery_steps = 1",
           "[output]\nfolder = 'a'\n[output.trajectory]\nfields = ['mass']",
           "[output]\nfolder = 'a'\n[output.trajectory]\nfields = [1]",
           "[output]\nfolder = 'a'\n[output.trajectory]\nfields = []",

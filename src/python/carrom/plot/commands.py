@@ -8,10 +8,12 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from carrom import plot
 from carrom.errors import CarromError
+from carrom.plot.sources import COLOURS
+from carrom.scene import read_scene
 
 Options = argparse.Namespace
-_COLOURS = ("speed", "vx", "vy", "spin", "strip", "species")
 
 
 def main(words: Sequence[str] | None = None) -> int:
@@ -66,7 +68,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _add_look(command: Any) -> None:
-    command.add_argument("--colour", choices=_COLOURS, default="speed")
+    command.add_argument("--colour", choices=COLOURS, default="speed")
     command.add_argument("--ranks", type=int, default=4, help="how many strips; default 4")
     command.add_argument(
         "--view", type=float, nargs=4, metavar=("X0", "Y0", "X1", "Y1"), help="part of the box"
@@ -78,8 +80,6 @@ def _add_look(command: Any) -> None:
 
 
 def _look(options: Options) -> dict[str, Any]:
-    from carrom.scene import read_scene
-
     return {
         "colour": options.colour,
         "ranks": options.ranks,
@@ -94,46 +94,27 @@ def _save(axes: Any, options: Options) -> None:
 
 
 def _frame(options: Options) -> None:
-    from carrom import plot
-
     _save(plot.frame(options.source, options.step, **_look(options)), options)
 
 
 def _movie(options: Options) -> None:
-    from carrom import plot
-
-    look = _look(options)
-    plot.movie(
-        options.source,
-        options.output,
-        every=options.every,
-        rate=options.rate,
-        dpi=options.dpi,
-        **look,
-    )
+    timing = {"every": options.every, "rate": options.rate, "dpi": options.dpi}
+    plot.movie(options.source, options.output, **timing, **_look(options))
 
 
 def _history(options: Options) -> None:
-    from carrom import plot
-
     _save(plot.history(options.source)[0], options)
 
 
 def _measurements(options: Options) -> None:
-    from carrom import plot
-
     _save(plot.measurements(options.source)[0], options)
 
 
 def _gr(options: Options) -> None:
-    from carrom import plot
-
     _save(plot.radial_distribution(options.source, in_diameters=options.in_diameters), options)
 
 
 def _eos(options: Options) -> None:
-    from carrom import plot
-
     _save(plot.equation_of_state(options.source), options)
 
 

@@ -31,10 +31,6 @@ def _curve(steps: Any, values: Any, source: str) -> Curve:
     }
 
 
-def _nothing(remedy: str) -> Curve:
-    return {"steps": [], "values": [], "source": remedy}
-
-
 def steps_of(frames: Frames | Checkpoints) -> list[int]:
     """Return the steps of frames, without opening checkpoints that say it in their names."""
     if isinstance(frames, Frames):
@@ -87,7 +83,7 @@ class Curves:
     def _energy(self) -> Curve:
         known = sorted((step, e) for step, (e, _) in self._of_frames.items() if e == e)
         if not known:
-            return _nothing("no frames with velocities yet")
+            return _curve((), (), "no frames with velocities yet")
         steps, energies = zip(*known, strict=True)
         return _curve(steps, energies, "kinetic energy of frames")
 
@@ -127,8 +123,10 @@ class Curves:
             return _curve(middles, rates, "the log of collisions")
         known = sorted((s, n) for s, (_, n) in self._of_frames.items() if n is not None)
         if len(known) < 2:
-            return _of_report(run, "collision_frequency") or _nothing(
-                "needs output.collisions, or frames or checkpoints with counters of collisions"
+            return _of_report(run, "collision_frequency") or _curve(
+                (),
+                (),
+                "needs output.collisions, or frames or checkpoints with counters of collisions",
             )
         steps, means = (np.array(column) for column in zip(*known, strict=True))
         rates = np.diff(means) / np.diff(steps)
@@ -144,8 +142,8 @@ class Curves:
             is_wall = ~np.isnan(sides).all(axis=1)
             steps = (table["from_step"] + table["to_step"]) / 2
             return _curve(steps, sides[is_wall].mean(axis=0), "mean over the walls")
-        return _of_report(run, "virial_pressure") or _nothing(
-            'needs "wall_pressure" among output.measurements.quantities'
+        return _of_report(run, "virial_pressure") or _curve(
+            (), (), 'needs "wall_pressure" among output.measurements.quantities'
         )
 
 

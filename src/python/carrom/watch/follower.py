@@ -11,12 +11,14 @@ from __future__ import annotations
 import hashlib
 import threading
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from carrom.errors import CarromError, FileError, NoDataError
 from carrom.frames import Frames
-from carrom.runs import Checkpoints, Run, open_run
+from carrom.runs import SCENE_FILES, Checkpoints, Run, open_run
 from carrom.scene import flattened
 from carrom.watch.curves import Curves, steps_of
 from carrom.watch.picture import View, picture
@@ -25,7 +27,6 @@ from carrom.watch.progress import Rate, is_being_written, legacy_steps
 _SHARE = 0.01  # of one core
 _LEAST_PAUSE = 1.0
 _LONGEST_PAUSE = 120.0
-_SCENES = ("scene.toml", "scene.in")
 
 
 class Follower:
@@ -57,12 +58,19 @@ class Follower:
 
         The page knows the first `n_known` frames, of which the last is of step `last_known`.
         """
+        with self._looking():
+            return self._state(n_known, last_known)
+
+    @contextmanager
+    def _looking(self, *, is_counted: bool = True) -> Iterator[None]:
+        """Keep other threads out, and measure the processor's time."""
         with self._lock:
             begin = time.thread_time()
             try:
-                return self._state(n_known, last_known)
+                yield
             finally:
-                self._spent += time.thread_time() - begin
+                if is_counted:
+                    self._spent += time.thread_time() - begin
 
     def _state(self, n_known: int, last_known: int) -> dict[str, Any]:
         self._find_run()
@@ -100,9 +108,15 @@ class Follower:
             if self.path.exists() and not self.path.is_dir():
                 raise
 
+    def _begun_run(self) -> Run:
+        self._find_run()
+        if self._run is None:
+            raise NoDataError("no run has begun here yet")
+        return self._run
+
     def _identity_now(self) -> str:
         """Text that changes with the scene. A run that is gone on with may write the same again."""
-        for name in _SCENES:
+        for name in SCENE_FILES:
             try:
                 return hashlib.sha256((self.path / name).read_bytes()).hexdigest()[:16]
             except OSError:
@@ -161,37 +175,24 @@ class Follower:
 
     def curves(self) -> dict[str, Any]:
         """Return the curves as far as they have been read; see `Curves`."""
-        with self._lock:
-            begin = time.thread_time()
-            try:
-                self._find_run()
-                if self._run is None:
-                    raise NoDataError("no run has begun here yet")
-                frames, _ = self._frames()
-                n_discs = frames[-1].n_discs if len(frames) else 0
-                seconds = 0.05 if self._is_running() else 0.5
-                return self._curves.look(self._run, frames, n_discs, seconds)
-            finally:
-                self._spent += time.thread_time() - begin
+        with self._looking():
+            run = self._begun_run()
+            frames, _ = self._frames()
+            n_discs = frames[-1].n_discs if len(frames) else 0
+            seconds = 0.05 if self._is_running() else 0.5
+            return self._curves.look(run, frames, n_discs, seconds)
 
     def frame(
         self, step: int, colour: str, view: View | None, follows: bool
     ) -> tuple[dict[str, Any], bytes]:
         """Return the picture of a step. What a reader plays back is not counted as following."""
-        with self._lock:
-            begin = time.thread_time()
-            try:
-                self._find_run()
-                if self._run is None:
-                    raise NoDataError("no run has begun here yet")
-                frames, _ = self._frames()
-                steps = steps_of(frames)
-                if step not in steps:
-                    raise NoDataError(f"there is no frame of step {step} (any more)")
-                return picture(frames[steps.index(step)], colour, view)
-            finally:
-                if follows:
-                    self._spent += time.thread_time() - begin
+        with self._looking(is_counted=follows):
+            self._begun_run()
+            frames, _ = self._frames()
+            steps = steps_of(frames)
+            if step not in steps:
+                raise NoDataError(f"there is no frame of step {step} (any more)")
+            return picture(frames[steps.index(step)], colour, view)
 
 
 def _message(status: str, steps: list[int], is_trajectory: bool, step: int, path: Path) -> str:
