@@ -20,12 +20,11 @@ constexpr std::size_t rows_at_once = 1 << 18;
 constexpr std::array column_names = {"step", "time", "p", "q", "impulse"};
 using Words = std::array<std::uint64_t, column_names.size()>;
 constexpr std::size_t time_column = 1, impulse_column = 4; // of real numbers
-constexpr const char* log_path = "/carrom/collisions/";
 
 std::vector<RecordedColumn> recorded_columns(const RecordedSystem& system) {
     std::vector<RecordedColumn> recorded;
     for (const char* name : column_names)
-        recorded.push_back({std::string(log_path) + name, H5T_STD_I64LE, {}});
+        recorded.push_back({std::string(h5md::collisions_path) + name, H5T_STD_I64LE, {}});
     recorded[time_column].type = recorded[impulse_column].type = H5T_IEEE_F64LE;
     recorded[time_column].unit = h5md::unit_of(system, 0, 1);
     return recorded;
@@ -66,9 +65,11 @@ CollisionLog::~CollisionLog() = default;
 void CollisionLog::begin() { file_->begin(); }
 
 bool CollisionLog::go_on(std::int64_t step) {
-    return file_->go_on(std::string(log_path) + column_names[0], step, [&](hid_t file) {
-        if (!h5::has(file, "/carrom/collisions")) throw FileError("is no log of collisions");
-    });
+    return file_->go_on(std::string(h5md::collisions_path) + column_names[0], step,
+                        [&](hid_t file) {
+                            if (!h5::has(file, "/carrom/collisions"))
+                                throw FileError("is no log of collisions");
+                        });
 }
 
 void CollisionLog::commit() { file_->commit(); }

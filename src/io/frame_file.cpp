@@ -22,7 +22,6 @@ struct ColumnSource {
 namespace {
 
 constexpr std::size_t longest_word = 1000;
-constexpr const char *discs_path = "/particles/discs/", *log_path = "/carrom/collisions/";
 
 /// In the order of FileSummary::columns.
 std::vector<ColumnSource> sources_of_frames() {
@@ -39,14 +38,15 @@ std::vector<ColumnSource> sources_of_frames() {
                                          {"image_y", "image", 3, 1}};
     for (const SideColumnInfo& info : side_column_table)
         sources.push_back({info.shown, info.shown, 1, 0});
-    for (ColumnSource& source : sources) source.dataset = discs_path + source.dataset + "/value";
+    for (ColumnSource& source : sources)
+        source.dataset = h5md::discs_path + source.dataset + "/value";
     return sources;
 }
 
 std::vector<ColumnSource> sources_of_logs() {
     std::vector<ColumnSource> sources;
     for (const char* name : {"step", "time", "p", "q", "impulse"})
-        sources.push_back({name, std::string(log_path) + name});
+        sources.push_back({name, std::string(h5md::collisions_path) + name});
     return sources;
 }
 

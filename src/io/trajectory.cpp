@@ -21,7 +21,6 @@ namespace carrom {
 namespace {
 
 constexpr std::uint64_t discs_at_a_time = std::uint64_t{1} << 16;
-constexpr const char* discs_path = "/particles/discs/";
 
 /// Where a disc's numbers stand among its words. A vector's third component is 0.
 enum Place : std::size_t {
@@ -82,7 +81,7 @@ std::vector<RecordedColumn> columns_of(const TrajectoryLayout& layout) {
     for (const Field& field : fields_of(layout)) {
         std::vector<hsize_t> row = {layout.system.n_discs};
         if (field.width > 1) row.push_back(field.width);
-        columns.push_back({discs_path + field.name + "/value", field.type, row, field.unit});
+        columns.push_back({h5md::discs_path + field.name + "/value", field.type, row, field.unit});
     }
     columns.push_back({h5md::step_path, H5T_STD_I64LE, {}});
     columns.push_back({h5md::time_path, H5T_IEEE_F64LE, {}, h5md::unit_of(layout.system, 0, 1)});
@@ -97,7 +96,7 @@ void write_structure(hid_t file, const TrajectoryLayout& layout) {
     write_recorded_run(file, layout.run);
     static_cast<void>(h5::create_group(file, "/particles/discs/box/edges"));
     for (const Field& field : fields_of(layout)) {
-        const h5::Group element = h5::create_group(file, discs_path + field.name);
+        const h5::Group element = h5::create_group(file, h5md::discs_path + field.name);
         for (const auto& [name, path] :
              {std::pair("step", h5md::step_path), std::pair("time", h5md::time_path)})
             h5::checked(H5Lcreate_soft(path, element.id(), name, H5P_DEFAULT, H5P_DEFAULT), name);
