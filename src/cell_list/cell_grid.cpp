@@ -56,7 +56,7 @@ GridGeometry make_geometry(const Extent& extent, Axis axis, double reach, std::s
     const double discs_per_reach = reach / std::max(sparse_width, reach * 1e-3);
     // Cells much smaller than that would be more to the reach of fast discs than an int counts.
     const double wanted = cell_width > 0 ? std::max(cell_width, 1e-6) * reach
-                                         : (discs_per_reach > 2.4 ? reach / 2 : reach);
+                                         : (discs_per_reach > 4 ? reach / 2 : reach);
     GridGeometry geometry;
     geometry.axis = axis;
     std::tie(geometry.low, geometry.across_low) = turned(axis, extent.x_low, extent.y_low);

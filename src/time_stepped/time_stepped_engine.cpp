@@ -13,8 +13,9 @@ namespace carrom {
 
 namespace {
 
-/// Room for discs that a window's collisions make faster, before it has to be cut short.
-constexpr double speed_allowance = 1.02;
+/// Room for discs that a window's collisions make faster, before it has to be cut short: in
+/// equilibrium, and after one that was.
+constexpr double least_allowance = 1.02, allowance_after_cut = 1.15;
 
 /// Threads with little to do cost more than they bring.
 Tuning with_useful_threads(Tuning tuning, const Scene& scene, const Communicator& communicator) {
@@ -54,6 +55,9 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::run_window(int n_lef
     }
     int m = window.first_micro;
     while (m < window.end_micro() && run_micro_step(window, m)) ++m;
+    speed_allowance_ = m < window.end_micro()
+                           ? allowance_after_cut
+                           : std::max(least_allowance, (1 + speed_allowance_) / 2);
     ++n_windows_;
     if (window.is_part()) {
         if (++part_ < n_parts_) return;
@@ -111,7 +115,7 @@ template <class Dynamics> Window TimeSteppedEngine<Dynamics>::choose(int n_left)
     Window window;
     window.first_micro = static_cast<int>(time_);
     if (part_ == 0) {
-        window_speed_ = largest_speed_ * speed_allowance;
+        window_speed_ = largest_speed_ * speed_allowance_;
         speed_exceeded_ = false;
         WindowChoice choice = choose_window(window_needs(), std::min(n_left, longest_window),
                                             tuning_.window);

@@ -69,6 +69,7 @@ private:
     int part_ = 0, n_parts_ = 1; ///< the next part of the present micro-step
     double refreshed_speed_ = 0; ///< the largest of all discs at the last sync, then 0 again
     double unchanged_until_ = 0; ///< no state has changed before it since the last migration
+    double speed_allowance_ = 1.02;  ///< of the next window, over the largest speed
     double hits_per_micro_step_ = 0; ///< per disc, over the last sync interval
     double window_speed_ = 0;        ///< what the window's reach allows for
     double usual_speed_ = 0;         ///< what its cells allow for
