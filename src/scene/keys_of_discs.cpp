@@ -282,7 +282,7 @@ std::vector<Key> keys_of_discs() {
             [](auto& s) -> auto& { return s.disc_columns; })
             .needs(listed)
             .excludes({"discs.list"}),
-        key("discs.speed", "length/step", "Root mean square of the generated speeds.",
+        key("discs.speed", "length/step", "Root mean square of the distribution of speeds.",
             [](auto& s) -> auto& { return s.speed; })
             .within({smallest_size, 0x1p-8 * largest_size, false, true})
             .needs(random_speeds),
