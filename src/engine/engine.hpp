@@ -94,7 +94,8 @@ protected:
     std::vector<Collision>* log_ = nullptr;
     WallImpulses* impulses_ = nullptr;
     PairVirial* virial_ = nullptr;
-    PairVirial no_virial_{1}; ///< where parts of it begin
+    /// Where parts of it begin. In its units all terms are 0 until somebody asks for them.
+    PairVirial no_virial_{0x1p900};
     std::vector<std::vector<Crossing>*> crossings_;
 };
 
