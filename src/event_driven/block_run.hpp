@@ -55,7 +55,7 @@ struct BlockGround {
     BlockWindow window;
     bool is_logged = false;
     const SideColumns* columns = nullptr; ///< by disc
-    PairVirial no_virial{1};              ///< where sums begin
+    PairVirial no_virial{0x1p900};        ///< where sums begin
 };
 
 /// The event history of a disc of a block's ring: 0 for no event, else a hash of times, partners
