@@ -15,9 +15,9 @@
 namespace carrom {
 
 /// The error is one standard error of the mean, by block averaging; NaN where there are too few
-/// blocks for one.
+/// blocks for one. Both are NaN where nothing is averaged.
 struct Estimate {
-    double value = 0;
+    double value = std::numeric_limits<double>::quiet_NaN();
     double error = std::numeric_limits<double>::quiet_NaN();
 };
 

@@ -45,11 +45,10 @@ nlohmann::ordered_json averages_json(const Averages& averages) {
 void add_thermodynamics(nlohmann::ordered_json& report, const Scene& scene,
                         const Averages& averages) {
     const auto estimate = [&averages](const Estimate& one) { return estimate_json(one, averages); };
-    const bool has_any = averages.steps > 0;
     report["radius"] = scene.radius;
     report["box"] = {scene.box.x, scene.box.y};
     report["eta"] = scene.packing();
-    report["kT"] = has_any ? number_or_null(averages.temperature.value) : nullptr;
+    report["kT"] = number_or_null(averages.temperature.value);
     report["temperature"] = estimate(averages.temperature);
     report["pressure"] = estimate(averages.pressure);
     report["compressibility"] = estimate(averages.compressibility);

@@ -69,8 +69,11 @@ std::string windows_text(const RollbackCounts& runs) {
         100 * ratio(static_cast<double>(runs.blocks_redone), static_cast<double>(runs.blocks)));
 }
 
+/// The error of what a run conserves is that of rounding, which is none of statistics.
 std::string estimate_text(const Estimate& estimate) {
     if (!(estimate.error >= 0)) return fmt::format("{:.5g}", estimate.value);
+    if (estimate.error <= 1e-12 * std::fabs(estimate.value))
+        return fmt::format("{:.7g}", estimate.value);
     return fmt::format("{:.7g} +- {:.1g}", estimate.value, estimate.error);
 }
 

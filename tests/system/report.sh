@@ -37,6 +37,12 @@ expect_value threads 2
 expect_told "$(json_value report.json state_hash)" 'the summary'
 [ "$(ls -A)" = report.json ] || complain "more than the report was written: $(ls -A)"
 
+run 1 run "$expected/three_discs.in" --steps 0 --quiet --report none.json
+expect_code 0 'a run of no steps'
+[ "$(json_value none.json kT)" = null ] || complain 'kT of no steps is not null'
+grep -q '"value": [^n]' none.json && complain 'an average of no steps is not null'
+rm none.json
+
 # Files that look like a report being written are somebody else's.
 printf 'precious\n' >victim
 ln -s victim report.json.partial

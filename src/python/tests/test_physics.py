@@ -55,3 +55,8 @@ def test_averages_that_a_scene_does_not_have_are_errors(program: Path, tmp_path:
     run = carrom.run(gas(steps=2, **half), folder=tmp_path / "half")
     with pytest.raises(carrom.NoDataError, match="the report has no virial_pressure"):
         carrom.average(run, "virial_pressure")
+    start = carrom.run(gas(steps=0), folder=tmp_path / "start")
+    with pytest.raises(carrom.NoDataError, match="the report has no compressibility"):
+        carrom.compressibility(start)
+    with pytest.raises(carrom.NoDataError, match="the report has no mean_speed"):
+        carrom.average(start, "mean_speed")

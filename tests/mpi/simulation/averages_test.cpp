@@ -211,6 +211,7 @@ TEST_CASE("averages: discs at rest, or none that collide, give numbers and no er
     Simulation simulation(test::scene_of(test),
                           world.is_root() ? test.discs : std::vector<InputDisc>{}, world, {});
     CHECK(simulation.averages().steps == 0);
+    CHECK(std::isnan(simulation.averages().pressure.value));
     simulation.advance_towards(1);
     const Averages averages = simulation.averages();
     CHECK(averages.wall_pressure.value == 0);

@@ -112,4 +112,32 @@ TEST_CASE("The report is JSON with the numbers of the result") {
     CHECK(report.at("state_hash") == "00000000000000000000000000000000");
 }
 
+TEST_CASE("What nothing is averaged of is null, with the reason") {
+    RunResult result = small_result();
+    result.averages = {};
+    const auto report = nlohmann::json::parse(report_text(small_scene(), result));
+    const auto& averages = report.at("averages");
+    CHECK(report.at("kT").is_null());
+    for (const auto* one :
+         {&report.at("temperature"), &report.at("pressure"), &report.at("pressure_tensor").at("xy"),
+          &report.at("compressibility"), &averages.at("mean_speed"),
+          &averages.at("collision_frequency"), &averages.at("wall_pressure")}) {
+        CHECK(one->at("value").is_null());
+        CHECK(one->at("error").is_null());
+        CHECK(one->at("without_error") == "nothing is averaged: no step came after the first one");
+    }
+}
+
+TEST_CASE("What is conserved is printed without an error, and keeps it in the report") {
+    RunResult result = small_result();
+    result.averages.steps = 50;
+    result.averages.temperature = {0.998, 2e-15};
+    result.averages.pressure = {0.5, 2e-12};
+    const std::string text = summary_text(small_scene(), result);
+    CHECK(text.find("kT = 0.998\n") != std::string::npos);
+    CHECK(text.find("P = 0.5 +- 2e-12") != std::string::npos);
+    const auto report = nlohmann::json::parse(report_text(small_scene(), result));
+    CHECK(report.at("temperature").at("error") == 2e-15);
+}
+
 } // namespace carrom
