@@ -20,6 +20,7 @@ public:
           n_times_(static_cast<std::size_t>(sums.correlation_steps / sums.every_steps) + 1) {}
 
     std::size_t n_times() const { return n_times_; }
+    std::size_t n_whole() const { return sums_.flights.size() / 3 / n_times_; }
     double steps(std::size_t time) const {
         return static_cast<double>(static_cast<std::int64_t>(time) * sums_.every_steps);
     }
@@ -97,7 +98,7 @@ MeasuredTable diffusion(const Windows& windows) {
 void add_diffusion_tables(const SampleSums& sums, std::vector<MeasuredTable>& tables) {
     const Windows windows(sums);
     tables.push_back(velocity_autocorrelation(windows));
-    tables.push_back(diffusion(windows));
+    if (windows.n_whole() > 0) tables.push_back(diffusion(windows));
 }
 
 } // namespace carrom

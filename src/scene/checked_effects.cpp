@@ -295,17 +295,36 @@ void check_wavenumber(const Check& check) {
                              least, reach(most_vectors), largest));
 }
 
+/// Without a whole window there is no coefficient of diffusion. A restart may come to its end, so
+/// that this is no error.
+void warn_of_short_run(Scene& scene) {
+    const MeasurementOutput& output = *scene.measurements;
+    const std::int64_t window = output.correlation_steps, steps = scene.steps - output.from_step;
+    if (scene.steps == 0 || steps < 0 || window <= steps) return;
+    const std::int64_t longest = steps / output.every_steps * output.every_steps;
+    const std::string remedy =
+        longest >= 2 * output.every_steps
+            ? fmt::format("correlation_steps = {} or less; an error takes four windows", longest)
+            : fmt::format("every_steps = {} or less", std::max(steps / 2, std::int64_t{1}));
+    scene.warnings.push_back(
+        fmt::format("no table of diffusion: its first window takes {} steps, and from step {} to "
+                    "the last one are {}; try: output.measurements.{}",
+                    window, output.from_step, steps, remedy));
+}
+
 void check_window(const Check& check) {
+    constexpr std::string_view key = "output.measurements.correlation_steps";
     Scene& scene = check.scene;
     if (!scene.measurements || !scene.measurements->diffusion) return;
     const std::int64_t every = scene.measurements->every_steps;
     std::int64_t& window = scene.measurements->correlation_steps;
-    if (!check.settings.has("output.measurements.correlation_steps")) window = 64 * every;
-    if (window >= 2 * every && window % every == 0) return;
-    check.refuse({"output.measurements.correlation_steps", quantities},
-                 fmt::format("'output.measurements.correlation_steps' must be a multiple of "
-                             "'output.measurements.every_steps' = {}, from {} on, not {}",
-                             every, 2 * every, window));
+    if (!check.settings.has(key)) window = 64 * every;
+    if (check.settings.has(key) && !check.settings.is_right(key)) return;
+    if (window >= 2 * every && window % every == 0) return warn_of_short_run(scene);
+    check.refuse({key, quantities},
+                 fmt::format("'{}' must be a multiple of 'output.measurements.every_steps' = {}, "
+                             "from {} on, not {}",
+                             key, every, 2 * every, window));
 }
 
 } // namespace
@@ -335,6 +354,7 @@ void check_times(const Check& check) {
                                  scene.effects.drag, longest_drag / interval));
     check_contact_time(check);
     check_samples(check);
+    check_window(check);
 }
 
 void check_room(const Check& check) {
@@ -347,7 +367,6 @@ void check_room(const Check& check) {
     check_obstacles(check);
     check_distance(check);
     check_wavenumber(check);
-    check_window(check);
 }
 
 } // namespace carrom
