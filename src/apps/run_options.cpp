@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "apps/number_words.hpp"
+#include "scene/overrides.hpp"
 
 namespace carrom {
 
@@ -67,10 +68,24 @@ std::vector<Option> run_options(RunOptions& run) {
     };
 }
 
+namespace {
+
+/// `--set KEY VALUE`: the value is a word too many then, and ends the run before a scene is read.
+void take_out_keys_alone(std::vector<std::string>& overrides, std::vector<Problem>& problems) {
+    std::erase_if(overrides, [&problems](const std::string& text) {
+        const bool is_alone = !text.empty() && text.find('=') == std::string::npos;
+        if (is_alone) problems.push_back({"--set " + text, 0, form_problem(text)});
+        return is_alone;
+    });
+}
+
+} // namespace
+
 RunOptions completed(RunOptions options, std::vector<Problem>& problems) {
     const auto set = [&options](const char* key, const auto& value) {
         options.overrides.push_back(fmt::format("{}={}", key, value));
     };
+    take_out_keys_alone(options.overrides, problems);
     if (!options.folder.empty()) set("output.folder", options.folder);
     if (options.accuracy) set("time.accuracy", *options.accuracy);
     if (options.steps) set("time.steps", *options.steps);

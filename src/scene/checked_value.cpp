@@ -61,6 +61,9 @@ private:
         refuse(fmt::format("'{}' must be {}, not {}", key_.name, kind_text(key_),
                            value_text(setting_.value)));
     }
+    void refuse_number(double number) {
+        refuse(fmt::format("'{}' must be {}, not {}", key_.name, kind_text(key_), number));
+    }
     template <class Type> void check_type() {
         if (!std::holds_alternative<Type>(setting_.value.data)) refuse_type();
     }
@@ -77,8 +80,7 @@ private:
         const auto number = as_number(setting_.value);
         if (!number) return refuse_type();
         setting_.value.data = *number;
-        if (!std::isfinite(*number))
-            return refuse(fmt::format("'{}' must be a finite number, not {}", key_.name, *number));
+        if (!std::isfinite(*number)) return refuse_number(*number);
         check_range(*number);
     }
     /// One number, or two that follow each other.
@@ -105,7 +107,7 @@ private:
         const auto number = as_number(setting_.value);
         if (!number) return refuse_type();
         if (!std::isfinite(*number) || *number != std::floor(*number))
-            return refuse(fmt::format("'{}' must be a whole number, not {}", key_.name, *number));
+            return refuse_number(*number);
         check_range(*number);
         if (setting_.is_wrong || std::holds_alternative<std::int64_t>(setting_.value.data)) return;
         if (*number >= 0x1p63)
@@ -263,10 +265,11 @@ std::string words_text(const std::vector<std::string_view>& words) {
 }
 
 std::string kind_text(const Key& key) {
+    const std::string bounds = range_text(key.range), range = bounds.empty() ? "" : ' ' + bounds;
     switch (key.kind) {
-    case Kind::number: return "a number";
-    case Kind::lengths: return "a number, or two, [Lx, Ly]";
-    case Kind::integer: return "a whole number";
+    case Kind::number: return "a number" + range;
+    case Kind::lengths: return fmt::format("a number{}, or two, [Lx, Ly]", range);
+    case Kind::integer: return "a whole number" + range;
     case Kind::flag: return "true or false";
     case Kind::text: return "text";
     case Kind::choice: return words_text(key.words);

@@ -12,7 +12,7 @@ namespace carrom {
 /// A wrong row of many becomes nothing.
 void check_value(const Key& key, Setting& setting, Problems& problems);
 
-/// "a number", "an array of [x, y, radius]".
+/// "a number greater than 0", "an array of [x, y, radius]".
 std::string kind_text(const Key& key);
 /// "from 0 to 1", "greater than 0"; empty where every number will do.
 std::string range_text(const Range& range);

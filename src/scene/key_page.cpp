@@ -49,12 +49,8 @@ std::string type_text(const Key& key) {
         }
         return "tables of " + list;
     }
-    case Kind::lengths: return fmt::format("a number {}, or two, [Lx, Ly]", range_text(key.range));
     case Kind::rows: return "rows " + std::string(key.fields[0].form);
-    default: {
-        const std::string range = range_text(key.range);
-        return kind_text(key) + (range.empty() ? "" : ' ' + range);
-    }
+    default: return kind_text(key);
     }
 }
 

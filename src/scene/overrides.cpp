@@ -30,6 +30,15 @@ void remove_keys_of_other_generators(Settings& settings, const Settings& given) 
     });
 }
 
+/// What is wrong in the input is told even where the command line replaces it.
+void check_replaced(Settings& settings, const Settings& given, Problems& problems) {
+    for (Setting& setting : settings.all()) {
+        const Key* key = find_key(setting.key);
+        if (key && !setting.is_wrong && given.is_right(setting.key))
+            check_value(*key, setting, problems);
+    }
+}
+
 /// What the command line says replaces what excludes it in the input.
 void remove_rivals(Settings& settings, const Settings& given) {
     for (const Key& key : keys()) {
@@ -42,6 +51,12 @@ void remove_rivals(Settings& settings, const Settings& given) {
 }
 
 } // namespace
+
+std::string form_problem(const std::string& text) {
+    const Key* key = find_key(trimmed(text));
+    return fmt::format("{} is not of the form key=value{}", in_quotes(text),
+                       key ? fmt::format("; its value is {}", kind_text(*key)) : "");
+}
 
 void add_overrides(Settings& settings, Problems& problems,
                    const std::vector<std::string>& overrides) {
@@ -56,8 +71,7 @@ void add_overrides(Settings& settings, Problems& problems,
                                            trimmed(std::string_view(text).substr(equals + 1)));
         const Key* key = find_key(name);
         if (equals == std::string::npos || name.empty()) {
-            add_problem(problems, place,
-                        fmt::format("{} is not of the form key=value", in_quotes(text)));
+            add_problem(problems, place, form_problem(text));
         } else if (text.find('\n') != std::string::npos) { // it is kept on a line of its own
             add_problem(problems, place,
                         fmt::format("must stand on one line, not {}", in_quotes(word)));
@@ -72,6 +86,7 @@ void add_overrides(Settings& settings, Problems& problems,
         }
     }
     remove_rivals(settings, given);
+    check_replaced(settings, given, problems);
     for (const Setting& setting : given.all())
         if (!setting.is_wrong || !settings.has(setting.key)) settings.set(setting);
 }

@@ -14,4 +14,7 @@ namespace carrom {
 void add_overrides(Settings& settings, Problems& problems,
                    const std::vector<std::string>& overrides);
 
+/// What is wrong with a text without a key or without `=`.
+std::string form_problem(const std::string& text);
+
 } // namespace carrom

@@ -113,6 +113,8 @@ TEST_CASE("A command line is refused for words that fit nowhere") {
     CHECK(refused_places({"carrom", "run", "--thread", "3", "a.in", "--steps", "-4"}) ==
           Places{"--thread", "--steps"});
     CHECK(refused_places({"carrom", "info", "a.h5", "b.h5"}) == Places{"b.h5"});
+    CHECK(refused_places({"carrom", "run", "a.in", "--set", "time.steps", "5"}) ==
+          Places{"5", "--set time.steps"});
     CHECK(refused_places({"carrom"}) == Places{"command line"});
     CHECK(refused_places({"carrom", "walk"}) == Places{"command line"});
     CHECK(refused_places({"carrom", "info"}) == Places{"command line"});

@@ -47,7 +47,8 @@ TEST_CASE("A box is a square of one length or a rectangle of two") {
 }
 
 TEST_CASE("What is no box gets one line with the key and what is accepted") {
-    const std::string accepted = "'box.size' must be a number, or two, [Lx, Ly], not ";
+    const std::string accepted = "'box.size' must be a number from 2^-230 to 2^250, or two, "
+                                 "[Lx, Ly], not ";
     CHECK(problem_of_size("[1]") == accepted + "an array of 1");
     CHECK(problem_of_size("[]") == accepted + "an array of 0");
     CHECK(problem_of_size("[1, 2, 3]") == accepted + "an array of 3");

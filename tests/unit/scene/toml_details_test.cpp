@@ -110,3 +110,48 @@ TEST_CASE("A wrong scene keeps what its lines of discs can be held to") {
     CHECK(partly("count = 2\nradius = 8\n[box]\nsize = 10") == std::vector<double>{2, 0, 0});
     CHECK(partly("count = 2\nradius = 1\n[box]\nsize = nan") == std::vector<double>{2, 0, 0});
 }
+
+TEST_CASE("A wrong value is told though the command line replaces it") {
+    CHECK(places_of(problems_in(with_line(7, "steps = -3"), {"time.steps=5"})) ==
+          Texts{"s.toml:7"});
+    CHECK(places_of(problems_in(with_line(7, "steps = 'ten'"), {"time.steps=-5"})) ==
+          Texts{"s.toml:7", "--set time.steps"});
+    CHECK(problems_in(with_line(7, "steps = 3"), {"time.steps=5"}).empty());
+}
+
+TEST_CASE("A message says what is accepted") {
+    const auto says = [](const std::string& override, const std::string& text) {
+        const auto problems = problems_in(good, {override});
+        return problems.size() == 1 && mentions(problems, text);
+    };
+    CHECK(says("time.steps", "'time.steps' is not of the form key=value; its value is a whole "
+                             "number from 0 to 2^53"));
+    CHECK(says("time.steps=2.5", "must be a whole number from 0 to 2^53, not 2.5"));
+    CHECK(says("time.steps=ten", "must be a whole number from 0 to 2^53, not 'ten'"));
+    CHECK(says("time.method=event", "must be \"time-stepped\" or \"event-driven\", not 'event'"));
+    CHECK(says("discs.radius=nan", "must be a number from 2^-230 to 2^250, not nan"));
+    CHECK(says("box.periodic=true", "try: box.left.kind = \"periodic\""));
+}
+
+TEST_CASE("A run too short for a window of diffusion is warned of, with what would fit") {
+    const auto warnings = [](Texts more) {
+        more.insert(more.end(), {"output.measurements.quantities=[\"diffusion\"]",
+                                 "output.measurements.every_steps=3", "output.folder=f"});
+        return read_scene(good, "s.toml", more).warnings;
+    };
+    const auto by_default = warnings({"time.steps=40"});
+    REQUIRE(by_default.size() == 1);
+    CHECK(by_default[0] ==
+          "no table of diffusion: its first window takes 192 steps, and from step 0 to the last "
+          "one are 40; try: output.measurements.correlation_steps = 39 or less; an error takes "
+          "four windows");
+    CHECK(warnings({"time.steps=40", "output.measurements.correlation_steps=39"}).empty());
+    CHECK(warnings({"time.steps=40", "output.measurements.correlation_steps=39",
+                    "output.measurements.from_step=2"})
+              .size() == 1);
+    CHECK(warnings({"time.steps=192"}).empty());
+    CHECK(warnings({"time.steps=0"}).empty()); // shows the start
+    const auto too_short = warnings({"time.steps=5"});
+    REQUIRE(too_short.size() == 1);
+    CHECK(too_short[0].ends_with("try: output.measurements.every_steps = 2 or less"));
+}

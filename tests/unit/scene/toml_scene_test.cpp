@@ -257,14 +257,27 @@ TEST_CASE("All problems of a scene come at once, in the order of lines, those of
     const auto problems = problems_in(
         text, {"box.sise=1", "time.steps=1.5", "nonsense", "effects.wind.speed=1", "box.size=abc"});
     for (const Problem& problem : problems) UNSCOPED_INFO(to_string(problem));
-    CHECK(places_of(problems) ==
-          Texts{"s.toml:2",       "s.toml:3",        "s.toml:5",
-                "s.toml:6",       "s.toml:7",        "s.toml:7",
-                "s.toml:8",       "s.toml:9",        "s.toml:10",
-                "s.toml:11",      "s.toml:13",       "s.toml:14",
-                "s.toml:18",      "s.toml:20",       "s.toml:22",
-                "--set box.sise", "--set nonsense",  "--set effects.wind.speed",
-                "--set box.size", "--set time.steps"});
+    CHECK(places_of(problems) == Texts{"s.toml:2",
+                                       "s.toml:3",
+                                       "s.toml:5",
+                                       "s.toml:6",
+                                       "s.toml:7",
+                                       "s.toml:7",
+                                       "s.toml:8",
+                                       "s.toml:9",
+                                       "s.toml:10",
+                                       "s.toml:11",
+                                       "s.toml:13",
+                                       "s.toml:14",
+                                       "s.toml:17",
+                                       "s.toml:18",
+                                       "s.toml:20",
+                                       "s.toml:22",
+                                       "--set box.sise",
+                                       "--set nonsense",
+                                       "--set effects.wind.speed",
+                                       "--set box.size",
+                                       "--set time.steps"});
     CHECK(mentions(problems, "did you mean 'box.size'?"));
     CHECK(mentions(problems, "did you mean 'region'?"));
     CHECK(mentions(problems, "no such key 'effects.charge'; [effects] has contact, gravity"));
