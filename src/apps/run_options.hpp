@@ -21,16 +21,18 @@ struct RunOptions {
     bool resume = false;    ///< go on in the folder of `output.folder`
     bool overwrite = false; ///< begin anew in a folder that has a run
     std::vector<std::string> overrides; ///< key=value, over what the input says
+
     int digits = round_trip_digits;
     std::string output; ///< a file for the lines of text; empty for standard output
     std::string report; ///< empty for none
-    std::string folder; ///< that the command line names; it is among the overrides too
+    std::string folder; ///< as the command line names it; also among the overrides
     bool quiet = false;
     bool check = false; ///< hold every step to its invariants
+
     std::optional<int> threads;
-    std::optional<std::int64_t> steps; ///< these two are among the overrides too
-    std::optional<double> accuracy;
-    Tuning tuning; ///< but for `threads`, which needs to know the machine
+    std::optional<std::int64_t> steps; ///< also among the overrides
+    std::optional<double> accuracy;    ///< also among the overrides
+    Tuning tuning;                     ///< but for `threads`, which needs to know the machine
 };
 
 /// The options of `carrom run`, which set `run`; it must live as long.

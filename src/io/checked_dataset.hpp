@@ -14,9 +14,9 @@ namespace carrom::h5 {
 /// The axes that a data set must have; where there is none any length will do.
 using Shape = std::vector<std::optional<hsize_t>>;
 
-/// Opens a data set to be read. Throws FileError unless it is of that shape, if one is given, of
-/// numbers or of a text of fixed length, and all of it lies in this file, or in segments in the
-/// folder of this file that have room for it.
+/// Opens a data set to be read. It must have that shape, if one is given. It must be of numbers or
+/// of a text of fixed length. All of it must lie in this file, or in segments in the folder of this
+/// file that have room for it. Throws FileError where it is not so.
 Dataset open_checked(hid_t parent, const std::string& name,
                      const std::optional<Shape>& shape = std::nullopt);
 

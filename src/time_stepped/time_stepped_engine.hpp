@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The time-stepped method on ranks and threads. A window of time goes through these phases:
 //
-//   redistribute  own discs to their strips and into their cells, halo discs from the neighbours
-//   search        every contact of the window, from stored states alone
-//   then for each micro-step of the window, in step on all ranks:
-//     resolve       local rounds; conflict chains across strips by a distributed sort
-//     apply         new states for the discs that were taken, updates of halos, another search
+//   redistribute  Own discs go to their strips and cells. Halo discs come from the neighbours.
+//   search        It finds every contact of the window, from stored states alone.
 //
-// When discs are fast a micro-step is cut into parts, each a window of its own. States then stay as
-// they were at the micro-step's start until it ends, so that every candidate is seen, and
-// `outcomes_` holds what they will become.
+// Then for each micro-step of the window, in step on all ranks:
+//
+//   resolve       Local rounds. Conflict chains across strips go through a distributed sort.
+//   apply         Discs that were taken get new states. Halos are updated. Another search follows.
+//
+// When discs are fast a micro-step is cut into parts, each a window of its own. Until the
+// micro-step ends, states stay as they were at its start. So every candidate is seen. `outcomes_`
+// holds what they will become.
 #pragma once
 
 #include <cstdint>
@@ -67,13 +69,15 @@ private:
     std::vector<Disc> outcomes_; ///< runs along discs_.all() while a micro-step is cut into parts
     bool in_parts_ = false;      ///< whether the present micro-step is cut
     int part_ = 0, n_parts_ = 1; ///< the next part of the present micro-step
+
     double refreshed_speed_ = 0; ///< the largest of all discs at the last sync, then 0 again
     double unchanged_until_ = 0; ///< no state has changed before it since the last migration
+
     double speed_allowance_ = 1.02;  ///< of the next window, over the largest speed
     double hits_per_micro_step_ = 0; ///< per disc, over the last sync interval
     double window_speed_ = 0;        ///< what the window's reach allows for
     double usual_speed_ = 0;         ///< what its cells allow for
-    SpeedSpread spread_;             ///< when the last micro-step began that was cut
+    SpeedSpread spread_;             ///< at the start of the last micro-step that was cut
     bool speed_exceeded_ = false;
 
     Search<Dynamics> search_;
