@@ -27,6 +27,8 @@ struct Image {
     friend bool operator==(const Image&, const Image&) = default;
 };
 
+inline Image moved(Image image, Image by) { return {image.x + by.x, image.y + by.y}; }
+
 inline Image image_of(const Disc& disc) {
     return {static_cast<int>(disc.image_x), static_cast<int>(disc.image_y)};
 }
@@ -65,10 +67,10 @@ struct Periods {
     double along(Axis axis) const { return carrom::along(axis, x, y); }
 
     /// Where the disc's image is.
-    double x_of(const Disc& disc, double time) const {
+    [[gnu::always_inline]] double x_of(const Disc& disc, double time) const {
         return is_unshifted(disc) ? disc.x_at(time) : shifted_x(disc, time);
     }
-    double y_of(const Disc& disc, double time) const {
+    [[gnu::always_inline]] double y_of(const Disc& disc, double time) const {
         return is_unshifted(disc) ? disc.y_at(time) : shifted_y(disc, time);
     }
 

@@ -33,33 +33,35 @@ template <class Dynamics> BlockRun<Dynamics>::BlockRun(BlockRun&&) noexcept = de
 
 template <class Dynamics>
 void BlockRun<Dynamics>::run(const BlockGround& ground, const CellBlock& block, int halo,
-                             [[maybe_unused]] bool is_whole, std::span<std::uint64_t> histories,
-                             BlockOutcome& outcome) {
+                             std::span<std::uint64_t> histories, BlockOutcome& outcome) {
+    scratch_->begin(ground, outcome);
+    scratch_->list_discs(block, halo);
+    scratch_->gather();
+    scratch_->mark_own(block);
+    run_gathered(histories);
+}
+
+template <class Dynamics>
+void BlockRun<Dynamics>::run_whole(const BlockGround& ground, const CellBlock& block,
+                                   std::span<std::uint64_t> histories, BlockOutcome& outcome) {
+    scratch_->begin(ground, outcome);
+    scratch_->list_all_discs();
+    scratch_->gather();
+    scratch_->mark_own_of_all(block);
+    run_gathered(histories);
+}
+
+template <class Dynamics>
+void BlockRun<Dynamics>::run_gathered(std::span<std::uint64_t> histories) {
     Scratch& s = *scratch_;
-    s.outcome = &outcome;
-    outcome.hit.clear();
-    outcome.states.clear();
-    outcome.ring.clear();
-    outcome.log.clear();
-    outcome.n_events = 0;
-    outcome.virial = ground.no_virial;
-    outcome.is_cascade = false;
-    outcome.far_partner = 0;
-    s.gather(ground, block, halo);
-    s.mark_own(block);
-    if constexpr (Dynamics::is_periodic) {
-        s.next_image.clear();
-        if (is_whole) s.link_images(block);
-    }
     s.predict_all();
     const EventOrder before(s.discs);
     const auto is_current = [&s](const Event& event) {
-        return s.discs[event.p].version() == event.p_version &&
-               (is_wall(event.q) || s.discs[event.q].version() == event.q_version);
+        return s.versions_of(event) == event.versions;
     };
-    for (Event event; s.queue.pop(event, before, is_current) && !outcome.is_cascade;)
+    for (Event event; s.queue.pop(event, before, is_current) && !s.outcome->is_cascade;)
         s.happen(event);
-    s.virial_terms.add_to(outcome.virial);
+    s.virial_terms.add_to(s.outcome->virial);
     s.report(histories);
 }
 
@@ -98,7 +100,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::look_around(const Fl
         return static_cast<int>(above < last ? above : last);
     };
     const int left = cell(box.left, column_limit), right = cell(box.right, column_limit);
-    const int bottom = cell(box.bottom, row_limit), top = cell(box.top, row_limit);
+    const int bottom = cell(box.bottom * rows_per_cell, row_limit),
+              top = cell(box.top * rows_per_cell, row_limit);
     SlotRange* run = runs.data();
     std::uint32_t n_slots = 0;
     const std::uint32_t* starts = cell_starts.data() + static_cast<std::size_t>(left) * cell_rows;
@@ -117,18 +120,20 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::look_around(const Fl
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_all() {
     queue.restart(ground.window.begin, ground.window.end, discs.size() / 2);
     if (dynamics.has_walls())
-        for (std::uint32_t slot = 0; slot < discs.size(); ++slot) predict_walls(slot);
+        for (std::uint32_t slot = 0; slot < discs.size(); ++slot)
+            if (!ghost_at(slot)) predict_walls(slot);
     if (!dynamics.has_pairs()) return;
-    const CellTable table{cell_starts.data(), cell_rows, cells.end_column - cells.first_column,
-                          cells.end_row - cells.first_row};
+    const CellTable table{cell_starts.data(),
+                          cell_rows,
+                          cells.end_column - cells.first_column,
+                          cells.end_row - cells.first_row,
+                          n_reach_columns,
+                          n_reach_rows};
     for (int column = firsts.first_column; column < firsts.end_column; ++column) {
         later_ends.clear();
-        const CellRows rows = column < firsts_in_all_rows
-                                  ? CellRows{firsts.first_row, firsts.end_row}
-                                  : CellRows{0, table.n_rows};
-        filter_column(lanes, table, column, rows, ground.grid->geometry().n_reach, touching_squared,
+        filter_column(lanes, table, column, {firsts.first_row, firsts.end_row}, touching_squared,
                       later, later_ends);
-        std::uint32_t slot = cell_run(column, rows.first, rows.first).begin, k = 0;
+        std::uint32_t slot = cell_run(column, firsts.first_row, firsts.first_row).begin, k = 0;
         for (const std::uint32_t end : later_ends) {
             for (; k < end; ++k) predict_pair(slot, later[k]);
             ++slot;
@@ -167,13 +172,23 @@ void BlockRun<Dynamics>::Scratch::predict_pairs_of(std::uint32_t p, std::uint32_
 
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::predict_pair(std::uint32_t a, std::uint32_t b) {
-    const auto contact = dynamics.event_contact(discs[a], discs[b]);
+    const Disc* other = &discs[b];
+    Image image;
+    Disc seen;
+    if (const Ghost* const ghost = ghost_at(b)) [[unlikely]] {
+        b = ghost->disc;
+        image = ghost->image;
+        seen = discs[b];
+        set_image(seen, moved(image_of(seen), image));
+        other = &seen;
+    }
+    const auto contact = dynamics.event_contact(discs[a], *other);
     if (!contact.exists()) return;
     const double time = contact.base + contact.delay;
     // Two discs that have just collided with each other do not collide again at the same time. The
     // rest of their approach, a rounding, is too small for an impulse to mend.
     if (have_just_collided(a, b, time)) return;
-    push(time, a, b);
+    push(time, a, b, image);
 }
 
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::uint32_t slot) {
@@ -204,7 +219,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_obstacle(std
 }
 
 template <class Dynamics>
-void BlockRun<Dynamics>::Scratch::push(double time, std::uint32_t a, std::uint32_t b) {
+void BlockRun<Dynamics>::Scratch::push(double time, std::uint32_t a, std::uint32_t b,
+                                       [[maybe_unused]] Image image) {
     const BlockWindow& window = ground.window;
     if (!(time <= window.end) || time < window.begin ||
         (time == window.begin && !window.holds_begin))
@@ -213,18 +229,21 @@ void BlockRun<Dynamics>::Scratch::push(double time, std::uint32_t a, std::uint32
     event.time = time;
     const auto raise = [&](std::uint32_t slot) {
         const EventHistory& past_events = past_events_of[slot];
-        if (past_events.history != 0 && discs[slot].tau == time)
+        if (discs[slot].tau == time && past_events.history != 0) [[unlikely]]
             event.generation = std::max(event.generation, past_events.generation + 1);
     };
     raise(a);
     if (!is_wall(b)) {
         raise(b);
-        if (discs[b].id < discs[a].id) std::swap(a, b);
+        if (discs[b].id < discs[a].id) {
+            std::swap(a, b);
+            image = {-image.x, -image.y};
+        }
     }
     event.p = a;
     event.q = b;
-    event.p_version = discs[a].version();
-    event.q_version = is_wall(b) ? 0 : discs[b].version();
+    if constexpr (Dynamics::is_periodic) event.set_image(image);
+    event.versions = versions_of(event);
     queue.push(event, EventOrder(discs));
 }
 
@@ -250,11 +269,13 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
         carry_out(other_side);
     }
     if (Dynamics::may_lose_discs && discs[event.p].has_departed()) return;
-    if constexpr (Dynamics::is_periodic)
-        if (are_images_linked()) return predict_linked(event);
     if (dynamics.has_walls()) predict_walls(event.p);
     if (is_wall(event.q)) return predict_pairs(event.p);
     if (dynamics.has_walls()) predict_walls(event.q);
+    if (event.has_image()) {
+        predict_pairs(event.p);
+        return predict_pairs(event.q);
+    }
     predict_pairs_of(event.p, event.q);
 }
 
@@ -270,29 +291,39 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
         if constexpr (Dynamics::may_have_obstacles)
             dynamics.bounce_off_at(p, event.q - first_obstacle, event.time);
     } else {
-        if (is_own[event.p] != is_own[event.q] && !are_images_linked())
+        if (is_own[event.p] != is_own[event.q] && !is_whole)
             check_partner(is_own[event.p] != 0 ? event.q : event.p);
-        if constexpr (Dynamics::has_spin)
-            dynamics.collide_at(p, discs[event.q], event.time, columns[SideColumn::spin][event.p],
-                                columns[SideColumn::spin][event.q]);
-        else
-            dynamics.collide_at(p, discs[event.q], event.time);
-        if (is_own[own_image(event.p)] != 0) {
-            const double mass = dynamics.mass_of(p) * dynamics.slowing_at(event.time);
-            virial_terms.add(mass * (p.vx - vx_before), mass * (p.vy - vy_before),
-                             dynamics.separation(p, discs[event.q]), outcome->virial);
-        }
+        collide(event);
         note(event.q, event.p, event);
     }
     if constexpr (Dynamics::has_spin && Dynamics::may_lose_discs)
         if (p.has_departed()) columns[SideColumn::spin][event.p] = 0;
     note(event.p, event.q, event);
-    if (is_own[own_image(event.p)] != 0) {
+    if (is_own[event.p] != 0) {
         outcome->n_events += 1;
         const bool is_pushed = !Dynamics::may_lose_discs || !p.has_departed();
         if (ground.is_logged)
             log_event(event, is_pushed ? p.vx - vx_before : 0, is_pushed ? p.vy - vy_before : 0);
     }
+}
+
+/// Two discs, the second one where the event's image has it.
+template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event& event) {
+    Disc &p = discs[event.p], &q = discs[event.q];
+    const double vx_before = p.vx, vy_before = p.vy;
+    const Image at_home = image_of(q);
+    if (Dynamics::is_periodic && event.has_image()) set_image(q, moved(at_home, event.image()));
+    if constexpr (Dynamics::has_spin)
+        dynamics.collide_at(p, q, event.time, columns[SideColumn::spin][event.p],
+                            columns[SideColumn::spin][event.q]);
+    else
+        dynamics.collide_at(p, q, event.time);
+    if (is_own[event.p] != 0) {
+        const double mass = dynamics.mass_of(p) * dynamics.slowing_at(event.time);
+        virial_terms.add(mass * (p.vx - vx_before), mass * (p.vy - vy_before),
+                         dynamics.separation(p, q), outcome->virial);
+    }
+    if (Dynamics::is_periodic && event.has_image()) set_image(q, at_home);
 }
 
 /// Of a disc that an own one has met. Nobody compares what happens beyond the ring. Who comes from
@@ -314,7 +345,11 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
     const std::uint64_t partner_id = is_wall(partner) ? ~std::uint64_t{0} : discs[partner].id;
     double spin = 0;
     if constexpr (Dynamics::has_spin) spin = columns[SideColumn::spin][slot];
-    past_events.add<Dynamics::has_spin>(event.time, disc, partner_id, spin);
+    n_hit += past_events.history == 0 && is_own[slot] != 0;
+    if (ground.is_alone)
+        past_events.history = 1;
+    else
+        past_events.add<Dynamics::has_spin>(event.time, disc, partner_id, spin);
     if (is_own[slot] != 0) {
         const float before = vx[slot] * vx[slot] + vy[slot] * vy[slot];
         const double now = speed_squared(disc);
@@ -322,6 +357,8 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
             hold_to_schedule(slot, event.time);
     }
     place(slot, ground.window.begin);
+    if constexpr (Dynamics::is_periodic)
+        layout.for_ghosts_of(slot, [this](const Ghost& ghost) { place_ghost(ghost); });
 }
 
 /// What makes a window exact is that no disc gets further from its place at the start than the

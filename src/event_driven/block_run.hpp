@@ -20,6 +20,7 @@
 #include "core/side_columns.hpp"
 #include "dynamics/all_dynamics.hpp"
 #include "engine/pair_virial.hpp"
+#include "event_driven/box_layout.hpp"
 
 namespace carrom {
 
@@ -56,6 +57,9 @@ struct BlockGround {
     bool is_logged = false;
     const SideColumns* columns = nullptr; ///< by disc
     PairVirial no_virial{0x1p900};        ///< where sums begin
+    BoxCells box_cells{};                 ///< for runs of the whole box
+    bool is_alone = false; ///< there is one run, of the whole box: nobody compares histories, and
+                           ///< the grid says nothing
 };
 
 /// The event history of a disc of a block's ring: 0 for no event, else a hash of times, partners
@@ -132,12 +136,15 @@ public:
     BlockRun(BlockRun&&) noexcept;
 
     /// Runs the own discs in `block` and what lies `halo` cells around it. Writes the history of
-    /// each own disc of the block to its place in `histories`. `is_whole`: in a periodic box, every
-    /// disc is there with all that is within one reach of it. What happens to one of its images
-    /// happens to all then, and the run is right. **Not collective**: many threads may run blocks
-    /// at once.
-    void run(const BlockGround& ground, const CellBlock& block, int halo, bool is_whole,
+    /// each own disc of the block to its place in `histories`. **Not collective**: many threads may
+    /// run blocks at once.
+    void run(const BlockGround& ground, const CellBlock& block, int halo,
              std::span<std::uint64_t> histories, BlockOutcome& outcome);
+
+    /// The same for all discs of the box, which the rank has: each is there once, and periodic
+    /// sides are looked through. Such a run is right.
+    void run_whole(const BlockGround& ground, const CellBlock& block,
+                   std::span<std::uint64_t> histories, BlockOutcome& outcome);
 
     /// Another one of the same kind from now on: walls that move are elsewhere after a sync.
     void change_dynamics(const Dynamics& dynamics);
@@ -146,6 +153,9 @@ public:
 
 private:
     struct Scratch;
+
+    void run_gathered(std::span<std::uint64_t> histories);
+
     std::unique_ptr<Scratch> scratch_;
 };
 

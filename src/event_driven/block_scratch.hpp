@@ -51,10 +51,13 @@ struct FlightBox {
 template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     explicit Scratch(const Dynamics& of_scene) : dynamics(of_scene) {}
 
-    void gather(const BlockGround& of_rank, const CellBlock& own, int halo);
+    void begin(const BlockGround& of_rank, BlockOutcome& of_run);
     void list_discs(const CellBlock& own, int halo);
+    void list_all_discs();
+    void gather();
     void set_scales();
     void mark_own(const CellBlock& own);
+    void mark_own_of_all(const CellBlock& own);
     /// Takes over a disc's flight: where it would have been at the window's start, in cells.
     [[gnu::always_inline]] void place(std::uint32_t slot, double start) {
         const Disc& disc = discs[slot];
@@ -65,14 +68,17 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         vx[slot] = static_cast<float>(v_along * cells_per_speed);
         vy[slot] = static_cast<float>(v_across * cells_per_speed);
     }
+    /// Takes over the flight of a ghost's disc.
+    void place_ghost(const Ghost& ghost) {
+        x[ghost.slot] = x[ghost.disc] + ghost.x_shift;
+        y[ghost.slot] = y[ghost.disc] + ghost.y_shift;
+        vx[ghost.slot] = vx[ghost.disc];
+        vy[ghost.slot] = vy[ghost.disc];
+    }
     void predict_all();
     void happen(const Event& event);
-    void link_images(const CellBlock& own);
-    void take_pairs_once(const CellBlock& own, std::size_t n_discs);
-    void mirror(std::uint32_t slot, double time);
-    void predict_linked(const Event& event);
-    void predict_images(std::uint32_t slot);
     void carry_out(const Event& event);
+    void collide(const Event& event);
     void check_partner(std::uint32_t slot);
     void note(std::uint32_t slot, std::uint32_t partner, const Event& event);
     void hold_to_schedule(std::uint32_t slot, double time);
@@ -83,18 +89,19 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void predict_pair(std::uint32_t a, std::uint32_t b);
     void predict_walls(std::uint32_t slot);
     void predict_obstacle(std::uint32_t slot);
-    void push(double time, std::uint32_t a, std::uint32_t b);
+    void push(double time, std::uint32_t a, std::uint32_t b, Image image = {});
     void report(std::span<std::uint64_t> histories);
 
     Flight flight_of(std::uint32_t slot) const;
-    /// The disc's image that is the block's own, if one is; else `slot`.
-    std::uint32_t own_image(std::uint32_t slot) const {
-        if constexpr (Dynamics::is_periodic) {
-            if (is_own[slot] != 0 || next_image.empty()) return slot;
-            for (std::uint32_t other = next_image[slot]; other != slot; other = next_image[other])
-                if (is_own[other] != 0) return other;
-        }
-        return slot;
+    std::uint32_t versions_of(const Event& event) const {
+        return discs[event.p].version() + (is_wall(event.q) ? 0 : discs[event.q].version());
+    }
+    Periods periods() const {
+        if constexpr (Dynamics::is_periodic) return dynamics.periods();
+        return {};
+    }
+    const Ghost* ghost_at(std::uint32_t slot) const {
+        return Dynamics::is_periodic ? layout.ghost_at(slot) : nullptr;
     }
     /// With each other, at this time, and with nobody since; perhaps as other images.
     bool have_just_collided(std::uint32_t a, std::uint32_t b, double time) const {
@@ -109,20 +116,18 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
                    time == discs[a].tau;
         }
     }
-    double x_of(const Disc& disc, double time) const {
+    [[gnu::always_inline]] double x_of(const Disc& disc, double time) const {
         if constexpr (Dynamics::is_periodic)
             return dynamics.periods().x_of(disc, time);
         else
             return disc.x_at(time);
     }
-    double y_of(const Disc& disc, double time) const {
+    [[gnu::always_inline]] double y_of(const Disc& disc, double time) const {
         if constexpr (Dynamics::is_periodic)
             return dynamics.periods().y_of(disc, time);
         else
             return disc.y_at(time);
     }
-    /// Whether what happens to a disc happens to all of its images at once.
-    bool are_images_linked() const { return !next_image.empty(); }
     int owning_column(int column) const {
         return std::clamp(column, ground.own_cells.first_column, ground.own_cells.end_column - 1);
     }
@@ -167,15 +172,16 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
 
     Dynamics dynamics;
     BlockGround ground;
-    CellBlock cells; ///< own ones and the halo
-    CellBlock ring;  ///< own ones and those within one reach of them
-    CellBlock
-        firsts; ///< where a pair's first disc is looked for, counted from the corner of `cells`
-    int firsts_in_all_rows = 0; ///< from this column on in all rows
-    Axis axis = Axis::x;        ///< the grid's: corners, lanes and walls in cells have it as x
-    double x_corner = 0, y_corner = 0, cells_per_length = 1, cells_per_speed = 1,
+    bool is_whole = false; ///< every disc is there once
+    CellBlock cells;       ///< own ones and the halo
+    CellBlock ring;        ///< own ones and those within one reach of them
+    CellBlock firsts;      ///< where a pair's first disc is looked for, from the corner of `cells`
+    int n_reach_columns = 1, n_reach_rows = 1;
+    Axis axis = Axis::x; ///< the grid's: corners, lanes and walls in cells have it as x
+    double x_corner = 0, y_corner = 0, cell_width = 1, cells_per_length = 1, cells_per_speed = 1,
            windows_per_time = 1;
     float column_limit = 0, row_limit = 0;
+    float rows_per_cell = 1; ///< rows may be higher than columns are wide
     float touching_squared = 0,
           farthest = 0; ///< farthest: what a partner's place at the start can be off by, in cells
     float x_inner_low = 0, x_inner_high = 0, y_inner_low = 0,
@@ -187,9 +193,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     SideColumns columns = side_columns_of<Dynamics>();
     std::vector<EventHistory> past_events_of;
     std::vector<std::uint8_t> is_own;
-    std::vector<std::uint32_t>
-        next_image; ///< of the same disc, in a ring; empty where images go their own ways
-    std::vector<std::uint32_t> image_table; ///< scratch
+    std::size_t n_hit = 0; ///< own discs that have collided
+    BoxLayout layout;      ///< in a run of the whole box
     std::vector<float> x, y, vx, vy;
     FlightLanes lanes;
     EventQueue queue;

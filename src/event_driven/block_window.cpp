@@ -59,17 +59,15 @@ BlockChoice choice_of(const BlockNeeds& needs, double duration) {
 }
 
 double cost_per_time(const BlockNeeds& needs, const BlockChoice& choice) {
-    const bool has_halo = !needs.is_one_block || needs.goes_round_x || needs.goes_round_y;
-    const double halo = needs.is_one_block ? (has_halo ? 1 : 0) * choice.reach
-                                           : choice.halo * choice.reach;
+    const double halo = choice.halo * choice.reach;
     // Of discs in the run, halo included, to own ones, along one axis.
     const auto share_along = [&](double length, bool goes_round) {
         const double own = std::min(choice.block_side, length), seen = own + 2 * halo;
-        if (goes_round) return seen / own;
-        return (needs.is_one_block ? own : std::min(seen, length)) / own;
+        return (goes_round ? seen : std::min(seen, length)) / own;
     };
-    const double share = share_along(needs.box.x, needs.goes_round_x) *
-                         share_along(needs.box.y, needs.goes_round_y);
+    const double share = needs.is_one_block ? 1
+                                            : share_along(needs.box.x, needs.goes_round_x) *
+                                                  share_along(needs.box.y, needs.goes_round_y);
     const double around = 1.6 * choice.reach;
     const double partners = needs.n_discs * (std::min(around, needs.box.x) / needs.box.x) *
                             (std::min(around, needs.box.y) / needs.box.y);

@@ -28,9 +28,12 @@ constexpr double jam_heating = 64;
 constexpr double most_discs_alone = 12000;
 
 /// Cells of about two spacings hold a vector's worth of discs in three rows.
-int cells_per_reach(double reach, double spacing) {
-    return static_cast<int>(
-        std::clamp(std::round(reach / std::max(2 * spacing, reach / 4)), 1.0, 4.0));
+double least_cell_width(double reach, double height, double length, std::uint64_t n_discs) {
+    const auto n_cells = static_cast<double>(n_discs + 16);
+    // In a thin tube one cell holds its whole height.
+    const double spacing = std::max(std::sqrt(height * length / n_cells), length / n_cells);
+    const double per_reach = std::round(reach / std::max(2 * spacing, reach / 4));
+    return std::max(reach / std::clamp(per_reach, 1.0, 4.0), 0.7 * spacing);
 }
 
 int cells_along(double length, double width) {
@@ -109,8 +112,6 @@ template <class Dynamics> BlockWindow EventDrivenEngine<Dynamics>::choose(double
         longest = std::min(longest, longest_in_period(discs_.periods(), window.speed_bound));
     if (!tuning_.window) longest = std::min(longest, caution_.most_hits() / needs.collision_rate);
     choice_ = choose_block_window(needs, longest, tuning_.window);
-    if (Dynamics::is_periodic && is_one_block_ && !block_tuning_.halo && !block_tuning_.block_side)
-        choice_.halo = 1; // as far as images have to be seen
     // Equal windows up to the target; the last one ends there exactly.
     const double n_windows = std::ceil(left / choice_.duration * (1 - 1e-9));
     window.end = n_windows > 1 ? time_ + left / n_windows : target;
@@ -150,9 +151,10 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() {
 /// Takes what the last window teaches into account.
 template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(double speed_bound) {
     const auto n = static_cast<double>(discs_.n_total());
-    const bool is_alone = tuning_.threads == 1 ||
-                          n < 2 * static_cast<double>(tuning_.discs_per_thread);
-    is_one_block_ = communicator_.size() == 1 && is_alone && n <= most_discs_alone;
+    const bool is_few = tuning_.threads == 1 ||
+                        n < 2 * static_cast<double>(tuning_.discs_per_thread);
+    is_alone_ = communicator_.size() == 1 && is_few && n <= most_discs_alone &&
+                !block_tuning_.halo && !block_tuning_.block_side;
     BlockNeeds needs;
     needs.box = dynamics_.box();
     needs.radius = dynamics_.radius() * dynamics_.growth_at(time_) + dynamics_.slack();
@@ -160,7 +162,7 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
     needs.speed_bound = speed_bound;
     needs.time = time_;
     needs.halo = block_tuning_.halo;
-    needs.is_one_block = is_one_block_;
+    needs.is_one_block = is_alone_;
     needs.goes_round_x = discs_.periods().x != 0;
     needs.goes_round_y = discs_.periods().y != 0;
     if (n_windows_ > 0)
@@ -188,9 +190,20 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::shorten() {
 }
 
 /// Brings the halo to every strip, all discs into cells and the own cells into blocks, which are
-/// all to run.
+/// all to run. A single run of the whole box has cells of its own.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
     const PhaseClock::Scope scope(phases_, Phase::redistribute);
+    const Box box = dynamics_.box();
+    box_cells_ = cells_of_box(
+        extent(), discs_.periods(), reach(),
+        least_cell_width(reach(), box.shortest(), box.longest(), discs_.n_total()));
+    if (is_alone_) {
+        own_cells_ = {0, 1, 0, 1};
+        blocks_.resize(1);
+        blocks_.front().cells = own_cells_;
+        blocks_.front().is_marked = 1;
+        return;
+    }
     discs_.sort_cells(lay_cells(reach()), time_, tuning_.threads);
     {
         const PhaseClock::Scope exchange(phases_, Phase::exchange);
@@ -209,12 +222,8 @@ template <class Dynamics> GridGeometry EventDrivenEngine<Dynamics>::lay_cells(do
     const auto [high, across_high] = turned(axis, box.x_high, box.y_high);
     const double from = std::max(low, discs_.strips().low(communicator_.rank()));
     const double to = std::min(high, discs_.strips().high(communicator_.rank()));
-    const auto n_cells = static_cast<double>(discs_.n_own() + 16);
-    const double length = std::max(to - from, 0.0);
-    // In a thin tube one cell holds its whole height.
-    const double spacing = std::max(std::sqrt(dynamics_.box().shortest() * length / n_cells),
-                                    length / n_cells);
-    const double least_width = std::max(reach / cells_per_reach(reach, spacing), 0.7 * spacing);
+    const double least_width = least_cell_width(reach, dynamics_.box().shortest(),
+                                                std::max(to - from, 0.0), discs_.n_own());
     const double n_whole = std::max(1.0, std::floor((to - from) / least_width));
     GridGeometry geometry;
     geometry.axis = axis;
@@ -280,15 +289,11 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::block_side() const
     const double width = (own_cells_.end_column - own_cells_.first_column) * geometry.cell_width,
                  height = (own_cells_.end_row - own_cells_.first_row) * geometry.cell_width;
     const double n_blocks = blocks_per_thread * tuning_.threads;
-    double side = choice_.block_side;
     if (block_tuning_.block_side)
-        side = *block_tuning_.block_side * geometry.cell_width * geometry.n_reach;
-    else if (is_one_block_)
-        side = 2 * std::max(width, height);
-    if (tuning_.threads > 1 && !is_one_block_)
-        side = std::min(side, std::max(std::sqrt(width * height / n_blocks),
-                                       std::max(width, height) / n_blocks));
-    return side;
+        return *block_tuning_.block_side * geometry.cell_width * geometry.n_reach;
+    if (tuning_.threads == 1) return choice_.block_side;
+    return std::min(choice_.block_side, std::max(std::sqrt(width * height / n_blocks),
+                                                 std::max(width, height) / n_blocks));
 }
 
 /// The share of all ranks' blocks that have to run. **Collective.**
@@ -301,10 +306,9 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::share_marked() con
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
     const PhaseClock::Scope scope(phases_, Phase::search);
-    const BlockGround ground{discs_.all(),      discs_.n_own(),  &discs_.grid(),
-                             own_cells_,        window_,         this->is_followed(),
-                             &discs_.columns(), this->no_virial_};
-    const int n_reach = discs_.grid().geometry().n_reach;
+    const BlockGround ground{
+        discs_.all(),        discs_.n_own(),    &discs_.grid(),   own_cells_, window_,
+        this->is_followed(), &discs_.columns(), this->no_virial_, box_cells_, is_alone_};
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
     for (Block& block : blocks_) {
         if (block.is_marked == 0) continue;
@@ -316,8 +320,11 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
         Block& block = blocks_[static_cast<std::size_t>(k)];
         if (block.is_marked == 0) continue;
         BlockRun<Dynamics>& block_run = block_runs_[static_cast<std::size_t>(omp_get_thread_num())];
-        block_run.run(ground, block.cells, block.halo * n_reach,
-                      Dynamics::is_periodic && sees_all(block), histories_, block.outcome);
+        if (is_alone_ || (Dynamics::is_periodic && sees_all(block)))
+            block_run.run_whole(ground, block.cells, histories_, block.outcome);
+        else
+            block_run.run(ground, block.cells, block.halo * discs_.grid().geometry().n_reach,
+                          histories_, block.outcome);
         block.is_marked = 0;
     }
 }

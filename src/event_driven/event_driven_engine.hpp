@@ -87,9 +87,7 @@ private:
 
     /// Blocks at the strip's ends can look further at once: to fetch more makes all ranks run all
     /// blocks again.
-    int first_halo_depth() const {
-        return Dynamics::is_periodic && is_one_block_ ? choice_.halo : 2 * choice_.halo;
-    }
+    int first_halo_depth() const { return 2 * choice_.halo; }
     double reach() const {
         return block_reach(window_, dynamics_.search_diameter() * dynamics_.growth_at(window_.end),
                            dynamics_.box());
@@ -108,8 +106,9 @@ private:
 
     BlockChoice choice_;
     BlockWindow window_;
-    bool is_one_block_ = false; ///< all discs in one block, for lack of threads and ranks
-    int halo_depth_ = 0;        ///< reaches that the halo covers
+    bool is_alone_ = false; ///< one run of the whole box, for lack of threads and ranks
+    BoxCells box_cells_;
+    int halo_depth_ = 0; ///< reaches that the halo covers
     CellBlock own_cells_{0, 1, 0, 1};
     int block_columns_ = 1, block_rows_ = 1; ///< cells to a block
     int n_block_rows_ = 1;

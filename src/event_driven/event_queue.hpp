@@ -2,9 +2,10 @@
 // Predicted collisions of one block run in their total order: time, generation, id of P, wall
 // before pair, id of Q.
 //
-// Predictions are not taken back. One whose discs have collided since is known by their versions
-// and passed over. Such predictions pile up where discs without room collide millions of times in a
-// window. So they are swept out whenever there are twice as many as there were good ones.
+// Predictions are not taken back. One whose discs have collided since is known by their versions,
+// which only grow, and passed over. Such predictions pile up where discs without room collide
+// millions of times in a window. So they are swept out whenever there are twice as many as there
+// were good ones.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "core/disc.hpp"
+#include "core/image.hpp"
 
 namespace carrom {
 
@@ -29,9 +31,17 @@ inline bool is_obstacle(std::uint32_t partner) {
 struct Event {
     double time = 0;
     std::uint32_t generation = 0;
-    std::uint32_t p = 0, q = x_wall;            ///< slots; p has the lower id
-    std::uint32_t p_version = 0, q_version = 0; ///< the states it was predicted from
-    std::uint32_t next = 0;                     ///< for the queue
+    std::uint32_t p = 0, q = x_wall;       ///< slots; p has the lower id
+    std::int16_t image_x = 0, image_y = 0; ///< of q, in box lengths from where its slot has it
+    std::uint32_t versions = 0;            ///< sum of those of the states it was predicted from
+    std::uint32_t next = 0;                ///< for the queue
+
+    bool has_image() const { return image_x != 0 || image_y != 0; }
+    Image image() const { return {image_x, image_y}; }
+    void set_image(Image image) {
+        image_x = static_cast<std::int16_t>(image.x);
+        image_y = static_cast<std::int16_t>(image.y);
+    }
 };
 static_assert(sizeof(Event) == 32);
 

@@ -153,18 +153,19 @@ PartnerCounts FilterTwoFlights(const FlightLanes& all_lanes, std::span<const Slo
 }
 
 void FilterColumn(const FlightLanes& all_lanes, const CellTable& cells, int column, CellRows rows,
-                  int n_reach, float touching_squared, std::vector<std::uint32_t>& partners,
+                  float touching_squared, std::vector<std::uint32_t>& partners,
                   std::vector<std::uint32_t>& ends) {
     const FlightLanes lanes = all_lanes;
     const std::uint32_t* const own = cells.starts +
                                      static_cast<std::size_t>(column) * cells.column_length;
-    const int n_right = HWY_MIN(n_reach, cells.n_columns - 1 - column);
+    const int n_right = HWY_MIN(cells.n_reach_columns, cells.n_columns - 1 - column);
     const auto start = hn::Zero(Lanes());
     const auto nobody = spread_slot(0xffffffff);
     std::size_t n_partners = 0;
     for (int row = rows.first; row < rows.end; ++row) {
         if (own[row] == own[row + 1]) continue;
-        const int low = HWY_MAX(row - n_reach, 0), high = HWY_MIN(row + n_reach, cells.n_rows - 1);
+        const int low = HWY_MAX(row - cells.n_reach_rows, 0),
+                  high = HWY_MIN(row + cells.n_reach_rows, cells.n_rows - 1);
         std::size_t n_slots = own[high + 1] - own[row];
         for (int k = 1; k <= n_right; ++k) {
             const std::uint32_t* const other = own +
@@ -215,10 +216,10 @@ PartnerCounts filter_two_flights(const FlightLanes& lanes, std::span<const SlotR
 HWY_EXPORT(FilterColumn);
 
 void filter_column(const FlightLanes& lanes, const CellTable& cells, int column, CellRows rows,
-                   int n_reach, float touching_squared, std::vector<std::uint32_t>& partners,
+                   float touching_squared, std::vector<std::uint32_t>& partners,
                    std::vector<std::uint32_t>& ends) {
-    HWY_DYNAMIC_DISPATCH(FilterColumn)(lanes, cells, column, rows, n_reach, touching_squared,
-                                       partners, ends);
+    HWY_DYNAMIC_DISPATCH(FilterColumn)(lanes, cells, column, rows, touching_squared, partners,
+                                       ends);
 }
 
 } // namespace carrom

@@ -44,6 +44,7 @@ struct CellTable {
     const std::uint32_t* starts = nullptr;
     std::size_t column_length = 0;
     int n_columns = 0, n_rows = 0;
+    int n_reach_columns = 1, n_reach_rows = 1; ///< in which a disc's partners can be
 };
 
 /// Rows first .. end - 1 of a column of cells.
@@ -52,11 +53,11 @@ struct CellRows {
 };
 
 /// Finds every pair that might touch in the window, of a disc in `rows` of a column and one that
-/// comes after it: later in its own column or in a column to the right, `n_reach` cells away at
-/// most. Puts the second ones into `partners`, which only grows. For each disc of the rows it
-/// appends to `ends` where its partners end there.
+/// comes after it: later in its own column or in a column to the right, within the table's reach.
+/// Puts the second ones into `partners`, which only grows. For each disc of the rows it appends to
+/// `ends` where its partners end there.
 void filter_column(const FlightLanes& lanes, const CellTable& cells, int column, CellRows rows,
-                   int n_reach, float touching_squared, std::vector<std::uint32_t>& partners,
+                   float touching_squared, std::vector<std::uint32_t>& partners,
                    std::vector<std::uint32_t>& ends);
 
 } // namespace carrom

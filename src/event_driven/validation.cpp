@@ -20,7 +20,7 @@ typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::valid
     for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.too_fast);
     const bool is_too_fast = fastest > 0;
     std::vector<LocalIndex> foreign;
-    {
+    if (!is_alone_) {
         const PhaseClock::Scope exchange(phases_, Phase::exchange);
         discs_.show(histories_);
     }
@@ -148,6 +148,7 @@ int EventDrivenEngine<Dynamics>::halo_depth_for(const Block& block) const {
 }
 
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::sees_all(const Block& block) const {
+    if (is_alone_) return true;
     if (Dynamics::is_periodic) return sees_all_images(block);
     const GridGeometry& geometry = discs_.grid().geometry();
     const int halo = block.halo * geometry.n_reach;

@@ -233,7 +233,7 @@ void block_run(benchmark::State& state) {
     const CellBlock all_cells{0, geometry.n_columns, 0, geometry.n_rows};
     const BlockGround ground{gas.discs, gas.discs.size(), &grid, all_cells, window, false};
     for (auto _ : state) {
-        block_run.run(ground, all_cells, 0, false, histories, outcome);
+        block_run.run(ground, all_cells, 0, histories, outcome);
         benchmark::DoNotOptimize(outcome.n_events);
     }
     print_message(state, static_cast<double>(outcome.n_events), 0, 0);

@@ -34,23 +34,23 @@ public:
             event.q = x_wall;
         else if (discs_[event.q].id < discs_[event.p].id)
             std::swap(event.p, event.q);
-        event.p_version = versions_[event.p];
-        event.q_version = is_wall(event.q) ? 0 : versions_[event.q];
+        event.versions = versions_of(event);
         return event;
     }
     void happen(const Event& event) {
         ++versions_[event.p];
         if (!is_wall(event.q)) ++versions_[event.q];
     }
-    bool is_current(const Event& event) const {
-        return versions_[event.p] == event.p_version &&
-               (is_wall(event.q) || versions_[event.q] == event.q_version);
-    }
+    bool is_current(const Event& event) const { return versions_of(event) == event.versions; }
     std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(random_() % n); }
     std::uint32_t n_discs() const { return static_cast<std::uint32_t>(discs_.size()); }
     EventOrder order() const { return EventOrder(discs_); }
 
 private:
+    std::uint32_t versions_of(const Event& event) const {
+        return versions_[event.p] + (is_wall(event.q) ? 0 : versions_[event.q]);
+    }
+
     std::vector<Disc> discs_;
     std::vector<std::uint32_t> versions_;
     std::mt19937 random_;
@@ -58,7 +58,7 @@ private:
 
 bool are_same(const Event& a, const Event& b) {
     return a.time == b.time && a.generation == b.generation && a.p == b.p && a.q == b.q &&
-           a.p_version == b.p_version && a.q_version == b.q_version;
+           a.versions == b.versions;
 }
 
 } // namespace

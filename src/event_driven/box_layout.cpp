@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "event_driven/box_layout.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+namespace carrom {
+
+BoxCells cells_of_box(const Extent& extent, const Periods& periods, double reach,
+                      double least_width) {
+    BoxCells cells;
+    const auto cut = [&](double length, double period, int& n, double& width, int& n_reach) {
+        const double n_fit = length / least_width * (1 - 1e-9);
+        n = static_cast<int>(
+            std::clamp(period > 0 ? std::floor(n_fit) : std::ceil(n_fit), 1.0, 1e6));
+        width = period > 0 ? length / n : std::max(least_width, length / n);
+        n_reach = static_cast<int>(std::ceil(reach / width * (1 - 1e-9)));
+        return period > 0 ? n_reach : 0;
+    };
+    cells.x_low = extent.x_low;
+    cells.y_low = extent.y_low;
+    cells.n_beside = cut(extent.size().x, periods.x, cells.n_columns, cells.width,
+                         cells.n_reach_columns);
+    cells.n_above = cut(extent.size().y, periods.y, cells.n_rows, cells.height, cells.n_reach_rows);
+    return cells;
+}
+
+void BoxLayout::lay(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
+                    const Periods& periods, double time) {
+    list_once(discs, n_own);
+    sort(discs, n_own, cells, periods, time);
+    const std::vector<Line> columns = lines(cells.n_columns, cells.n_beside),
+                            rows = lines(cells.n_rows, cells.n_above);
+    starts_.clear();
+    indices_.clear();
+    for (const Line column : columns) {
+        const std::uint32_t* const box_column = box_starts_.data() + column.home * cells.n_rows;
+        for (const Line row : rows) {
+            starts_.push_back(static_cast<std::uint32_t>(indices_.size()));
+            for (std::uint32_t k = box_column[row.home]; k < box_column[row.home + 1]; ++k)
+                indices_.push_back(sorted_[k]);
+        }
+        starts_.push_back(static_cast<std::uint32_t>(indices_.size()));
+    }
+    forget_ghosts(indices_.size());
+    if (periods.are_any()) add_ghosts(cells, columns, rows);
+}
+
+/// Each disc of the box: the rank's own ones, and one copy of each other one.
+void BoxLayout::list_once(std::span<const Disc> discs, std::size_t n_own) {
+    listed_.resize(n_own);
+    std::iota(listed_.begin(), listed_.end(), LocalIndex{0});
+    if (discs.size() == n_own) return;
+    const std::size_t size = std::bit_ceil(2 * discs.size() + 1);
+    id_table_.assign(size, none);
+    for (LocalIndex index = 0; index < discs.size(); ++index) {
+        const DiscId id = discs[index].id;
+        std::size_t place = ((id * 0x9e3779b97f4a7c15u) >> 20) & (size - 1);
+        while (id_table_[place] != none && discs[id_table_[place]].id != id)
+            place = (place + 1) & (size - 1);
+        if (id_table_[place] != none) continue;
+        id_table_[place] = index;
+        if (index >= n_own) listed_.push_back(index);
+    }
+}
+
+/// Brings what is listed into the order of the cells of the box, by column and row.
+void BoxLayout::sort(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
+                     const Periods& periods, double time) {
+    const auto n_rows = static_cast<std::uint32_t>(cells.n_rows);
+    const double columns_per_length = 1 / cells.width, rows_per_length = 1 / cells.height;
+    const auto cell_along = [](double place, int n) { // rounding may put a disc beside the box
+        const int cell = !(place > 0) ? 0 : place < n ? static_cast<int>(place) : n - 1;
+        return static_cast<std::uint32_t>(cell);
+    };
+    box_starts_.assign(static_cast<std::size_t>(cells.n_columns) * n_rows + 1, 0);
+    cell_of_.resize(listed_.size());
+    for (std::size_t k = 0; k < listed_.size(); ++k) {
+        const Disc& disc = discs[listed_[k]];
+        const bool is_at_home = listed_[k] < n_own || !periods.are_any();
+        const Image home = is_at_home ? image_of(disc) : periods.home(disc, time);
+        const double x = disc.x_at(time) + home.x * periods.x - cells.x_low,
+                     y = disc.y_at(time) + home.y * periods.y - cells.y_low;
+        cell_of_[k] = cell_along(x * columns_per_length, cells.n_columns) * n_rows +
+                      cell_along(y * rows_per_length, cells.n_rows);
+        ++box_starts_[cell_of_[k]];
+    }
+    std::partial_sum(box_starts_.begin(), box_starts_.end(), box_starts_.begin());
+    sorted_.resize(listed_.size());
+    for (std::size_t k = listed_.size(); k-- > 0;) sorted_[--box_starts_[cell_of_[k]]] = listed_[k];
+}
+
+/// The lines of cells along an axis, those beyond the sides included.
+std::vector<BoxLayout::Line> BoxLayout::lines(int n_cells, int n_beyond) {
+    std::vector<Line> lines;
+    for (int cell = -n_beyond; cell < n_cells + n_beyond; ++cell) {
+        const int home = ((cell % n_cells) + n_cells) % n_cells;
+        lines.push_back({(cell - home) / n_cells, home});
+    }
+    return lines;
+}
+
+void BoxLayout::add_ghosts(const BoxCells& cells, std::span<const Line> columns,
+                           std::span<const Line> rows) {
+    const auto slots_of = [&](std::size_t column, std::size_t row) {
+        const std::size_t cell = column * (rows.size() + 1) + row;
+        return SlotRange{starts_[cell], starts_[cell + 1]};
+    };
+    const auto beside = static_cast<std::size_t>(cells.n_beside),
+               above = static_cast<std::size_t>(cells.n_above);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        for (std::size_t j = 0; j < rows.size(); ++j) {
+            const Image image{columns[i].away, rows[j].away};
+            if (image == Image{}) continue;
+            const SlotRange seen = slots_of(i, j);
+            std::uint32_t disc = slots_of(static_cast<std::size_t>(columns[i].home) + beside,
+                                          static_cast<std::size_t>(rows[j].home) + above)
+                                     .begin;
+            Ghost ghost;
+            ghost.image = image;
+            ghost.x_shift = static_cast<float>(image.x * cells.n_columns);
+            ghost.y_shift = static_cast<float>(image.y *
+                                               (cells.n_rows * (cells.height / cells.width)));
+            for (ghost.slot = seen.begin; ghost.slot < seen.end; ++ghost.slot, ++disc) {
+                ghost.disc = disc;
+                ghost.next = first_ghost_[disc];
+                first_ghost_[disc] = ghost_at_[ghost.slot] = static_cast<std::uint32_t>(
+                    ghosts_.size());
+                ghosts_.push_back(ghost);
+            }
+        }
+    }
+}
+
+void BoxLayout::forget_ghosts(std::size_t n_slots) {
+    ghosts_.clear();
+    ghost_at_.assign(n_slots, none);
+    first_ghost_.assign(n_slots, none);
+}
+
+} // namespace carrom
