@@ -9,8 +9,13 @@
 
 namespace carrom {
 
-/// How far ahead discs are asked for that are read in a row: further than the processor does so.
-inline constexpr std::size_t discs_ahead = 32;
+/// Asks for what is read in a row further ahead than the processor does by itself. Asking beyond
+/// the last one is no access.
+inline void ask_ahead(const Disc& disc) {
+    constexpr std::uintptr_t ahead = 32 * sizeof(Disc);
+    __builtin_prefetch(
+        reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(&disc) + ahead));
+}
 
 /// One counting sort: states are read in the order in which they lie.
 template <class CellOf>
@@ -21,7 +26,7 @@ void DiscSorter::order_alone(std::span<const Disc> discs, const CellOf& find_cel
     std::uint32_t* next = cell_start.data() +
                           1; // by cell: how many discs, then the place of the next one
     for (std::size_t i = 0; i < discs.size(); ++i) {
-        __builtin_prefetch(&discs[std::min(i + discs_ahead, discs.size() - 1)]);
+        ask_ahead(discs[i]);
         const std::uint32_t cell = find_cell(discs[i]);
         cell_of.set(i, cell);
         ++next[cell];
@@ -50,7 +55,7 @@ void DiscSorter::find_cells(std::span<const Disc> discs, const CellOf& find_cell
         Sorter& sorter = sorters_[k];
         std::uint32_t first = ~std::uint32_t{0}, last = 0;
         for (std::size_t i = sorter.first_disc; i < sorter.end_disc; ++i) {
-            __builtin_prefetch(&discs[std::min(i + discs_ahead, discs.size() - 1)]);
+            ask_ahead(discs[i]);
             const std::uint32_t cell = find_cell(discs[i]);
             cell_of.set(i, cell);
             first = std::min(first, cell);
