@@ -25,9 +25,8 @@ struct Image {
     int x = 0, y = 0;
 
     friend bool operator==(const Image&, const Image&) = default;
+    friend Image operator-(Image image) { return {-image.x, -image.y}; }
 };
-
-inline Image moved(Image image, Image by) { return {image.x + by.x, image.y + by.y}; }
 
 inline Image image_of(const Disc& disc) {
     return {static_cast<int>(disc.image_x), static_cast<int>(disc.image_y)};
@@ -45,6 +44,10 @@ inline bool are_shifted_alike(const Disc& p, const Disc& q) {
 inline void set_image(Disc& disc, Image image) {
     disc.image_x = static_cast<std::int16_t>(image.x);
     disc.image_y = static_cast<std::int16_t>(image.y);
+}
+
+inline void move_image(Disc& disc, Image by) {
+    set_image(disc, {image_of(disc).x + by.x, image_of(disc).y + by.y});
 }
 
 /// Places at which nothing has to be done about images, without end where a box does not repeat

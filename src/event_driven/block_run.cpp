@@ -172,23 +172,20 @@ void BlockRun<Dynamics>::Scratch::predict_pairs_of(std::uint32_t p, std::uint32_
 
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::predict_pair(std::uint32_t a, std::uint32_t b) {
-    const Disc* other = &discs[b];
-    Image image;
-    Disc seen;
-    if (const Ghost* const ghost = ghost_at(b)) [[unlikely]] {
+    const Ghost* const ghost = ghost_at(b);
+    if (ghost) [[unlikely]] {
         b = ghost->disc;
-        image = ghost->image;
-        seen = discs[b];
-        set_image(seen, moved(image_of(seen), image));
-        other = &seen;
+        move_image(discs[b], ghost->image);
     }
-    const auto contact = dynamics.event_contact(discs[a], *other);
+    const auto contact = dynamics.event_contact(discs[a], discs[b]);
+    if (ghost) [[unlikely]]
+        move_image(discs[b], -ghost->image);
     if (!contact.exists()) return;
     const double time = contact.base + contact.delay;
     // Two discs that have just collided with each other do not collide again at the same time. The
     // rest of their approach, a rounding, is too small for an impulse to mend.
     if (have_just_collided(a, b, time)) return;
-    push(time, a, b, image);
+    push(time, a, b, ghost);
 }
 
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::uint32_t slot) {
@@ -220,7 +217,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_obstacle(std
 
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::push(double time, std::uint32_t a, std::uint32_t b,
-                                       [[maybe_unused]] Image image) {
+                                       [[maybe_unused]] const Ghost* ghost) {
     const BlockWindow& window = ground.window;
     if (!(time <= window.end) || time < window.begin ||
         (time == window.begin && !window.holds_begin))
@@ -235,14 +232,13 @@ void BlockRun<Dynamics>::Scratch::push(double time, std::uint32_t a, std::uint32
     raise(a);
     if (!is_wall(b)) {
         raise(b);
-        if (discs[b].id < discs[a].id) {
-            std::swap(a, b);
-            image = {-image.x, -image.y};
-        }
+        const bool is_turned = discs[b].id < discs[a].id;
+        if (is_turned) std::swap(a, b);
+        if (Dynamics::is_periodic && ghost) [[unlikely]]
+            event.set_image(is_turned ? -ghost->image : ghost->image);
     }
     event.p = a;
     event.q = b;
-    if constexpr (Dynamics::is_periodic) event.set_image(image);
     event.versions = versions_of(event);
     queue.push(event, EventOrder(discs));
 }
@@ -311,8 +307,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event& event) {
     Disc &p = discs[event.p], &q = discs[event.q];
     const double vx_before = p.vx, vy_before = p.vy;
-    const Image at_home = image_of(q);
-    if (Dynamics::is_periodic && event.has_image()) set_image(q, moved(at_home, event.image()));
+    if (Dynamics::is_periodic && event.has_image()) move_image(q, event.image());
     if constexpr (Dynamics::has_spin)
         dynamics.collide_at(p, q, event.time, columns[SideColumn::spin][event.p],
                             columns[SideColumn::spin][event.q]);
@@ -323,7 +318,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event&
         virial_terms.add(mass * (p.vx - vx_before), mass * (p.vy - vy_before),
                          dynamics.separation(p, q), outcome->virial);
     }
-    if (Dynamics::is_periodic && event.has_image()) set_image(q, at_home);
+    if (Dynamics::is_periodic && event.has_image()) move_image(q, -event.image());
 }
 
 /// Of a disc that an own one has met. Nobody compares what happens beyond the ring. Who comes from
@@ -357,7 +352,7 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
             hold_to_schedule(slot, event.time);
     }
     place(slot, ground.window.begin);
-    if constexpr (Dynamics::is_periodic)
+    if (Dynamics::is_periodic && is_whole)
         layout.for_ghosts_of(slot, [this](const Ghost& ghost) { place_ghost(ghost); });
 }
 

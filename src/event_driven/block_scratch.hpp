@@ -89,7 +89,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void predict_pair(std::uint32_t a, std::uint32_t b);
     void predict_walls(std::uint32_t slot);
     void predict_obstacle(std::uint32_t slot);
-    void push(double time, std::uint32_t a, std::uint32_t b, Image image = {});
+    void push(double time, std::uint32_t a, std::uint32_t b, const Ghost* ghost = nullptr);
     void report(std::span<std::uint64_t> histories);
 
     Flight flight_of(std::uint32_t slot) const;
@@ -101,7 +101,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         return {};
     }
     const Ghost* ghost_at(std::uint32_t slot) const {
-        return Dynamics::is_periodic ? layout.ghost_at(slot) : nullptr;
+        return Dynamics::is_periodic && is_whole ? layout.ghost_at(slot) : nullptr;
     }
     /// With each other, at this time, and with nobody since; perhaps as other images.
     bool have_just_collided(std::uint32_t a, std::uint32_t b, double time) const {

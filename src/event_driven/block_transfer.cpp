@@ -45,7 +45,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::gather() {
             set_image(discs[slot], periods().home(discs[slot], ground.window.begin));
         place(slot, ground.window.begin);
     }
-    for (const Ghost& ghost : layout.ghosts()) place_ghost(ghost);
+    if (is_whole)
+        for (const Ghost& ghost : layout.ghosts()) place_ghost(ghost);
     bound_squared = ground.window.speed_bound * ground.window.speed_bound;
     const double bound_lane = ground.window.speed_bound * cells_per_speed * (1 - 1e-6);
     bound_lane_squared = static_cast<float>(bound_lane * bound_lane);
@@ -91,7 +92,6 @@ void BlockRun<Dynamics>::Scratch::list_discs(const CellBlock& own, int halo) {
             cell_starts.push_back(static_cast<std::uint32_t>(indices.size()));
         }
     }
-    if (Dynamics::is_periodic) layout.forget_ghosts(indices.size());
 }
 
 /// All discs of the box, each once.

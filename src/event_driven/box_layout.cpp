@@ -44,8 +44,7 @@ void BoxLayout::lay(std::span<const Disc> discs, std::size_t n_own, const BoxCel
         }
         starts_.push_back(static_cast<std::uint32_t>(indices_.size()));
     }
-    forget_ghosts(indices_.size());
-    if (periods.are_any()) add_ghosts(cells, columns, rows);
+    add_ghosts(cells, columns, rows);
 }
 
 /// Each disc of the box: the rank's own ones, and one copy of each other one.
@@ -104,6 +103,9 @@ std::vector<BoxLayout::Line> BoxLayout::lines(int n_cells, int n_beyond) {
 
 void BoxLayout::add_ghosts(const BoxCells& cells, std::span<const Line> columns,
                            std::span<const Line> rows) {
+    ghosts_.clear();
+    ghost_at_.assign(indices_.size(), none);
+    first_ghost_.assign(indices_.size(), none);
     const auto slots_of = [&](std::size_t column, std::size_t row) {
         const std::size_t cell = column * (rows.size() + 1) + row;
         return SlotRange{starts_[cell], starts_[cell + 1]};
@@ -132,12 +134,6 @@ void BoxLayout::add_ghosts(const BoxCells& cells, std::span<const Line> columns,
             }
         }
     }
-}
-
-void BoxLayout::forget_ghosts(std::size_t n_slots) {
-    ghosts_.clear();
-    ghost_at_.assign(n_slots, none);
-    first_ghost_.assign(n_slots, none);
 }
 
 } // namespace carrom

@@ -58,8 +58,6 @@ public:
         for (std::uint32_t k = first_ghost_[slot]; k != none; k = ghosts_[k].next)
             visit(ghosts_[k]);
     }
-    /// There are none in these many slots.
-    void forget_ghosts(std::size_t n_slots);
 
 private:
     struct Line {
