@@ -115,9 +115,7 @@ void DiscSorter::bring(std::span<Disc> discs, SortMemory memory, const Placed& p
         Disc* const passed = carriers_[k].passed.data();
         const Disc* traveller = carriers_[k].travellers.data();
         const LocalIndex* arrival = carriers_[k].arrivals.data();
-        const std::size_t end = share(n_discs_, k + 1, n_shares);
-        for (std::size_t i = share(n_discs_, k, n_shares); i < end; ++i) {
-            __builtin_prefetch(at + order[std::min(i + ahead, end - 1)]);
+        const auto bring_to = [&](std::size_t i) {
             const std::size_t from = order[i];
             const Disc* source = from >= i ? at + from : passed + (from & mask);
             if (i == *arrival) [[unlikely]] {
@@ -129,7 +127,15 @@ void DiscSorter::bring(std::span<Disc> discs, SortMemory memory, const Placed& p
                 at[i] = *source;
             }
             placed(i);
+        };
+        const std::size_t begin = share(n_discs_, k, n_shares),
+                          end = share(n_discs_, k + 1, n_shares),
+                          end_asking = end - std::min(ahead, end - begin);
+        for (std::size_t i = begin; i < end_asking; ++i) {
+            __builtin_prefetch(at + order[i + ahead]);
+            bring_to(i);
         }
+        for (std::size_t i = end_asking; i < end; ++i) bring_to(i);
     }
 }
 
