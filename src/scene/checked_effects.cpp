@@ -216,10 +216,13 @@ void check_growth(const Check& check) {
     if (scene.effects.growth == 0) return;
     const double growth = scene.effects.growth_at(static_cast<double>(scene.steps));
     const double densest = scene.effects.species.empty() ? largest_packing : 1;
-    const double widest = (scene.effects.are_periodic() ? 4 * (1 + 1e-6) : 2) * scene.radius;
-    const double most = std::min(std::sqrt(densest / scene.packing()),
-                                 scene.box.shortest() / widest);
-    if (growth <= most) return;
+    const auto room = [&scene](double side, bool is_periodic) {
+        return side / ((is_periodic ? 4 * (1 + 1e-6) : 2) * scene.radius);
+    };
+    const double most = std::min({std::sqrt(densest / scene.packing()),
+                                  room(scene.box.x, scene.effects.is_periodic_x()),
+                                  room(scene.box.y, scene.effects.is_periodic_y())});
+    if (growth <= most || most < 1) return; // no room at the start is told elsewhere
     check.refuse({"effects.growth.rate"},
                  fmt::format("after {} steps discs of radius {:g} would cover {:.4g} of the box; "
                              "there is room for them up to step {:.0f}",

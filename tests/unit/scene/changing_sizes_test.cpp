@@ -109,6 +109,15 @@ TEST_CASE("Discs that grow need room until the last step") {
     };
     CHECK(two_growing("effects.growth.rate=2.3").empty());
     CHECK(has(two_growing("effects.growth.rate=2.5"), "room for them up to step 9"));
+    // Between walls there is room up to the width, along the periodic axis up to half the length.
+    const auto in_strip = [&](const char* rate) {
+        Texts texts = two;
+        texts.emplace_back("box.size=[100, 3]");
+        texts.emplace_back(rate);
+        return problems_with(texts);
+    };
+    CHECK(in_strip("effects.growth.rate=0.049").empty());
+    CHECK(has(in_strip("effects.growth.rate=0.051"), "room for them up to step 9"));
     for (const char* other :
          {"time.method=time-stepped", "effects.contact.kind=none", "effects.gravity.y=-0.01",
           "effects.drag.rate=0.1", "effects.obstacles.discs=[[50, 50, 1]]", "box.top.kind=open"})
