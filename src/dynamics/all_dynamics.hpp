@@ -12,13 +12,11 @@
 #include "dynamics/study_dynamics.hpp"
 
 // make(dynamics) for each.
-#define CARROM_FOR_EACH_PERIODIC_DYNAMICS(make)                                                    \
-    make(PeriodicElasticDynamics) make(PeriodicInelasticDynamics) make(PeriodicMixedDynamics)      \
-        make(PeriodicRoughDynamics) make(GrowingDynamics)
 #define CARROM_FOR_EACH_DYNAMICS(make)                                                             \
     make(PlainDynamics) make(StudyDynamics<double>) make(StudyDynamics<float>)                     \
         make(InelasticDynamics) make(MixedDynamics) make(RoughDynamics)                            \
-            CARROM_FOR_EACH_PERIODIC_DYNAMICS(make)
+            make(PeriodicElasticDynamics) make(PeriodicInelasticDynamics)                          \
+                make(PeriodicMixedDynamics) make(PeriodicRoughDynamics) make(GrowingDynamics)
 
 namespace carrom {
 

@@ -10,7 +10,8 @@
 //                 twice the halo, in the end with the whole box
 //   commit        new states for the discs that were hit
 //
-// A rollback costs nothing but the run: states are rewritten at the commit only.
+// A rollback costs nothing but the run: states are rewritten at the commit only. Few discs on one
+// rank and thread have a single run of the whole box. It needs no halo and no histories.
 #pragma once
 
 #include <cstdint>
@@ -107,8 +108,8 @@ private:
     BlockChoice choice_;
     BlockWindow window_;
     bool is_alone_ = false; ///< one run of the whole box, for lack of threads and ranks
-    BoxCells box_cells_;
-    int halo_depth_ = 0; ///< reaches that the halo covers
+    BoxCells box_cells_;    ///< of runs that see the whole box
+    int halo_depth_ = 0;    ///< reaches that the halo covers
     CellBlock own_cells_{0, 1, 0, 1};
     int block_columns_ = 1, block_rows_ = 1; ///< cells to a block
     int n_block_rows_ = 1;

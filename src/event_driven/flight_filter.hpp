@@ -53,9 +53,9 @@ struct CellRows {
 };
 
 /// Finds every pair that might touch in the window, of a disc in `rows` of a column and one that
-/// comes after it: later in its own column or in a column to the right, within the table's reach.
-/// Puts the second ones into `partners`, which only grows. For each disc of the rows it appends to
-/// `ends` where its partners end there.
+/// comes after it. That one is later in its own column, or in a column to the right, within the
+/// table's reach. Puts the second ones into `partners`, which only grows. For each disc of the rows
+/// it appends to `ends` where its partners end there.
 void filter_column(const FlightLanes& lanes, const CellTable& cells, int column, CellRows rows,
                    float touching_squared, std::vector<std::uint32_t>& partners,
                    std::vector<std::uint32_t>& ends);
