@@ -163,10 +163,11 @@ void StripDiscs::set_home_images(double time, std::vector<Disc>* companion) {
     const Inside inside = periods_.inside();
     for (std::size_t i = 0; i < n_own_; ++i) {
         Disc& disc = discs_[i];
-        const bool is_at_home = is_unshifted(disc) &&
-                                inside.holds(disc.x_at(time), disc.y_at(time)); // nearly all
+        const Image image = image_of(disc);
+        const bool is_at_home = inside.holds(disc.x_at(time) + image.x * periods_.x,
+                                             disc.y_at(time) + image.y * periods_.y); // nearly all
         if (is_at_home && !companion) continue;
-        const Image home = is_at_home ? Image{} : periods_.home(disc, time);
+        const Image home = is_at_home ? image : periods_.home(disc, time);
         if (!is_at_home) set_image(disc, home);
         if (companion) set_image((*companion)[i], home);
     }

@@ -66,20 +66,9 @@ void BlockRun<Dynamics>::run_gathered(std::span<std::uint64_t> histories) {
 }
 
 /// The flight of a disc that has just collided.
-template <class Dynamics>
-[[gnu::always_inline]] inline Flight BlockRun<Dynamics>::Scratch::flight_of(
-    std::uint32_t slot) const {
-    const Disc& disc = discs[slot];
-    Flight flight;
-    const auto [x_now, y_now] = turned(axis, Dynamics::is_periodic ? x_of(disc, disc.tau) : disc.x,
-                                       Dynamics::is_periodic ? y_of(disc, disc.tau) : disc.y);
-    flight.x = static_cast<float>((x_now - x_corner) * cells_per_length);
-    flight.y = static_cast<float>((y_now - y_corner) * cells_per_length);
-    flight.vx = vx[slot];
-    flight.vy = vy[slot];
-    flight.now = static_cast<float>((disc.tau - ground.window.begin) * windows_per_time);
-    flight.slot = slot;
-    return flight;
+template <class Dynamics> Flight BlockRun<Dynamics>::Scratch::flight_of(std::uint32_t slot) const {
+    const auto now = static_cast<float>((discs[slot].tau - ground.window.begin) * windows_per_time);
+    return {x[slot] + vx[slot] * now, y[slot] + vy[slot] * now, vx[slot], vy[slot], now, slot};
 }
 
 /// No branches on signs, which are anything: a flight ends where it began or on either side of it.

@@ -129,7 +129,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales() {
                                    (cells.end_row - cells.first_row) / double{rows_per_cell}) +
                           8.0;
     const double reach = block_reach(window, diameter, dynamics.box()) * cells_per_length;
-    // Positions carry an error of 2^-23 of the block's size. The rounding of the filter's other
+    // Separations carry an error of 2^-21 of the block's size. The rounding of the filter's other
     // terms acts like a longer diameter by 2^-20 d^2 / diameter, with the largest distance d that
     // is looked at.
     const double looked_at = 3 * reach + 3;

@@ -25,7 +25,7 @@ constexpr double blocks_per_thread = 4;
 /// that grow become some 30 times as fast.
 constexpr double jam_heating = 64;
 /// Up to here one thread does best with a single block and no halo.
-constexpr double most_discs_alone = 12000;
+constexpr double most_discs_alone = 30000;
 
 /// Cells of about two spacings hold a vector's worth of discs in three rows.
 double least_cell_width(double reach, double height, double length, std::uint64_t n_discs) {

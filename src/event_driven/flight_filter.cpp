@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "event_driven/flight_filter.hpp"
 
+#include <algorithm>
 #include <array>
 
 #undef HWY_TARGET_INCLUDE
@@ -39,20 +40,21 @@ struct Neighbours {
     }
 };
 
-/// Which of the discs might touch the flight in what is left of the window.
+/// Which of the discs might touch the flight in what is left of the window: those that are near
+/// already, and those that approach, do not pass by, and arrive in time. Each condition is a number
+/// that is negative where it holds, so that one comparison does for all of them.
 HWY_INLINE hn::Mask<Lanes> might_touch(const Neighbours& others, const SpreadFlight& p) {
-    const auto zero = hn::Zero(Lanes());
     const auto dx = hn::Sub(others.x, p.x), dy = hn::Sub(others.y, p.y);
     const auto wx = hn::Sub(others.vx, p.vx), wy = hn::Sub(others.vy, p.vy);
     const auto b = hn::MulAdd(dx, wx, hn::Mul(dy, wy));
     const auto a = hn::MulAdd(wx, wx, hn::Mul(wy, wy));
-    const auto c = hn::Sub(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), p.touching);
-    const auto near = hn::Le(c, zero);
-    const auto meets = hn::And(hn::Lt(b, zero), hn::Ge(hn::Mul(b, b), hn::Mul(a, c)));
-    const auto b_end = hn::MulAdd(a, p.rest, b); // b and c at the window's end
-    const auto c_end = hn::MulAdd(hn::Add(b, b_end), p.rest, c);
-    const auto in_time = hn::Or(hn::Ge(b_end, zero), hn::Le(c_end, zero));
-    return hn::Or(near, hn::And(meets, in_time));
+    const auto c = hn::MulAdd(dx, dx, hn::MulSub(dy, dy, p.touching));
+    // where c > 0: they approach, and b^2 > a c
+    const auto passes_by = hn::MulAdd(b, hn::Abs(b), hn::Mul(a, c));
+    const auto minus_b_end = hn::NegMulSub(a, p.rest, b); // b and c at the window's end
+    const auto c_end = hn::MulAdd(hn::Sub(b, minus_b_end), p.rest, c);
+    const auto misses = hn::Min(c, hn::Max(passes_by, hn::Min(minus_b_end, c_end)));
+    return hn::Lt(misses, hn::Zero(Lanes()));
 }
 
 #if HWY_TARGET == HWY_AVX2
@@ -94,20 +96,16 @@ HWY_INLINE std::uint32_t* append(SlotVector slots, hn::Mask<Slots> kept, std::ui
     return next + hn::CountTrue(Slots(), kept);
 }
 
-/// Appends to `next` the slots of `run`, but for `except`, that might touch the flight; returns the
-/// new end.
+/// Appends to `next` the slots of `run` that might touch the flight; returns the new end.
 HWY_INLINE std::uint32_t* filter_run(const FlightLanes lanes, SlotRange run, const SpreadFlight& p,
-                                     Vector now, SlotVector except, std::uint32_t* next) {
+                                     Vector now, std::uint32_t* next) {
     const auto steps = hn::Iota(Slots(), 0);
     const auto end = spread_slot(run.end);
     for (std::uint32_t slot = run.begin; slot < run.end;
          slot += static_cast<std::uint32_t>(hn::Lanes(Lanes()))) {
         const auto slots = hn::Add(steps, spread_slot(slot));
-        const auto inside = hn::AndNot(hn::Eq(slots, except), hn::Lt(slots, end));
-        next = append(
-            slots,
-            hn::And(hn::RebindMask(Slots(), might_touch(Neighbours(lanes, slot, now), p)), inside),
-            next);
+        const auto touch = hn::RebindMask(Slots(), might_touch(Neighbours(lanes, slot, now), p));
+        next = append(slots, hn::And(touch, hn::Lt(slots, end)), next);
     }
     return next;
 }
@@ -118,10 +116,9 @@ std::size_t FilterFlights(const FlightLanes& all_lanes, std::span<const SlotRang
         all_lanes; // nothing else points to these pointers: they stay in registers
     const SpreadFlight spread(flight, touching_squared);
     const auto now = hn::Set(Lanes(), flight.now);
-    const auto own = spread_slot(flight.slot);
     std::uint32_t* next = out;
-    for (const SlotRange& run : runs) next = filter_run(lanes, run, spread, now, own, next);
-    return static_cast<std::size_t>(next - out);
+    for (const SlotRange& run : runs) next = filter_run(lanes, run, spread, now, next);
+    return static_cast<std::size_t>(std::remove(out, next, flight.slot) - out);
 }
 
 PartnerCounts FilterTwoFlights(const FlightLanes& all_lanes, std::span<const SlotRange> runs,
@@ -160,7 +157,6 @@ void FilterColumn(const FlightLanes& all_lanes, const CellTable& cells, int colu
                                      static_cast<std::size_t>(column) * cells.column_length;
     const int n_right = HWY_MIN(cells.n_reach_columns, cells.n_columns - 1 - column);
     const auto start = hn::Zero(Lanes());
-    const auto nobody = spread_slot(0xffffffff);
     std::size_t n_partners = 0;
     for (int row = rows.first; row < rows.end; ++row) {
         if (own[row] == own[row + 1]) continue;
@@ -178,12 +174,11 @@ void FilterColumn(const FlightLanes& all_lanes, const CellTable& cells, int colu
         for (std::uint32_t slot = own[row]; slot < own[row + 1]; ++slot) {
             const SpreadFlight spread(
                 {lanes.x[slot], lanes.y[slot], lanes.vx[slot], lanes.vy[slot]}, touching_squared);
-            next = filter_run(lanes, {slot + 1, own[high + 1]}, spread, start, nobody, next);
+            next = filter_run(lanes, {slot + 1, own[high + 1]}, spread, start, next);
             for (int k = 1; k <= n_right; ++k) {
                 const std::uint32_t* const other = own + static_cast<std::size_t>(k) *
                                                              cells.column_length;
-                next = filter_run(lanes, {other[low], other[high + 1]}, spread, start, nobody,
-                                  next);
+                next = filter_run(lanes, {other[low], other[high + 1]}, spread, start, next);
             }
             ends.push_back(static_cast<std::uint32_t>(next - partners.data()));
         }
