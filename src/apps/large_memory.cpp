@@ -8,11 +8,21 @@
 #include <cstdlib>
 #include <new>
 
+#include <malloc.h>
 #include <sys/mman.h>
 
 namespace {
 
 constexpr std::size_t huge_page = std::size_t{1} << 21;
+
+#ifdef M_MMAP_THRESHOLD
+// Large arrays go back to the system one by one. By itself glibc takes them from the heap once it
+// has seen some of them go, and there lists that grow leave holes: 4 bytes a disc. What is asked
+// for is a huge page more than the array, so that its begin can be aligned. Smaller lists come
+// and go in the heap, which keeps what they need.
+[[maybe_unused]] const bool are_large_apart = mallopt(M_MMAP_THRESHOLD, 2 * huge_page) != 0 &&
+                                              mallopt(M_TRIM_THRESHOLD, 8 * huge_page) != 0;
+#endif
 
 /// Null where there is none.
 void* find_memory(std::size_t size, std::size_t alignment) {

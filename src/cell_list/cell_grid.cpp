@@ -118,6 +118,7 @@ void CellGrid::sort_cells(std::span<Disc> own, const GridGeometry& geometry, dou
     anchor_ = time;
     has_flights_ = false;
     sort(own, n_threads, companions);
+    std::vector<float>().swap(lanes_); // they were the sorter's alone
 }
 
 void CellGrid::sort(std::span<Disc> own, int n_threads, const Companions& companions) {

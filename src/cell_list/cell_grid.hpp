@@ -98,8 +98,8 @@ public:
     void sort(std::span<Disc> own, const GridGeometry& geometry, double anchor, double time,
               double duration, int n_threads, const Periods& periods = {},
               const Companions& companions = {});
-    /// The same for cells alone, by where discs are at `time`: `lanes()` and what is found by them
-    /// say nothing.
+    /// The same for cells alone, by where discs are at `time`: there are no `lanes()`, and nothing
+    /// is found by them.
     void sort_cells(std::span<Disc> own, const GridGeometry& geometry, double time, int n_threads,
                     const Periods& periods = {}, const Companions& companions = {});
     /// Puts discs that lie behind the own ones, in this order, into cells of theirs.

@@ -164,7 +164,10 @@ void DiscSorter::rearrange(std::initializer_list<std::span<Disc>> arrays, SortMe
     // is needed.
     constexpr std::size_t quarter = sizeof(Disc) / 4;
     static_assert(quarter == 4 * sizeof(float));
-    if (memory.lanes.size() < 4 * memory.lane_length) memory.lanes.resize(4 * memory.lane_length);
+    if (memory.lanes.size() < 4 * memory.lane_length) {
+        std::vector<float>().swap(memory.lanes); // else the old ones would be there, too
+        memory.lanes.resize(4 * memory.lane_length);
+    }
     auto* lent = reinterpret_cast<std::byte*>(memory.lanes.data());
     const auto n = static_cast<std::int64_t>(n_discs_);
     for (const std::span<Disc> discs : arrays) {

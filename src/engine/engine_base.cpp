@@ -90,7 +90,7 @@ template <class Dynamics> void EngineBase<Dynamics>::advance_towards(std::int64_
         if (n_micro_done_ == next_sync) sync();
     }
     discs_.forget_images();
-    if (n_micro_done_ == last_micro_step_) discs_.drop_grid(); // memory for what follows a run
+    if (n_micro_done_ == last_micro_step_) drop_scratch(); // memory for what follows a run
 }
 
 template <class Dynamics> void EngineBase<Dynamics>::sync() {

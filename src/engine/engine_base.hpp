@@ -52,6 +52,8 @@ protected:
     /// Follows a sync at `time_`, before times start again from 0. No own disc is faster than
     /// `largest_speed`. **Collective.**
     virtual void finish_sync(double largest_speed) = 0;
+    /// Gives back what windows keep from one to the next.
+    virtual void drop_scratch() { discs_.drop_grid(); }
 
     /// Cuts the box anew and redistributes all discs, wherever they are. **Collective.**
     void distribute();

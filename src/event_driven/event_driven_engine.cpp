@@ -375,6 +375,12 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::finish_sync(double l
     for (BlockRun<Dynamics>& block_run : block_runs_) block_run.change_dynamics(dynamics_);
 }
 
+template <class Dynamics> void EventDrivenEngine<Dynamics>::drop_scratch() {
+    Base::drop_scratch();
+    std::vector<Block>().swap(blocks_);
+    std::vector<std::uint64_t>().swap(histories_);
+}
+
 template <class Dynamics> RollbackCounts EventDrivenEngine<Dynamics>::rollback_counts() const {
     RollbackCounts counts = counts_;
     counts.blocks = communicator_.sum(counts_.blocks);

@@ -60,6 +60,7 @@ private:
     void advance_to(std::int64_t target) override;
     void migrate() override;
     void finish_sync(double largest_speed) override;
+    void drop_scratch() override;
 
     void run_window(double target);
     BlockWindow choose(double target);

@@ -2,6 +2,7 @@
 #include "time_stepped/search.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <omp.h>
 
@@ -43,10 +44,6 @@ void for_each_ahead(const std::vector<DiscPair>& pairs, std::size_t n, const Ask
 void MicroStepList::add(const Candidate& candidate, WindowState seen) {
     if (sections.empty() || sections.back().seen != seen)
         sections.push_back({seen, candidates.size()});
-    // Candidates are most of what a rank keeps beside its discs: lists grow by a quarter, not to
-    // twice their size.
-    if (candidates.size() == candidates.capacity())
-        candidates.reserve(candidates.size() + candidates.size() / 4 + 64);
     candidates.push_back(candidate);
 }
 
@@ -60,6 +57,14 @@ void MicroStepList::drop_stale(std::span<const WindowState> states) {
     }
     candidates.resize(n_left);
     sections.clear();
+}
+
+/// Gives the list's memory away: it is not needed until the next window, and later lists grow.
+std::vector<Candidate> SearchLists::take(std::size_t bucket, std::span<const WindowState> states) {
+    MicroStepList& list = by_micro[bucket];
+    most_candidates = std::max(most_candidates, list.candidates.size());
+    list.drop_stale(states);
+    return std::exchange(list.candidates, {});
 }
 
 /// What rejects in single precision: pairs by distance, walls by the position at the window's end,
@@ -105,7 +110,7 @@ void Search<Dynamics>::predict_all(const Population& population, const CellGrid&
     {
         SearchLists& lists = lists_[static_cast<std::size_t>(omp_get_thread_num())];
         lists.by_micro.resize(static_cast<std::size_t>(window.n_micro));
-        for (MicroStepList& list : lists.by_micro) list.clear();
+        for (MicroStepList& list : lists.by_micro) list.begin(lists.most_candidates);
         columns.run(omp_get_thread_num(), [&](std::int64_t column) {
             predict_column(population, grid, window, bounds, static_cast<int>(column), lists);
         });
@@ -247,33 +252,26 @@ void Search<Dynamics>::predict_wall(const Population& population, const Window& 
 }
 
 template <class Dynamics>
-void Search<Dynamics>::collect(const Window& window, int m, std::span<const WindowState> states,
-                               std::vector<Candidate>& live) {
+std::vector<Candidate> Search<Dynamics>::collect(const Window& window, int m,
+                                                 std::span<const WindowState> states) {
     const auto bucket = static_cast<std::size_t>(m - window.first_micro);
-    if (n_threads_ == 1) {
-        MicroStepList& list = lists_[0].by_micro[bucket];
-        list.drop_stale(states);
-        std::swap(live, list.candidates);
-        list.clear();
-        return;
-    }
+    if (n_threads_ == 1) return lists_[0].take(bucket, states);
+    std::vector<Candidate> live;
     std::vector<std::size_t> ends(static_cast<std::size_t>(n_threads_) + 1, 0);
 #pragma omp parallel num_threads(n_threads_)
     {
         const auto thread = static_cast<std::size_t>(omp_get_thread_num());
-        MicroStepList& list = lists_[thread].by_micro[bucket];
-        list.drop_stale(states);
-        ends[thread + 1] = list.candidates.size();
+        const std::vector<Candidate> own = lists_[thread].take(bucket, states);
+        ends[thread + 1] = own.size();
 #pragma omp barrier
 #pragma omp single
         {
             for (std::size_t t = 1; t < ends.size(); ++t) ends[t] += ends[t - 1];
             live.resize(ends.back());
         }
-        std::copy(list.candidates.begin(), list.candidates.end(),
-                  live.begin() + static_cast<std::ptrdiff_t>(ends[thread]));
-        list.clear();
+        std::ranges::copy(own, live.data() + ends[thread]);
     }
+    return live;
 }
 
 #define CARROM_DEFINE(Dynamics) template class Search<Dynamics>;

@@ -35,17 +35,23 @@ struct MicroStepList {
     /// Takes out those of which a disc has been hit since; `states` by disc. What is left is no
     /// longer in sections.
     void drop_stale(std::span<const WindowState> states);
-    void clear() {
+    /// Makes the list empty, with room for so many.
+    void begin(std::size_t n_expected) {
         candidates.clear();
+        candidates.reserve(n_expected);
         sections.clear();
     }
 };
 
-/// One thread's lists and scratch space; they keep their memory from window to window.
+/// One thread's lists and scratch space.
 struct SearchLists {
     std::vector<MicroStepList> by_micro; ///< from the window's first micro-step on
+    std::size_t most_candidates = 0;     ///< that any of them has had
     std::vector<DiscPair> pairs;         ///< the first n_pairs
     std::size_t n_pairs = 0;
+
+    /// Those of the list that are still current, which it loses.
+    std::vector<Candidate> take(std::size_t bucket, std::span<const WindowState> states);
 };
 
 template <class Dynamics> class Search {
@@ -64,9 +70,9 @@ public:
                        int from, double reach, std::span<const LocalIndex> hit,
                        std::span<const WindowState> states);
 
-    /// Moves the candidates of micro-step m that are still current into `live`; `states` by disc.
-    void collect(const Window& window, int m, std::span<const WindowState> states,
-                 std::vector<Candidate>& live);
+    /// Hands out the candidates of micro-step m that are still current; `states` by disc.
+    std::vector<Candidate> collect(const Window& window, int m,
+                                   std::span<const WindowState> states);
 
 private:
     struct Bounds;

@@ -171,15 +171,22 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::migrate_at(double ti
     if (part_ == 0) unchanged_until_ = time_;
 }
 
+/// As far as this rank can alone. Returns how many candidates are ours; their list ends here.
+template <class Dynamics>
+std::uint64_t TimeSteppedEngine<Dynamics>::resolve_here(const Window& window, int m) {
+    std::vector<Candidate> live = search_.collect(window, m, states_);
+    const std::uint64_t n_candidates = count_ours(live);
+    if (in_parts_) strike_taken(live);
+    local_.resolve(population(), live, verdicts_);
+    return n_candidates;
+}
+
 /// Decides and applies micro-step m. False, with nothing done, if discs have become faster than the
 /// window allows for.
 template <class Dynamics>
 bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
     const PhaseClock::Scope resolving(phases_, Phase::resolve);
-    search_.collect(window, m, states_, live_);
-    const std::uint64_t n_candidates = count_ours(live_);
-    if (in_parts_) strike_taken(live_);
-    local_.resolve(population(), live_, verdicts_);
+    const std::uint64_t n_candidates = resolve_here(window, m);
     if (!discs_.has_no_halo()) {
         const PhaseClock::Scope scope(phases_, Phase::conflicts);
         across_strips_.resolve_boundary(population(), discs_.neighbours(), verdicts_.undecided,

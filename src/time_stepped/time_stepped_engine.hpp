@@ -54,6 +54,7 @@ private:
     std::vector<Disc>* companion() { return in_parts_ ? &outcomes_ : nullptr; }
 
     bool run_micro_step(const Window& window, int m);
+    std::uint64_t resolve_here(const Window& window, int m);
     std::uint64_t count_ours(std::span<const Candidate> candidates) const;
     void strike_taken(std::vector<Candidate>& live) const;
     void apply(const Window& window, int m);
@@ -83,7 +84,6 @@ private:
     Search<Dynamics> search_;
     LocalResolution local_;
     BoundaryResolution across_strips_;
-    std::vector<Candidate> live_;
     Verdicts verdicts_;
     std::vector<LocalIndex> hits_, updates_;
     std::vector<Disc> unhit_; ///< for the log: the first disc of each kept candidate, before it

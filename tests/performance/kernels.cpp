@@ -169,8 +169,8 @@ void local_resolution(benchmark::State& state) {
     window.n_micro = window_steps;
     search.predict_all(gas.population(), grid, window, reach_of_window());
     const std::vector<WindowState> states(gas.discs.size(), 0);
-    std::vector<Candidate> all, live;
-    search.collect(window, window_steps - 1, states, all);
+    const std::vector<Candidate> all = search.collect(window, window_steps - 1, states);
+    std::vector<Candidate> live;
     LocalResolution resolution(1);
     Verdicts verdicts;
     for (auto _ : state) {
