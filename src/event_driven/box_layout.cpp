@@ -8,6 +8,14 @@
 
 namespace carrom {
 
+double least_cell_width(double reach, double height, double length, std::uint64_t n_discs) {
+    const auto n_cells = static_cast<double>(n_discs + 16);
+    // In a thin tube one cell holds its whole height.
+    const double spacing = std::max(std::sqrt(height * length / n_cells), length / n_cells);
+    const double per_reach = std::round(reach / std::max(2 * spacing, reach / 4));
+    return std::max(reach / std::clamp(per_reach, 1.0, 4.0), 0.7 * spacing);
+}
+
 BoxCells cells_of_box(const Extent& extent, const Periods& periods, double reach,
                       double least_width) {
     BoxCells cells;

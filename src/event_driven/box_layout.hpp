@@ -14,6 +14,10 @@
 
 namespace carrom {
 
+/// How wide cells should be at least in a box of this height and length. Cells of about two
+/// spacings hold a vector's worth of discs in three rows.
+double least_cell_width(double reach, double height, double length, std::uint64_t n_discs);
+
 /// Cells of the box. Between periodic sides they fill it exactly.
 struct BoxCells {
     double x_low = 0, y_low = 0, width = 1, height = 1;

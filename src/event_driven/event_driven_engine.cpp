@@ -27,15 +27,6 @@ constexpr double jam_heating = 64;
 /// Up to here one thread does best with a single block and no halo.
 constexpr double most_discs_alone = 30000;
 
-/// Cells of about two spacings hold a vector's worth of discs in three rows.
-double least_cell_width(double reach, double height, double length, std::uint64_t n_discs) {
-    const auto n_cells = static_cast<double>(n_discs + 16);
-    // In a thin tube one cell holds its whole height.
-    const double spacing = std::max(std::sqrt(height * length / n_cells), length / n_cells);
-    const double per_reach = std::round(reach / std::max(2 * spacing, reach / 4));
-    return std::max(reach / std::clamp(per_reach, 1.0, 4.0), 0.7 * spacing);
-}
-
 int cells_along(double length, double width) {
     return static_cast<int>(std::clamp(std::ceil(length / width * (1 - 1e-9)), 1.0, 1e9));
 }

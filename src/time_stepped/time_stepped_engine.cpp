@@ -19,11 +19,10 @@ constexpr double least_allowance = 1.02, allowance_after_cut = 1.15;
 
 /// Threads with little to do cost more than they bring.
 Tuning with_useful_threads(Tuning tuning, const Scene& scene, const Communicator& communicator) {
-    const std::uint64_t per_rank = scene.n_discs / static_cast<std::uint64_t>(communicator.size());
-    const std::uint64_t useful = std::max<std::uint64_t>(
-        1, per_rank / std::max<std::uint64_t>(1, tuning.discs_per_thread));
-    tuning.threads = static_cast<int>(
-        std::min<std::uint64_t>(useful, static_cast<std::uint64_t>(tuning.threads)));
+    const auto per_thread = std::max<std::uint64_t>(1, tuning.discs_per_thread),
+               n_ranks = static_cast<std::uint64_t>(communicator.size());
+    tuning.threads = static_cast<int>(std::clamp<std::uint64_t>(
+        scene.n_discs / (n_ranks * per_thread), 1, static_cast<std::uint64_t>(tuning.threads)));
     return tuning;
 }
 
@@ -171,22 +170,18 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::migrate_at(double ti
     if (part_ == 0) unchanged_until_ = time_;
 }
 
-/// As far as this rank can alone. Returns how many candidates are ours; their list ends here.
-template <class Dynamics>
-std::uint64_t TimeSteppedEngine<Dynamics>::resolve_here(const Window& window, int m) {
-    std::vector<Candidate> live = search_.collect(window, m, states_);
-    const std::uint64_t n_candidates = count_ours(live);
-    if (in_parts_) strike_taken(live);
-    local_.resolve(population(), live, verdicts_);
-    return n_candidates;
-}
-
 /// Decides and applies micro-step m. False, with nothing done, if discs have become faster than the
 /// window allows for.
 template <class Dynamics>
 bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
     const PhaseClock::Scope resolving(phases_, Phase::resolve);
-    const std::uint64_t n_candidates = resolve_here(window, m);
+    std::uint64_t n_candidates = 0;
+    { // the list is given back before others grow
+        std::vector<Candidate> live = search_.collect(window, m, states_);
+        n_candidates = count_ours(live);
+        if (in_parts_) strike_taken(live);
+        local_.resolve(population(), live, verdicts_);
+    }
     if (!discs_.has_no_halo()) {
         const PhaseClock::Scope scope(phases_, Phase::conflicts);
         across_strips_.resolve_boundary(population(), discs_.neighbours(), verdicts_.undecided,
@@ -216,18 +211,16 @@ bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
 template <class Dynamics>
 std::uint64_t TimeSteppedEngine<Dynamics>::count_ours(std::span<const Candidate> candidates) const {
     if (discs_.has_no_halo()) return candidates.size();
-    std::uint64_t n = 0;
-    for (const Candidate& candidate : candidates) n += candidate.p < discs_.n_own();
-    return n;
+    const auto is_ours = [this](const Candidate& c) { return c.p < discs_.n_own(); };
+    return static_cast<std::uint64_t>(std::ranges::count_if(candidates, is_ours));
 }
 
 /// Candidates with a disc that an earlier part of this micro-step has taken are lost, but they were
 /// candidates.
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::strike_taken(std::vector<Candidate>& live) const {
-    const std::span<const Disc> discs = population().discs;
     const auto is_taken = [&](LocalIndex index) {
-        return outcomes_[index].version() != discs[index].version();
+        return outcomes_[index].version() != population().discs[index].version();
     };
     std::erase_if(
         live, [&](const Candidate& c) { return is_taken(c.p) || (!c.is_wall() && is_taken(c.q)); });

@@ -54,7 +54,6 @@ private:
     std::vector<Disc>* companion() { return in_parts_ ? &outcomes_ : nullptr; }
 
     bool run_micro_step(const Window& window, int m);
-    std::uint64_t resolve_here(const Window& window, int m);
     std::uint64_t count_ours(std::span<const Candidate> candidates) const;
     void strike_taken(std::vector<Candidate>& live) const;
     void apply(const Window& window, int m);
