@@ -132,6 +132,7 @@ template <class Dynamics> void EngineBase<Dynamics>::wrap(Disc& disc) {
     if constexpr (Dynamics::is_periodic) {
         const double x = disc.x, y = disc.y;
         dynamics_.wrap(disc);
+        set_image(disc, {});
         if (!crossings_.empty() && (x != disc.x || y != disc.y))
             note_crossing(disc, x, y, dynamics_.periods());
     }

@@ -94,7 +94,7 @@ void StripDiscs::set_departed_aside() {
 void StripDiscs::migrate(double time, double farthest, std::vector<Disc>* companion) {
     forget_halo();
     if (companion) companion->resize(n_own_);
-    if (periods_.are_any()) set_home_images(time, companion);
+    if (periods_.are_any()) set_home_images(time, farthest, companion);
     if (communicator_.size() > 1) {
         const TransferPlan plan = migration_plan(time, farthest);
         move_along(plan, discs_);
@@ -159,18 +159,27 @@ void StripDiscs::drop_grid() {
 }
 
 /// The companion of a disc stands for the same image, wherever its own state takes it.
-void StripDiscs::set_home_images(double time, std::vector<Disc>* companion) {
+/// Discs that were far from all sides of the box when they were sorted still have the right image.
+void StripDiscs::set_home_images(double time, double farthest, std::vector<Disc>* companion) {
     const Inside inside = periods_.inside();
-    for (std::size_t i = 0; i < n_own_; ++i) {
-        Disc& disc = discs_[i];
-        const Image image = image_of(disc);
-        const bool is_at_home = inside.holds(disc.x_at(time) + image.x * periods_.x,
-                                             disc.y_at(time) + image.y * periods_.y); // nearly all
-        if (is_at_home && !companion) continue;
-        const Image home = is_at_home ? image : periods_.home(disc, time);
-        if (!is_at_home) set_image(disc, home);
-        if (companion) set_image((*companion)[i], home);
+    const Inside inner{inside.x_low + farthest, inside.x_high - farthest, inside.y_low + farthest,
+                       inside.y_high - farthest};
+    const bool are_all = companion || !has_images_;
+    for (const PlaceRange range :
+         are_all ? std::vector<PlaceRange>{{0, n_own_}} : places_outside(inner)) {
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+            Disc& disc = discs_[i];
+            const Image image = image_of(disc);
+            const bool is_at_home = inside.holds(disc.x_at(time) + image.x * periods_.x,
+                                                 disc.y_at(time) +
+                                                     image.y * periods_.y); // nearly all
+            if (is_at_home && !companion) continue;
+            const Image home = is_at_home ? image : periods_.home(disc, time);
+            if (!is_at_home) set_image(disc, home);
+            if (companion) set_image((*companion)[i], home);
+        }
     }
+    has_images_ = true;
 }
 
 Extent StripDiscs::extent_seen(const Extent& box, double reach) const {
@@ -195,6 +204,7 @@ Extent StripDiscs::extent_seen(const Extent& box, double reach) const {
 void StripDiscs::forget_images() {
     if (!periods_.are_any()) return;
     for (Disc& disc : own()) set_image(disc, {});
+    has_images_ = false;
 }
 
 void StripDiscs::fetch_halo(double time, double reach, std::vector<Disc>* companion) {

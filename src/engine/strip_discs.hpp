@@ -126,7 +126,7 @@ public:
 
 private:
     template <Message T> void move_along(const TransferPlan& plan, std::vector<T>& values);
-    void set_home_images(double time, std::vector<Disc>* companion);
+    void set_home_images(double time, double farthest, std::vector<Disc>* companion);
     TransferPlan migration_plan(double time, double farthest) const;
     std::vector<PlaceRange> places_outside(const Inside& inner) const;
     Companions companions(std::vector<Disc>* states);
@@ -144,7 +144,8 @@ private:
         redistributed_strips_; ///< wanted, and those of the last migration
     NeighbourExchange exchange_;
     CellGrid grid_;
-    bool is_sorted_ = false; ///< whether the grid has the own discs' places
+    bool is_sorted_ = false;  ///< whether the grid has the own discs' places
+    bool has_images_ = false; ///< whether own discs had the images at home when they were sorted
     TransferPlan halo_plan_;
     std::vector<int> other_partners_;       ///< of a periodic box, where a rank is its own partner
     std::vector<std::size_t> halo_offsets_; ///< of each partner's discs behind the own ones

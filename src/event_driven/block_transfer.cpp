@@ -81,15 +81,18 @@ void BlockRun<Dynamics>::Scratch::list_discs(const CellBlock& own, int halo) {
     cell_starts.clear();
     indices.clear();
     for (int column = cells.first_column; column < cells.end_column; ++column) {
-        cell_starts.push_back(static_cast<std::uint32_t>(indices.size()));
-        const bool has_halo = grid.has_halo_in(column);
+        const SlotRange all = grid.run(column, cells.first_row, cells.end_row - 1),
+                        all_of_halo = grid.halo_run(column, cells.first_row, cells.end_row - 1);
+        std::size_t next = indices.size();
+        indices.resize(next + (all.end - all.begin) + (all_of_halo.end - all_of_halo.begin));
+        cell_starts.push_back(static_cast<std::uint32_t>(next));
         for (int row = cells.first_row; row < cells.end_row; ++row) {
             const SlotRange run = grid.run(column, row, row),
-                            of_halo = has_halo ? grid.halo_run(column, row, row) : SlotRange{};
-            for (LocalIndex index = run.begin; index < run.end; ++index) indices.push_back(index);
+                            of_halo = grid.halo_run(column, row, row);
+            for (LocalIndex index = run.begin; index < run.end; ++index) indices[next++] = index;
             for (std::uint32_t slot = of_halo.begin; slot < of_halo.end; ++slot)
-                indices.push_back(grid.halo_index(slot));
-            cell_starts.push_back(static_cast<std::uint32_t>(indices.size()));
+                indices[next++] = grid.halo_index(slot);
+            cell_starts.push_back(static_cast<std::uint32_t>(next));
         }
     }
 }
@@ -188,7 +191,7 @@ void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
     // Memory for what a block has, not for twice as much: all blocks keep theirs until the window
     // is validated.
     outcome->hit.resize(n_hit);
-    outcome->states.resize(n_hit);
+    outcome->states.reserve(n_hit);
     outcome->columns = side_columns_of<Dynamics>();
     outcome->columns.resize(n_hit);
     double end_squared = 0;
@@ -205,7 +208,7 @@ void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
             end_squared = std::max(end_squared, speed_squared(discs[slot]));
             if (history == 0) continue;
             outcome->hit[next] = indices[slot];
-            outcome->states[next] = NewState(discs[slot]);
+            outcome->states.emplace_back(discs[slot]);
             outcome->columns.copy(next, columns, slot);
             ++next;
         }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "event_driven/block_run.hpp"
 
@@ -18,6 +19,7 @@ constexpr double cost_per_event = 160;
 constexpr double cost_per_partner = 1.0; ///< of each disc that a prediction looks at
 constexpr double discs_in_cache =
     24000; ///< of a block with its halo; most of them are looked at once only
+constexpr double densest_gas = 0.7; ///< of which a gas's collision rate is guessed
 /// Changes spread by collisions. Where discs fly far compared with their size few go two reaches in
 /// a window.
 constexpr double thin_gas = 0.2; ///< diameter to reach
@@ -111,9 +113,13 @@ void Caution::learn(double repeated, double hits) {
     }
 }
 
-double guessed_collision_rate(const BlockNeeds& needs) {
+double guessed_collision_rate(const BlockNeeds& needs, double mean_speed) {
     const double number_density = needs.n_discs / needs.box.area();
-    return number_density * 2 * needs.radius * needs.speed_bound / 3;
+    const double packing = std::min(densest_gas, number_density * std::numbers::pi * needs.radius *
+                                                     needs.radius);
+    const double contact_value = (1 - 7 * packing / 16) / ((1 - packing) * (1 - packing));
+    const double relative_speed = std::numbers::sqrt2 * mean_speed;
+    return number_density * 2 * needs.radius * relative_speed * contact_value;
 }
 
 } // namespace carrom

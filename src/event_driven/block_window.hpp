@@ -59,7 +59,8 @@ private:
     double most_hits_ = std::numeric_limits<double>::infinity();
 };
 
-/// Collisions per disc and time in a gas of this density and speed, to begin with.
-double guessed_collision_rate(const BlockNeeds& needs);
+/// Collisions per disc and time in a gas of this density and mean speed, to begin with: Enskog's
+/// rate, with the contact value of Henderson (1975).
+double guessed_collision_rate(const BlockNeeds& needs, double mean_speed);
 
 } // namespace carrom

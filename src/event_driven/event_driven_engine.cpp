@@ -10,6 +10,7 @@
 #include <omp.h>
 
 #include "engine/dynamics_of_scene.hpp"
+#include "engine/speed_survey.hpp"
 #include "engine/state_sums.hpp"
 #include "engine/window_choice.hpp"
 #include "event_driven/initial_overlaps.hpp"
@@ -159,7 +160,10 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
     if (n_windows_ > 0)
         collision_rate_ = static_cast<double>(communicator_.sum(n_events_)) /
                           (std::max(n, 1.0) * last_duration_);
-    needs.collision_rate = n_windows_ > 0 ? collision_rate_ : guessed_collision_rate(needs);
+    else if (const double largest = communicator_.max(largest_speed_); largest > 0)
+        collision_rate_ = guessed_collision_rate(
+            needs, survey_speeds(discs_.own(), largest, communicator_).mean());
+    needs.collision_rate = collision_rate_;
     caution_.learn(repeated_, collision_rate_ * last_duration_);
     needs.more_halo = caution_.more_halo();
     repeated_ = 0;

@@ -22,8 +22,9 @@ namespace {
 
 /// Lists of no more than this are given back to the system one by one.
 constexpr std::size_t discs_in_part = 1 << 16;
-/// Room for the first halo: one disc of it to so many own ones. Else all of them would move.
-constexpr std::size_t own_per_halo = 16;
+/// Room for the halo, to the square root of the number of own discs: some 20 discs deep on each
+/// side of the box. Without it all discs would move when it grows.
+constexpr double halo_per_root = 128;
 
 /// The same in many lists. What was one no longer exists then, though a parameter may live as long
 /// as the expression that the call is in.
@@ -46,7 +47,8 @@ StoredState first_state(const Scene& scene, std::vector<InputDisc> inputs) {
     BySideColumn<std::vector<double>> numbers;
     const std::size_t n = inputs.size();
     std::vector<std::vector<InputDisc>> parts = in_parts(std::move(inputs));
-    state.discs.reserve(n + n / own_per_halo + 1024);
+    state.discs.reserve(
+        n + static_cast<std::size_t>(halo_per_root * std::sqrt(static_cast<double>(n))));
     for (; !parts.empty(); parts.pop_back()) { // from the end: there the heap shrinks
         for (const InputDisc& input : parts.back()) {
             Disc& disc = state.discs.emplace_back();

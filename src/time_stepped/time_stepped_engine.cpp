@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "engine/dynamics_of_scene.hpp"
+#include "engine/speed_survey.hpp"
 #include "engine/state_sums.hpp"
-#include "time_stepped/speed_survey.hpp"
 
 namespace carrom {
 

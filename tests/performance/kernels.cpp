@@ -221,7 +221,7 @@ void block_run(benchmark::State& state) {
     const PlainDynamics dynamics(gas.size, 1);
     BlockNeeds needs{
         gas.size, 1, static_cast<double>(gas.discs.size()), 1.08 * largest_speed, 0, 0, 3, true};
-    needs.collision_rate = guessed_collision_rate(needs);
+    needs.collision_rate = guessed_collision_rate(needs, largest_speed / 2);
     const BlockChoice choice = choose_block_window(needs, 64, {});
     const BlockWindow window{0, choice.duration, true, needs.speed_bound};
     CellGrid grid;

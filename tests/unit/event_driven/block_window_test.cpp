@@ -28,6 +28,17 @@ TEST_CASE("exact window: blocks look further while replays are repeated, then wi
     CHECK(caution.most_hits() > 1000);
 }
 
+TEST_CASE("exact window: the first window takes Enskog's collision rate") {
+    // Discs of diameter 1 at kT = 1 and packing fraction 0.5: 2 n sqrt(pi) g = 7.052 collisions of
+    // a disc in a time, each with another one; g = 3.125.
+    BlockNeeds needs;
+    needs.box = 10;
+    needs.n_discs = 0.5 * 100 / (std::acos(-1) / 4);
+    needs.radius = 0.5;
+    CHECK(std::abs(guessed_collision_rate(needs, std::sqrt(std::acos(-1) / 2)) - 7.052 / 2) <
+          0.001);
+}
+
 TEST_CASE(
     "exact window: caution widens the halo that the choice would take, not one that is wanted") {
     BlockNeeds needs{100, 1, 2000, 0.1, 1, 0, std::nullopt, false};

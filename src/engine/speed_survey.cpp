@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "time_stepped/speed_survey.hpp"
+#include "engine/speed_survey.hpp"
 
 #include <algorithm>
 #include <cmath>
