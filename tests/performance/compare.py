@@ -251,10 +251,10 @@ class Machine:
 
 
 def machine_text():
-    name = platform.processor()
     with open("/proc/cpuinfo", encoding="utf-8") as file:
-        found = re.search(r"^model name\s*:\s*(.*)$", file.read(), re.MULTILINE)
-    return f"{found.group(1) if found else name}, {os.cpu_count()} cores"
+        words = dict(re.findall(r"^(\w[\w ]*?)\s*:\s*(.*)$", file.read(), re.MULTILINE))
+    name = words.get("model name", platform.processor())
+    return f"{name}, model {words.get('model', 'unknown')}, {os.cpu_count()} cores"
 
 
 def version_of(build):

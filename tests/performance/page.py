@@ -55,53 +55,82 @@ def rate_text(row):
     return f"{value / 1e6:.3g}" if value > 0 else ""
 
 
-PEERS = (("LAMMPS", "over_lammps", 3), ("EDMD", "over_edmd", 3), ("stream", "over_stream", 2))
+PEERS = (("LAMMPS", "over_lammps", 3), ("stream", "over_stream", 2))
+WAYS = ("threads", "ranks")  # to use two cores
+
+
+def processor_of(rows):
+    """With its vectors, where they are known, and Carrom's version."""
+    first = rows[0]
+    vectors = re.search(r"vectors (\w+)", first["compiler"])
+    words = [re.sub(r", \d+ cores$", "", first["machine"]), vectors and vectors.group(1)]
+    return ", ".join([*filter(None, words), first["version"]])
+
+
+def by_case(files, cell):
+    """A row for each case, a column for each file. `cell(row)` gives a case's text there."""
+    cases = list(dict.fromkeys(r["case"] for rows in files for r in rows))
+    found = [{r["case"]: cell(r) for r in rows} for rows in files]
+    return table(
+        ["case", *map(processor_of, files)],
+        [[name_of(case), *(texts.get(case, "") for texts in found)] for case in cases],
+    )
+
+
+def is_of_one_core(row):
+    return row["ranks"] == row["threads"] == "1" and "generated" not in row["case"]
+
+
+def name_of(case):
+    return case.replace("all, ", "event-driven, ")
+
+
+def edmd_part(files):
+    beside = [[r for r in rows if r.get("over_edmd")] for rows in files]
+    return by_case(
+        [rows for rows in beside if rows], lambda r: f"{short(r['over_edmd'])} ({rate_text(r)})"
+    )
+
+
+def two_cores_part(files):
+    def gains(rows):
+        rate = {r["case"]: float(r["rate"]) for r in rows}
+        return [
+            r | {"gain": [rate[f"{r['case']}, 2 {word}"] / rate[r["case"]] for word in WAYS]}
+            for r in rows
+            if all(f"{r['case']}, 2 {word}" in rate for word in WAYS)
+        ]
+
+    found = [gains(rows) for rows in files]
+    return by_case(
+        [rows for rows in found if rows], lambda r: " / ".join(f"{g:.2f}" for g in r["gain"])
+    )
 
 
 def rates_part(rows):
     first = rows[0]
     peers = [peer for peer in PEERS if any(row.get(peer[1]) for row in rows)]
-    lines = [
-        (
-            f"{first['machine']}; {first['compiler']}; version {first['version']}. Medians of"
-            f" {min(int(r['rounds']) for r in rows)} rounds, with the least and the most. Ratios to"
-            " others are taken within a round."
-        ),
-        "",
-    ]
     body = [
         [
-            r["case"].replace("all, ", "event-driven, "),
-            f"{r['ranks']} x {r['threads']}",
+            name_of(r["case"]),
             f"{rate_text(r)} ({short(float(r['least']) / 1e6)} to {short(float(r['most']) / 1e6)})",
             r["unit"],
             *(short(r[column], digits) for _, column, digits in peers),
         ]
         for r in rows
-        if "generated" not in r["case"]
     ]
-    lines.append(
-        table(
-            ["case", "ranks x threads", "million per second", "of"]
-            + [f"x {name}" for name, _, _ in peers],
-            body,
-        )
-    )
-    by_name = {r["case"]: float(r["rate"]) for r in rows}
-    pairs = [
-        (name, by_name[name + ", 2 threads"] / rate, by_name[name + ", 2 ranks"] / rate)
-        for name, rate in by_name.items()
-        if name + ", 2 threads" in by_name and name + ", 2 ranks" in by_name
-    ]
-    body = [[n.replace("all, ", "event-driven, "), f"{t:.2f}", f"{k:.2f}"] for n, t, k in pairs]
-    if pairs:
-        lines += [
+    return "\n".join(
+        [
+            (
+                f"{processor_of(rows)}; {first['compiler'].split(', vectors')[0]}. Medians of"
+                f" {min(int(r['rounds']) for r in rows)} rounds, with the least and the most."
+            ),
             "",
-            "Two cores against one, as ratios of the medians above:",
-            "",
-            table(["case", "2 threads", "2 ranks"], body),
+            table(
+                ["case", "million per second", "of"] + [f"x {name}" for name, _, _ in peers], body
+            ),
         ]
-    return "\n".join(lines)
+    )
 
 
 def cluster_part(rows):
@@ -283,9 +312,14 @@ def main():
     folder, text = options.folder, options.page.read_text(encoding="utf-8")
     if (folder / "rates.csv").exists():
         rows = read_csv(folder / "rates.csv")
-        others = [read_csv(path) for path in sorted(folder.glob("rates_*.csv"))]
-        parts = [rates_part(found) for found in [rows, *others]]
+        files = [rows, *(read_csv(path) for path in sorted(folder.glob("rates_*.csv")))]
+        one_core = [
+            [r for r in found if not r.get("over_edmd") and is_of_one_core(r)] for found in files
+        ]
+        parts = [rates_part(found) for found in one_core if found]
         text = replace_part(text, "rates", "\n\n".join(parts))
+        text = replace_part(text, "two cores", two_cores_part(files))
+        text = replace_part(text, "edmd", edmd_part(files))
         draw_sizes(rows, folder)
     if (folder / "cluster.csv").exists():
         rows = read_csv(folder / "cluster.csv")
