@@ -214,7 +214,7 @@ void check_without_scene(const RunOptions& options, const Problems& problems_so_
 /// A mistake in the number of discs would end in the middle, without a word of why. **Collective.**
 void check_memory(const Scene& scene, const Communicator& ranks) {
     constexpr double bytes_per_disc_time_stepped = 90,
-                     bytes_per_disc_event_driven = 104; // at least (docs/performance/rates.csv)
+                     bytes_per_disc_event_driven = 104; // at least (docs/log/performance.md)
     const double bytes_per_disc = scene.method == Method::event_driven
                                       ? bytes_per_disc_event_driven
                                       : bytes_per_disc_time_stepped;

@@ -22,8 +22,8 @@ namespace {
 
 /// Lists of no more than this are given back to the system one by one.
 constexpr std::size_t discs_in_part = 1 << 16;
-/// Room for the halo, to the square root of the number of own discs: some 20 discs deep on each
-/// side of the box. Without it all discs would move when it grows.
+/// Room for the halo, to the square root of the number of own discs: 32 discs deep on each side
+/// of the box. Without it all discs would move when it grows.
 constexpr double halo_per_root = 128;
 
 /// The same in many lists. What was one no longer exists then, though a parameter may live as long
