@@ -160,6 +160,7 @@ void StripDiscs::drop_grid() {
 
 /// The companion of a disc stands for the same image, wherever its own state takes it.
 /// Discs that were far from all sides of the box when they were sorted still have the right image.
+/// For that no frame may jump along a periodic axis (scene/rules.cpp).
 void StripDiscs::set_home_images(double time, double farthest, std::vector<Disc>* companion) {
     const Inside inside = periods_.inside();
     const Inside inner{inside.x_low + farthest, inside.x_high - farthest, inside.y_low + farthest,
