@@ -14,7 +14,7 @@
 #include "core/frame.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/obstacles.hpp"
-#include "geometry/pair_contact.hpp"
+#include "dynamics/pair_contact.hpp"
 
 namespace carrom {
 

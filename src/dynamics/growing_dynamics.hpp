@@ -12,8 +12,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "dynamics/growing_contact.hpp"
 #include "dynamics/periodic_dynamics.hpp"
-#include "geometry/growing_contact.hpp"
 
 namespace carrom {
 

@@ -8,7 +8,7 @@
 
 #include "dynamics/falling_contact.hpp"
 #include "dynamics/never.hpp"
-#include "geometry/pair_contact.hpp"
+#include "dynamics/pair_contact.hpp"
 
 namespace carrom {
 

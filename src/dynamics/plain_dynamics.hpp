@@ -15,8 +15,8 @@
 #include "core/disc.hpp"
 #include "core/frame.hpp"
 #include "dynamics/effects.hpp"
+#include "dynamics/pair_contact.hpp"
 #include "dynamics/resting_walls.hpp"
-#include "geometry/pair_contact.hpp"
 
 namespace carrom {
 

@@ -19,8 +19,8 @@
 #include <numbers>
 #include <type_traits>
 
+#include "dynamics/naive_contact.hpp"
 #include "dynamics/plain_dynamics.hpp"
-#include "geometry/naive_contact.hpp"
 
 namespace carrom {
 

@@ -10,10 +10,10 @@
 #include <cstdint>
 #include <span>
 
+#include "domain/strip_discs.hpp"
 #include "dynamics/all_dynamics.hpp"
 #include "engine/engine.hpp"
 #include "engine/phase_clock.hpp"
-#include "engine/strip_discs.hpp"
 #include "scene/scene.hpp"
 
 namespace carrom {

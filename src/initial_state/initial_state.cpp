@@ -9,13 +9,13 @@
 #include "dynamics/obstacles.hpp"
 #include "initial_state/legacy_discs.hpp"
 #include "initial_state/random_insertion.hpp"
+#include "initial_state/velocities.hpp"
+#include "lattices/lattice.hpp"
+#include "lattices/triangular.hpp"
 #include "parallel/agreement.hpp"
 #include "parallel/exchange.hpp"
 #include "parallel/slabs.hpp"
 #include "scene/disc_reader.hpp"
-#include "scene/lattice.hpp"
-#include "scene/triangular.hpp"
-#include "scene/velocities.hpp"
 
 namespace carrom {
 

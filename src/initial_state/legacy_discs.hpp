@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "scene/lattice.hpp"
+#include "lattices/lattice.hpp"
 #include "scene/scene.hpp"
 
 namespace carrom {

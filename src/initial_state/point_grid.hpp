@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/lattice.hpp"
+#include "lattices/lattice.hpp"
 
 namespace carrom {
 

@@ -13,9 +13,9 @@
 #include "core/random_numbers.hpp"
 #include "dynamics/obstacles.hpp"
 #include "initial_state/point_grid.hpp"
+#include "lattices/lattice.hpp"
 #include "parallel/exchange.hpp"
 #include "parallel/slabs.hpp"
-#include "scene/lattice.hpp"
 
 namespace carrom {
 

@@ -6,10 +6,10 @@
 #include <numbers>
 
 #include "core/box_text.hpp"
+#include "lattices/lattice.hpp"
+#include "lattices/triangular.hpp"
 #include "scene/check.hpp"
-#include "scene/lattice.hpp"
 #include "scene/limits.hpp"
-#include "scene/triangular.hpp"
 
 namespace carrom {
 

@@ -12,7 +12,7 @@
 #include "initial_state/initial_state.hpp"
 #include "initial_state/random_insertion.hpp"
 #include "initial_state/scene_input.hpp"
-#include "scene/velocities.hpp"
+#include "initial_state/velocities.hpp"
 #include "simulation/simulation.hpp"
 
 namespace carrom {

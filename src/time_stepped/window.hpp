@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "geometry/pair_contact.hpp"
+#include "dynamics/pair_contact.hpp"
 
 namespace carrom {
 

@@ -18,10 +18,10 @@
 
 #include "cell_list/cell_grid.hpp"
 #include "core/state_hash.hpp"
+#include "dynamics/pair_contact.hpp"
 #include "dynamics/plain_dynamics.hpp"
 #include "event_driven/block_run.hpp"
 #include "event_driven/block_window.hpp"
-#include "geometry/pair_contact.hpp"
 #include "parallel/received.hpp"
 #include "parallel/sample_sort.hpp"
 #include "time_stepped/contact_filter.hpp"

@@ -13,7 +13,7 @@
 #include <cmath>
 
 #include "approach.hpp"
-#include "geometry/pair_contact.hpp"
+#include "dynamics/pair_contact.hpp"
 #include "hold.hpp"
 #include "runs.hpp"
 #include "scene_tools.hpp"

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "apps/trial.hpp"
+#include "apps/accuracy/trial.hpp"
 #include "core/errors.hpp"
 #include "scene/read_scene.hpp"
 

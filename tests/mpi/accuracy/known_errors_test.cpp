@@ -9,7 +9,7 @@
 #include <map>
 #include <numbers>
 
-#include "apps/trial.hpp"
+#include "apps/accuracy/trial.hpp"
 #include "initial_state/initial_state.hpp"
 
 using namespace carrom;

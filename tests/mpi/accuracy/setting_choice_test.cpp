@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/setting_choice.hpp"
+#include "apps/accuracy/setting_choice.hpp"
 #include "core/errors.hpp"
 #include "initial_state/initial_state.hpp"
 #include "scene/read_scene.hpp"

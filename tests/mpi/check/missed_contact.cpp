@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string>
 
-#include "apps/failure_scene.hpp"
+#include "apps/run/failure_scene.hpp"
 #include "check/check_failure.hpp"
 #include "check/state_check.hpp"
 #include "local_discs.hpp"

@@ -10,9 +10,9 @@
 
 #include "core/errors.hpp"
 #include "core/state_hash.hpp"
+#include "initial_state/velocities.hpp"
 #include "parallel/exchange.hpp"
 #include "scene/read_scene.hpp"
-#include "scene/velocities.hpp"
 #include "simulation/compression.hpp"
 #include "simulation/simulation.hpp"
 

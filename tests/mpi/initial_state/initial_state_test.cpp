@@ -17,11 +17,11 @@
 #include "core/random_numbers.hpp"
 #include "core/state_hash.hpp"
 #include "initial_state/initial_state.hpp"
+#include "initial_state/velocities.hpp"
+#include "lattices/lattice.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/exchange.hpp"
-#include "scene/lattice.hpp"
 #include "scene/read_scene.hpp"
-#include "scene/velocities.hpp"
 
 using namespace carrom;
 

@@ -10,7 +10,7 @@
 
 #include <sys/resource.h>
 
-#include "apps/csv_table.hpp"
+#include "apps/run/csv_table.hpp"
 #include "core/errors.hpp"
 
 using namespace carrom;

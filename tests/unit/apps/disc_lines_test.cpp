@@ -10,7 +10,7 @@
 
 #include "catch.hpp"
 
-#include "apps/disc_lines.hpp"
+#include "apps/run/disc_lines.hpp"
 
 namespace carrom {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "catch.hpp"
 
-#include "apps/progress.hpp"
+#include "apps/run/progress.hpp"
 
 namespace carrom {
 

@@ -7,8 +7,8 @@
 #include "catch.hpp"
 #include <unistd.h>
 
-#include "apps/data_output.hpp"
-#include "apps/report_file.hpp"
+#include "apps/run/data_output.hpp"
+#include "apps/run/report_file.hpp"
 
 namespace carrom {
 

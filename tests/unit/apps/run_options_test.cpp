@@ -6,8 +6,8 @@
 
 #include "catch.hpp"
 
-#include "apps/command_line.hpp"
-#include "apps/run_options.hpp"
+#include "apps/run/run_options.hpp"
+#include "apps/shell/command_line.hpp"
 
 namespace carrom {
 

@@ -2,8 +2,8 @@
 #include "catch.hpp"
 #include <nlohmann/json.hpp>
 
-#include "apps/report.hpp"
-#include "apps/summary.hpp"
+#include "apps/run/report.hpp"
+#include "apps/run/summary.hpp"
 
 namespace carrom {
 

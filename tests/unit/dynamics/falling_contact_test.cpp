@@ -6,8 +6,8 @@
 
 #include "catch.hpp"
 
-#include "../geometry/quad.hpp"
 #include "dynamics/falling_contact.hpp"
+#include "quad.hpp"
 
 using namespace carrom;
 using namespace carrom::test;

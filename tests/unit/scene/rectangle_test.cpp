@@ -4,9 +4,9 @@
 
 #include <numbers>
 
+#include "lattices/lattice.hpp"
 #include "scene/compare.hpp"
 #include "scene/key.hpp"
-#include "scene/lattice.hpp"
 #include "scene/toml_text.hpp"
 
 using namespace carrom;

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/triangular.hpp"
+#include "lattices/triangular.hpp"
 
 using namespace carrom;
 using namespace carrom::test;

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/accuracy/hard_cases.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "apps/shell/standard_streams.hpp"
+#include "core/errors.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// Of any disc on any rank, per micro-step. **Collective.**
+double largest_speed(const Simulation& simulation, const Communicator& ranks) {
+    double square = 0;
+    for (const Disc& disc : simulation.discs())
+        square = std::max(square, disc.vx * disc.vx + disc.vy * disc.vy);
+    return std::sqrt(ranks.max(square));
+}
+
+/// Images of discs are counted in 15 bits (core/image.hpp); collisions may make the fastest disc
+/// twice as fast.
+constexpr double most_crossings = 8000;
+
+void refuse_long_flights(const Scene& scene, double speed) {
+    if (!scene.effects.are_periodic()) return;
+    const double interval = static_cast<double>(
+        std::min(scene.sync_every, scene.steps * scene.micro_steps));
+    const double crossings = speed * interval / scene.effects.periods(scene.box).shortest();
+    if (crossings <= most_crossings) return;
+    throw InputError({{scene.name, 0,
+                       fmt::format("the fastest disc flies {:.3g} times through the box with "
+                                   "periodic sides from one sync to the next; this version "
+                                   "counts to {:g}: take a smaller time.sync_every (now {}) or "
+                                   "{:.3g} times as many time.micro_steps",
+                                   crossings, most_crossings, scene.sync_every,
+                                   std::ceil(crossings / most_crossings))}});
+}
+
+/// In the rounding of a time, which counts from the last sync.
+double blurred_flight(const Scene& scene, double speed) {
+    return speed * static_cast<double>(scene.sync_every) * 0x1p-53;
+}
+
+/// Beyond a radius no contact differs from any other place.
+void refuse_blurred_places(const Scene& scene, double speed) {
+    const double radii = blurred_flight(scene, speed) / scene.radius;
+    if (radii <= 1) return;
+    throw InputError(
+        {{scene.name, 0,
+          fmt::format("the fastest disc goes {:.3g} radii per micro-step, and {:.3g} radii in the "
+                      "rounding of a time, so where it meets others is unknown; take smaller "
+                      "speeds or {:.3g} times as many time.micro_steps",
+                      speed / scene.radius, radii, std::ceil(radii))}});
+}
+
+} // namespace
+
+void look_for_hard_cases(const Scene& scene, const Simulation& simulation,
+                         const Communicator& ranks) {
+    const double speed = largest_speed(simulation, ranks);
+    refuse_blurred_places(scene, speed);
+    refuse_long_flights(scene, speed);
+    const double blur = blurred_flight(scene, speed);
+    // As far as the band before walls is wide: from there on bounces and overlaps show it.
+    if (!ranks.is_root() || blur <= 1e-8 * scene.radius) return;
+    print_message(
+        "{}: warning: the fastest disc goes {:.3g} radii per micro-step, and {:.3g} radii in the "
+        "rounding of a time; "
+        "more time.micro_steps or a smaller time.sync_every (now {}) keep overlaps smaller\n",
+        scene.name, speed / scene.radius, blur / scene.radius, scene.sync_every);
+}
+
+void warn_of_close_pairs(const Scene& scene, const Totals& start) {
+    const auto pairs = [](std::uint64_t count) {
+        return count == 1 ? std::string("1 pair") : fmt::format("{} pairs", count);
+    };
+    if (start.overlapping_pairs > 0)
+        print_message("{}: warning: {} of discs overlap at the start; they pass through each other "
+                      "and collide once they have come apart\n",
+                      scene.name, pairs(start.overlapping_pairs));
+    if (start.chained_discs > 0)
+        print_message("{}: warning: {} two others or more at the start; what a hit does to discs "
+                      "that touch mechanics does not define: "
+                      "here the order of ids does\n",
+                      scene.name,
+                      start.chained_discs == 1
+                          ? "1 disc touches"
+                          : fmt::format("{} discs touch", start.chained_discs));
+    if (start.sliding_pairs > 0)
+        print_message("{}: warning: {} of discs that touch slide along each other at the start; "
+                      "whether they collide the last digits decide\n",
+                      scene.name, pairs(start.sliding_pairs));
+}
+
+} // namespace carrom

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/accuracy/trial.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <time.h>
+
+#include "apps/run/stopwatch.hpp"
+#include "core/errors.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr std::int64_t unlimited_steps = std::int64_t{1} << 40;
+constexpr std::int64_t longest_approach = 1 << 20; ///< steps that discs are given to meet
+
+/// Of all threads of this process: what other programs on the machine take is not in it.
+double process_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double collisions_per_disc(const Totals& totals) {
+    return 2 * static_cast<double>(totals.pair_collisions) / static_cast<double>(totals.n_discs);
+}
+
+} // namespace
+
+void advance_to(Simulation& simulation, std::int64_t step) {
+    while (simulation.step() < step) simulation.advance_towards(step);
+}
+
+std::vector<InputDisc> discs_now(const Simulation& simulation) {
+    std::vector<InputDisc> discs;
+    const double clock = simulation.clock(), unit = simulation.velocity_unit();
+    for (const Disc& disc : simulation.discs())
+        discs.push_back(
+            {disc.id, disc.x_at(clock), disc.y_at(clock), disc.vx * unit, disc.vy * unit});
+    std::sort(discs.begin(), discs.end(),
+              [](const InputDisc& a, const InputDisc& b) { return a.id < b.id; });
+    return discs;
+}
+
+Scene with_setting(Scene scene, const RunSetting& setting) {
+    scene.method = setting.method;
+    scene.micro_steps = setting.micro_steps;
+    scene.precision = setting.precision;
+    scene.arithmetic = setting.arithmetic;
+    scene.contraction = setting.contraction;
+    scene.accuracy.reset();
+    return scene;
+}
+
+TrialStart bring_to_equilibrium(const Scene& scene, std::vector<InputDisc> discs, double wanted,
+                                const Communicator& communicator, const Tuning& tuning) {
+    Scene exact = with_setting(scene, {Method::event_driven});
+    exact.steps = unlimited_steps;
+    Simulation simulation(exact, std::move(discs), communicator, tuning);
+    double done = 0, before = 0;
+    std::int64_t from = 0;
+    for (std::int64_t step = 1; done < wanted;
+         step *= 2) { // the last half or more of the way gives the frequency
+        if (step > longest_approach)
+            throw InputError(
+                {{scene.name, 0,
+                  "its discs meet too seldom for errors of collision rates to mean anything"}});
+        before = done;
+        from = simulation.step();
+        advance_to(simulation, step);
+        done = collisions_per_disc(simulation.totals());
+    }
+    TrialStart start;
+    start.discs = discs_now(simulation);
+    start.hash = simulation.totals().hash;
+    start.frequency = (done - before) / static_cast<double>(simulation.step() - from);
+    return start;
+}
+
+Trial run_trial(const Scene& scene, const RunSetting& setting, const TrialStart& start,
+                const TrialLength& length, const Communicator& communicator, const Tuning& tuning) {
+    Scene here = with_setting(scene, setting);
+    here.steps = length.steps;
+    Simulation simulation(here, start.discs, communicator, tuning);
+    std::set<std::int64_t> looks{length.steps};
+    for (int k = 1; k < length.n_looks; ++k)
+        looks.insert(std::max<std::int64_t>(1, length.steps * k / length.n_looks));
+    std::set<std::int64_t> stops = looks;
+    if (length.early_step > 0) stops.insert(length.early_step);
+
+    Trial trial;
+    trial.steps = length.steps;
+    for (const std::int64_t stop : stops) {
+        Stopwatch watch;
+        const double before = process_seconds();
+        advance_to(simulation, stop);
+        trial.core_seconds += process_seconds() - before;
+        trial.wall_seconds += watch.lap();
+        if (stop == length.early_step) trial.early = discs_now(simulation);
+        if (!looks.contains(stop)) continue;
+        trial.totals = simulation.totals();
+        trial.overlapping_pairs_per_disc += 2 *
+                                            static_cast<double>(trial.totals.overlapping_pairs) /
+                                            static_cast<double>(trial.totals.n_discs *
+                                                                looks.size());
+        trial.deepest_overlap = std::max(trial.deepest_overlap,
+                                         trial.totals.deepest_overlap / (2 * scene.radius));
+    }
+    trial.averages = simulation.averages();
+    trial.wall_seconds = communicator.max(trial.wall_seconds);
+    std::uint64_t nanoseconds = static_cast<std::uint64_t>(1e9 * trial.core_seconds);
+    trial.core_seconds = 1e-9 * static_cast<double>(communicator.sum(nanoseconds));
+    return trial;
+}
+
+} // namespace carrom

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/compare/compare_grader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+/// A right program may round so many times worse than the runs that growth is measured with.
+constexpr double growth_margin = 1000;
+/// The same over a single step from known numbers.
+constexpr double step_margin = 20;
+constexpr std::uint64_t own_runs = 6; ///< one of the output's numbers, the others beside it
+/// In radii: from such differences on, roundings may decide which discs collide.
+constexpr double deciding = 0.1;
+/// In radii: fewer digits than that are no excuse for larger differences.
+constexpr double coarsest_digit = 0.01;
+
+} // namespace
+
+Grader::Grader(const Scene& scene, double tolerance, std::istream& stream, const std::string& name)
+    : scene_(scene), setting_{scene.box, scene.radius, scene.micro_steps, scene.sync_every},
+      tolerance_(tolerance), unit_(static_cast<double>(scene.micro_steps)), output_(stream, name),
+      lines_(scene.n_discs), digits_before_(scene.n_discs),
+      is_counter_unknown_(scene.n_discs, false) {}
+
+void Grader::note_growth(std::int64_t step, const ExpectedDiscs& expected) {
+    if (has_left_runs_) return;
+    const double largest = *std::max_element(expected.spread.begin(), expected.spread.end());
+    has_left_runs_ = growth_margin * largest > deciding * setting_.radius;
+    first_left_ = step;
+}
+
+bool Grader::grade(std::int64_t step, const ExpectedDiscs& expected) {
+    if (!read(step)) return false;
+    n_steps_ += 1;
+    if (has_left_runs_ && step - written_before_ > 1) {
+        n_not_graded_ += 1;
+        return true;
+    }
+    const Aim aim = has_left_runs_ ? aim_from_own_lines() : aim_at(expected);
+    if (!hold_to(aim, step) || !hold_excused(aim, step) || !hold_counters(aim, step)) return false;
+    own_before_ = own_state(aim, step);
+    before_ = own_before_;
+    if (!has_left_runs_) before_->discs = aim.discs;
+    for (const StudentLine& line : lines_) digits_before_[line.id] = line.last_digit;
+    written_before_ = step;
+    return true;
+}
+
+bool Grader::grade_end() {
+    StudentLine line;
+    if (!output_.next(line)) return true;
+    verdict_ = fmt::format("line {}: the output should end before this line\nrule: lines\n",
+                           line.number);
+    return false;
+}
+
+/// The lines of a step; false where they are not those of all discs by id.
+bool Grader::read(std::int64_t step) {
+    for (DiscId id = 0; id < scene_.n_discs; ++id) {
+        StudentLine& line = lines_[id];
+        const std::string wrong = output_.next(line)
+                                      ? misplaced(line, step, id)
+                                      : fmt::format(
+                                            "end of the output: step {}, disc {} is missing", step,
+                                            id);
+        if (wrong.empty()) continue;
+        verdict_ = wrong + "\nrule: lines\n  each step that is written has all discs by id; the "
+                           "last one has p_c and w_c too\n";
+        return false;
+    }
+    return true;
+}
+
+std::string Grader::misplaced(const StudentLine& line, std::int64_t step, DiscId id) const {
+    if (line.step != step || line.id != id)
+        return fmt::format("line {}: should be of step {}, disc {}, is of step {}, disc {}",
+                           line.number, step, id, line.step, line.id);
+    const bool needs_counters = is_last(step) && step > 0;
+    if (line.has_counters != needs_counters)
+        return fmt::format("line {}: step {}, disc {}: should {}", line.number, step, id,
+                           needs_counters ? "end in p_c and w_c"
+                                          : "have no p_c and w_c; the last step has them");
+    return {};
+}
+
+double Grader::tolerance_of(const StudentLine& line) const {
+    return tolerance_ + std::min(line.last_digit, coarsest_digit * setting_.radius);
+}
+
+Grader::Aim Grader::aim_at(const ExpectedDiscs& expected) const {
+    Aim aim{expected.discs, expected.clock, {}, {}};
+    for (const StudentLine& line : lines_)
+        aim.allowed.push_back(tolerance_of(line) + growth_margin * expected.spread[line.id]);
+    return aim;
+}
+
+/// The student's numbers as a state of the run, with the counters of `aim`.
+SharedState Grader::own_state(const Aim& aim, std::int64_t step) const {
+    SharedState state{setting_, {}, step * setting_.micro_steps};
+    const auto tau = static_cast<double>(state.micro_steps_done % setting_.sync_every);
+    for (const StudentLine& line : lines_) {
+        Disc disc = aim.discs[line.id];
+        disc.x = line.x;
+        disc.y = line.y;
+        disc.vx = line.vx / unit_;
+        disc.vy = line.vy / unit_;
+        disc.tau = tau;
+        state.discs.push_back(disc);
+    }
+    return state;
+}
+
+/// To another number that the student's program writes the same way.
+void Grader::move_last_digits(Disc& disc, std::uint64_t seed) const {
+    double* const numbers[] = {&disc.x, &disc.y, &disc.vx, &disc.vy};
+    for (std::uint64_t i = 0; i < 4; ++i) {
+        const double digits = 0.5 * digits_before_[disc.id] / (i < 2 ? 1 : unit_);
+        *numbers[i] = nudged(*numbers[i], disc.id, 4 * seed + i) +
+                      digits * drawn(disc.id, 4 * seed + i);
+    }
+}
+
+/// One step of the rule from the student's own step before. The others begin as far away as the
+/// student's last digits may be.
+Grader::Aim Grader::aim_from_own_lines() const {
+    Aim aim;
+    std::vector<double> spread(scene_.n_discs, 0);
+    for (std::uint64_t seed = 0; seed < own_runs; ++seed) {
+        std::vector<Disc> discs = own_before_->discs;
+        if (seed > 0)
+            for (Disc& disc : discs) move_last_digits(disc, seed);
+        PlainRule rule(setting_, discs, own_before_->micro_steps_done, Mistake::none);
+        for (std::int64_t i = 0; i < setting_.micro_steps; ++i) rule.run_micro_step();
+        aim.clock = rule.clock();
+        aim.others.emplace_back(rule.discs().begin(), rule.discs().end());
+        aim.discs = aim.others.front();
+        for (const Disc& disc : rule.discs())
+            spread[disc.id] = std::max(
+                spread[disc.id], difference(aim.discs[disc.id], aim.clock, disc, aim.clock, unit_));
+    }
+    for (const StudentLine& line : lines_) {
+        const double grown = step_margin * spread[line.id];
+        aim.allowed.push_back(grown > deciding * setting_.radius ? unlimited
+                                                                 : tolerance_of(line) + grown);
+    }
+    return aim;
+}
+
+double Grader::difference_to(const std::vector<Disc>& discs, double clock, DiscId id) const {
+    const Disc& disc = discs[id];
+    const StudentLine& line = lines_[id];
+    const double differences[] = {
+        std::fabs(line.x - disc.x_at(clock)), std::fabs(line.y - disc.y_at(clock)),
+        std::fabs(line.vx - disc.vx * unit_), std::fabs(line.vy - disc.vy * unit_)};
+    double largest = 0;
+    for (const double one : differences) {
+        if (!(one <= std::numeric_limits<double>::max())) return unlimited; // NaN too
+        largest = std::max(largest, one);
+    }
+    return largest;
+}
+
+bool Grader::hold_to(const Aim& aim, std::int64_t step) {
+    for (const StudentLine& line : lines_) {
+        const double off = difference_to(aim.discs, aim.clock, line.id);
+        const bool is_finite = std::isfinite(line.x + line.y + line.vx + line.vy);
+        if (!is_finite || off > aim.allowed[line.id]) return blame(aim, line.id, step);
+        if (has_left_runs_) continue;
+        if (off > tolerance_of(line) && !first_drift_) first_drift_ = step;
+        if (!first_drift_) largest_ = std::max(largest_, off);
+    }
+    return true;
+}
+
+/// Where roundings decide a disc may be where any rounding leads to. Equal times are no roundings:
+/// if a wrong choice between them gives the line, that is the mistake.
+bool Grader::hold_excused(const Aim& aim, std::int64_t step) {
+    for (const StudentLine& line : lines_) {
+        if (aim.allowed[line.id] != unlimited) continue;
+        for (const std::vector<Disc>& discs : aim.others)
+            if (discs[line.id].pair_collisions != aim.discs[line.id].pair_collisions ||
+                discs[line.id].wall_collisions != aim.discs[line.id].wall_collisions)
+                is_counter_unknown_[line.id] = true;
+        const auto is_near = [&](const std::vector<Disc>& discs) {
+            return difference_to(discs, aim.clock, line.id) <= deciding * setting_.radius;
+        };
+        if (difference_to(aim.discs, aim.clock, line.id) <= tolerance_of(line)) continue;
+        if (std::none_of(aim.others.begin(), aim.others.end(), is_near))
+            return blame(aim, line.id, step);
+        const auto found = explain(shared_state(), setting_.micro_steps, given(aim), line.id);
+        if (found && found->is_of_equal_times) return blame(aim, line.id, step);
+    }
+    return true;
+}
+
+bool Grader::hold_counters(const Aim& aim, std::int64_t step) {
+    if (!is_last(step) || step == 0) return true;
+    for (const StudentLine& line : lines_) {
+        const Disc& disc = aim.discs[line.id];
+        if (is_counter_unknown_[line.id] || (line.pair_collisions == disc.pair_collisions &&
+                                             line.wall_collisions == disc.wall_collisions))
+            continue;
+        verdict_ = fmt::format(
+            "line {}: step {}, disc {}: p_c w_c should be {} {}, is {} {}\nrule: counters\n"
+            "  a pair counts once for each of its discs, a bounce in a corner once, a stop at a "
+            "wall not at all\n",
+            line.number, step, line.id, std::uint64_t{disc.pair_collisions},
+            std::uint64_t{disc.wall_collisions}, line.pair_collisions, line.wall_collisions);
+        return false;
+    }
+    return true;
+}
+
+std::vector<GivenDisc> Grader::given(const Aim& aim) const {
+    std::vector<GivenDisc> discs;
+    for (const StudentLine& line : lines_) {
+        const double allowed = aim.allowed[line.id];
+        discs.push_back({line.x, line.y, line.vx, line.vy,
+                         allowed == unlimited ? tolerance_of(line) : allowed});
+    }
+    return discs;
+}
+
+/// Notes the line of that disc as the first that differs; returns false.
+bool Grader::blame(const Aim& aim, DiscId id, std::int64_t step) {
+    const StudentLine& line = lines_[id];
+    const Disc& disc = aim.discs[id];
+    verdict_ = fmt::format("line {}: step {}, disc {} differs\n", line.number, step, id);
+    const auto append = [this](const char* label, double x, double y, double vx, double vy) {
+        verdict_ += fmt::format("  {:<9} {:.9g} {:.9g} {:.9g} {:.9g}\n", label, x + 0.0, y + 0.0,
+                                vx + 0.0, vy + 0.0);
+    };
+    append("should be", disc.x_at(aim.clock), disc.y_at(aim.clock), disc.vx * unit_,
+           disc.vy * unit_);
+    append("is", line.x, line.y, line.vx, line.vy);
+    verdict_ += reason(aim, id, step);
+    return false;
+}
+
+std::string Grader::reason(const Aim& aim, DiscId id, std::int64_t step) const {
+    if (step == 0) return "rule: lines\n  step 0 is the input as it is\n";
+    const std::int64_t micro_steps = (step - written_before_) * setting_.micro_steps;
+    if (!can_explain(scene_.n_discs, micro_steps))
+        return "rule: not looked for, it would take too long; write every step (`print`), or fewer "
+               "discs\n";
+    if (!has_left_runs_)
+        ensure(follows_rule(*before_, micro_steps, aim.discs, aim.clock),
+               "the plain rule of `carrom compare` is not that of the run");
+    const SharedState& state = shared_state();
+    const std::optional<Explanation> found = explain(state, micro_steps, given(aim), id);
+    std::string text = found ? fmt::format("rule: {}\n  what the program may do: {}\n", found->rule,
+                                           found->mistake)
+                             : "rule: none of the known mistakes gives this line\n";
+    if (found && found->n_unexplained > 0)
+        text += fmt::format("  {} more lines of the step differ otherwise\n", found->n_unexplained);
+    if (micro_steps == 1) text += facts(state, id);
+    return text;
+}
+
+std::string Grader::verdict() const {
+    if (!verdict_.empty()) return verdict_;
+    std::string text = fmt::format("same: {} discs in {} written steps; numbers within {:.3g}, the "
+                                   "largest difference {:.3g}\n",
+                                   scene_.n_discs, n_steps_, tolerance_, largest_);
+    if (first_drift_)
+        text += fmt::format("from step {} on differences are only amplified roundings\n",
+                            *first_drift_);
+    if (!has_left_runs_) return text;
+    text += fmt::format("from step {} on roundings decide: runs that begin one bit apart differ\n",
+                        first_left_);
+    if (n_not_graded_ > 0)
+        text += "  the last step was not graded; write every step (`print`) to have it graded\n";
+    else
+        text += "  from there on each step was held to the rule from the output's step before\n";
+    return text;
+}
+
+} // namespace carrom

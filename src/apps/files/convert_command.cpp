@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/shell/subcommands.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "apps/run/data_output.hpp"
+#include "apps/run/destinations.hpp"
+#include "apps/run/disc_lines.hpp"
+#include "apps/run/run_options.hpp"
+#include "io/checkpoint.hpp"
+#include "io/frame_file.hpp"
+#include "parallel/agreement.hpp"
+
+namespace carrom {
+
+namespace {
+
+enum class Format { xyz, text, csv };
+
+/// Which columns stand for which others where a file is written as text.
+constexpr std::array<std::string_view, 6> common_columns = {
+    "x", "y", "vx", "vy", "pair_collisions", "wall_collisions"};
+
+/// The columns that only some files have.
+std::vector<std::size_t> other_columns(const FileSummary& summary) {
+    std::vector<std::size_t> places;
+    for (std::size_t k = 0; k < summary.columns.size(); ++k)
+        if (std::find(common_columns.begin(), common_columns.end(), summary.columns[k]) ==
+            common_columns.end())
+            places.push_back(k);
+    return places;
+}
+
+/// Chemical symbols, for readers of extended XYZ take nothing else; X is no element.
+constexpr std::array<std::string_view, 119> symbols = {
+    "X",  "H",  "He", "Li", "Be", "B",  "C",  "N",  "O",  "F",  "Ne", "Na", "Mg", "Al", "Si",
+    "P",  "S",  "Cl", "Ar", "K",  "Ca", "Sc", "Ti", "V",  "Cr", "Mn", "Fe", "Co", "Ni", "Cu",
+    "Zn", "Ga", "Ge", "As", "Se", "Br", "Kr", "Rb", "Sr", "Y",  "Zr", "Nb", "Mo", "Tc", "Ru",
+    "Rh", "Pd", "Ag", "Cd", "In", "Sn", "Sb", "Te", "I",  "Xe", "Cs", "Ba", "La", "Ce", "Pr",
+    "Nd", "Pm", "Sm", "Eu", "Gd", "Tb", "Dy", "Ho", "Er", "Tm", "Yb", "Lu", "Hf", "Ta", "W",
+    "Re", "Os", "Ir", "Pt", "Au", "Hg", "Tl", "Pb", "Bi", "Po", "At", "Rn", "Fr", "Ra", "Ac",
+    "Th", "Pa", "U",  "Np", "Pu", "Am", "Cm", "Bk", "Cf", "Es", "Fm", "Md", "No", "Lr", "Rf",
+    "Db", "Sg", "Bh", "Hs", "Mt", "Ds", "Rg", "Cn", "Nh", "Fl", "Mc", "Lv", "Ts", "Og"};
+
+/// What each disc is, disc after disc.
+class Bodies {
+public:
+    explicit Bodies(const FileSummary& summary)
+        : species_(summary.species), all_{summary.n_rows, summary.radius, 1} {}
+    /// To be asked in the order of ids; from id 0 again at the next frame.
+    const Species& of(std::uint64_t id) {
+        if (id == 0) k_ = 0, end_ = species_.empty() ? all_.count : species_[0].count;
+        while (id >= end_) end_ += species_[++k_].count;
+        return species_.empty() ? all_ : species_[k_];
+    }
+    /// Of the disc that was asked for last: H, He and so on, or X.
+    std::string_view symbol() const {
+        return species_.empty() || species_.size() >= symbols.size() ? symbols[0] : symbols[k_ + 1];
+    }
+
+private:
+    std::span<const Species> species_;
+    Species all_;
+    std::size_t k_ = 0;
+    std::uint64_t end_ = 0;
+};
+
+/// Extended XYZ: a frame's first two lines.
+void append_header(fmt::memory_buffer& out, const FileSummary& summary, std::int64_t step) {
+    std::string others;
+    for (const std::size_t k : other_columns(summary))
+        others += fmt::format(":{}:R:1", summary.columns[k]);
+    fmt::format_to(std::back_inserter(out),
+                   "{}\nLattice=\"{} 0 0 0 {} 0 0 0 1\" "
+                   "Properties=species:S:1:pos:R:3:velo:R:3:id:I:1:radius:R:1:mass:R:1{} Time={} "
+                   "pbc=\"{} {} F\"\n",
+                   summary.n_rows, summary.box.x, summary.box.y, others, step,
+                   summary.is_periodic_x ? 'T' : 'F', summary.is_periodic_y ? 'T' : 'F');
+}
+
+/// Writes rows of frames as text.
+class RowWriter {
+public:
+    RowWriter(const FileSummary& summary, Format format)
+        : format_(format), bodies_(summary), others_(other_columns(summary)) {
+        for (const std::string_view column : common_columns)
+            places_.push_back(summary.place_of(column));
+    }
+
+    void append(fmt::memory_buffer& out, std::int64_t step, std::uint64_t id, const Rows& rows,
+                std::size_t i) {
+        if (format_ == Format::text) return append_as_text(out, step, id, rows, i);
+        const auto end = std::back_inserter(out);
+        const char separator = format_ == Format::xyz ? ' ' : ',';
+        if (format_ == Format::xyz) {
+            const Species& body = bodies_.of(id);
+            fmt::format_to(end, "{} {} {} 0 {} {} 0 {} {} {}", bodies_.symbol(), number(rows, i, 0),
+                           number(rows, i, 1), number(rows, i, 2), number(rows, i, 3), id,
+                           body.radius, body.mass);
+        } else {
+            fmt::format_to(end, "{},{}", step, id);
+            for (const std::size_t place : places_) { // what the file does not have stays empty
+                out.push_back(',');
+                if (place < rows.size()) fmt::format_to(end, "{}", rows[place][i]);
+            }
+        }
+        for (const std::size_t k : others_) fmt::format_to(end, "{}{}", separator, rows[k][i]);
+        out.push_back('\n');
+    }
+
+private:
+    /// Of a common column; 0 where the file does not have it.
+    double number(const Rows& rows, std::size_t i, std::size_t column) const {
+        return places_[column] < rows.size() ? rows[places_[column]][i] : 0;
+    }
+    void append_as_text(fmt::memory_buffer& out, std::int64_t step, std::uint64_t id,
+                        const Rows& rows, std::size_t i) const {
+        append_line(out, step,
+                    {id, number(rows, i, 0), number(rows, i, 1), number(rows, i, 2),
+                     number(rows, i, 3), static_cast<std::uint64_t>(number(rows, i, 4)),
+                     static_cast<std::uint64_t>(number(rows, i, 5))},
+                    RunOptions::round_trip_digits, places_[4] < rows.size());
+    }
+
+    Format format_;
+    Bodies bodies_;
+    std::vector<std::size_t> places_, others_;
+};
+
+void write_frames(const FrameFile& file, Format format, DataOutput& output) {
+    const FileSummary& summary = file.summary();
+    RowWriter writer(summary, format);
+    if (format == Format::csv) {
+        fmt::format_to(std::back_inserter(output.buffer()), "step,id,{}",
+                       fmt::join(common_columns, ","));
+        for (const std::size_t k : other_columns(summary))
+            fmt::format_to(std::back_inserter(output.buffer()), ",{}", summary.columns[k]);
+        output.buffer().push_back('\n');
+    }
+    Rows rows;
+    for (std::size_t frame = 0; frame < summary.steps.size() && output.failure().empty(); ++frame) {
+        if (format == Format::xyz) append_header(output.buffer(), summary, summary.steps[frame]);
+        for (std::uint64_t begin = 0; begin < summary.n_rows; begin += rows_at_a_time) {
+            const std::uint64_t end = std::min(begin + rows_at_a_time, summary.n_rows);
+            file.read(frame, begin, end, rows);
+            for (std::size_t i = 0; i < end - begin; ++i) {
+                writer.append(output.buffer(), summary.steps[frame], begin + i, rows, i);
+                output.flush_if_full();
+            }
+        }
+    }
+}
+
+void write_log(const FrameFile& file, DataOutput& output) {
+    const FileSummary& summary = file.summary();
+    const auto out = std::back_inserter(output.buffer());
+    fmt::format_to(out, "{}\n", fmt::join(summary.columns, ","));
+    Rows rows;
+    for (std::uint64_t begin = 0; begin < summary.n_rows && output.failure().empty();
+         begin += rows_at_a_time) {
+        const std::uint64_t end = std::min(begin + rows_at_a_time, summary.n_rows);
+        file.read(0, begin, end, rows);
+        for (std::size_t i = 0; i < end - begin; ++i) {
+            for (std::size_t k = 0; k < rows.size(); ++k)
+                fmt::format_to(out, "{}{}", k == 0 ? "" : ",", rows[k][i]);
+            output.buffer().push_back('\n');
+            output.flush_if_full();
+        }
+    }
+}
+
+/// What keeps a file from being written in that format; empty if nothing does.
+std::string obstacle_to_format(const FileSummary& summary, Format format) {
+    if (format == Format::csv) return {};
+    if (summary.kind == FileKind::collisions)
+        return "is a log of collisions; it can be converted to csv only";
+    if (!summary.has("x") || !summary.has("vx"))
+        return "has no positions or no velocities; convert it to csv";
+    return {};
+}
+
+/// Returns what went wrong with the output.
+std::string convert_alone(const std::string& path, Format format, const std::string& target) {
+    std::vector<Problem> problems;
+    if (!target.empty())
+        problems = problems_with({{"--output", target, true}}, {{"the file to convert", path}});
+    if (!problems.empty()) throw InputError(std::move(problems));
+    const FrameFile file(path);
+    if (const std::string obstacle = obstacle_to_format(file.summary(), format); !obstacle.empty())
+        throw InputError({{path, 0, obstacle}});
+    DataOutput output(target);
+    if (file.summary().kind == FileKind::collisions)
+        write_log(file, output);
+    else
+        write_frames(file, format, output);
+    output.flush();
+    output.close();
+    return output.failure();
+}
+
+/// **Collective.**
+ExitCode convert(const std::string& path, Format format, const std::string& target,
+                 const Communicator& ranks) {
+    check_damage(path, ranks);
+    std::string failure;
+    let_root(ranks, [&] { failure = convert_alone(path, format, target); });
+    agree(ranks, failure.empty(), failure, ExitCode::output_failure);
+    return ExitCode::success;
+}
+
+std::optional<Format> format_of(const std::string& word) {
+    if (word == "xyz") return Format::xyz;
+    if (word == "text") return Format::text;
+    if (word == "csv") return Format::csv;
+    return std::nullopt;
+}
+
+} // namespace
+
+Subcommand convert_subcommand() {
+    constexpr const char* examples = R"(Examples:
+  carrom convert trajectory.h5 --to xyz > discs.xyz
+  carrom convert collisions.h5 --to csv --output collisions.csv
+  carrom convert kept/checkpoint-000000001000.h5 --to text | head)";
+    struct Words {
+        std::string file, format, output;
+    };
+    const auto words = std::make_shared<Words>();
+    const auto action = [words](std::vector<Problem>& problems) -> Action {
+        const std::optional<Format> format = format_of(words->format);
+        if (!format)
+            problems.push_back(
+                {"--to", 0, "must be xyz, text or csv, not \"" + words->format + '"'});
+        if (!problems.empty()) return failing(problems);
+        return {[words, format = *format](const Communicator& ranks) {
+            return convert(words->file, format, words->output, ranks);
+        }};
+    };
+    return {"convert",
+            "Write a file as text: extended XYZ (OVITO opens it), lines as of `run`, or CSV",
+            examples,
+            {{"FILE", "", help_of_file, &words->file, true},
+             {"--to", "xyz|text|csv", "The format", &words->format, true},
+             {"--output", "FILE", "A file, instead of standard output", &words->output}},
+            action};
+}
+
+} // namespace carrom

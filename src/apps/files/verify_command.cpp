@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/shell/subcommands.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "apps/run/restart.hpp"
+#include "io/checkpoint.hpp"
+#include "io/frame_file.hpp"
+#include "parallel/agreement.hpp"
+#include "stored_scene/stored_scene.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// What no state of a run can be; empty if all is well.
+std::string flaw_of(const Disc& disc, double radius, const CheckpointHeader& header,
+                    const Extent& box) {
+    const double clock = header.clock();
+    if (disc.has_departed())
+        return disc.vx == 0 && disc.vy == 0
+                   ? ""
+                   : fmt::format("disc {} has left the box, yet moves", disc.id);
+    const Disc shown = header.frame.in_box(disc, clock);
+    const double x = shown.x, y = shown.y;
+    // A disc may stand a little beyond its wall for the rest of a micro-step, or by the rounding of
+    // L - r.
+    const double slack = 1e-6 * header.radius + 0x1p-50 * header.box().longest();
+    const double margin = radius - slack;
+    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(disc.vx) ||
+        !std::isfinite(disc.vy))
+        return fmt::format("disc {} has a number that is not finite", disc.id);
+    if (x < box.x_low + margin || x > box.x_high - margin || y < box.y_low + margin ||
+        y > box.y_high - margin)
+        return fmt::format("disc {} is outside the box, at ({}, {})", disc.id, x, y);
+    if (!(disc.tau >= 0 && disc.tau <= clock))
+        return fmt::format("disc {} has the time {}, and it is {} now", disc.id, disc.tau, clock);
+    return {};
+}
+
+/// Where a run may show the centre of a disc without a radius. **Not collective.**
+Extent room_of(const CheckpointHeader& header, const Effects& effects) {
+    Extent box = extent_at(effects, header.box(), static_cast<double>(header.step));
+    const auto make_room = [&](std::size_t side, double& line, double outwards) {
+        if (effects.boundaries[side].kind == BoundaryKind::open)
+            line = outwards * infinity; // discs may be on their way out
+        if (effects.boundaries[side].kind == BoundaryKind::periodic)
+            line += outwards * header.radius; // centres are anywhere in the box
+    };
+    make_room(0, box.x_low, -1);
+    make_room(1, box.x_high, 1);
+    make_room(2, box.y_low, -1);
+    make_room(3, box.y_high, 1);
+    return box;
+}
+
+/// Bytes and hash are checked by reading; then the discs themselves. **Collective.**
+void verify_checkpoint(const std::string& path, const Communicator& ranks) {
+    const Checkpoint checkpoint = read_checkpoint(path, ranks);
+    const CheckpointHeader& header = checkpoint.header;
+    const Effects effects = scene_of(header, {}).effects; // an unreadable scene is no use either
+    const Extent room = room_of(header, effects);
+    const SpeciesTable species(effects.species, header.radius);
+    std::string flaw;
+    std::uint64_t sums[] = {0, 0};
+    for (std::size_t i = 0; i < checkpoint.discs.size(); ++i) {
+        const Disc& disc = checkpoint.discs[i];
+        if (flaw.empty()) flaw = flaw_of(disc, species.of(disc.id).radius, header, room);
+        header.columns.for_each([&](SideColumn column) {
+            if (flaw.empty() && !std::isfinite(checkpoint.columns[column][i]))
+                flaw = fmt::format("disc {} has a number that is not finite", disc.id);
+        });
+        sums[0] += disc.wall_collisions;
+        sums[1] += disc.pair_collisions;
+    }
+    ranks.sum(sums);
+    if (flaw.empty() &&
+        (sums[0] != header.wall_collisions || sums[1] != 2 * header.pair_collisions))
+        flaw = "the discs' collisions do not add up";
+    agree(ranks, flaw.empty(), path + ": " + flaw, ExitCode::bad_input);
+}
+
+void refuse(const std::string& path, const std::string& text) {
+    throw InputError({{path, 0, text}});
+}
+
+/// Rows of a file's numbers by name; those that it does not have are 0.
+class NamedRows {
+public:
+    explicit NamedRows(const FrameFile& file) : file_(file) {}
+    void read(std::size_t frame, std::uint64_t begin) {
+        const std::uint64_t end = std::min(begin + rows_at_a_time, file_.summary().n_rows);
+        file_.read(frame, begin, end, rows_);
+        size_ = end - begin;
+    }
+    std::size_t size() const { return size_; }
+    double operator()(std::size_t i, std::string_view column) const {
+        const std::size_t place = file_.summary().place_of(column);
+        return place < rows_.size() ? rows_[place][i] : 0;
+    }
+    bool are_finite(std::size_t i) const {
+        return std::all_of(rows_.begin(), rows_.end(),
+                           [i](const auto& column) { return std::isfinite(column[i]); });
+    }
+
+private:
+    const FrameFile& file_;
+    Rows rows_;
+    std::size_t size_ = 0;
+};
+
+/// Whether a run could show a disc there. Discs leave an open side as their centre is a radius
+/// beyond it, and lie there at rest; in the time-stepped method a disc that another one has pushed
+/// out may fly to the end of its micro-step before.
+bool is_possible(const NamedRows& rows, std::size_t i, const FileSummary& summary) {
+    if (!rows.are_finite(i)) return false;
+    if (!summary.has("x")) return true;
+    const double x = rows(i, "x"), y = rows(i, "y"), vx = rows(i, "vx"), vy = rows(i, "vy");
+    const Box& box = summary.box;
+    const double rounding = summary.bytes_per_number == 4 ? 0x1p-22 : 0x1p-50;
+    const double reach = summary.radius + rounding * (box.longest() + summary.radius);
+    const std::array<double, 4> beyond = {-x, x - box.x, -y, y - box.y}, rate = {-vx, vx, -vy, vy};
+    const bool is_at_rest = summary.has("vx") && vx == 0 && vy == 0;
+    bool has_left = false;
+    for (std::size_t side = 0; side < beyond.size(); ++side)
+        has_left |= summary.open_boundaries[side] && is_at_rest && beyond[side] > 0 &&
+                    beyond[side] <= reach; // smaller discs than the largest leave before
+    for (std::size_t side = 0; side < beyond.size(); ++side) {
+        if (beyond[side] <= summary.amplitudes[side]) continue;
+        if (!summary.open_boundaries[side]) return false;
+        // Without velocities nobody knows how far it flies; pushed out over a corner it leaves by
+        // one side and keeps its place along it.
+        const bool is_bounded = summary.has("vx") && !has_left;
+        if (is_bounded && beyond[side] > reach + std::max(0.0, rate[side])) return false;
+    }
+    return true;
+}
+
+void verify_frames(const FrameFile& file, const std::string& path) {
+    const FileSummary& summary = file.summary();
+    NamedRows rows(file);
+    for (std::size_t frame = 0; frame < summary.steps.size(); ++frame) {
+        if (frame > 0 && summary.steps[frame] <= summary.steps[frame - 1])
+            refuse(path, fmt::format("frame {} goes back in time", frame));
+        for (std::uint64_t begin = 0; begin < summary.n_rows; begin += rows_at_a_time) {
+            rows.read(frame, begin);
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+                if (!is_possible(rows, i, summary))
+                    refuse(path, fmt::format("disc {} is outside the box or not finite at step {}",
+                                             begin + i, summary.steps[frame]));
+            }
+        }
+    }
+}
+
+void verify_log(const FrameFile& file, const std::string& path) {
+    NamedRows rows(file);
+    double last_step = 0, last_time = 0;
+    for (std::uint64_t begin = 0; begin < file.summary().n_rows; begin += rows_at_a_time) {
+        rows.read(0, begin);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const double step = rows(i, "step"), time = rows(i, "time"), p = rows(i, "p"),
+                         q = rows(i, "q");
+            if (step < last_step || time < last_time)
+                refuse(path, fmt::format("goes back in time at step {}", step));
+            if (p < 0 || q < -1 || p == q)
+                refuse(path, fmt::format("has a collision of {} and {}", p, q));
+            last_step = step;
+            last_time = time;
+        }
+    }
+}
+
+ExitCode verify(const std::string& path, const Communicator& ranks) {
+    const bool is_checkpoint = check_damage(path, ranks).has_value();
+    let_root(ranks, [&] {
+        const FrameFile file(path);
+        file.check_numbers();
+        if (file.summary().kind == FileKind::trajectory) verify_frames(file, path);
+        if (file.summary().kind == FileKind::collisions) verify_log(file, path);
+    });
+    if (is_checkpoint) verify_checkpoint(path, ranks);
+    if (ranks.is_root()) fmt::print("{}: whole\n", path);
+    return ExitCode::success;
+}
+
+} // namespace
+
+Subcommand verify_subcommand() {
+    constexpr const char* examples = R"(Examples:
+  carrom verify kept/checkpoint-000000001000.h5
+  mpirun -np 4 carrom verify LARGE_CHECKPOINT.h5)";
+    const auto path = std::make_shared<std::string>();
+    const auto action = [path](std::vector<Problem>&) -> Action {
+        return {[path](const Communicator& ranks) { return verify(*path, ranks); }};
+    };
+    return {"verify",
+            "Check a file: every byte, the state hash, the discs; exit code 2 if it is damaged",
+            examples,
+            {{"FILE", "", help_of_file, path.get(), true}},
+            action};
+}
+
+} // namespace carrom

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/replicas/replicas_join.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/run/report_file.hpp"
+#include "apps/run/run_folder.hpp"
+#include "core/errors.hpp"
+
+namespace carrom {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Mean and standard error of the mean; NaN where too few are numbers.
+struct Mean {
+    double value = NAN, error = NAN;
+};
+
+Mean mean_of(const std::vector<double>& numbers) {
+    const auto n = static_cast<double>(numbers.size());
+    double sum = 0, squares = 0;
+    for (const double number : numbers) sum += number;
+    const double mean = sum / n;
+    for (const double number : numbers) squares += (number - mean) * (number - mean);
+    return {mean, n > 1 ? std::sqrt(squares / (n * (n - 1))) : NAN};
+}
+
+Json or_null(double number) { return std::isfinite(number) ? Json(number) : Json(nullptr); }
+double number_of_json(const Json& json) { return json.is_number() ? json.get<double>() : NAN; }
+std::string field(double number) { return std::isfinite(number) ? fmt::format("{}", number) : ""; }
+
+/// One average of a report; `path` is a JSON pointer.
+struct Quantity {
+    const char* name;
+    const char* path;
+};
+constexpr Quantity quantities[] = {
+    {"temperature", "/temperature/value"},
+    {"pressure", "/pressure/value"},
+    {"compressibility", "/compressibility/value"},
+    {"pressure_xx", "/pressure_tensor/xx/value"},
+    {"pressure_xy", "/pressure_tensor/xy/value"},
+    {"pressure_yy", "/pressure_tensor/yy/value"},
+    {"collision_frequency", "/averages/collision_frequency/value"},
+    {"mean_free_time", "/averages/mean_free_time/value"},
+    {"wall_pressure", "/averages/wall_pressure/value"},
+    {"mean_speed", "/averages/mean_speed/value"},
+    {"speed_kurtosis", "/averages/speed_kurtosis/value"},
+    {"kinetic_energy", "/kinetic_energy"},
+};
+
+double value_in(const Json& report, const Quantity& quantity) {
+    const Json::json_pointer path(quantity.path);
+    return report.contains(path) ? number_of_json(report.at(path)) : NAN;
+}
+
+Json read_report(const std::string& folder) {
+    std::ifstream file(report_of_run(folder));
+    Json report = Json::parse(file, nullptr, false);
+    if (!report.is_object())
+        throw InputError({{report_of_run(folder), 0, "is no whole report; remove it and go on"}});
+    return report;
+}
+
+void write(const std::string& folder, const std::string& name, const std::string& text) {
+    const auto path = std::filesystem::path(folder) / name;
+    const std::string failure = write_whole_file(path.string(), text);
+    if (!failure.empty()) throw CollectiveError(failure, ExitCode::output_failure);
+}
+
+std::string lines_of_replicas(const std::vector<Replica>& replicas,
+                              const std::vector<Json>& reports) {
+    std::string text = "replica,seed,state_hash";
+    for (const Quantity& quantity : quantities) text += fmt::format(",{}", quantity.name);
+    for (std::size_t k = 0; k < reports.size(); ++k) {
+        text += fmt::format("\n{},{},{}", k, replicas[k].seed,
+                            reports[k].value("state_hash", std::string()));
+        for (const Quantity& quantity : quantities)
+            text += ',' + field(value_in(reports[k], quantity));
+    }
+    return text + '\n';
+}
+
+/// A table with a column `NAME_error` behind each column in which replicas differ.
+class JoinedTable {
+public:
+    JoinedTable(std::string name, const std::vector<Json>& reports) : name_(std::move(name)) {
+        const Json& first = table_of(reports.front());
+        for (const auto& [column, numbers] : first.items())
+            if (column != "remarks") add_column(column, numbers.size(), reports);
+    }
+
+    bool is_whole() const { return is_whole_; }
+    std::string csv() const {
+        std::string text = fmt::format("# {}: means over replicas, and their errors\n", name_);
+        for (std::size_t k = 0; k < columns_.size(); ++k)
+            text += (k == 0 ? "" : ",") + columns_[k].name;
+        for (std::size_t row = 0; !columns_.empty() && row < columns_[0].numbers.size(); ++row) {
+            text += '\n';
+            for (std::size_t k = 0; k < columns_.size(); ++k)
+                text += (k == 0 ? "" : ",") + field(columns_[k].numbers[row]);
+        }
+        return text + '\n';
+    }
+
+private:
+    struct Column {
+        std::string name;
+        std::vector<double> numbers;
+    };
+
+    const Json& table_of(const Json& report) const { return report["measurements"][name_]; }
+
+    void add_column(const std::string& column, std::size_t n_rows,
+                    const std::vector<Json>& reports) {
+        Column means{column, {}}, errors{column + "_error", {}};
+        for (const Json& report : reports) {
+            const bool has_it = report.contains("measurements") &&
+                                report["measurements"].contains(name_) &&
+                                table_of(report).contains(column) &&
+                                table_of(report)[column].size() == n_rows;
+            is_whole_ = is_whole_ && has_it;
+        }
+        if (!is_whole_) return;
+        bool are_alike = true;
+        for (std::size_t row = 0; row < n_rows; ++row) {
+            std::vector<double> numbers;
+            for (const Json& report : reports)
+                numbers.push_back(number_of_json(table_of(report)[column][row]));
+            const Mean mean = mean_of(numbers);
+            const bool is_one = std::equal(numbers.begin() + 1, numbers.end(), numbers.begin());
+            are_alike = are_alike && is_one;
+            means.numbers.push_back(is_one ? numbers.front() : mean.value);
+            errors.numbers.push_back(mean.error);
+        }
+        columns_.push_back(std::move(means));
+        if (!are_alike) columns_.push_back(std::move(errors));
+    }
+
+    std::string name_;
+    std::vector<Column> columns_;
+    bool is_whole_ = true;
+};
+
+} // namespace
+
+std::optional<std::int64_t> last_step_reported(const std::string& folder) {
+    std::ifstream file(report_of_run(folder));
+    const Json report = Json::parse(file, nullptr, false);
+    if (!report.is_object() || !report.contains("first_step") || !report.contains("steps"))
+        return std::nullopt;
+    return report["first_step"].get<std::int64_t>() + report["steps"].get<std::int64_t>();
+}
+
+std::string join_replicas(const std::vector<Replica>& replicas, const std::string& folder) {
+    std::vector<Json> reports;
+    for (const Replica& replica : replicas) reports.push_back(read_report(replica.folder));
+    write(folder, "replicas.csv", lines_of_replicas(replicas, reports));
+    std::string text = fmt::format("replicas           {}\n", replicas.size());
+    Json joined = {{"replicas", replicas.size()}};
+    for (const Quantity& quantity : quantities) {
+        std::vector<double> values;
+        for (const Json& report : reports) values.push_back(value_in(report, quantity));
+        const Mean mean = mean_of(values);
+        if (!std::isfinite(mean.value)) continue; // some replica does not know it
+        joined[quantity.name] = {{"value", mean.value}, {"error", or_null(mean.error)}};
+        text += fmt::format("{:<19}{:.6g} +- {:.2g}\n", quantity.name, mean.value, mean.error);
+    }
+    write(folder, "replicas.json", joined.dump(2) + '\n');
+    if (reports.front().contains("measurements"))
+        for (const auto& [name, table] : reports.front()["measurements"].items()) {
+            const JoinedTable means(name, reports);
+            if (means.is_whole()) write(folder, name + ".csv", means.csv());
+        }
+    return text;
+}
+
+} // namespace carrom

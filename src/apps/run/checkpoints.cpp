@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/run/checkpoints.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "apps/run/restart.hpp"
+#include "io/checkpoint.hpp"
+#include "io/checkpoint_folder.hpp"
+#include "io/files.hpp"
+#include "stored_scene/stored_scene.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr double seconds_between_looks = 2;
+constexpr double longest_stretch = 1e15; // steps
+
+} // namespace
+
+Checkpoints::Checkpoints(const Scene& scene, std::int64_t first_step, bool is_restart,
+                         const StopSignals& signals, const Communicator& ranks, int n_threads)
+    : ranks_(ranks), scene_(scene), signals_(signals), n_threads_(n_threads),
+      last_looked_(first_step) {
+    if (!scene_.checkpoint || !is_restart) return;
+    last_written_ = first_step;
+    kept_ = earlier_checkpoints(scene_, first_step, ranks_);
+    kept_.push_back(checkpoint_path(scene_.checkpoint->folder, first_step));
+    if (!ranks_.is_root()) return;
+    remove_unfinished(scene_.checkpoint->folder); // by the run that was killed
+}
+
+std::int64_t Checkpoints::next_look(std::int64_t step) const {
+    std::int64_t next = step + stretch_;
+    if (!scene_.checkpoint) return next;
+    if (const auto every = scene_.checkpoint->every_steps)
+        next = std::min(next, (step / *every + 1) * *every);
+    return next;
+}
+
+bool Checkpoints::look_up(const Simulation& simulation, Recordings& recordings) {
+    const std::int64_t step = simulation.step();
+    const Updates now = updates(step);
+    const bool is_end = step >= scene_.steps;
+    if (!scene_.checkpoint) return now.must_stop && !is_end;
+    const CheckpointOutput& wanted = *scene_.checkpoint;
+    const bool is_due = now.must_stop || now.is_time ||
+                        (wanted.every_steps && step > 0 && step % *wanted.every_steps == 0) ||
+                        (is_end && wanted.at_end);
+    if (is_due && step != last_written_) write(simulation, recordings);
+    return now.must_stop && !is_end;
+}
+
+/// What all ranks agree on: whether any has a signal, and what rank 0's clock says. **Collective.**
+Checkpoints::Updates Checkpoints::updates(std::int64_t step) {
+    std::array<std::uint64_t, 3> sums = {signals_.has_come() ? 1u : 0u, 0, 0};
+    if (ranks_.is_root()) {
+        const double seconds = stretch_watch_.lap();
+        const double steps = static_cast<double>(step - last_looked_) * seconds_between_looks /
+                             std::max(seconds, 1e-6);
+        seconds_since_written_ += seconds;
+        sums[1] = scene_.checkpoint && scene_.checkpoint->every_minutes &&
+                          seconds_since_written_ >= *scene_.checkpoint->every_minutes * 60
+                      ? 1
+                      : 0;
+        sums[2] = static_cast<std::uint64_t>(std::clamp(steps, 1.0, longest_stretch));
+    }
+    ranks_.sum(sums);
+    last_looked_ = step;
+    stretch_ = static_cast<std::int64_t>(sums[2]);
+    return {sums[0] > 0, sums[1] > 0};
+}
+
+void Checkpoints::write(const Simulation& simulation, Recordings& recordings) {
+    if (removal_.valid()) removal_.get(); // its room may be needed
+    recordings
+        .commit(); // a restart cuts them back to its step, but cannot make up for what is missing
+    const CheckpointHeader header = header_now(scene_, simulation);
+    const std::string path = checkpoint_path(scene_.checkpoint->folder, header.step);
+    StoredSamples samples = recordings.samples();
+    samples.averages = simulation.stored_averages();
+    write_checkpoint(path, header, simulation.discs(), ranks_,
+                     {n_threads_, scene_.checkpoint->transfers == Transfers::collective}, samples,
+                     simulation.side_columns());
+    last_written_ = header.step;
+    std::erase(kept_, path);
+    kept_.push_back(path);
+    remove_oldest();
+    stretch_watch_.lap(); // writing is no part of a stretch
+    seconds_since_written_ = 0;
+}
+
+/// Giving back the blocks of a large file takes a fifth of the time of writing it: beside the
+/// steps.
+void Checkpoints::remove_oldest() {
+    const auto n_removed = std::max<std::ptrdiff_t>(
+        0, std::ssize(kept_) - static_cast<std::ptrdiff_t>(scene_.checkpoint->keep));
+    std::vector<std::string> removed(kept_.begin(), kept_.begin() + n_removed);
+    kept_.erase(kept_.begin(), kept_.begin() + n_removed);
+    if (removed.empty() || !ranks_.is_root()) return;
+    removal_ = std::async(std::launch::async | std::launch::deferred,
+                          [removed = std::move(removed)] {
+                              std::error_code ignored;
+                              for (const std::string& path : removed)
+                                  std::filesystem::remove(path, ignored);
+                          });
+}
+
+} // namespace carrom

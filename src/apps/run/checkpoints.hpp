@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// When a run stores its state, and which of the stored ones it keeps.
+//
+// Ranks look up together after each stretch of steps: whether a batch system wants the run to stop,
+// and whether wall time asks for a checkpoint. Stretches are kept to a few seconds where steps are
+// slow. Price: one reduction a stretch, where the scene asks for no checkpoints too: it may still
+// be told to stop.
+#pragma once
+
+#include <cstdint>
+#include <future>
+#include <string>
+#include <vector>
+
+#include "apps/run/recordings.hpp"
+#include "apps/run/stopwatch.hpp"
+#include "apps/shell/stop_signals.hpp"
+#include "parallel/communicator.hpp"
+#include "scene/scene.hpp"
+#include "simulation/simulation.hpp"
+
+namespace carrom {
+
+class Checkpoints {
+public:
+    /// `first_step` is where the run begins; `is_restart` if it has a checkpoint of that step.
+    /// References must outlive this.
+    Checkpoints(const Scene& scene, std::int64_t first_step, bool is_restart,
+                const StopSignals& signals, const Communicator& ranks, int n_threads);
+    ~Checkpoints() {
+        if (removal_.valid()) removal_.wait();
+    }
+    Checkpoints(const Checkpoints&) = delete;
+    Checkpoints& operator=(const Checkpoints&) = delete;
+
+    /// Up to which step to go before looking up again.
+    std::int64_t next_look(std::int64_t step) const;
+
+    /// Looks up after a stretch of steps and stores the state if it is time, after what is recorded
+    /// up to there. True if the run is to stop here; its state is stored then, if the scene has a
+    /// folder for it. If storing fails every rank throws, and the older checkpoints are as they
+    /// were. **Collective.**
+    bool look_up(const Simulation& simulation, Recordings& recordings);
+
+private:
+    struct Updates {
+        bool must_stop = false, is_time = false;
+    };
+    Updates updates(std::int64_t step);
+    void write(const Simulation& simulation, Recordings& recordings);
+    void remove_oldest();
+
+    const Communicator& ranks_;
+    const Scene& scene_;
+    const StopSignals& signals_;
+    int n_threads_;
+    std::int64_t last_looked_, last_written_ = -1;
+    std::int64_t stretch_ = 1; ///< steps until the next look, as rank 0 has measured
+    Stopwatch stretch_watch_;
+    double seconds_since_written_ = 0; ///< on rank 0's clock
+    std::vector<std::string> kept_;    ///< paths, oldest first
+    std::future<void> removal_;        ///< of older ones, by rank 0
+};
+
+} // namespace carrom

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/run/data_output.hpp"
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+namespace carrom {
+
+DataOutput::DataOutput(const std::string& path)
+    : name_(path.empty() ? "standard output" : path), file_(STDOUT_FILENO),
+      is_ours_(!path.empty()) {
+    std::signal(SIGPIPE, SIG_IGN);
+    if (!is_ours_) return;
+    file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (file_ < 0) fail_with(errno);
+}
+
+DataOutput::~DataOutput() { close(); }
+
+void DataOutput::fail_with(int error) {
+    if (failure_.empty()) failure_ = "cannot write to " + name_ + ": " + std::strerror(error);
+}
+
+void DataOutput::flush_if_full() {
+    if (buffer_.size() >= full) flush();
+}
+
+void DataOutput::flush() {
+    const char* next = buffer_.data();
+    std::size_t left = buffer_.size();
+    while (left > 0 && failure_.empty()) {
+        const ssize_t written = ::write(file_, next, left);
+        if (written >= 0) {
+            next += written;
+            left -= static_cast<std::size_t>(written);
+        } else if (errno ==
+                   EAGAIN) { // someone made the pipe non-blocking: wait until there is room
+            pollfd room{file_, POLLOUT, 0};
+            ::poll(&room, 1, -1);
+        } else if (errno != EINTR) {
+            fail_with(errno);
+        }
+    }
+    buffer_.clear();
+}
+
+void DataOutput::close() {
+    if (is_ours_ && file_ >= 0 && ::close(file_) != 0) fail_with(errno);
+    file_ = -1;
+}
+
+Obstacle obstacle_to_opening(const std::string& path) {
+    int file = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+    const bool is_new = file < 0 && errno == ENOENT;
+    if (is_new) file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0 && errno == ENXIO) return {}; // a named pipe that nobody reads yet
+    if (file < 0) return obstacle("cannot be written", errno);
+    ::close(file);
+    if (is_new) ::unlink(path.c_str());
+    return {};
+}
+
+} // namespace carrom

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/run/failure_scene.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "apps/run/report_file.hpp"
+#include "scene/limits.hpp"
+#include "scene/scene_text.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// How much larger radii were than at first when the failed step began.
+double growth_before(const Scene& scene, const CheckFailure& failure) {
+    return scene.effects.growth_at(static_cast<double>(failure.step - 1));
+}
+
+/// The scene of one step that begins with the discs around, which lie in `discs_file`.
+std::string text_around(const Scene& scene, const CheckFailure& failure,
+                        const std::string& discs_file) {
+    std::string text = fmt::format("# {}\n# Discs as they were at step {}; their ids in {}:",
+                                   failure.what(), failure.step - 1, scene.name);
+    for (std::size_t i = 0; i < failure.discs_around.size(); ++i)
+        text += fmt::format(" {} was {};", i, failure.discs_around[i].id);
+    text.back() = '.';
+    if (has_boundary(scene.effects, BoundaryKind::moving))
+        text += "\n# Moving walls begin at the box's sides here; they have moved there.";
+    Scene around = scene;
+    constexpr double turn = 2 * std::numbers::pi;
+    for (Boundary& side : around.effects.boundaries)
+        if (side.kind == BoundaryKind::oscillating)
+            side.phase = turn *
+                         std::remainder(side.phase / turn +
+                                            static_cast<double>(failure.step - 1) / side.period,
+                                        1);
+    around.n_discs = failure.discs_around.size();
+    around.generator = Generator::file;
+    around.discs_file = discs_file;
+    around.listed_discs.clear();
+    around.disc_columns.clear();
+    if (!scene.effects.species.empty())
+        around.disc_columns = {DiscColumn::radius, DiscColumn::mass};
+    around.first_numbers = {};
+    if (!failure.spins.empty()) around.disc_columns.push_back(disc_column_of(SideColumn::spin));
+    around.steps = 1;
+    const double grown = growth_before(scene, failure);
+    around.radius *= grown;
+    around.effects.growth /= grown;
+    around.text_output = TextOutput::none;
+    around.checkpoint.reset();
+    around.trajectory.reset();
+    around.collisions.reset();
+    around.measurements.reset();
+    return text + '\n' + scene_text(around);
+}
+
+std::string disc_lines(const Scene& scene, const CheckFailure& failure) {
+    const SpeciesTable species_table(scene.effects.species, scene.radius);
+    const std::vector<InputDisc>& discs = failure.discs_around;
+    std::string text;
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        text += fmt::format("{} {} {} {} {}", i, discs[i].x, discs[i].y, discs[i].vx, discs[i].vy);
+        if (const SizeAndMass& body = species_table.of(discs[i].id); !scene.effects.species.empty())
+            text += fmt::format(" {} {}", body.radius * growth_before(scene, failure), body.mass);
+        text += failure.spins.empty() ? "\n" : fmt::format(" {}\n", failure.spins[i]);
+    }
+    return text;
+}
+
+} // namespace
+
+std::string write_failure_scene(const std::string& folder, const Scene& scene,
+                                const CheckFailure& failure) {
+    if (failure.discs_around.empty()) return "there are no discs around it to show";
+    const std::string name = fmt::format("check_step_{}_disc_{}", failure.step, failure.disc);
+    const std::string scene_path = (std::filesystem::path(folder) / (name + ".toml")).string();
+    std::string obstacle = write_whole_file(
+        (std::filesystem::path(folder) / (name + ".discs")).string(), disc_lines(scene, failure));
+    if (obstacle.empty())
+        obstacle = write_whole_file(scene_path, text_around(scene, failure, name + ".discs"));
+    if (!obstacle.empty()) return "the discs around it could not be written: " + obstacle;
+    return fmt::format("{} discs around it, from the step before, are in {}",
+                       failure.discs_around.size(), scene_path);
+}
+
+CollectiveError reported(const CheckFailure& failure, const Scene& scene,
+                         const Communicator& ranks) {
+    std::string sentence;
+    if (ranks.is_root()) sentence = write_failure_scene("", scene, failure);
+    ranks.broadcast(sentence);
+    return CollectiveError(fmt::format("{}\n{}", failure.what(), sentence), failure.code());
+}
+
+void advance_or_report(Simulation& simulation, std::int64_t last_step, const Scene& scene,
+                       const Communicator& ranks) {
+    try {
+        simulation.advance_towards(last_step);
+    } catch (const CheckFailure& failure) {
+        throw reported(failure, scene, ranks);
+    }
+}
+
+} // namespace carrom

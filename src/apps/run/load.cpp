@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/run/load.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "apps/run/data_output.hpp"
+#include "apps/run/destinations.hpp"
+#include "apps/run/outputs.hpp"
+#include "apps/run/report_file.hpp"
+#include "apps/run/restart.hpp"
+#include "apps/run/run_folder.hpp"
+#include "apps/shell/standard_streams.hpp"
+#include "initial_state/scene_input.hpp"
+#include "io/checkpoint_folder.hpp"
+#include "machine/machine.hpp"
+#include "parallel/agreement.hpp"
+#include "scene/disc_reader.hpp"
+#include "scene/read_scene.hpp"
+#include "simulation/compression.hpp"
+#include "stored_scene/discs_from.hpp"
+
+namespace carrom {
+
+namespace {
+
+using Problems = std::vector<Problem>;
+
+void append(Problems& problems, const Problems& more) {
+    problems.insert(problems.end(), more.begin(), more.end());
+}
+
+/// Runs `read` and adds the problems of an InputError to `problems`; true if there was none. One
+/// rank may find problems that the others do not know of yet, so they must not fly as an exception
+/// before all ranks have agreed.
+template <class Read> bool collect(Problems& problems, const Read& read) {
+    try {
+        read();
+        return true;
+    } catch (const InputError& error) {
+        append(problems, error.problems());
+        return false;
+    }
+}
+
+std::unique_ptr<std::istream> open(const std::string& input) {
+    if (input == "-") return std::make_unique<std::istream>(std::cin.rdbuf());
+    return std::make_unique<std::ifstream>(open_input(input));
+}
+
+/// What the options alone name: a run must not end in a file that cannot be written, nor empty its
+/// own input.
+std::vector<NamedFile> named_by(const RunOptions& options) {
+    std::vector<NamedFile> destinations;
+    if (!options.output.empty()) destinations.push_back({"--output", options.output, true});
+    if (!options.report.empty()) destinations.push_back({"--report", options.report});
+    return destinations;
+}
+
+std::vector<NamedFile> read_by(const RunOptions& options) {
+    std::vector<NamedFile> sources;
+    if (!options.input.empty() && options.input != "-")
+        sources.push_back({"the input", options.input});
+    if (!options.restart.empty()) sources.push_back({"the checkpoint", options.restart});
+    return sources;
+}
+
+/// What the places have that the options name.
+void check_destinations(const RunOptions& options, PlaceProblems& found) {
+    const Problems shared = problems_with(named_by(options), read_by(options));
+    if (!options.output.empty())
+        found.note("--output", options.output, obstacle_to_opening(options.output));
+    if (!options.report.empty() && shared.empty())
+        found.note("--report", options.report, obstacle_to_writing(options.report));
+    append(found.problems, shared);
+}
+
+/// What is wrong with the lines of discs of a run that will not begin, so that all is printed at
+/// once. They follow a header in `stream`, or have a file of their own.
+Problems problems_of_disc_lines(const Scene& scene, std::istream& stream) {
+    Problems problems;
+    collect(problems, [&] {
+        if (!scene.reads_disc_lines()) return;
+        if (scene.discs_file.empty()) {
+            if (scene.discs_follow) problems = disc_line_problems(stream, scene);
+        } else {
+            problems = disc_line_problems(*open(discs_path(scene)), scene);
+        }
+    });
+    return problems;
+}
+
+/// The files that are read: what is written must be others.
+std::vector<NamedFile> read_for(const RunOptions& options, const Scene& scene) {
+    std::vector<NamedFile> sources = read_by(options);
+    if (!scene.discs_file.empty() || !scene.discs_from.empty())
+        sources.push_back({"the file of discs", discs_path(scene)});
+    return sources;
+}
+
+/// The discs of `discs.from` become the lines that follow the scene's text. Returns the settings
+/// that say so, the same on every rank. **Collective.**
+std::vector<std::string> follow_with_discs_from(const Scene& scene,
+                                                std::unique_ptr<std::istream>& stream,
+                                                Problems& problems, const Communicator& ranks) {
+    const std::string path = discs_path(scene);
+    check_damage(path, ranks);
+    FileOfDiscs file;
+    if (ranks.is_root()) {
+        collect(problems, [&] {
+            SideColumnSet wanted = side_columns_of(scene.effects);
+            for (const SideColumn column : all_side_columns)
+                if (!info_of(column).is_of_dynamics) wanted.add(column);
+            file = read_discs_from(path, scene.discs_from_step, wanted);
+            if (scene.n_discs != 0 && scene.n_discs != file.n_discs)
+                throw InputError({{path, 0,
+                                   fmt::format("has {} discs, and the scene is of {}", file.n_discs,
+                                               scene.n_discs)}});
+        });
+        stream = std::make_unique<std::istringstream>(std::move(file.lines));
+    }
+    ranks.broadcast(file.n_discs);
+    ranks.broadcast(file.columns);
+    std::vector<std::string> settings;
+    if (file.n_discs > 0) settings.push_back(fmt::format("discs.count={}", file.n_discs));
+    if (!file.columns.empty()) settings.push_back("discs.columns=" + file.columns);
+    return settings;
+}
+
+/// A run writes into one folder; a wrong one has a problem already.
+void check_folder(const Scene& scene, Problems& problems) {
+    const bool is_needed = scene.checkpoint || scene.trajectory || scene.collisions ||
+                           scene.measurements;
+    const auto is_of_folder = [](const Problem& problem) {
+        return problem.place == "--set output.folder" ||
+               problem.text.starts_with("'output.folder'");
+    };
+    if (is_needed && scene.folder.empty() &&
+        std::none_of(problems.begin(), problems.end(), is_of_folder))
+        problems.push_back({scene.name, 0,
+                            "'output.folder' is missing: the folder for what the run writes; "
+                            "-o FOLDER sets it too"});
+}
+
+/// The scene; `stream`, on rank 0, is left at the first line of discs. **Collective.**
+Scene load_scene(const RunOptions& options, const Problems& problems_so_far,
+                 const Communicator& ranks, std::unique_ptr<std::istream>& stream) {
+    PlaceProblems found; // of all ranks together: each one is listed by one rank
+    Problems& problems = found.problems;
+    SceneText text;
+    bool is_readable = true;
+    if (ranks.is_root()) {
+        problems = problems_so_far;
+        check_destinations(options, found);
+        is_readable = !options.input.empty() && collect(problems, [&] {
+            stream = open(options.input);
+            text = read_scene_text(*stream,
+                                   options.input == "-" ? "standard input" : options.input);
+        });
+    }
+    Scene scene;
+    if (ranks.all(is_readable)) {
+        broadcast(text, ranks);
+        Problems same_everywhere;
+        std::vector<std::string> overrides = options.overrides;
+        const auto read_again = [&] {
+            same_everywhere.clear();
+            scene = read_scene(text, overrides, same_everywhere);
+        };
+        read_again();
+        if (!scene.discs_from.empty()) {
+            const auto more = follow_with_discs_from(scene, stream, problems, ranks);
+            overrides.insert(overrides.end(), more.begin(), more.end());
+            text.discs_follow = true;
+            if (!more.empty()) read_again();
+        }
+        if (!scene.disc_columns.empty() &&
+            !(scene.discs_file.empty() && scene.discs_from.empty())) {
+            text.columns = load_columns(scene, stream.get(), ranks);
+            read_again();
+        }
+        check_folder(scene, same_everywhere);
+        const bool are_lines_wrong = text.columns && !text.columns->is_whole;
+        if (ranks.is_root()) append(problems, same_everywhere);
+        if (ranks.is_root() && (!problems.empty() || are_lines_wrong)) {
+            if (!goes_on(options) || are_lines_wrong)
+                append(problems, problems_of_disc_lines(scene, *stream));
+            if (problems.empty())
+                problems.push_back({discs_path(scene), 0, "changes while it is being read"});
+            append(problems, problems_of_outputs(options, scene, read_for(options, scene)));
+        }
+    }
+    found.agree(ranks);
+    return scene;
+}
+
+/// A restart without a scene has fewer things to go wrong. **Collective.**
+void check_without_scene(const RunOptions& options, const Problems& problems_so_far,
+                         const Communicator& ranks) {
+    PlaceProblems found;
+    if (ranks.is_root()) {
+        found.problems = problems_so_far;
+        check_destinations(options, found);
+    }
+    found.agree(ranks);
+}
+
+/// A mistake in the number of discs would end in the middle, without a word of why. **Collective.**
+void check_memory(const Scene& scene, const Communicator& ranks) {
+    constexpr double bytes_per_disc_time_stepped = 90,
+                     bytes_per_disc_event_driven = 104; // at least (docs/log/performance.md)
+    const double bytes_per_disc = scene.method == Method::event_driven
+                                      ? bytes_per_disc_event_driven
+                                      : bytes_per_disc_time_stepped;
+    const double needed = static_cast<double>(scene.n_discs) * bytes_per_disc / ranks.size();
+    const auto available = static_cast<double>(ranks.min(memory_per_rank(ranks)));
+    if (needed <= available) return;
+    throw InputError({{scene.name, 0,
+                       fmt::format("discs.count = {} needs at least {:.3g} GB of memory on each of "
+                                   "{} ranks, and one has only {:.3g} GB; take "
+                                   "fewer discs, or ranks on more nodes",
+                                   scene.n_discs, needed / 1e9, ranks.size(), available / 1e9)}});
+}
+
+/// A run that was killed before its first checkpoint goes on with the copy of its scene.
+/// **Collective.**
+RunOptions with_input_of_folder(RunOptions options, const Communicator& ranks) {
+    if (!options.resume || !options.input.empty() || options.folder.empty()) return options;
+    std::string copy, overrides;
+    if (ranks.is_root()) {
+        if (find_checkpoints(checkpoints_of_run(options.folder)).empty())
+            copy = scene_copy_of(options.folder);
+        if (!copy.ends_with(".toml")) copy.clear(); // the lines of discs are not in it
+        for (const std::string& override : overrides_of_copy(copy)) overrides += override + '\n';
+    }
+    ranks.broadcast(copy);
+    ranks.broadcast(overrides);
+    options.input = copy;
+    std::vector<std::string> all;
+    std::istringstream lines(overrides);
+    for (std::string line; std::getline(lines, line);) all.push_back(line);
+    all.insert(all.end(), options.overrides.begin(), options.overrides.end());
+    options.overrides = std::move(all);
+    return options;
+}
+
+} // namespace
+
+Scene load_scene_alone(const RunOptions& options, const Problems& problems,
+                       const Communicator& ranks) {
+    std::unique_ptr<std::istream> stream;
+    return load_scene(options, problems, ranks, stream);
+}
+
+Loaded load(const RunOptions& given, const Problems& problems, const Communicator& ranks) {
+    const RunOptions options = with_input_of_folder(given, ranks);
+    std::unique_ptr<std::istream> stream;
+    Loaded loaded;
+    if (!goes_on(options) || !options.input.empty())
+        loaded.scene = load_scene(options, problems, ranks, stream);
+    else
+        check_without_scene(options, problems, ranks);
+    std::vector<std::string> found;
+    if (goes_on(options)) {
+        found = restart_candidates(options, loaded.scene, ranks);
+        load_restart(options, loaded, ranks);
+        Problems missing; // from a checkpoint of the library, whose scenes need no folder
+        check_folder(loaded.scene, missing);
+        if (!missing.empty()) throw InputError(missing);
+    }
+    const Scene& scene = loaded.scene;
+    try {
+        if (!loaded.stored) check_memory(scene, ranks);
+        loaded.locks = claim_outputs(options, scene, read_for(options, scene), named_by(options),
+                                     ranks);
+        // The last ranks of a run that was killed may have stored more before they ended.
+        if (goes_on(options) && restart_candidates(options, scene, ranks) != found) {
+            if (ranks.is_root() && !options.quiet)
+                print_message("another checkpoint has come meanwhile\n");
+            loaded.stored.reset(); // its memory is needed
+            load_restart(options, loaded, ranks);
+        }
+    } catch (const InputError& error) { // on every rank
+        Problems all;
+        if (ranks.is_root()) all = error.problems();
+        if (ranks.is_root() && !loaded.stored) append(all, problems_of_disc_lines(scene, *stream));
+        agree_on_problems(ranks, all);
+    }
+    Tuning tuning = options.tuning;
+    tuning.threads = options.threads.value_or(default_threads(ranks));
+    check_threads(tuning.threads, ranks);
+    if (!loaded.stored) loaded.discs = first_discs(scene, stream.get(), ranks, tuning);
+    prepare_outputs(scene, !loaded.stored, ranks);
+    if (ranks.is_root())
+        for (const std::string& warning : scene.warnings)
+            print_message("{}: warning: {}\n", scene.name, warning);
+    return loaded;
+}
+
+} // namespace carrom

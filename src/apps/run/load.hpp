@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From the options of a run to its scene and first discs: the part that can find an input wrong.
+//
+// Rank 0 opens files and reads; the others get its bytes and come to the same scene or the same
+// problems. Nothing of the run has been written when a problem is printed.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "apps/run/run_options.hpp"
+#include "core/errors.hpp"
+#include "core/stored_samples.hpp"
+#include "io/write_lock.hpp"
+#include "parallel/communicator.hpp"
+#include "scene/scene.hpp"
+#include "simulation/simulation.hpp"
+
+namespace carrom {
+
+/// Discs are in any distribution over the ranks.
+struct Loaded {
+    Scene scene;
+    std::vector<InputDisc> discs;      ///< of a run from its start
+    std::optional<StoredState> stored; ///< what a restart goes on from
+    StoredSamples samples;             ///< the measurements that it goes on with
+    std::vector<WriteLock> locks;      ///< rank 0's, on what is written to
+};
+
+/// Throws InputError on every rank with `problems` (found so far, the same on all ranks), those of
+/// the report's path and those of the scene. If there are none, with those of the outputs' places,
+/// of the lines of discs, or of the checkpoint to go on from. Rank 0 prints the scene's warnings.
+/// **Collective.**
+Loaded load(const RunOptions& options, const std::vector<Problem>& problems,
+            const Communicator& ranks);
+
+/// The scene alone, with the problems of its text and its outputs' places; nothing is made or
+/// locked. **Collective.**
+Scene load_scene_alone(const RunOptions& options, const std::vector<Problem>& problems,
+                       const Communicator& ranks);
+
+} // namespace carrom

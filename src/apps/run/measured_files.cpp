@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/run/measured_files.hpp"
+
+#include <cstring>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "apps/run/csv_table.hpp"
+#include "apps/run/report_file.hpp"
+#include "parallel/agreement.hpp"
+
+namespace carrom {
+
+namespace {
+
+std::string path_of(const Scene& scene, const MeasuredTable& table) {
+    return (std::filesystem::path(scene.measurements->folder) / (table.name + ".csv")).string();
+}
+
+std::string lines_of(const std::vector<std::vector<double>>& rows) {
+    std::string text;
+    for (const std::vector<double>& row : rows) {
+        for (std::size_t k = 0; k < row.size(); ++k)
+            text += fmt::format("{}{}", k == 0 ? "" : ",", row[k]);
+        text += '\n';
+    }
+    return text;
+}
+
+} // namespace
+
+std::string csv_of(const MeasuredTable& table, const std::string& scene_name) {
+    std::string text = fmt::format("# {}: {}\n", plain_field(scene_name), table.name);
+    for (const std::string& remark : table.remarks) text += fmt::format("# {}\n", remark);
+    for (std::size_t k = 0; k < table.columns.size(); ++k)
+        text += (k == 0 ? "" : ",") + table.columns[k];
+    return text + '\n' + lines_of(table.rows);
+}
+
+void write_tables(const Scene& scene, const std::vector<MeasuredTable>& tables,
+                  const Communicator& ranks) {
+    std::string failure;
+    if (ranks.is_root()) {
+        for (const MeasuredTable& table : tables) {
+            if (failure.empty() && table.name != "thermo")
+                failure = write_whole_file(path_of(scene, table), csv_of(table, scene.name));
+        }
+    }
+    agree(ranks, failure.empty(), failure, ExitCode::output_failure);
+}
+
+void ThermoFile::add_rows_of(const Sampler& sampler) {
+    const std::optional<MeasuredTable> rows = sampler.thermo_from(n_written_);
+    if (!rows) return;
+    std::string failure;
+    if (ranks_.is_root()) {
+        const std::string path = path_of(scene_, *rows);
+        if (n_written_ == 0)
+            failure = write_whole_file(path, csv_of(*rows, scene_.name));
+        else if (const int error = append_whole(path, lines_of(rows->rows)); error != 0)
+            failure = "cannot write " + path + ": " + std::strerror(error);
+    }
+    agree(ranks_, failure.empty(), failure, ExitCode::output_failure);
+    n_written_ += rows->rows.size();
+}
+
+} // namespace carrom

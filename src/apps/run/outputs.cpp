@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/run/outputs.hpp"
+
+#include <cerrno>
+#include <filesystem>
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "apps/run/restart.hpp"
+#include "apps/run/run_folder.hpp"
+#include "core/write_problem.hpp"
+#include "io/checkpoint_folder.hpp"
+#include "io/files.hpp"
+#include "parallel/agreement.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr const char* folder_key = "output.folder";
+
+/// What would keep a folder from being made, without making it.
+Obstacle obstacle_to_making(const std::string& folder) {
+    std::error_code ignored;
+    std::filesystem::path place = std::filesystem::absolute(folder, ignored);
+    while (place.has_relative_path() && !std::filesystem::exists(place, ignored))
+        place = place.parent_path();
+    if (!std::filesystem::is_directory(place, ignored))
+        return {fmt::format("cannot be made: {} is not a folder", place.string())};
+    if (::access(place.c_str(), W_OK | X_OK) == 0) return {};
+    return obstacle("cannot be made in " + place.string(), errno);
+}
+
+/// What in the folder keeps the run from writing there.
+std::string obstacle_in_folder(const RunOptions& options, const Scene& scene) {
+    const std::string& folder = scene.folder;
+    std::error_code ignored;
+    for (const std::string& path : files_of_run(folder)) {
+        const auto status = std::filesystem::symlink_status(path, ignored);
+        if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+            return path + " is not a plain file";
+    }
+    const std::string trace = trace_of_run(folder);
+    if (trace.empty() || options.overwrite) {
+        if (options.resume && trace.empty())
+            return "no run has begun there; leave --resume out to begin one";
+        return {};
+    }
+    if (!goes_on(options))
+        return fmt::format("has {} of a run: go on with it by --resume, begin anew by --overwrite, "
+                           "or name another folder",
+                           trace);
+    const std::string difference = difference_from_run(folder, scene);
+    if (difference.empty()) return {};
+    return fmt::format("has {} of another run ({}); name another folder", trace, difference);
+}
+
+WriteLock locked(const std::string& folder, PlaceProblems& found) {
+    WriteLock lock(folder + "/.carrom.lock");
+    found.note(folder_key, folder, {lock.obstacle()});
+    if (!lock.holder().empty())
+        found.note(folder_key, folder,
+                   {fmt::format("another run is writing there ({}); wait for its end, or name "
+                                "another folder",
+                                lock.holder())});
+    return lock;
+}
+
+/// Makes nothing and locks nothing unless there are `locks` to add to, and then only if all is
+/// right.
+void check_places(PlaceProblems& found, const RunOptions& options, const Scene& scene,
+                  const std::vector<NamedFile>& sources, std::vector<NamedFile> destinations,
+                  std::vector<WriteLock>* locks) {
+    const std::string& folder = scene.folder;
+    if (!folder.empty())
+        for (const std::string& path : files_of_run(folder))
+            if (!goes_on(options) || path != scene_copy_of(folder))
+                destinations.push_back({"a file of output.folder,", path});
+    for (const Problem& problem : problems_with(destinations, sources))
+        found.problems.push_back(problem);
+    if (folder.empty()) return;
+    std::error_code ignored;
+    const bool may_try = (locks && found.all().empty()) || std::filesystem::exists(folder, ignored);
+    found.note(folder_key, folder,
+               may_try ? obstacle_to_folder(folder) : obstacle_to_making(folder));
+    if (!found.all().empty()) return;
+    if (locks) locks->push_back(locked(folder, found));
+    if (found.all().empty()) found.note(folder_key, folder, {obstacle_in_folder(options, scene)});
+}
+
+} // namespace
+
+void PlaceProblems::note(const std::string& key, const std::string& path, const Obstacle& found) {
+    if (found.text.empty()) return;
+    (found.is_failure ? failures : problems)
+        .push_back({fmt::format("{} {}", key, path), 0, found.text});
+}
+
+std::vector<Problem> PlaceProblems::all() const {
+    std::vector<Problem> found = problems;
+    found.insert(found.end(), failures.begin(), failures.end());
+    return found;
+}
+
+void PlaceProblems::agree(const Communicator& ranks) const {
+    agree_on_problems(ranks, problems.empty() ? problems : all());
+    carrom::agree(ranks, failures.empty(), InputError(failures).what(), ExitCode::output_failure);
+}
+
+std::vector<WriteLock> claim_outputs(const RunOptions& options, const Scene& scene,
+                                     const std::vector<NamedFile>& sources,
+                                     const std::vector<NamedFile>& others,
+                                     const Communicator& ranks) {
+    PlaceProblems found;
+    std::vector<WriteLock> locks;
+    if (ranks.is_root()) check_places(found, options, scene, sources, others, &locks);
+    found.agree(ranks);
+    return locks;
+}
+
+std::vector<Problem> problems_of_outputs(const RunOptions& options, const Scene& scene,
+                                         const std::vector<NamedFile>& sources) {
+    PlaceProblems found;
+    check_places(found, options, scene, sources, {}, nullptr);
+    return found.all();
+}
+
+void prepare_outputs(const Scene& scene, bool begins_anew, const Communicator& ranks) {
+    if (scene.folder.empty()) return;
+    on_root(ranks, scene.folder, ExitCode::output_failure, [&] {
+        if (begins_anew) remove_run(scene.folder);
+        prepare_folder(scene);
+    });
+}
+
+} // namespace carrom

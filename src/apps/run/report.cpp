@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/run/report.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/shell/words.hpp"
+#include "machine/machine.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// JSON has no infinity and no NaN: null then.
+nlohmann::ordered_json number_or_null(double value) {
+    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json estimate_json(const Estimate& estimate, const Averages& averages) {
+    nlohmann::ordered_json json = {{"value", number_or_null(estimate.value)},
+                                   {"error", number_or_null(estimate.error)}};
+    const std::string reason = reason_without_error(estimate, averages);
+    if (!reason.empty()) json["without_error"] = reason;
+    return json;
+}
+
+nlohmann::ordered_json averages_json(const Averages& averages) {
+    const auto estimate_json = [&averages](const Estimate& estimate) {
+        return carrom::estimate_json(estimate, averages);
+    };
+    return {{"from_step", averages.first_step},
+            {"over_steps", averages.steps},
+            {"blocks", averages.n_blocks},
+            {"collision_frequency", estimate_json(averages.collision_frequency)},
+            {"mean_free_time", estimate_json(averages.mean_free_time)},
+            {"wall_pressure", estimate_json(averages.wall_pressure)},
+            {"virial_pressure", estimate_json(averages.virial_pressure)},
+            {"mean_speed", estimate_json(averages.mean_speed)},
+            {"speed_kurtosis", estimate_json(averages.speed_kurtosis)}};
+}
+
+/// Thermodynamics stands at the top of the report: what most readers look for.
+void add_thermodynamics(nlohmann::ordered_json& report, const Scene& scene,
+                        const Averages& averages) {
+    const auto estimate = [&averages](const Estimate& one) { return estimate_json(one, averages); };
+    report["radius"] = scene.radius;
+    report["box"] = {scene.box.x, scene.box.y};
+    report["eta"] = scene.packing();
+    report["kT"] = number_or_null(averages.temperature.value);
+    report["temperature"] = estimate(averages.temperature);
+    report["pressure"] = estimate(averages.pressure);
+    report["compressibility"] = estimate(averages.compressibility);
+    report["pressure_tensor"] = {{"xx", estimate(averages.pressure_tensor.xx)},
+                                 {"xy", estimate(averages.pressure_tensor.xy)},
+                                 {"yy", estimate(averages.pressure_tensor.yy)}};
+}
+
+/// Columns of numbers; null where there is none.
+nlohmann::ordered_json tables_json(const std::vector<MeasuredTable>& tables) {
+    nlohmann::ordered_json all = nlohmann::ordered_json::object();
+    for (const MeasuredTable& table : tables) {
+        nlohmann::ordered_json columns = nlohmann::ordered_json::object();
+        columns["remarks"] = table.remarks;
+        for (std::size_t k = 0; k < table.columns.size(); ++k) {
+            nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
+            for (const std::vector<double>& row : table.rows)
+                numbers.push_back(number_or_null(row[k]));
+            columns[table.columns[k]] = std::move(numbers);
+        }
+        all[table.name] = std::move(columns);
+    }
+    return all;
+}
+
+} // namespace
+
+std::string report_text(const Scene& scene, const RunResult& result) {
+    nlohmann::ordered_json phases = nlohmann::ordered_json::object();
+    for (const auto& [name, seconds] : result.phase_seconds) phases[name] = seconds;
+    nlohmann::ordered_json phase_imbalance = nlohmann::ordered_json::object();
+    for (const auto& [name, imbalance] : result.phase_imbalance) phase_imbalance[name] = imbalance;
+    nlohmann::ordered_json report = {
+        {"version", version()},
+        {"scene", scene.name},
+        {"state_hash", to_string(result.end.hash)},
+        {"n_discs", result.end.n_discs},
+        {"departed", result.end.departed},
+        {"packing", scene.packing()},
+        {"method", name_of(scene.method)},
+        {"micro_steps", scene.micro_steps},
+        {"precision", scene.precision == Precision::single ? "single" : "double"},
+        {"arithmetic", scene.arithmetic == Arithmetic::naive ? "naive" : "stable"},
+        {"contraction", scene.contraction},
+        {"sync_every", scene.sync_every},
+        {"first_step", result.first_step},
+        {"steps", result.last_step - result.first_step},
+        {"wall_collisions", result.end.wall_collisions},
+        {"pair_collisions", result.end.pair_collisions},
+        {"rejected_candidates", result.end.rejected_candidates},
+        {"rejected_share", rejected_share(result)},
+        {"overlapping_pairs", result.end.overlapping_pairs},
+        {"overlapping_pairs_per_disc", overlapping_pairs_per_disc(result)},
+        {"deepest_overlap", deepest_overlap(scene, result)},
+        {"collisions_per_disc_per_micro_step", collisions_per_disc(scene, result)},
+        {"averages", averages_json(result.averages)},
+        {"kinetic_energy", result.end.kinetic_energy},
+        {"energy_drift", energy_drift(result)},
+        {"momentum", {result.end.momentum_x, result.end.momentum_y}},
+        {"wall_seconds", result.wall_seconds},
+        {"ns_per_disc_step", ns_per_disc_step(result)},
+        {"ranks", result.ranks},
+        {"threads", result.threads},
+        {"windows", result.runs.windows},
+        {"windows_redone", result.runs.windows_redone},
+        {"block_replays", result.runs.blocks},
+        {"block_replays_redone", result.runs.blocks_redone},
+        {"phase_seconds", phases},
+        {"phase_imbalance", phase_imbalance},
+        {"imbalance", result.imbalance},
+        {"peak_bytes_per_disc", result.peak_bytes_per_disc},
+    };
+    add_thermodynamics(report, scene, result.averages);
+    if (scene.method == Method::time_stepped) {
+        const LostCollisions lost = lost_collisions(scene, result);
+        report["lost_collisions"] = {{"share", lost.share},
+                                     {"pressure_error", lost.pressure_error}};
+    }
+    if (scene.effects.contact.kind == ContactKind::rough)
+        report["rotational_energy"] = result.end.rotational_energy;
+    if (scene.effects.gravity.is_any()) report["potential_energy"] = result.end.potential_energy;
+    if (scene.effects.growth != 0) report["last_packing"] = scene.last_packing();
+    if (scene.measurements) report["measurements"] = tables_json(result.tables);
+    if (scene.effects.are_any()) report["effects"] = description(scene.effects);
+    // A scene's name is whatever bytes the file system allows; replaced where they are not UTF-8.
+    return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+}
+
+} // namespace carrom

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run says of itself to programs when it is over.
+#pragma once
+
+#include <string>
+
+#include "apps/run/run_result.hpp"
+
+namespace carrom {
+
+/// A JSON object; keys are described in docs/reference/report.md.
+std::string report_text(const Scene& scene, const RunResult& result);
+
+} // namespace carrom

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/run/report_file.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace carrom {
+
+namespace {
+
+/// Returns 0 or an errno.
+int write_all(int file, const std::string& text) {
+    for (std::size_t begin = 0; begin < text.size();) {
+        const ssize_t written = ::write(file, text.data() + begin, text.size() - begin);
+        if (written >= 0)
+            begin += static_cast<std::size_t>(written);
+        else if (errno != EINTR)
+            return errno;
+    }
+    return 0;
+}
+
+/// A new file beside the place of another one, removed unless it is renamed. Its name is no other
+/// file's, and no link is followed: `errno` says what is wrong where `number` is negative.
+class FileBeside {
+public:
+    explicit FileBeside(const std::string& path) {
+        constexpr int most_tries = 1000;
+        for (int k = 0; k < most_tries && (k == 0 || (number < 0 && errno == EEXIST)); ++k) {
+            name_ = path + '.' + std::to_string(::getpid()) + '-' + std::to_string(k) + ".partial";
+            number = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
+                            0666);
+        }
+        is_there_ = number >= 0;
+    }
+    ~FileBeside() {
+        if (number >= 0) ::close(number);
+        if (is_there_) ::unlink(name_.c_str());
+    }
+    FileBeside(const FileBeside&) = delete;
+    FileBeside& operator=(const FileBeside&) = delete;
+
+    /// These return 0 or an errno.
+    int write(const std::string& text) const {
+        const int error = write_all(number, text);
+        return error == 0 && ::fsync(number) != 0 ? errno : error;
+    }
+    int close() { return ::close(std::exchange(number, -1)) == 0 ? 0 : errno; }
+    int rename_to(const std::string& path) {
+        if (std::rename(name_.c_str(), path.c_str()) != 0) return errno;
+        is_there_ = false;
+        return 0;
+    }
+
+    int number = -1;
+
+private:
+    std::string name_;
+    bool is_there_ = false;
+};
+
+} // namespace
+
+Obstacle obstacle_to_writing(const std::string& path) {
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (std::filesystem::is_directory(status)) return {"is a directory; name a file"};
+    // A rename would put a plain file in the place of a device or a pipe.
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+        return {"is not a plain file"};
+    const FileBeside file(path);
+    return file.number < 0 ? obstacle("cannot be written", errno) : Obstacle{};
+}
+
+std::string write_whole_file(const std::string& path, const std::string& text) {
+    FileBeside file(path);
+    int error = file.number < 0 ? errno : file.write(text);
+    if (error == 0) error = file.close();
+    if (error == 0) error = file.rename_to(path);
+    return error == 0 ? "" : "cannot write " + path + ": " + std::strerror(error);
+}
+
+int append_whole(const std::string& path, const std::string& text, bool is_new) {
+    const int flags = O_WRONLY | O_APPEND | O_CLOEXEC | (is_new ? O_CREAT | O_EXCL : 0);
+    const int file = ::open(path.c_str(), flags, 0666);
+    if (file < 0) return errno;
+    const off_t size = ::lseek(file, 0, SEEK_END);
+    int error = write_all(file, text);
+    if (error != 0) static_cast<void>(::ftruncate(file, size)); // no half line
+    if (::close(file) != 0 && error == 0) error = errno;
+    return error;
+}
+
+} // namespace carrom

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/run/restart.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "apps/accuracy/setting_choice.hpp"
+#include "apps/run/run_folder.hpp"
+#include "apps/shell/standard_streams.hpp"
+#include "io/checkpoint_folder.hpp"
+#include "scene/compare.hpp"
+#include "stored_scene/stored_scene.hpp"
+
+namespace carrom {
+
+namespace {
+
+std::string place_of(const RunOptions& options) {
+    return options.resume ? "--resume" : "--restart " + options.restart;
+}
+
+[[noreturn]] void refuse(const RunOptions& options, const std::string& text) {
+    throw InputError({{place_of(options), 0, text}});
+}
+
+/// Whether the newest checkpoint of the run's own folder is wanted.
+bool is_own(const RunOptions& options) { return options.resume || options.restart == "latest"; }
+
+/// The folder to look in; empty where a file was named. **Collective.**
+std::string folder_to_search(const RunOptions& options, const Scene& scene,
+                             const Communicator& ranks) {
+    if (is_own(options)) {
+        if (scene.checkpoint) return scene.checkpoint->folder;
+        if (!options.folder.empty()) return checkpoints_of_run(options.folder);
+        refuse(options, options.input.empty()
+                            ? "name the folder of the run with -o, or the scene"
+                            : "the run has no folder to look in: name output.folder or -o");
+    }
+    std::string folder;
+    std::error_code ignored;
+    if (ranks.is_root() && std::filesystem::is_directory(options.restart, ignored)) {
+        const std::string inner = checkpoints_of_run(options.restart);
+        folder = std::filesystem::is_directory(inner, ignored) ? inner : options.restart;
+    }
+    ranks.broadcast(folder);
+    return folder;
+}
+
+/// Checkpoints of a folder, newest first, the same on every rank; by their names of steps before
+/// `end`. **Collective.**
+std::vector<std::string> candidates_in(
+    const std::string& folder, const Communicator& ranks,
+    std::int64_t end = std::numeric_limits<std::int64_t>::max()) {
+    std::string list;
+    if (ranks.is_root()) {
+        for (const FoundFile& found : find_checkpoints(folder))
+            if (found.step < end) list += found.path + '\0';
+    }
+    ranks.broadcast(list);
+    std::vector<std::string> paths;
+    std::istringstream stream(list);
+    for (std::string path; std::getline(stream, path, '\0');) paths.push_back(path);
+    return paths;
+}
+
+/// Reads the checkpoint and fills in the scene if there is none yet; throws where it is not of that
+/// scene's run.
+Checkpoint read_matching(const std::string& path, const RunOptions& options, Scene& scene,
+                         const Communicator& ranks) {
+    Checkpoint checkpoint = read_checkpoint(path, ranks);
+    const Scene there = scene_of(checkpoint.header, {});
+    std::vector<std::string> overrides = options.overrides;
+    const bool asks_again = std::erase_if(overrides, [](const std::string& text) {
+                                return text.starts_with("time.accuracy=");
+                            }) > 0;
+    Scene here = options.input.empty() ? scene_of(checkpoint.header, overrides) : scene;
+    if (here.accuracy || asks_again) {
+        if (here.accuracy) decide_on(here, {there.method, there.micro_steps});
+        if (ranks.is_root() && !options.quiet)
+            print_message(
+                "time.accuracy chooses at a run's start: going on with the checkpoint's setting\n");
+    }
+    refuse_other_run(checkpoint.header, here, path);
+    scene = here;
+    return checkpoint;
+}
+
+/// Its problems on one line, without the places: there is one.
+std::string reasons(const InputError& error) {
+    std::string text;
+    for (const Problem& problem : error.problems())
+        text += (text.empty() ? "" : "; ") + problem.text;
+    return text;
+}
+
+/// The newest of the candidates that is whole and of this run. **Collective.**
+std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths,
+                                      const RunOptions& options, Scene& scene,
+                                      const Communicator& ranks) {
+    const auto pass_over = [&ranks](const std::string& path, const std::string& reason) {
+        const std::size_t named = reason.starts_with(path + ": ") ? path.size() + 2 : 0;
+        if (ranks.is_root()) print_message("passing over {}: {}\n", path, reason.substr(named));
+    };
+    for (const std::string& path : paths) {
+        try {
+            return read_matching(path, options, scene, ranks);
+        } catch (const CollectiveError& error) {
+            if (error.code() != ExitCode::bad_input) throw;
+            pass_over(path, error.what());
+        } catch (const InputError& error) {
+            pass_over(path, reasons(error));
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+std::vector<std::string> earlier_checkpoints(const Scene& scene, std::int64_t step,
+                                             const Communicator& ranks) {
+    std::vector<std::string> paths;
+    for (const std::string& path : candidates_in(scene.checkpoint->folder, ranks, step)) {
+        try {
+            const std::optional<CheckpointHeader> header = check_damage(path, ranks);
+            if (header && header->step < step &&
+                physical_differences(scene_of(*header, {}), scene).empty())
+                paths.push_back(path);
+        } catch (const CollectiveError&) {
+        } catch (const InputError&) {
+        }
+    }
+    std::reverse(paths.begin(), paths.end());
+    return paths;
+}
+
+std::vector<std::string> restart_candidates(const RunOptions& options, const Scene& scene,
+                                            const Communicator& ranks) {
+    const std::string folder = folder_to_search(options, scene, ranks);
+    return folder.empty() ? std::vector<std::string>{} : candidates_in(folder, ranks);
+}
+
+void load_restart(const RunOptions& options, Loaded& loaded, const Communicator& ranks) {
+    const std::string folder = folder_to_search(options, loaded.scene, ranks);
+    std::optional<Checkpoint> checkpoint;
+    if (folder.empty()) {
+        checkpoint = read_matching(options.restart, options, loaded.scene, ranks);
+    } else {
+        const std::vector<std::string> paths = restart_candidates(options, loaded.scene, ranks);
+        checkpoint = read_newest(paths, options, loaded.scene, ranks);
+        if (!checkpoint && !paths.empty())
+            refuse(options, folder + ": no checkpoint there can be gone on from");
+        if (!checkpoint && !is_own(options))
+            refuse(options, "there is no checkpoint; only `latest` and --resume may begin anew");
+        if (!checkpoint && options.input.empty())
+            refuse(options, folder + ": there is no checkpoint, and no scene to begin with");
+        if (!checkpoint && ranks.is_root())
+            print_message("no checkpoint in {}: beginning at step 0\n", folder);
+    }
+    if (!checkpoint) return;
+    const CheckpointHeader& header = checkpoint->header;
+    if (loaded.scene.steps < header.step)
+        refuse(options,
+               fmt::format("the checkpoint is of step {}, and the run is to end at step {}",
+                           header.step, loaded.scene.steps));
+    if (ranks.is_root() && !options.quiet) print_message("going on from step {}\n", header.step);
+    loaded.samples = std::move(checkpoint->samples);
+    loaded.stored = StoredState{std::move(checkpoint->discs), header.micro_steps_done,
+                                std::move(checkpoint->columns)};
+}
+
+} // namespace carrom

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/run/run_command.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "apps/accuracy/hard_cases.hpp"
+#include "apps/accuracy/setting_choice.hpp"
+#include "apps/run/checkpoints.hpp"
+#include "apps/run/disc_lines.hpp"
+#include "apps/run/failure_scene.hpp"
+#include "apps/run/load.hpp"
+#include "apps/run/progress.hpp"
+#include "apps/run/recordings.hpp"
+#include "apps/run/report.hpp"
+#include "apps/run/report_file.hpp"
+#include "apps/run/restart.hpp"
+#include "apps/run/run_folder.hpp"
+#include "apps/run/run_options.hpp"
+#include "apps/run/stopwatch.hpp"
+#include "apps/run/summary.hpp"
+#include "apps/shell/standard_streams.hpp"
+#include "apps/shell/stop_signals.hpp"
+#include "machine/machine.hpp"
+#include "parallel/agreement.hpp"
+#include "simulation/simulation.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr const char* run_footer = R"(Input:
+  SCENE.toml   a scene; inputs/ has some, `carrom keys` lists the keys
+  FILE.in      legacy text: N, L, r, S, print|perf, one per line, then nothing
+               or N lines `id x y vx vy`
+  -            legacy text on standard input (mpirun hands it to rank 0)
+
+Standard output gets the lines `step id x y vx vy`, ids ascending, and nothing
+else: steps 0 and S for `perf`, every step for `print`, what output.text says for
+a scene. The lines of the last step end in ` p_c w_c`: collisions with discs, with walls.
+
+Examples:
+  carrom run inputs/gas.toml --threads 2
+  mpirun -np 4 carrom run inputs/gas.toml --threads 2 --report report.json
+  carrom run inputs/gas.toml --steps 100 --set output.text=every_step > gas.txt
+  carrom run inputs/gas.toml -o FOLDER
+  carrom run inputs/gas.toml -o FOLDER --resume
+  carrom run --digits 8 - < input.in > output.txt
+
+Exit codes: 0 done; 2 wrong input, nothing was done; 3 a rank failed; 4 output
+could not be written; 70 a broken invariant; 75 stopped on request before the end.)";
+
+/// Summary and report, by rank 0. If the report cannot be written every rank throws.
+/// **Collective.**
+void print_result(const RunOptions& options, const Scene& scene, const RunResult& result,
+                  const Communicator& ranks) {
+    std::string failure;
+    if (ranks.is_root()) {
+        if (!options.quiet) print_text(summary_text(scene, result));
+        const std::string warning = warning_of_lost_collisions(scene, result);
+        if (!warning.empty()) print_message("warning: {}\n", warning);
+        std::vector<std::string> reports;
+        if (!options.report.empty()) reports.push_back(options.report);
+        if (!scene.folder.empty()) reports.push_back(report_of_run(scene.folder));
+        for (const std::string& path : reports)
+            if (failure.empty()) failure = write_whole_file(path, report_text(scene, result));
+    }
+    agree(ranks, failure.empty(), failure, ExitCode::output_failure);
+}
+
+/// Steps to the end of the scene, writing on the way what it asks for, or to where the run is asked
+/// to stop: false then. A restart does not write the lines of its first step again. **Collective.**
+bool step_to_end(Simulation& simulation, RunResult& result, double& output_seconds,
+                 const RunOptions& options, const Scene& scene, bool is_restart,
+                 StoredSamples samples, const StopSignals& signals, const Communicator& ranks) {
+    DiscLines lines(scene, options.output, options.digits, ranks);
+    Progress progress(simulation.step(), scene.steps, ranks.is_root() && !options.quiet);
+    Stopwatch watch;
+    const auto write_if_due = [&] {
+        if (!lines.is_due(simulation.step())) return;
+        progress.finish(); // both may go to the same terminal
+        lines.write(simulation);
+    };
+    if (!is_restart || simulation.step() == scene.steps) write_if_due();
+    Checkpoints checkpoints(scene, simulation.step(), is_restart, signals, ranks, result.threads);
+    Recordings recordings(scene, simulation, is_restart, std::move(samples), ranks);
+    bool must_stop = checkpoints.look_up(simulation, recordings);
+    output_seconds += watch.lap();
+    while (simulation.step() < scene.steps && !must_stop) {
+        const std::int64_t step = simulation.step();
+        const std::int64_t next = std::min(
+            {lines.next_due(step), checkpoints.next_look(step), recordings.next_due(step)});
+        advance_or_report(simulation, next, scene, ranks);
+        result.wall_seconds += watch.lap();
+        write_if_due();
+        recordings.record(simulation);
+        must_stop = checkpoints.look_up(simulation, recordings);
+        progress.show(simulation.step());
+        output_seconds += watch.lap();
+    }
+    lines.close();
+    recordings.finish();
+    result.tables = recordings.tables();
+    return !must_stop;
+}
+
+/// **Collective.**
+void check_every_step(Simulation& simulation, const Scene& scene) {
+    if (scene.precision != Precision::double_ || scene.arithmetic != Arithmetic::stable)
+        throw InputError({{"--check", 0,
+                           "its bounds are those of time.precision = \"double\" and "
+                           "time.arithmetic = \"stable\"; leave one out"}});
+    if (scene.effects.have_open_boundaries())
+        throw InputError(
+            {{"--check", 0,
+              "it knows closed boxes only; leave sides of kind = \"open\" or --check out"}});
+    simulation.check_every_step(scene);
+}
+
+/// **Collective.**
+void warn_of_threads(int threads, bool are_chosen, const Communicator& ranks) {
+    const std::string unheeded = are_chosen ? "" : warning_of_thread_variable();
+    const std::string crowded = warning_of_shared_cores(threads, ranks);
+    if (!ranks.is_root()) return;
+    if (!unheeded.empty())
+        print_message("warning: {}: running with {} threads a rank\n", unheeded, threads);
+    if (!crowded.empty()) print_message("warning: {}\n", crowded);
+}
+
+} // namespace
+
+ExitCode run_scene(const RunOptions& options, const std::vector<Problem>& problems,
+                   const Communicator& ranks) {
+    Stopwatch watch;
+    std::optional<StopSignals> signals;
+    if (options.input != "-")
+        signals.emplace(ranks.is_root()); // else not while standard input may keep us waiting
+    Loaded loaded = load(options, problems, ranks);
+    if (!signals) signals.emplace(ranks.is_root());
+    Tuning tuning = options.tuning;
+    tuning.threads = options.threads.value_or(default_threads(ranks));
+    warn_of_threads(tuning.threads, options.threads.has_value(), ranks);
+    if (loaded.scene.accuracy)
+        choose_setting(loaded.scene, loaded.discs, options.quiet, ranks, tuning);
+    const Scene& scene = loaded.scene;
+    const bool is_restart = loaded.stored.has_value();
+    Simulation simulation = is_restart ? Simulation(scene, std::move(*loaded.stored), ranks, tuning)
+                                       : Simulation(scene, std::move(loaded.discs), ranks, tuning);
+
+    simulation.go_on_averaging(loaded.samples.averages);
+    look_for_hard_cases(scene, simulation, ranks);
+    if (options.check) check_every_step(simulation, scene);
+    RunResult result;
+    result.threads = tuning.threads;
+    result.first_step = simulation.step();
+    result.start = simulation.totals();
+    if (ranks.is_root() && result.first_step == 0) warn_of_close_pairs(scene, result.start);
+    const double setup_seconds = watch.lap();
+    double output_seconds = 0;
+    const bool is_done = step_to_end(simulation, result, output_seconds, options, scene, is_restart,
+                                     std::move(loaded.samples), *signals, ranks);
+    fill_end(result, simulation);
+    PhaseSeconds phases = simulation.phase_seconds();
+    phases.emplace_back("set-up", setup_seconds);
+    phases.emplace_back("output", output_seconds);
+    fill_times(result, phases, ranks);
+    print_result(options, scene, result, ranks);
+    if (!is_done && ranks.is_root())
+        print_message("stopped on request at step {} of {}; {}\n", result.last_step, scene.steps,
+                      scene.folder.empty()
+                          ? "nothing is kept to go on from: the run has no output.folder"
+                          : fmt::format("carrom run -o {} --resume goes on", scene.folder));
+    return is_done ? ExitCode::success : ExitCode::stopped;
+}
+
+Subcommand run_subcommand() {
+    const auto given = std::make_shared<RunOptions>();
+    const auto action = [given](std::vector<Problem>& problems) -> Action {
+        RunOptions options = completed(*given, problems);
+        const bool has_input = !options.input.empty() || goes_on(options);
+        if (!has_input)
+            problems.push_back({"carrom run", 0,
+                                "no input; name a SCENE.toml, a FILE.in, or - for standard input"});
+        const bool reads_input = options.input == "-"; // which may keep us waiting
+        if (!has_input) return failing(problems);
+        return {[options = std::move(options), problems](const Communicator& ranks) {
+                    return run_scene(options, problems, ranks);
+                },
+                true, !reads_input};
+    };
+    return {"run",      "Run a scene",
+            run_footer, run_options(*given),
+            action,     "one input is enough; carrom run takes one at a time"};
+}
+
+} // namespace carrom

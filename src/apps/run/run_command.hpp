@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `carrom run`: from a scene to its last step, with its lines on standard output and a summary at
+// the end.
+#pragma once
+
+#include "apps/run/run_options.hpp"
+#include "apps/shell/subcommand.hpp"
+
+namespace carrom {
+
+/// The whole run of a scene, with all that it writes. `problems` of the command line are thrown
+/// together with the scene's. **Collective.**
+ExitCode run_scene(const RunOptions& options, const std::vector<Problem>& problems,
+                   const Communicator& ranks);
+
+Subcommand run_subcommand();
+
+} // namespace carrom

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/run/run_result.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
+#include "machine/machine.hpp"
+#include "statistics/block_averages.hpp"
+
+namespace carrom {
+
+namespace {
+
+double disc_steps(const RunResult& result) {
+    return static_cast<double>(result.end.n_discs) *
+           static_cast<double>(result.last_step - result.first_step);
+}
+
+/// The largest of the ranks' times over their mean; 1 where there is none. **Collective.**
+double imbalance_of(double seconds, const Communicator& ranks) {
+    const auto nanoseconds = static_cast<std::uint64_t>(
+        1e9 * seconds); // whole numbers: ranks add them in any order
+    const auto sum = static_cast<double>(ranks.sum(nanoseconds));
+    return sum > 0 ? static_cast<double>(ranks.max(nanoseconds)) * ranks.size() / sum : 1;
+}
+
+} // namespace
+
+void fill_end(RunResult& result, const Simulation& simulation) {
+    result.last_step = simulation.step();
+    result.end = simulation.totals();
+    result.averages = simulation.averages();
+    result.runs = simulation.rollback_counts();
+}
+
+void fill_times(RunResult& result, const PhaseSeconds& mine, const Communicator& ranks) {
+    ensure(ranks.min(std::uint64_t{mine.size()}) == mine.size(), "ranks have different phases");
+    result.wall_seconds = ranks.max(result.wall_seconds);
+    for (const auto& [name, seconds] : mine) {
+        result.phase_seconds.emplace_back(name, ranks.max(seconds));
+        result.phase_imbalance.emplace_back(name, imbalance_of(seconds, ranks));
+    }
+    result.imbalance = imbalance_of(busy_seconds(mine), ranks);
+    result.ranks = ranks.size();
+    result.threads = static_cast<int>(ranks.max(std::int64_t{result.threads}));
+    const std::uint64_t bytes = ranks.sum(peak_resident_bytes());
+    result.peak_bytes_per_disc = static_cast<double>(bytes) /
+                                 static_cast<double>(result.end.n_discs);
+}
+
+double ratio(double part, double whole) { return whole > 0 ? part / whole : 0; }
+
+bool is_own_work(std::string_view phase) {
+    static constexpr std::array others = {"wait", "exchange", "conflicts", "set-up", "output"};
+    return std::find(others.begin(), others.end(), phase) == others.end();
+}
+
+double overlapping_pairs_per_disc(const RunResult& result) {
+    return ratio(2 * static_cast<double>(result.end.overlapping_pairs),
+                 static_cast<double>(result.end.n_discs));
+}
+
+double deepest_overlap(const Scene& scene, const RunResult& result) {
+    return ratio(result.end.deepest_overlap, 2 * scene.radius);
+}
+
+double ns_per_disc_step(const RunResult& result) {
+    return ratio(1e9 * result.wall_seconds, disc_steps(result));
+}
+
+double busy_seconds(const PhaseSeconds& phases) {
+    double busy = 0;
+    for (const auto& [name, seconds] : phases) busy += is_own_work(name) ? seconds : 0;
+    return busy;
+}
+
+double energy_drift(const RunResult& result) {
+    const auto all = [](const Totals& totals) {
+        return totals.kinetic_energy + totals.rotational_energy + totals.potential_energy;
+    };
+    return ratio(all(result.end) - all(result.start), all(result.start));
+}
+
+double collisions_per_disc(const Scene& scene, const RunResult& result) {
+    const std::uint64_t taken_part = (result.end.wall_collisions - result.start.wall_collisions) +
+                                     2 * (result.end.pair_collisions -
+                                          result.start.pair_collisions);
+    return ratio(static_cast<double>(taken_part),
+                 disc_steps(result) * static_cast<double>(scene.micro_steps));
+}
+
+std::string reason_without_error(const Estimate& estimate, const Averages& averages) {
+    if (std::isfinite(estimate.error)) return {};
+    if (averages.steps == 0) return "nothing is averaged: no step came after the first one";
+    if (std::isnan(estimate.value)) return "the scene's effects leave it without a meaning";
+    if (std::isinf(estimate.value)) return "no disc met another one";
+    return fmt::format("the {} averaged steps make {} blocks, and an error takes {}",
+                       averages.steps, averages.n_blocks, fewest_blocks);
+}
+
+namespace {
+
+/// How many others the centre of a disc would have within their common diameter if discs did not
+/// collide.
+double ideal_overlaps(const Scene& scene) {
+    const std::vector<Species> alike = {{scene.n_discs, scene.radius, 1}};
+    const std::vector<Species>& species = scene.effects.species.empty() ? alike
+                                                                        : scene.effects.species;
+    double areas = 0;
+    for (const Species& a : species)
+        for (const Species& b : species)
+            areas += static_cast<double>(a.count) * static_cast<double>(b.count) *
+                     std::numbers::pi * std::pow(a.radius + b.radius, 2);
+    return areas / (static_cast<double>(scene.n_discs) * scene.box.x * scene.box.y);
+}
+
+} // namespace
+
+/// Discs that overlap pass through each other. So the share of overlaps that an ideal gas would
+/// have tells how much of the hardness is lost. The factor is fitted to runs of gases.
+LostCollisions lost_collisions(const Scene& scene, const RunResult& result) {
+    const double ideal = ideal_overlaps(scene);
+    if (scene.method != Method::time_stepped || !(ideal > 0) ||
+        scene.effects.contact.kind == ContactKind::none)
+        return {};
+    const double overlaps = overlapping_pairs_per_disc(result) / ideal;
+    LostCollisions lost;
+    lost.share = std::max(1 - std::exp(-overlaps * (0.8 + 3.2 * scene.packing())),
+                          rejected_share(result)); // those are lost in any case
+    const double z = result.averages.compressibility.value, kept = 1 - lost.share;
+    if (kept > 0 && z > 1) {
+        const double exact = 1 + (z - 1) / kept;
+        lost.pressure_error = z / exact - 1;
+    }
+    return lost;
+}
+
+std::string warning_of_lost_collisions(const Scene& scene, const RunResult& result) {
+    const LostCollisions lost = lost_collisions(scene, result);
+    if (!(lost.share > 0.01)) return {};
+    const auto digits = [](double percent) { return percent < 9.5 ? 1 : 0; };
+    const double share = 100 * lost.share, error = -100 * lost.pressure_error;
+    const std::string pressure = error > 0
+                                     ? fmt::format(", and the pressure is about {:.{}f} % too low",
+                                                   error, digits(error))
+                                     : "";
+    return fmt::format(
+        "the time-stepped method loses about {:.{}f} % of the collisions of pairs{}; "
+        "try: time.method = \"event-driven\", or more time.micro_steps",
+        share, digits(share), pressure);
+}
+
+double rejected_share(const RunResult& result) {
+    const auto kept = static_cast<double>(
+        (result.end.wall_collisions - result.start.wall_collisions) +
+        (result.end.pair_collisions - result.start.pair_collisions));
+    const auto rejected = static_cast<double>(result.end.rejected_candidates);
+    return ratio(rejected, kept + rejected);
+}
+
+} // namespace carrom

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/run/summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "apps/shell/words.hpp"
+#include "core/box_text.hpp"
+#include "machine/machine.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// What leaves the default's bits, and so its promise; empty for the default.
+std::string arithmetic_text(const Scene& scene) {
+    std::string text;
+    if (scene.precision == Precision::single) text += ", precision = \"single\"";
+    if (scene.arithmetic == Arithmetic::naive)
+        text += scene.contraction ? ", arithmetic = \"naive\", contraction = true"
+                                  : ", arithmetic = \"naive\"";
+    return text;
+}
+
+std::string radii_text(const Scene& scene) {
+    double least = scene.radius;
+    for (const Species& one : scene.effects.species) least = std::min(least, one.radius);
+    return least < scene.radius ? fmt::format("radii {:g} to {:g}", least, scene.radius)
+                                : fmt::format("radius {:g}", scene.radius);
+}
+
+std::string phases_text(const RunResult& result) {
+    double all = 0;
+    for (const auto& [name, seconds] : result.phase_seconds) all += seconds;
+    std::string text;
+    for (const auto& [name, seconds] : result.phase_seconds)
+        if (seconds >= 0.005 * all) // the report has the small ones too
+            text += fmt::format("{}{} {:.3g} s ({:.0f} %)", text.empty() ? "" : ", ", name, seconds,
+                                100 * ratio(seconds, all));
+    return text;
+}
+
+/// How even the ranks' work is, and where it is least so.
+std::string imbalance_text(const RunResult& result) {
+    std::string text = fmt::format("{:.3f} times the mean of the ranks' own work on the busiest",
+                                   result.imbalance);
+    const double enough = 0.1 *
+                          busy_seconds(result.phase_seconds); // what is short is uneven by chance
+    double most = 0;
+    std::string uneven;
+    for (std::size_t k = 0; k < result.phase_imbalance.size(); ++k) {
+        const auto& [name, imbalance] = result.phase_imbalance[k];
+        if (!is_own_work(name) || result.phase_seconds[k].second < enough || imbalance <= most)
+            continue;
+        most = imbalance;
+        uneven = name;
+    }
+    return uneven.empty() ? text : text + fmt::format("; {} is least even, {:.3f}", uneven, most);
+}
+
+std::string windows_text(const RollbackCounts& runs) {
+    return fmt::format(
+        "{}, {:.3g} % of them redone in part; {} replays of blocks, {:.3g} % repeated",
+        runs.windows,
+        100 * ratio(static_cast<double>(runs.windows_redone), static_cast<double>(runs.windows)),
+        runs.blocks,
+        100 * ratio(static_cast<double>(runs.blocks_redone), static_cast<double>(runs.blocks)));
+}
+
+/// The error of what a run conserves is that of rounding, which is none of statistics.
+std::string estimate_text(const Estimate& estimate) {
+    if (!(estimate.error >= 0)) return fmt::format("{:.5g}", estimate.value);
+    if (estimate.error <= 1e-12 * std::fabs(estimate.value))
+        return fmt::format("{:.7g}", estimate.value);
+    return fmt::format("{:.7g} +- {:.1g}", estimate.value, estimate.error);
+}
+
+std::string collision_rate_text(const Averages& averages) {
+    if (averages.collision_frequency.value == 0) return "no disc met another one";
+    return fmt::format("{} with other discs per disc and step; mean free time {} steps",
+                       estimate_text(averages.collision_frequency),
+                       estimate_text(averages.mean_free_time));
+}
+
+std::string tensor_text(const TensorEstimate& tensor) {
+    return fmt::format("pressure xx {}, xy {}, yy {}", estimate_text(tensor.xx),
+                       estimate_text(tensor.xy), estimate_text(tensor.yy));
+}
+
+std::string state_text(const Averages& averages) {
+    std::string pressure = fmt::format("P = {}", estimate_text(averages.pressure));
+    if (std::isnan(averages.compressibility.value)) return pressure;
+    return fmt::format("{}, Z = P A / (N kT) = {}", pressure,
+                       estimate_text(averages.compressibility));
+}
+
+std::string counted_pressure_text(const Averages& averages) {
+    return fmt::format("{} from collisions with walls, {} with those of pairs",
+                       estimate_text(averages.wall_pressure),
+                       estimate_text(averages.virial_pressure));
+}
+
+std::string speeds_text(const Scene& scene, const Averages& averages) {
+    const auto n = static_cast<double>(scene.n_discs);
+    if (scene.effects.are_any())
+        return fmt::format("mean {}; kurtosis {}", estimate_text(averages.mean_speed),
+                           estimate_text(averages.speed_kurtosis));
+    return fmt::format("mean {}; kurtosis {}, {:.5g} in equilibrium",
+                       estimate_text(averages.mean_speed), estimate_text(averages.speed_kurtosis),
+                       2 * n / (n + 1));
+}
+
+std::string measured_text(const Scene& scene, const std::vector<MeasuredTable>& tables) {
+    if (tables.empty())
+        return fmt::format("nothing yet: the first sample is that of step {}",
+                           scene.measurements->from_step);
+    std::string names;
+    for (const MeasuredTable& table : tables) names += (names.empty() ? "" : ", ") + table.name;
+    return fmt::format("{} in {} ({})", names, scene.measurements->folder,
+                       tables.front().remarks.front());
+}
+
+/// "120 of 400 discs: left 70, top 50" where a side is open.
+std::string departed_text(const Scene& scene, const Totals& totals) {
+    std::uint64_t all = 0;
+    std::string boundaries;
+    for (std::size_t side = 0; side < boundary_names.size(); ++side) {
+        if (scene.effects.boundaries[side].kind != BoundaryKind::open) continue;
+        all += totals.departed[side];
+        boundaries += fmt::format("{}{} {}", boundaries.empty() ? "" : ", ", boundary_names[side],
+                                  totals.departed[side]);
+    }
+    return boundaries.empty() ? boundaries
+                              : fmt::format("{} of {} discs: {}", all, totals.n_discs, boundaries);
+}
+
+std::string plural(int count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string scene_lines(const Scene& scene) {
+    const std::string grown = scene.effects.growth == 0
+                                  ? ""
+                                  : fmt::format(", {:.4g} at the last step", scene.last_packing());
+    std::string text = labelled_line(
+        "scene", fmt::format("{}: {} discs of {} in a box of {:g}, packing {:.4g}{}", scene.name,
+                             scene.n_discs, radii_text(scene), scene.box, scene.packing(), grown));
+    text += labelled_line("method", fmt::format("{}, micro_steps = {}, sync_every = {}{}",
+                                                name_of(scene.method), scene.micro_steps,
+                                                scene.sync_every, arithmetic_text(scene)));
+    if (scene.effects.are_any()) text += labelled_line("effects", description(scene.effects));
+    return text;
+}
+
+std::string time_lines(const RunResult& result) {
+    const std::int64_t n_steps = result.last_step - result.first_step;
+    std::string text = labelled_line(
+        "steps",
+        fmt::format("{} in {:.4g} s: {:.4g} steps/s, {:.4g} ns per disc-step", n_steps,
+                    result.wall_seconds, ratio(static_cast<double>(n_steps), result.wall_seconds),
+                    ns_per_disc_step(result)));
+    text += labelled_line("machine", fmt::format("{} x {}, {:.0f} bytes per disc at the peak",
+                                                 plural(result.ranks, "rank"),
+                                                 plural(result.threads, "thread"),
+                                                 result.peak_bytes_per_disc));
+    text += labelled_line("phases", phases_text(result));
+    if (result.ranks > 1) text += labelled_line("imbalance", imbalance_text(result));
+    return text;
+}
+
+std::string average_lines(const Scene& scene, const Averages& averages) {
+    std::string text;
+    if (averages.steps == 0) return text;
+    if (!std::isnan(averages.collision_frequency.value))
+        text += labelled_line("frequency", collision_rate_text(averages));
+    text += labelled_line("temperature",
+                          fmt::format("kT = {}", estimate_text(averages.temperature)));
+    text += labelled_line("state", state_text(averages));
+    text += labelled_line("tensor", tensor_text(averages.pressure_tensor));
+    if (!scene.effects.are_any())
+        text += labelled_line("pressure", counted_pressure_text(averages));
+    text += labelled_line("speeds", speeds_text(scene, averages));
+    const std::string reason = reason_without_error(averages.temperature, averages);
+    return reason.empty() ? text : text + labelled_line("errors", "none: " + reason);
+}
+
+/// What the method made of the collisions.
+std::string method_line(const Scene& scene, const RunResult& result) {
+    if (scene.method == Method::event_driven)
+        return labelled_line("windows", windows_text(result.runs));
+    return labelled_line(
+        "rejected",
+        fmt::format("{} candidates lost a disc to an earlier collision, {:.3g} % of all",
+                    result.end.rejected_candidates, 100 * rejected_share(result)));
+}
+
+std::string collision_lines(const Scene& scene, const RunResult& result) {
+    const Totals& end = result.end;
+    std::string text = labelled_line(
+        "collisions",
+        fmt::format("{} with walls, {} of pairs; {:.4g} per disc and micro-step "
+                    "(nu dt)",
+                    end.wall_collisions, end.pair_collisions, collisions_per_disc(scene, result)));
+    text += average_lines(scene, result.averages) + method_line(scene, result);
+    text += labelled_line(
+        "overlapping",
+        fmt::format("{} pairs at the end, {:.3g} per disc, by up to {:.2g} diameters; {} at the "
+                    "start",
+                    end.overlapping_pairs, overlapping_pairs_per_disc(result),
+                    deepest_overlap(scene, result), result.start.overlapping_pairs));
+    if (const std::string departed = departed_text(scene, end); !departed.empty())
+        text += labelled_line("departed", departed);
+    return text;
+}
+
+std::string energy_text(const Scene& scene, const RunResult& result) {
+    std::string others;
+    if (scene.effects.contact.kind == ContactKind::rough)
+        others += fmt::format(", {:.17g} of spin", result.end.rotational_energy);
+    if (scene.effects.gravity.is_any())
+        others += fmt::format(", {:.17g} of height", result.end.potential_energy);
+    const std::string what = others.empty() ? "," : " of motion" + others + "; the sum has";
+    return fmt::format("{:.17g}{} changed by {:.4g} of itself", result.end.kinetic_energy, what,
+                       energy_drift(result));
+}
+
+} // namespace
+
+std::string summary_text(const Scene& scene, const RunResult& result) {
+    const Totals& end = result.end;
+    std::string text = scene_lines(scene) + time_lines(result) + collision_lines(scene, result);
+    text += labelled_line("energy", energy_text(scene, result));
+    if (scene.measurements) text += labelled_line("measured", measured_text(scene, result.tables));
+    text += labelled_line("momentum",
+                          fmt::format("{:.17g} {:.17g}", end.momentum_x, end.momentum_y));
+    return text + labelled_line("state hash", to_string(end.hash));
+}
+
+} // namespace carrom

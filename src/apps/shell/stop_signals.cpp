@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/shell/stop_signals.hpp"
+
+#include <cerrno>
+#include <csignal>
+#include <string_view>
+
+#include <unistd.h>
+
+namespace carrom {
+
+namespace {
+
+volatile std::sig_atomic_t signal_that_has_come = 0, is_answer_due = 0;
+
+/// Calls only what a handler may call.
+void answer(int number) {
+    constexpr std::string_view text = "\ntold to stop: the steps under way are finished first, two "
+                                      "seconds' worth of them or one";
+    constexpr std::string_view advice = "; once more ends the run at once";
+    for (const std::string_view part :
+         {text, number == SIGINT ? advice : std::string_view(), std::string_view("\n")}) {
+        // Nobody is left to hear of it if this fails.
+        [[maybe_unused]] const ssize_t n_written = write(STDERR_FILENO, part.data(), part.size());
+    }
+}
+
+void note_signal(int number) {
+    signal_that_has_come = number;
+    if (is_answer_due == 0) return;
+    is_answer_due = 0;
+    const int number_of_error = errno;
+    answer(number);
+    errno = number_of_error;
+}
+
+} // namespace
+
+void note_stop_signals() {
+    static bool are_noted = false;
+    if (are_noted) return; // else a second INT would not find the default
+    are_noted = true;
+    struct sigaction action{};
+    action.sa_handler = note_signal;
+    action.sa_flags = SA_RESTART; // reads and writes under way go on
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGUSR1, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    struct sigaction present{};
+    sigaction(SIGINT, nullptr, &present);
+    if (present.sa_handler == SIG_IGN) return; // as shells have it for what runs in the background
+    action.sa_flags |= SA_RESETHAND;           // whoever asks again does not want to wait
+    sigaction(SIGINT, &action, nullptr);
+}
+
+StopSignals::StopSignals(bool are_reported) {
+    note_stop_signals();
+    if (!are_reported) return;
+    is_answer_due = 1;
+    if (signal_that_has_come == 0 || is_answer_due == 0) return;
+    is_answer_due = 0;
+    answer(signal_that_has_come);
+}
+
+StopSignals::~StopSignals() { is_answer_due = 0; }
+
+bool StopSignals::has_come() const { return signal_that_has_come != 0; }
+
+} // namespace carrom

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// When two discs touch that fly freely and grow (docs/understanding/effects.md, section 15).
+//
+// All radii grow as 1 + g t. Divide lengths by that and let the clock show u = t / (1 + g t). Then
+// discs keep their size, and d + w t becomes d + (w - g d) u: they still fly straight. So the
+// predicate is that of constant sizes (pair_contact.hpp), with w - g d for w. Each component of it
+// is rounded once, by a fused multiply-add. The cross product is that of d and w, whatever g is: so
+// that rounding does not count at a graze. No bit depends on the order of the pair and the names of
+// the axes. Without growth the bits are those of contact_delay.
+#pragma once
+
+#include "dynamics/pair_contact.hpp"
+
+namespace carrom {
+
+/// As contact_delay, of a distance `sigma` that grows at the rate `growth` times `sigma`, not
+/// negative. The error is that of contact_delay with w - g d, times (1 + g t)^2.
+template <class Real>
+[[gnu::always_inline]] inline Real growing_contact_delay(Real dx, Real dy, Real wx, Real wy,
+                                                         Real sigma, Real growth,
+                                                         Real deepest_overlap) {
+    const Real none = -1;
+    const Real vx = std::fma(-growth, dx, wx), vy = std::fma(-growth, dy, wy);
+    const Real b = dx * vx + dy * vy;
+    if (!(b < 0)) return none;
+    const Real reach = std::sqrt(vx * vx + vy * vy) * sigma;
+    const Real x = std::fabs(cross(dx, dy, wx, wy));
+    const Real disc = (reach - x) * (reach + x);
+    if (!(disc > 0)) return none; // an exact graze is no contact
+    const Real distance = std::sqrt(dx * dx + dy * dy);
+    const Real gap = distance - sigma;
+    if (gap < -deepest_overlap) return none;
+    if (gap <= 0) return 0;
+    const Real clock = gap * (distance + sigma) / (-b + std::sqrt(disc));
+    const Real rest = std::fma(-growth, clock, Real{1});
+    return rest > 0 ? clock / rest : none; // the clock never shows 1 / g
+}
+
+} // namespace carrom
