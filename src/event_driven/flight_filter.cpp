@@ -9,6 +9,8 @@
 #include "hwy/foreach_target.h" // compiles this file once per instruction set
 #include "hwy/highway.h"
 
+#include "cell_list/held_vector.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace carrom::HWY_NAMESPACE {
 
@@ -21,40 +23,33 @@ using SlotVector = hn::Vec<Slots>;
 
 /// A flight spread over all lanes.
 struct SpreadFlight {
-    Vector x, y, vx, vy, rest, touching;
+    HeldVector<Lanes> x, y, vx, vy, rest, touching;
 
     HWY_INLINE SpreadFlight(const Flight& flight, float touching_squared)
-        : x(hn::Set(Lanes(), flight.x)), y(hn::Set(Lanes(), flight.y)),
-          vx(hn::Set(Lanes(), flight.vx)), vy(hn::Set(Lanes(), flight.vy)),
-          rest(hn::Set(Lanes(), 1 - flight.now)), touching(hn::Set(Lanes(), touching_squared)) {}
-};
-
-/// Where a vector of discs is at a time, and how it flies.
-struct Neighbours {
-    Vector x, y, vx, vy;
-
-    HWY_INLINE Neighbours(const FlightLanes& lanes, std::uint32_t slot, Vector now)
-        : vx(hn::LoadU(Lanes(), lanes.vx + slot)), vy(hn::LoadU(Lanes(), lanes.vy + slot)) {
-        x = hn::MulAdd(vx, now, hn::LoadU(Lanes(), lanes.x + slot));
-        y = hn::MulAdd(vy, now, hn::LoadU(Lanes(), lanes.y + slot));
-    }
+        : x(hold(Lanes(), flight.x)), y(hold(Lanes(), flight.y)), vx(hold(Lanes(), flight.vx)),
+          vy(hold(Lanes(), flight.vy)), rest(hold(Lanes(), 1 - flight.now)),
+          touching(hold(Lanes(), touching_squared)) {}
 };
 
 /// Which of the discs might touch the flight in what is left of the window: those that are near
 /// already, and those that approach, do not pass by, and arrive in time. Each condition is a number
 /// that is negative where it holds, so that one comparison does for all of them.
-HWY_INLINE hn::Mask<Lanes> might_touch(const Neighbours& others, const SpreadFlight& p) {
-    const auto dx = hn::Sub(others.x, p.x), dy = hn::Sub(others.y, p.y);
-    const auto wx = hn::Sub(others.vx, p.vx), wy = hn::Sub(others.vy, p.vy);
+/// The others are at x and y, and fly with vx and vy.
+HWY_INLINE hn::Mask<Lanes> might_touch(Vector x, Vector y, Vector vx, Vector vy,
+                                       const SpreadFlight& p) {
+    const Lanes d;
+    const auto dx = hn::Sub(x, vector_of(d, p.x)), dy = hn::Sub(y, vector_of(d, p.y));
+    const auto wx = hn::Sub(vx, vector_of(d, p.vx)), wy = hn::Sub(vy, vector_of(d, p.vy));
+    const auto rest = vector_of(d, p.rest);
     const auto b = hn::MulAdd(dx, wx, hn::Mul(dy, wy));
     const auto a = hn::MulAdd(wx, wx, hn::Mul(wy, wy));
-    const auto c = hn::MulAdd(dx, dx, hn::MulSub(dy, dy, p.touching));
+    const auto c = hn::MulAdd(dx, dx, hn::MulSub(dy, dy, vector_of(d, p.touching)));
     // where c > 0: they approach, and b^2 > a c
     const auto passes_by = hn::MulAdd(b, hn::Abs(b), hn::Mul(a, c));
-    const auto minus_b_end = hn::NegMulSub(a, p.rest, b); // b and c at the window's end
-    const auto c_end = hn::MulAdd(hn::Sub(b, minus_b_end), p.rest, c);
+    const auto minus_b_end = hn::NegMulSub(a, rest, b); // b and c at the window's end
+    const auto c_end = hn::MulAdd(hn::Sub(b, minus_b_end), rest, c);
     const auto misses = hn::Min(c, hn::Max(passes_by, hn::Min(minus_b_end, c_end)));
-    return hn::Lt(misses, hn::Zero(Lanes()));
+    return hn::Lt(misses, hn::Zero(d));
 }
 
 #if HWY_TARGET == HWY_AVX2
@@ -96,6 +91,11 @@ HWY_INLINE std::uint32_t* append(SlotVector slots, hn::Mask<Slots> kept, std::ui
     return next + hn::CountTrue(Slots(), kept);
 }
 
+/// Where the flights of a vector of lanes are at the time `now`.
+HWY_INLINE Vector places(const float* at_start, const float* velocity, Vector now) {
+    return hn::MulAdd(hn::LoadU(Lanes(), velocity), now, hn::LoadU(Lanes(), at_start));
+}
+
 /// Appends to `next` the slots of `run` that might touch the flight; returns the new end.
 HWY_INLINE std::uint32_t* filter_run(const FlightLanes lanes, SlotRange run, const SpreadFlight& p,
                                      Vector now, std::uint32_t* next) {
@@ -104,7 +104,11 @@ HWY_INLINE std::uint32_t* filter_run(const FlightLanes lanes, SlotRange run, con
     for (std::uint32_t slot = run.begin; slot < run.end;
          slot += static_cast<std::uint32_t>(hn::Lanes(Lanes()))) {
         const auto slots = hn::Add(steps, spread_slot(slot));
-        const auto touch = hn::RebindMask(Slots(), might_touch(Neighbours(lanes, slot, now), p));
+        const auto x = places(lanes.x + slot, lanes.vx + slot, now),
+                   y = places(lanes.y + slot, lanes.vy + slot, now);
+        const auto vx = hn::LoadU(Lanes(), lanes.vx + slot),
+                   vy = hn::LoadU(Lanes(), lanes.vy + slot);
+        const auto touch = hn::RebindMask(Slots(), might_touch(x, y, vx, vy, p));
         next = append(slots, hn::And(touch, hn::Lt(slots, end)), next);
     }
     return next;
@@ -137,13 +141,14 @@ PartnerCounts FilterTwoFlights(const FlightLanes& all_lanes, std::span<const Slo
             const auto slots = hn::Add(steps, spread_slot(slot));
             const auto is_one_of_them = hn::Or(hn::Eq(slots, p_slot), hn::Eq(slots, q_slot));
             const auto inside = hn::AndNot(is_one_of_them, hn::Lt(slots, end));
-            const Neighbours others(lanes, slot, now);
-            p_next = append(slots,
-                            hn::And(hn::RebindMask(Slots(), might_touch(others, p_spread)), inside),
-                            p_next);
-            q_next = append(slots,
-                            hn::And(hn::RebindMask(Slots(), might_touch(others, q_spread)), inside),
-                            q_next);
+            const auto x = places(lanes.x + slot, lanes.vx + slot, now),
+                       y = places(lanes.y + slot, lanes.vy + slot, now);
+            const auto vx = hn::LoadU(Lanes(), lanes.vx + slot),
+                       vy = hn::LoadU(Lanes(), lanes.vy + slot);
+            const auto p_touch = hn::RebindMask(Slots(), might_touch(x, y, vx, vy, p_spread));
+            p_next = append(slots, hn::And(p_touch, inside), p_next);
+            const auto q_touch = hn::RebindMask(Slots(), might_touch(x, y, vx, vy, q_spread));
+            q_next = append(slots, hn::And(q_touch, inside), q_next);
         }
     }
     return {static_cast<std::size_t>(p_next - p_out), static_cast<std::size_t>(q_next - q_out)};

@@ -10,6 +10,8 @@
 #include "hwy/foreach_target.h" // compiles this file once per instruction set
 #include "hwy/highway.h"
 
+#include "cell_list/held_vector.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace carrom::HWY_NAMESPACE {
 
@@ -17,12 +19,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// A flight in every lane of a vector.
 template <class D> struct Broadcast {
-    hn::Vec<D> x, y, vx, vy, touching;
+    HeldVector<D> x, y, vx, vy, touching;
 
     HWY_INLINE Broadcast(D d, const FlightLanes& lanes, std::uint32_t slot, float touching_squared)
-        : x(hn::Set(d, lanes.x[slot])), y(hn::Set(d, lanes.y[slot])),
-          vx(hn::Set(d, lanes.vx[slot])), vy(hn::Set(d, lanes.vy[slot])),
-          touching(hn::Set(d, touching_squared)) {}
+        : x(hold(d, lanes.x[slot])), y(hold(d, lanes.y[slot])), vx(hold(d, lanes.vx[slot])),
+          vy(hold(d, lanes.vy[slot])), touching(hold(d, touching_squared)) {}
 };
 
 /// Which lanes of the vector of flights that begins at `slot` might touch `flight`, as bits: those
@@ -33,14 +34,14 @@ template <class D> struct Broadcast {
 template <class D>
 HWY_INLINE std::uint64_t lanes_that_touch(D d, const FlightLanes& lanes, std::uint32_t slot,
                                           std::uint32_t n_inside, const Broadcast<D>& flight) {
-    const auto dx = hn::Sub(hn::LoadU(d, lanes.x + slot), flight.x);
-    const auto dy = hn::Sub(hn::LoadU(d, lanes.y + slot), flight.y);
-    const auto wx = hn::Sub(hn::LoadU(d, lanes.vx + slot), flight.vx);
-    const auto wy = hn::Sub(hn::LoadU(d, lanes.vy + slot), flight.vy);
+    const auto dx = hn::Sub(hn::LoadU(d, lanes.x + slot), vector_of(d, flight.x));
+    const auto dy = hn::Sub(hn::LoadU(d, lanes.y + slot), vector_of(d, flight.y));
+    const auto wx = hn::Sub(hn::LoadU(d, lanes.vx + slot), vector_of(d, flight.vx));
+    const auto wy = hn::Sub(hn::LoadU(d, lanes.vy + slot), vector_of(d, flight.vy));
     const auto b = hn::MulAdd(dx, wx, hn::Mul(dy, wy));
     const auto a = hn::MulAdd(wx, wx, hn::Mul(wy, wy));
     const auto c = hn::MulSub(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Set(d, 1 - 0x1p-19f),
-                              flight.touching);
+                              vector_of(d, flight.touching));
     const auto b_end = hn::Add(b, a); // b at the window's end, and so on
     const auto c_end = hn::Add(hn::Add(b, b_end), c);
     // Each condition as a number that is not positive where it holds, so that one comparison does
