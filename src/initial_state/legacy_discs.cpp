@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/rounded_sine.hpp"
 #include "initial_state/point_grid.hpp"
 
 namespace carrom {
@@ -50,7 +51,8 @@ std::optional<std::vector<Point>> legacy_positions(const Scene& scene, LegacyRan
 InputDisc legacy_disc(const Scene& scene, LegacyRandom& random, DiscId id, Point place) {
     const double speed = random.uniform(scene.box.x / (8 * scene.radius), scene.box.x / 4);
     const double angle = random.uniform(0, 2 * std::numbers::pi);
-    return {id, place.x, place.y, speed * std::cos(angle), speed * std::sin(angle)};
+    const RoundedSine direction = rounded_sine(angle);
+    return {id, place.x, place.y, speed * direction.cosine, speed * direction.sine};
 }
 
 } // namespace carrom

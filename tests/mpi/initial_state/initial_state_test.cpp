@@ -21,6 +21,7 @@
 #include "lattices/lattice.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/exchange.hpp"
+#include "quad.hpp"
 #include "scene/read_scene.hpp"
 
 using namespace carrom;
@@ -140,7 +141,8 @@ Discs inserted_by_the_rule(const Scene& scene) {
     return discs;
 }
 
-/// The legacy generator, as one would write it in C: plain `rand`, all earlier discs compared.
+/// The legacy generator, as one would write it in C: plain `rand`, all earlier discs compared. Sine
+/// and cosine are rounded correctly, because those of C libraries differ between processors.
 Discs legacy_by_hand(std::uint64_t n, double box, double r) {
     std::srand(3210);
     const auto uniform = [](double low, double high) {
@@ -163,8 +165,8 @@ Discs legacy_by_hand(std::uint64_t n, double box, double r) {
     for (InputDisc& disc : discs) {
         const double speed = uniform(box / (8 * r), box / 4);
         const double angle = uniform(0, 2 * std::acos(-1.0));
-        disc.vx = speed * std::cos(angle);
-        disc.vy = speed * std::sin(angle);
+        disc.vx = speed * test::nearest_cosine(angle);
+        disc.vy = speed * test::nearest_sine(angle);
     }
     return discs;
 }
