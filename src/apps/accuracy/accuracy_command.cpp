@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 
 #include "apps/accuracy/accuracy_study.hpp"
-#include "apps/run/load.hpp"
+#include "apps/run/run_options.hpp"
 #include "apps/shell/number_words.hpp"
+#include "apps/shell/standard_streams.hpp"
+#include "run/start/load.hpp"
 
 namespace carrom {
 
@@ -41,7 +43,9 @@ ExitCode study(const AccuracyOptions& options, std::vector<Problem> problems,
     if (ranks.size() > 1)
         problems.push_back({"carrom accuracy", 0,
                             "runs on one rank; share the work out with --share instead of mpirun"});
-    Loaded loaded = load(options.run, problems, ranks);
+    RunOptions run = options.run;
+    run.messages = messages_of(ranks, run.quiet);
+    Loaded loaded = load(run, problems, ranks);
     if (loaded.scene.effects.are_any())
         throw InputError(
             {{loaded.scene.name, 0,

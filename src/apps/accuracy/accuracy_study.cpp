@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "apps/accuracy/accuracy_table.hpp"
-#include "apps/run/csv_table.hpp"
 #include "apps/run/progress.hpp"
 #include "core/errors.hpp"
+#include "run/files/csv_table.hpp"
 #include "simulation/compression.hpp"
 
 namespace carrom {

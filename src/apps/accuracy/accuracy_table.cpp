@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "apps/run/csv_table.hpp"
 #include "apps/shell/words.hpp"
 #include "core/box_text.hpp"
 #include "machine/machine.hpp"
+#include "run/files/csv_table.hpp"
 
 namespace carrom {
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "apps/accuracy/trial.hpp"
+#include "run/pilot/trial.hpp"
 
 namespace carrom {
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <utility>
 
-#include "apps/accuracy/trial.hpp"
 #include "machine/machine.hpp"
 #include "parallel/exchange.hpp"
+#include "run/pilot/trial.hpp"
 
 namespace carrom {
 

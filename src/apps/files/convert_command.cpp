@@ -13,13 +13,13 @@
 
 #include <fmt/format.h>
 
-#include "apps/run/data_output.hpp"
-#include "apps/run/destinations.hpp"
 #include "apps/run/disc_lines.hpp"
 #include "apps/run/run_options.hpp"
 #include "io/checkpoint.hpp"
 #include "io/frame_file.hpp"
 #include "parallel/agreement.hpp"
+#include "run/files/data_output.hpp"
+#include "run/files/destinations.hpp"
 
 namespace carrom {
 

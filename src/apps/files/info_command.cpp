@@ -8,13 +8,13 @@
 
 #include <fmt/format.h>
 
-#include "apps/run/restart.hpp"
 #include "apps/shell/words.hpp"
 #include "core/box_text.hpp"
 #include "core/side_columns.hpp"
 #include "io/checkpoint.hpp"
 #include "io/frame_file.hpp"
 #include "parallel/agreement.hpp"
+#include "run/start/restart.hpp"
 #include "stored_scene/stored_scene.hpp"
 
 namespace carrom {

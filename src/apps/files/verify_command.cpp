@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
-#include "apps/run/restart.hpp"
 #include "io/checkpoint.hpp"
 #include "io/frame_file.hpp"
 #include "parallel/agreement.hpp"
+#include "run/start/restart.hpp"
 #include "stored_scene/stored_scene.hpp"
 
 namespace carrom {

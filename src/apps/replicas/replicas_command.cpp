@@ -13,12 +13,13 @@
 #include <fmt/format.h>
 
 #include "apps/replicas/replicas_join.hpp"
-#include "apps/run/load.hpp"
 #include "apps/run/run_command.hpp"
-#include "apps/run/run_folder.hpp"
+#include "apps/run/run_options.hpp"
 #include "apps/shell/number_words.hpp"
 #include "apps/shell/standard_streams.hpp"
 #include "parallel/agreement.hpp"
+#include "run/files/run_folder.hpp"
+#include "run/start/load.hpp"
 
 namespace carrom {
 

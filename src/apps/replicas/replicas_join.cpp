@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "apps/run/report_file.hpp"
-#include "apps/run/run_folder.hpp"
 #include "core/errors.hpp"
+#include "run/files/report_file.hpp"
+#include "run/files/run_folder.hpp"
 
 namespace carrom {
 

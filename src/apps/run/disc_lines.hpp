@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/run/data_output.hpp"
 #include "parallel/communicator.hpp"
+#include "run/files/data_output.hpp"
 #include "scene/scene.hpp"
 #include "simulation/simulation.hpp"
 

@@ -8,25 +8,25 @@
 
 #include <fmt/format.h>
 
-#include "apps/accuracy/hard_cases.hpp"
-#include "apps/accuracy/setting_choice.hpp"
-#include "apps/run/checkpoints.hpp"
 #include "apps/run/disc_lines.hpp"
-#include "apps/run/failure_scene.hpp"
-#include "apps/run/load.hpp"
 #include "apps/run/progress.hpp"
-#include "apps/run/recordings.hpp"
 #include "apps/run/report.hpp"
-#include "apps/run/report_file.hpp"
-#include "apps/run/restart.hpp"
-#include "apps/run/run_folder.hpp"
 #include "apps/run/run_options.hpp"
-#include "apps/run/stopwatch.hpp"
 #include "apps/run/summary.hpp"
 #include "apps/shell/standard_streams.hpp"
 #include "apps/shell/stop_signals.hpp"
 #include "machine/machine.hpp"
 #include "parallel/agreement.hpp"
+#include "run/checkpoints.hpp"
+#include "run/failure_scene.hpp"
+#include "run/files/report_file.hpp"
+#include "run/files/run_folder.hpp"
+#include "run/hard_cases.hpp"
+#include "run/pilot/setting_choice.hpp"
+#include "run/recordings.hpp"
+#include "run/start/load.hpp"
+#include "run/start/restart.hpp"
+#include "run/stopwatch.hpp"
 #include "simulation/simulation.hpp"
 
 namespace carrom {
@@ -86,8 +86,11 @@ bool step_to_end(Simulation& simulation, RunResult& result, double& output_secon
         lines.write(simulation);
     };
     if (!is_restart || simulation.step() == scene.steps) write_if_due();
-    Checkpoints checkpoints(scene, simulation.step(), is_restart, signals, ranks, result.threads);
-    Recordings recordings(scene, simulation, is_restart, std::move(samples), ranks);
+    Checkpoints checkpoints(
+        scene, simulation.step(), is_restart, [&signals] { return signals.has_come(); }, ranks,
+        result.threads);
+    Recordings recordings(scene, simulation, is_restart, std::move(samples), ranks,
+                          options.messages);
     bool must_stop = checkpoints.look_up(simulation, recordings);
     output_seconds += watch.lap();
     while (simulation.step() < scene.steps && !must_stop) {
@@ -133,8 +136,9 @@ void warn_of_threads(int threads, bool are_chosen, const Communicator& ranks) {
 
 } // namespace
 
-ExitCode run_scene(const RunOptions& options, const std::vector<Problem>& problems,
+ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
                    const Communicator& ranks) {
+    options.messages = messages_of(ranks, options.quiet);
     Stopwatch watch;
     std::optional<StopSignals> signals;
     if (options.input != "-")
@@ -145,20 +149,20 @@ ExitCode run_scene(const RunOptions& options, const std::vector<Problem>& proble
     tuning.threads = options.threads.value_or(default_threads(ranks));
     warn_of_threads(tuning.threads, options.threads.has_value(), ranks);
     if (loaded.scene.accuracy)
-        choose_setting(loaded.scene, loaded.discs, options.quiet, ranks, tuning);
+        choose_setting(loaded.scene, loaded.discs, options.messages, ranks, tuning);
     const Scene& scene = loaded.scene;
     const bool is_restart = loaded.stored.has_value();
     Simulation simulation = is_restart ? Simulation(scene, std::move(*loaded.stored), ranks, tuning)
                                        : Simulation(scene, std::move(loaded.discs), ranks, tuning);
 
     simulation.go_on_averaging(loaded.samples.averages);
-    look_for_hard_cases(scene, simulation, ranks);
+    look_for_hard_cases(scene, simulation, ranks, options.messages);
     if (options.check) check_every_step(simulation, scene);
     RunResult result;
     result.threads = tuning.threads;
     result.first_step = simulation.step();
     result.start = simulation.totals();
-    if (ranks.is_root() && result.first_step == 0) warn_of_close_pairs(scene, result.start);
+    if (result.first_step == 0) warn_of_close_pairs(scene, result.start, options.messages);
     const double setup_seconds = watch.lap();
     double output_seconds = 0;
     const bool is_done = step_to_end(simulation, result, output_seconds, options, scene, is_restart,

@@ -10,7 +10,7 @@ namespace carrom {
 
 /// The whole run of a scene, with all that it writes. `problems` of the command line are thrown
 /// together with the scene's. **Collective.**
-ExitCode run_scene(const RunOptions& options, const std::vector<Problem>& problems,
+ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
                    const Communicator& ranks);
 
 Subcommand run_subcommand();

@@ -33,6 +33,10 @@ void keep_standard_streams() {
 
 void print_text(std::string_view text) { write_to_log(printable(text, true)); }
 
+Messages messages_of(const Communicator& ranks, bool is_quiet) {
+    return ranks.is_root() ? Messages(print_text, is_quiet) : Messages();
+}
+
 bool finish_standard_output() {
     const bool is_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
     pollfd output{STDOUT_FILENO, POLLOUT, 0};

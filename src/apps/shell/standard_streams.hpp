@@ -6,6 +6,9 @@
 
 #include <fmt/core.h>
 
+#include "parallel/communicator.hpp"
+#include "run/messages.hpp"
+
 namespace carrom {
 
 /// Fills the place of each standard stream that is closed with something that cannot be read from
@@ -22,6 +25,9 @@ template <class... Values>
 void print_message(fmt::format_string<Values...> format, Values&&... values) {
     print_text(fmt::vformat(format, fmt::make_format_args(values...)));
 }
+
+/// Prints the messages of a run: rank 0 to standard error, the others nowhere.
+Messages messages_of(const Communicator& ranks, bool is_quiet);
 
 /// Writes what standard output still holds. False, with a message, where any of it was lost; not
 /// where the reader of a pipe had enough.

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "apps/accuracy/trial.hpp"
 #include "core/errors.hpp"
+#include "run/pilot/trial.hpp"
 #include "scene/read_scene.hpp"
 
 using namespace carrom;

@@ -9,8 +9,8 @@
 #include <map>
 #include <numbers>
 
-#include "apps/accuracy/trial.hpp"
 #include "initial_state/initial_state.hpp"
+#include "run/pilot/trial.hpp"
 
 using namespace carrom;
 

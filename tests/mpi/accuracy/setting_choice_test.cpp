@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/accuracy/setting_choice.hpp"
 #include "core/errors.hpp"
 #include "initial_state/initial_state.hpp"
+#include "run/pilot/setting_choice.hpp"
 #include "scene/read_scene.hpp"
 
 using namespace carrom;
@@ -22,7 +22,7 @@ Scene unknown_gas(const std::string& more) {
 void check_delivery(Scene scene, double accuracy, const Communicator& world, int n_starts = 3,
                     double pairs = 1e5) {
     scene.accuracy = accuracy;
-    choose_setting(scene, initial_state(scene, nullptr, world), true, world, {});
+    choose_setting(scene, initial_state(scene, nullptr, world), Messages(), world, {});
     CHECK_FALSE(scene.accuracy);
     const RunSetting setting{scene.method, scene.micro_steps};
     CAPTURE(scene.n_discs, scene.packing(), accuracy, setting.micro_steps,
@@ -77,7 +77,7 @@ TEST_CASE("What no pilot can see is left to the event-driven method, and the cho
     Scene scene = unknown_gas("count = 300\npacking = 0.1\nspeed = 0.3\n");
     scene.overrides = {"time.accuracy=1e-6", "time.steps=9"};
     scene.accuracy = 1e-6;
-    choose_setting(scene, initial_state(scene, nullptr, world), true, world, {});
+    choose_setting(scene, initial_state(scene, nullptr, world), Messages(), world, {});
     CHECK(scene.method == Method::event_driven);
     CHECK(scene.overrides == std::vector<std::string>{"time.steps=9", "time.method=event-driven",
                                                       "time.micro_steps=1"});
@@ -94,5 +94,5 @@ TEST_CASE("Discs that never meet have no error to choose by") {
     Scene scene = read_scene("[box]\nsize = 9\n[discs]\nradius = 1\nlist = [[2, 2, 0, 1], [5, 2, "
                              "0, 1]]\n[time]\nsteps = 5\naccuracy = 0.1\n",
                              "two.toml");
-    CHECK_THROWS_AS(choose_setting(scene, scene.listed_discs, true, world, {}), InputError);
+    CHECK_THROWS_AS(choose_setting(scene, scene.listed_discs, Messages(), world, {}), InputError);
 }

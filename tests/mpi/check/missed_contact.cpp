@@ -7,11 +7,11 @@
 #include <cstdio>
 #include <string>
 
-#include "apps/run/failure_scene.hpp"
 #include "check/check_failure.hpp"
 #include "check/state_check.hpp"
 #include "local_discs.hpp"
 #include "parallel/mpi.hpp"
+#include "run/failure_scene.hpp"
 
 using namespace carrom;
 using namespace carrom::test;

@@ -10,8 +10,8 @@
 
 #include <sys/resource.h>
 
-#include "apps/run/csv_table.hpp"
 #include "core/errors.hpp"
+#include "run/files/csv_table.hpp"
 
 using namespace carrom;
 

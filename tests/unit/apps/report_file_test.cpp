@@ -7,8 +7,8 @@
 #include "catch.hpp"
 #include <unistd.h>
 
-#include "apps/run/data_output.hpp"
-#include "apps/run/report_file.hpp"
+#include "run/files/data_output.hpp"
+#include "run/files/report_file.hpp"
 
 namespace carrom {
 

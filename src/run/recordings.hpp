@@ -10,13 +10,14 @@
 #include <optional>
 #include <vector>
 
-#include "apps/run/measured_files.hpp"
-#include "apps/run/stopwatch.hpp"
 #include "io/collision_log.hpp"
 #include "io/trajectory.hpp"
 #include "measure/image_counts.hpp"
 #include "measure/sampler.hpp"
 #include "parallel/communicator.hpp"
+#include "run/measured_files.hpp"
+#include "run/messages.hpp"
+#include "run/stopwatch.hpp"
 #include "scene/scene.hpp"
 #include "simulation/simulation.hpp"
 
@@ -32,7 +33,7 @@ public:
     /// step as a first frame. From then on the simulation logs its collisions here: this must
     /// outlive its stepping. **Collective.**
     Recordings(const Scene& scene, Simulation& simulation, bool is_restart, StoredSamples samples,
-               const Communicator& ranks);
+               const Communicator& ranks, const Messages& messages);
 
     /// The next step after `step` that is to be recorded.
     std::int64_t next_due(std::int64_t step) const;
@@ -61,6 +62,7 @@ private:
 
     const Scene& scene_;
     const Communicator& ranks_;
+    const Messages& messages_;
     std::optional<Trajectory> trajectory_;
     std::optional<CollisionLog> log_;
     std::optional<Sampler> sampler_;

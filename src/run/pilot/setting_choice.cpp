@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/accuracy/setting_choice.hpp"
+#include "run/pilot/setting_choice.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "apps/shell/standard_streams.hpp"
 #include "core/errors.hpp"
 
 namespace carrom {
@@ -194,7 +193,7 @@ void decide_on(Scene& scene, const RunSetting& setting) {
     scene.overrides.push_back(fmt::format("time.micro_steps={}", setting.micro_steps));
 }
 
-void choose_setting(Scene& scene, const std::vector<InputDisc>& discs, bool quiet,
+void choose_setting(Scene& scene, const std::vector<InputDisc>& discs, const Messages& messages,
                     const Communicator& communicator, const Tuning& tuning) {
     Choice choice;
     if (*scene.accuracy < least_accuracy) {
@@ -208,13 +207,11 @@ void choose_setting(Scene& scene, const std::vector<InputDisc>& discs, bool quie
             scene, start,
             sixteenth_of_trial(n_discs, start.frequency * n_discs / 2, *scene.accuracy),
             communicator, tuning};
-        if (communicator.is_root() && !quiet)
-            print_message("accuracy {:g}: a pilot tries settings, each for up to {} steps\n",
-                          *scene.accuracy, 16 * pilot.sixteenth);
+        messages.note("accuracy {:g}: a pilot tries settings, each for up to {} steps\n",
+                      *scene.accuracy, 16 * pilot.sixteenth);
         choice = choose(pilot, *scene.accuracy);
     }
-    if (communicator.is_root() && !quiet)
-        print_message("accuracy {:g}: {}\n", *scene.accuracy, choice.reason);
+    messages.note("accuracy {:g}: {}\n", *scene.accuracy, choice.reason);
     decide_on(scene, choice.setting);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run/load.hpp"
+#include "run/start/load.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -10,17 +10,16 @@
 
 #include <fmt/format.h>
 
-#include "apps/run/data_output.hpp"
-#include "apps/run/destinations.hpp"
-#include "apps/run/outputs.hpp"
-#include "apps/run/report_file.hpp"
-#include "apps/run/restart.hpp"
-#include "apps/run/run_folder.hpp"
-#include "apps/shell/standard_streams.hpp"
 #include "initial_state/scene_input.hpp"
 #include "io/checkpoint_folder.hpp"
 #include "machine/machine.hpp"
 #include "parallel/agreement.hpp"
+#include "run/files/data_output.hpp"
+#include "run/files/destinations.hpp"
+#include "run/files/outputs.hpp"
+#include "run/files/report_file.hpp"
+#include "run/files/run_folder.hpp"
+#include "run/start/restart.hpp"
 #include "scene/disc_reader.hpp"
 #include "scene/read_scene.hpp"
 #include "simulation/compression.hpp"
@@ -281,8 +280,7 @@ Loaded load(const RunOptions& given, const Problems& problems, const Communicato
                                      ranks);
         // The last ranks of a run that was killed may have stored more before they ended.
         if (goes_on(options) && restart_candidates(options, scene, ranks) != found) {
-            if (ranks.is_root() && !options.quiet)
-                print_message("another checkpoint has come meanwhile\n");
+            options.messages.note("another checkpoint has come meanwhile\n");
             loaded.stored.reset(); // its memory is needed
             load_restart(options, loaded, ranks);
         }
@@ -297,9 +295,8 @@ Loaded load(const RunOptions& given, const Problems& problems, const Communicato
     check_threads(tuning.threads, ranks);
     if (!loaded.stored) loaded.discs = first_discs(scene, stream.get(), ranks, tuning);
     prepare_outputs(scene, !loaded.stored, ranks);
-    if (ranks.is_root())
-        for (const std::string& warning : scene.warnings)
-            print_message("{}: warning: {}\n", scene.name, warning);
+    for (const std::string& warning : scene.warnings)
+        options.messages.warn("{}: warning: {}\n", scene.name, warning);
     return loaded;
 }
 

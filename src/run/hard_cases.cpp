@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/accuracy/hard_cases.hpp"
+#include "run/hard_cases.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "apps/shell/standard_streams.hpp"
 #include "core/errors.hpp"
 
 namespace carrom {
@@ -60,30 +59,30 @@ void refuse_blurred_places(const Scene& scene, double speed) {
 } // namespace
 
 void look_for_hard_cases(const Scene& scene, const Simulation& simulation,
-                         const Communicator& ranks) {
+                         const Communicator& ranks, const Messages& messages) {
     const double speed = largest_speed(simulation, ranks);
     refuse_blurred_places(scene, speed);
     refuse_long_flights(scene, speed);
     const double blur = blurred_flight(scene, speed);
     // As far as the band before walls is wide: from there on bounces and overlaps show it.
-    if (!ranks.is_root() || blur <= 1e-8 * scene.radius) return;
-    print_message(
+    if (blur <= 1e-8 * scene.radius) return;
+    messages.warn(
         "{}: warning: the fastest disc goes {:.3g} radii per micro-step, and {:.3g} radii in the "
         "rounding of a time; "
         "more time.micro_steps or a smaller time.sync_every (now {}) keep overlaps smaller\n",
         scene.name, speed / scene.radius, blur / scene.radius, scene.sync_every);
 }
 
-void warn_of_close_pairs(const Scene& scene, const Totals& start) {
+void warn_of_close_pairs(const Scene& scene, const Totals& start, const Messages& messages) {
     const auto pairs = [](std::uint64_t count) {
         return count == 1 ? std::string("1 pair") : fmt::format("{} pairs", count);
     };
     if (start.overlapping_pairs > 0)
-        print_message("{}: warning: {} of discs overlap at the start; they pass through each other "
+        messages.warn("{}: warning: {} of discs overlap at the start; they pass through each other "
                       "and collide once they have come apart\n",
                       scene.name, pairs(start.overlapping_pairs));
     if (start.chained_discs > 0)
-        print_message("{}: warning: {} two others or more at the start; what a hit does to discs "
+        messages.warn("{}: warning: {} two others or more at the start; what a hit does to discs "
                       "that touch mechanics does not define: "
                       "here the order of ids does\n",
                       scene.name,
@@ -91,7 +90,7 @@ void warn_of_close_pairs(const Scene& scene, const Totals& start) {
                           ? "1 disc touches"
                           : fmt::format("{} discs touch", start.chained_discs));
     if (start.sliding_pairs > 0)
-        print_message("{}: warning: {} of discs that touch slide along each other at the start; "
+        messages.warn("{}: warning: {} of discs that touch slide along each other at the start; "
                       "whether they collide the last digits decide\n",
                       scene.name, pairs(start.sliding_pairs));
 }

@@ -12,15 +12,16 @@
 
 #include <vector>
 
-#include "apps/accuracy/trial.hpp"
+#include "run/messages.hpp"
+#include "run/pilot/trial.hpp"
 
 namespace carrom {
 
-/// Chooses the scene's rule and micro-steps, says so on rank 0's standard error unless `quiet`, and
+/// Chooses the scene's rule and micro-steps, says so in a message, and
 /// writes them over `time.accuracy`, so that checkpoints hold the choice. It rests on measured
 /// times: on another machine it may be another one. Throws InputError where discs overlap or hardly
 /// meet. **Collective.**
-void choose_setting(Scene& scene, const std::vector<InputDisc>& discs, bool quiet,
+void choose_setting(Scene& scene, const std::vector<InputDisc>& discs, const Messages& messages,
                     const Communicator& communicator, const Tuning& tuning);
 
 /// Gives the scene that setting in the place of `time.accuracy`.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run/destinations.hpp"
+#include "run/files/destinations.hpp"
 
 #include <filesystem>
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run/measured_files.hpp"
+#include "run/measured_files.hpp"
 
 #include <cstring>
 #include <filesystem>
 
 #include <fmt/format.h>
 
-#include "apps/run/csv_table.hpp"
-#include "apps/run/report_file.hpp"
 #include "parallel/agreement.hpp"
+#include "run/files/csv_table.hpp"
+#include "run/files/report_file.hpp"
 
 namespace carrom {
 

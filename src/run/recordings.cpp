@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run/recordings.hpp"
+#include "run/recordings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 #include <tuple>
 #include <utility>
 
-#include "apps/shell/standard_streams.hpp"
 #include "machine/machine.hpp"
 #include "parallel/sample_sort.hpp"
 #include "stored_scene/stored_scene.hpp"
@@ -44,8 +43,8 @@ LoggedCollision logged(const Collision& collision, std::int64_t micro_steps) {
 }
 
 Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_restart,
-                       StoredSamples samples, const Communicator& ranks)
-    : scene_(scene), ranks_(ranks), thermo_(scene, ranks) {
+                       StoredSamples samples, const Communicator& ranks, const Messages& messages)
+    : scene_(scene), ranks_(ranks), messages_(messages), thermo_(scene, ranks) {
     const std::int64_t step = simulation.step();
     if (scene_.trajectory) {
         trajectory_.emplace(scene_.trajectory->file, layout_of(scene_, *scene_.trajectory), ranks_);
@@ -58,18 +57,18 @@ Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_resta
         log_.emplace(scene_.collisions->file, system_of(scene_), ranks_);
         if (!is_restart)
             log_->begin();
-        else if (!log_->go_on(step) && ranks_.is_root() && step > 0)
-            print_message("{}: begins with step {}; of the steps before there is no log\n",
-                          scene_.collisions->file, step + 1);
+        else if (!log_->go_on(step) && step > 0)
+            messages_.warn("{}: begins with step {}; of the steps before there is no log\n",
+                           scene_.collisions->file, step + 1);
         simulation.log_to(&collisions_);
     }
     if (scene_.trajectory && scene_.trajectory->has_image) {
         images_.emplace(scene_.box, simulation, ranks_);
         if (samples.have_images)
             images_->go_on(samples.first_places, &FirstPlace::image_x, &FirstPlace::image_y);
-        else if (is_restart && ranks_.is_root() && step > 0)
-            print_message("{}: image counts from step {}; the checkpoint has no counts\n",
-                          scene_.trajectory->file, step);
+        else if (is_restart && step > 0)
+            messages_.warn("{}: image counts from step {}; the checkpoint has no counts\n",
+                           scene_.trajectory->file, step);
     }
     if (scene_.measurements) {
         sampler_.emplace(scene_, simulation, ranks_);
@@ -82,10 +81,10 @@ Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_resta
 /// What the restart of a run finds of its trajectory.
 void Recordings::report_missing_frames(std::int64_t last, std::int64_t step) const {
     const std::int64_t every = scene_.trajectory->every_steps, last_due = step / every * every;
-    if (!ranks_.is_root() || last >= last_due) return;
+    if (last >= last_due) return;
     const std::int64_t first_missing = last < 0 ? 0 : (last / every + 1) * every;
-    print_message("{}: has no frames of steps {} to {}, and goes on with step {}\n",
-                  scene_.trajectory->file, first_missing, last_due, last_due + every);
+    messages_.warn("{}: has no frames of steps {} to {}, and goes on with step {}\n",
+                   scene_.trajectory->file, first_missing, last_due, last_due + every);
 }
 
 std::int64_t Recordings::next_due(std::int64_t step) const {

@@ -8,11 +8,11 @@
 #include <optional>
 #include <vector>
 
-#include "apps/run/run_options.hpp"
 #include "core/errors.hpp"
 #include "core/stored_samples.hpp"
 #include "io/write_lock.hpp"
 #include "parallel/communicator.hpp"
+#include "run/start/run_options.hpp"
 #include "scene/scene.hpp"
 #include "simulation/simulation.hpp"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/accuracy/trial.hpp"
+#include "run/pilot/trial.hpp"
 
 #include <algorithm>
 #include <set>
 
 #include <time.h>
 
-#include "apps/run/stopwatch.hpp"
 #include "core/errors.hpp"
+#include "run/stopwatch.hpp"
 
 namespace carrom {
 

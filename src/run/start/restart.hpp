@@ -6,17 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/run/load.hpp"
-#include "apps/run/run_options.hpp"
 #include "io/checkpoint.hpp"
 #include "parallel/communicator.hpp"
+#include "run/start/load.hpp"
+#include "run/start/run_options.hpp"
 
 namespace carrom {
-
-/// Whether the run goes on from a checkpoint, if there is one.
-inline bool goes_on(const RunOptions& options) {
-    return options.resume || !options.restart.empty();
-}
 
 /// Fills in `loaded.stored` and, where no input was named, the scene that the checkpoint carries,
 /// with the options' overrides on top. Of a folder the newest whole checkpoint is taken; rank 0

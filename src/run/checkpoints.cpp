@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run/checkpoints.hpp"
+#include "run/checkpoints.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
-#include "apps/run/restart.hpp"
 #include "io/checkpoint.hpp"
 #include "io/checkpoint_folder.hpp"
 #include "io/files.hpp"
+#include "run/start/restart.hpp"
 #include "stored_scene/stored_scene.hpp"
 
 namespace carrom {
@@ -22,8 +23,8 @@ constexpr double longest_stretch = 1e15; // steps
 } // namespace
 
 Checkpoints::Checkpoints(const Scene& scene, std::int64_t first_step, bool is_restart,
-                         const StopSignals& signals, const Communicator& ranks, int n_threads)
-    : ranks_(ranks), scene_(scene), signals_(signals), n_threads_(n_threads),
+                         std::function<bool()> must_stop, const Communicator& ranks, int n_threads)
+    : ranks_(ranks), scene_(scene), must_stop_(std::move(must_stop)), n_threads_(n_threads),
       last_looked_(first_step) {
     if (!scene_.checkpoint || !is_restart) return;
     last_written_ = first_step;
@@ -56,7 +57,7 @@ bool Checkpoints::look_up(const Simulation& simulation, Recordings& recordings) 
 
 /// What all ranks agree on: whether any has a signal, and what rank 0's clock says. **Collective.**
 Checkpoints::Updates Checkpoints::updates(std::int64_t step) {
-    std::array<std::uint64_t, 3> sums = {signals_.has_come() ? 1u : 0u, 0, 0};
+    std::array<std::uint64_t, 3> sums = {must_stop_() ? 1u : 0u, 0, 0};
     if (ranks_.is_root()) {
         const double seconds = stretch_watch_.lap();
         const double steps = static_cast<double>(step - last_looked_) * seconds_between_looks /

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run/failure_scene.hpp"
+#include "run/failure_scene.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/run/report_file.hpp"
+#include "run/files/report_file.hpp"
 #include "scene/limits.hpp"
 #include "scene/scene_text.hpp"
 

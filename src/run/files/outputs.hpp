@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "apps/run/destinations.hpp"
-#include "apps/run/run_options.hpp"
 #include "core/write_problem.hpp"
 #include "io/write_lock.hpp"
 #include "parallel/communicator.hpp"
+#include "run/files/destinations.hpp"
+#include "run/start/run_options.hpp"
 #include "scene/scene.hpp"
 
 namespace carrom {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run/restart.hpp"
+#include "run/start/restart.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -8,10 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "apps/accuracy/setting_choice.hpp"
-#include "apps/run/run_folder.hpp"
-#include "apps/shell/standard_streams.hpp"
 #include "io/checkpoint_folder.hpp"
+#include "run/files/run_folder.hpp"
+#include "run/pilot/setting_choice.hpp"
 #include "scene/compare.hpp"
 #include "stored_scene/stored_scene.hpp"
 
@@ -80,9 +79,8 @@ Checkpoint read_matching(const std::string& path, const RunOptions& options, Sce
     Scene here = options.input.empty() ? scene_of(checkpoint.header, overrides) : scene;
     if (here.accuracy || asks_again) {
         if (here.accuracy) decide_on(here, {there.method, there.micro_steps});
-        if (ranks.is_root() && !options.quiet)
-            print_message(
-                "time.accuracy chooses at a run's start: going on with the checkpoint's setting\n");
+        options.messages.note(
+            "time.accuracy chooses at a run's start: going on with the checkpoint's setting\n");
     }
     refuse_other_run(checkpoint.header, here, path);
     scene = here;
@@ -101,9 +99,9 @@ std::string reasons(const InputError& error) {
 std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths,
                                       const RunOptions& options, Scene& scene,
                                       const Communicator& ranks) {
-    const auto pass_over = [&ranks](const std::string& path, const std::string& reason) {
+    const auto pass_over = [&options](const std::string& path, const std::string& reason) {
         const std::size_t named = reason.starts_with(path + ": ") ? path.size() + 2 : 0;
-        if (ranks.is_root()) print_message("passing over {}: {}\n", path, reason.substr(named));
+        options.messages.warn("passing over {}: {}\n", path, reason.substr(named));
     };
     for (const std::string& path : paths) {
         try {
@@ -157,8 +155,8 @@ void load_restart(const RunOptions& options, Loaded& loaded, const Communicator&
             refuse(options, "there is no checkpoint; only `latest` and --resume may begin anew");
         if (!checkpoint && options.input.empty())
             refuse(options, folder + ": there is no checkpoint, and no scene to begin with");
-        if (!checkpoint && ranks.is_root())
-            print_message("no checkpoint in {}: beginning at step 0\n", folder);
+        if (!checkpoint)
+            options.messages.warn("no checkpoint in {}: beginning at step 0\n", folder);
     }
     if (!checkpoint) return;
     const CheckpointHeader& header = checkpoint->header;
@@ -166,7 +164,7 @@ void load_restart(const RunOptions& options, Loaded& loaded, const Communicator&
         refuse(options,
                fmt::format("the checkpoint is of step {}, and the run is to end at step {}",
                            header.step, loaded.scene.steps));
-    if (ranks.is_root() && !options.quiet) print_message("going on from step {}\n", header.step);
+    options.messages.note("going on from step {}\n", header.step);
     loaded.samples = std::move(checkpoint->samples);
     loaded.stored = StoredState{std::move(checkpoint->discs), header.micro_steps_done,
                                 std::move(checkpoint->columns)};

@@ -8,14 +8,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <future>
 #include <string>
 #include <vector>
 
-#include "apps/run/recordings.hpp"
-#include "apps/run/stopwatch.hpp"
-#include "apps/shell/stop_signals.hpp"
 #include "parallel/communicator.hpp"
+#include "run/recordings.hpp"
+#include "run/stopwatch.hpp"
 #include "scene/scene.hpp"
 #include "simulation/simulation.hpp"
 
@@ -24,9 +24,9 @@ namespace carrom {
 class Checkpoints {
 public:
     /// `first_step` is where the run begins; `is_restart` if it has a checkpoint of that step.
-    /// References must outlive this.
+    /// `must_stop` says whether this rank has been told to stop. References must outlive this.
     Checkpoints(const Scene& scene, std::int64_t first_step, bool is_restart,
-                const StopSignals& signals, const Communicator& ranks, int n_threads);
+                std::function<bool()> must_stop, const Communicator& ranks, int n_threads);
     ~Checkpoints() {
         if (removal_.valid()) removal_.wait();
     }
@@ -52,7 +52,7 @@ private:
 
     const Communicator& ranks_;
     const Scene& scene_;
-    const StopSignals& signals_;
+    std::function<bool()> must_stop_;
     int n_threads_;
     std::int64_t last_looked_, last_written_ = -1;
     std::int64_t stretch_ = 1; ///< steps until the next look, as rank 0 has measured

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run/run_folder.hpp"
+#include "run/files/run_folder.hpp"
 
 #include <array>
 #include <filesystem>
@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "apps/accuracy/setting_choice.hpp"
 #include "core/errors.hpp"
 #include "io/files.hpp"
+#include "run/pilot/setting_choice.hpp"
 #include "scene/compare.hpp"
 #include "scene/read_scene.hpp"
 

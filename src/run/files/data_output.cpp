@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run/data_output.hpp"
+#include "run/files/data_output.hpp"
 
 #include <cerrno>
 #include <csignal>

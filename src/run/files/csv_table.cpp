@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run/csv_table.hpp"
+#include "run/files/csv_table.hpp"
 
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <utility>
 
-#include "apps/run/data_output.hpp"
-#include "apps/run/report_file.hpp"
 #include "core/errors.hpp"
+#include "run/files/data_output.hpp"
+#include "run/files/report_file.hpp"
 
 namespace carrom {
 

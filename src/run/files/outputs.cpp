@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run/outputs.hpp"
+#include "run/files/outputs.hpp"
 
 #include <cerrno>
 #include <filesystem>
@@ -8,12 +8,12 @@
 
 #include <fmt/format.h>
 
-#include "apps/run/restart.hpp"
-#include "apps/run/run_folder.hpp"
 #include "core/write_problem.hpp"
 #include "io/checkpoint_folder.hpp"
 #include "io/files.hpp"
 #include "parallel/agreement.hpp"
+#include "run/files/run_folder.hpp"
+#include "run/start/restart.hpp"
 
 namespace carrom {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/run/report_file.hpp"
+#include "run/files/report_file.hpp"
 
 #include <cerrno>
 #include <cstdio>
