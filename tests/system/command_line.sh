@@ -14,6 +14,10 @@ for ranks in 1 3; do
     done
     [ "$(wc -l <"$test_folder/out")" -eq 6 ] ||
         complain "the version is not told once on $ranks ranks"
+    run "$ranks" --version --check
+    expect_code 0 '--version --check'
+    [ "$(grep -cx 'bits      those of all builds' "$test_folder/out")" -eq 1 ] ||
+        complain "this build computes other bits than recorded, or does not say so once"
     run "$ranks" --help
     expect_code 0 '--help'
     [ "$(grep -c '^Usage:' "$test_folder/out")" -eq 1 ] ||
@@ -24,6 +28,9 @@ for ranks in 1 3; do
     done
 done
 
+run 1 --check keys
+expect_code 2 '--check without --version'
+expect_told '--check goes with --version, or behind `run`' '--check without --version'
 run 2 rnu tiny.in
 expect_code 2 'a subcommand that is none'
 expect_told "'rnu' is no subcommand (see carrom --help)" 'a subcommand that is none'

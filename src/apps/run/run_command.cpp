@@ -27,6 +27,7 @@
 #include "run/start/load.hpp"
 #include "run/start/restart.hpp"
 #include "run/stopwatch.hpp"
+#include "simulation/known_bits.hpp"
 #include "simulation/simulation.hpp"
 
 namespace carrom {
@@ -134,6 +135,12 @@ void warn_of_threads(int threads, bool are_chosen, const Communicator& ranks) {
     if (!crowded.empty()) print_message("warning: {}\n", crowded);
 }
 
+/// **Collective.**
+void warn_of_other_bits(const Communicator& ranks) {
+    const std::string difference = warning_of_other_bits(ranks);
+    if (ranks.is_root() && !difference.empty()) print_message("warning: {}\n", difference);
+}
+
 } // namespace
 
 ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
@@ -148,6 +155,7 @@ ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
     Tuning tuning = options.tuning;
     tuning.threads = options.threads.value_or(default_threads(ranks));
     warn_of_threads(tuning.threads, options.threads.has_value(), ranks);
+    warn_of_other_bits(ranks);
     if (loaded.scene.accuracy)
         choose_setting(loaded.scene, loaded.discs, options.messages, ranks, tuning);
     const Scene& scene = loaded.scene;

@@ -15,6 +15,7 @@
 #include "io/start_io.hpp"
 #include "machine/machine.hpp"
 #include "parallel/mpi.hpp"
+#include "simulation/known_bits.hpp"
 
 namespace carrom {
 
@@ -68,6 +69,20 @@ std::string version_text() {
                        "vectors   {}",
                        version(), facts.commit, facts.compiler, mpi_version(), hdf5_version(),
                        vector_target());
+}
+
+/// Prints the version, and whether this build computes the bits that all others do.
+Action version_and_bits() {
+    return {[](const Communicator& ranks) {
+                const std::string difference = warning_of_other_bits(ranks);
+                if (ranks.is_root())
+                    std::fputs(fmt::format("{}\nbits      {}\n", version_text(),
+                                           difference.empty() ? "those of all builds" : difference)
+                                   .c_str(),
+                               stdout);
+                return difference.empty() ? ExitCode::success : ExitCode::broken_invariant;
+            },
+            true};
 }
 
 Action refused(const std::string& reason) {
@@ -158,6 +173,10 @@ Action failing(std::vector<Problem> problems) {
 Action parse_command_line(int argc, char** argv) {
     CLI::App app("Carrom: hard discs in a box, the same bits on every machine shape", "carrom");
     app.set_version_flag("--version", version_text);
+    bool is_check_asked = false;
+    const CLI::Option* const check = app.add_flag(
+        "--check", is_check_asked,
+        "With --version: compare the state hashes of two small scenes with those of all builds");
     app.set_help_flag(help_words, help_of_help);
     app.footer(examples);
     app.require_subcommand(1);
@@ -170,12 +189,14 @@ Action parse_command_line(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_name() == "CallForHelp") return printed(app.help());
-        if (error.get_name() == "CallForVersion") return printed(version_text());
+        if (error.get_name() == "CallForVersion")
+            return check->count() > 0 ? version_and_bits() : printed(version_text());
         if (argc < 2) return refused("say what to do, as in carrom run SCENE.toml");
         if (app.get_subcommands().empty())
             return refused('\'' + std::string(argv[1]) + "' is no subcommand");
         return refused(error.what());
     }
+    if (check->count() > 0) return refused("--check goes with --version, or behind `run`");
     const CLI::App& chosen = *app.get_subcommands().front();
     const auto subcommand = std::find_if(
         subcommands.begin(), subcommands.end(),

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/known_bits.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/state_hash.hpp"
+#include "scene/scene.hpp"
+#include "simulation/simulation.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr std::uint64_t side = 8;
+
+const char* name_of(Method method) {
+    return method == Method::time_stepped ? "time-stepped" : "event-driven";
+}
+
+/// The state hashes of the scene below. Only a change of the method itself may change them.
+const char* known_hash(Method method) { return method == Method::time_stepped ? "db7554744bbfab28cfc985786c4ad0dc" : "27f1b7fd3822c8519554c9040e1df5c3"; }
+
+/// Discs on a square lattice, at a packing fraction of 0.4, whose velocities have no pattern.
+std::string hash_of(Method method) {
+    Scene scene;
+    scene.box = {side, side};
+    scene.radius = 0.36;
+    scene.n_discs = side * side;
+    scene.method = method;
+    scene.steps = 20;
+    scene.effects.gravity.y = -0.01;
+    std::vector<InputDisc> discs;
+    for (std::uint64_t id = 0; id < scene.n_discs; ++id) {
+        const auto odd = [id](std::uint64_t factor, std::uint64_t n) {
+            return (static_cast<double>(id * factor % n) + 0.5) / static_cast<double>(n) - 0.5;
+        };
+        discs.push_back({id, static_cast<double>(id % side) + 0.5,
+                         static_cast<double>(id / side) + 0.5, 0.3 * odd(37, 101),
+                         0.3 * odd(59, 103)});
+    }
+    Simulation simulation(scene, discs, Communicator::of_this_rank(), {});
+    while (simulation.step() < scene.steps) simulation.advance_towards(scene.steps);
+    return to_string(simulation.totals().hash);
+}
+
+std::string difference_here() {
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
+        const std::string hash = hash_of(method);
+        if (hash != known_hash(method))
+            return fmt::format("a known {} scene ends with the state hash {} instead of {}",
+                               name_of(method), hash, known_hash(method));
+    }
+    return {};
+}
+
+} // namespace
+
+std::string warning_of_other_bits(const Communicator& ranks) {
+    std::string difference = difference_here();
+    const auto lowest = static_cast<int>(
+        ranks.min(std::int64_t{difference.empty() ? ranks.size() : ranks.rank()}));
+    if (lowest == ranks.size()) return {};
+    ranks.broadcast(difference, lowest);
+    return fmt::format("this build of Carrom computes other bits than its release: on rank {} {}; "
+                       "build it without flags that change floating-point arithmetic "
+                       "(-ffast-math, -Ofast, -funsafe-math-optimizations)",
+                       lowest, difference);
+}
+
+} // namespace carrom
