@@ -22,7 +22,10 @@ const char* name_of(Method method) {
 }
 
 /// The state hashes of the scene below. Only a change of the method itself may change them.
-const char* known_hash(Method method) { return method == Method::time_stepped ? "db7554744bbfab28cfc985786c4ad0dc" : "27f1b7fd3822c8519554c9040e1df5c3"; }
+const char* known_hash(Method method) {
+    return method == Method::time_stepped ? "db7554744bbfab28cfc985786c4ad0dc"
+                                          : "27f1b7fd3822c8519554c9040e1df5c3";
+}
 
 /// Discs on a square lattice, at a packing fraction of 0.4, whose velocities have no pattern.
 std::string hash_of(Method method) {

@@ -7,10 +7,10 @@
 #
 # Builds the engines once for each way below in FOLDER/<way>, runs them and compares. PATTERN (an
 # extended regular expression) picks ways by name: 'gcc_O3' or 'O0'. The level `fast` has flags that
-# would change arithmetic, and that carrom_numerics in CMakeLists.txt takes back. Ways that this machine cannot
-# build or run are named and left out. Some 6 minutes a way on one core; a run that takes an hour
-# ($MINUTES says otherwise) has failed. Needs g++, clang++ and clang's OpenMP (Debian: clang
-# libomp-dev).
+# would change arithmetic, and that carrom_numerics in CMakeLists.txt takes back. Ways that this
+# machine cannot build or run are named and left out. Some 6 minutes a way on one core; a run that
+# takes an hour ($MINUTES says otherwise) has failed. Needs g++, clang++ and clang's OpenMP (Debian:
+# clang libomp-dev).
 set -euo pipefail
 source_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 folder=${1:?a folder to build in}
