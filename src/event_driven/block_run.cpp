@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/stop_request.hpp"
 #include "event_driven/block_scratch.hpp"
 
 namespace carrom {
@@ -59,7 +60,9 @@ void BlockRun<Dynamics>::run_gathered(std::span<std::uint64_t> histories) {
     const auto is_current = [&s](const Event& event) {
         return s.versions_of(event) == event.versions;
     };
-    for (Event event; s.queue.pop(event, before, is_current) && !s.outcome->is_cascade;)
+    // A run that stops early for a request is void: the engine gives up the step.
+    for (Event event;
+         s.queue.pop(event, before, is_current) && !s.outcome->is_cascade && !is_stop_overdue();)
         s.happen(event);
     s.virial_terms.add_to(s.outcome->virial);
     s.report(histories);

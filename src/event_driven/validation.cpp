@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/stop_request.hpp"
 #include "event_driven/event_driven_engine.hpp"
 #include "parallel/agreement.hpp"
 
@@ -30,11 +31,13 @@ typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::valid
         n_marked += block.is_marked;
         n_cascades += block.outcome.is_cascade;
     }
-    std::uint64_t updates[] = {is_too_fast ? 1u : 0u, n_marked, n_cascades};
+    std::uint64_t updates[] = {is_too_fast ? 1u : 0u, n_marked, n_cascades,
+                               is_stop_overdue() ? 1u : 0u};
     if (communicator_.size() > 1) {
         const PhaseClock::Scope wait(phases_, Phase::wait);
         communicator_.sum(updates);
     }
+    if (updates[3] > 0) throw StopRequested("stopped on request inside a step");
     if (updates[0] > 0) return Verdict::too_fast;
     if (updates[2] > 0) fail_on_cascade();
     if (!block_tuning_.is_validated || updates[1] + updates[2] == 0) return Verdict::exact;

@@ -2,6 +2,7 @@
 #include "initial_state/random_insertion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <optional>
 #include <tuple>
@@ -11,6 +12,7 @@
 
 #include "core/errors.hpp"
 #include "core/random_numbers.hpp"
+#include "core/stop_request.hpp"
 #include "dynamics/obstacles.hpp"
 #include "initial_state/point_grid.hpp"
 #include "lattices/lattice.hpp"
@@ -78,15 +80,24 @@ private:
         for (std::uint64_t id = first; id < last; ++id)
             if (species_.of(id).radius == radius)
                 unplaced_.push_back(static_cast<std::uint32_t>(id));
-        std::uint64_t n_left = communicator_.sum(std::uint64_t{unplaced_.size()}), idle_rounds = 0;
+        std::uint64_t n_left = n_unplaced(), idle_rounds = 0;
         for (std::uint64_t round = 0; n_left > 0 && idle_rounds < most_idle_rounds; ++round) {
             exchange(round);
             judge();
-            const std::uint64_t n_before = std::exchange(
-                n_left, communicator_.sum(std::uint64_t{unplaced_.size()}));
+            const std::uint64_t n_before = std::exchange(n_left, n_unplaced());
             idle_rounds = n_left < n_before ? 0 : idle_rounds + 1;
         }
         return n_left == 0;
+    }
+
+    /// Of all ranks. Ends a start that is asked to stop and takes long. **Collective.**
+    std::uint64_t n_unplaced() const {
+        std::array<std::uint64_t, 2> sums = {unplaced_.size(), is_stop_overdue() ? 1u : 0u};
+        communicator_.sum(sums);
+        if (sums[1] > 0)
+            throw StopRequested("stopped on request while discs are placed at random; nothing is "
+                                "kept to go on from");
+        return sums[0];
     }
 
     double share() const { return static_cast<double>(scene_.n_discs) / communicator_.size(); }

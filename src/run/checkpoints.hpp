@@ -2,17 +2,23 @@
 // When a run stores its state, and which of the stored ones it keeps.
 //
 // Ranks look up together after each stretch of steps: whether a batch system wants the run to stop,
-// and whether wall time asks for a checkpoint. Stretches are kept to a few seconds where steps are
+// and whether wall time asks for a checkpoint. Stretches are kept to half a second where steps are
 // slow. Price: one reduction a stretch, where the scene asks for no checkpoints too: it may still
 // be told to stop.
+//
+// A step that takes longer than a second after a request is given up, and no state is left. So
+// smaller runs keep a copy of a state from shortly before, to be written then. They take it so
+// rarely that it costs some hundredth of the time.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <future>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "io/checkpoint.hpp"
 #include "parallel/communicator.hpp"
 #include "run/recordings.hpp"
 #include "run/stopwatch.hpp"
@@ -42,12 +48,25 @@ public:
     /// were. **Collective.**
     bool look_up(const Simulation& simulation, Recordings& recordings);
 
+    /// After a step that was given up for a request to stop: stores the last state that there is a
+    /// copy of. Says where the run can go on from. **Collective.**
+    std::string write_copy(Recordings& recordings);
+
 private:
+    struct Copy {
+        CheckpointHeader header;
+        std::vector<Disc> discs;
+        SideColumns columns;
+        StoredSamples samples;
+    };
     struct Updates {
-        bool must_stop = false, is_time = false;
+        bool must_stop = false, is_time = false, is_copy_due = false;
     };
     Updates updates(std::int64_t step);
     void write(const Simulation& simulation, Recordings& recordings);
+    void copy(const Simulation& simulation, Recordings& recordings);
+    StoredSamples samples_now(const Simulation& simulation, Recordings& recordings) const;
+    void note_written(const std::string& path, std::int64_t step);
     void remove_oldest();
 
     const Communicator& ranks_;
@@ -58,6 +77,8 @@ private:
     std::int64_t stretch_ = 1; ///< steps until the next look, as rank 0 has measured
     Stopwatch stretch_watch_;
     double seconds_since_written_ = 0; ///< on rank 0's clock
+    double seconds_since_copied_ = 0;  ///< the same
+    std::optional<Copy> copy_;         ///< of an earlier state than the last one written, or none
     std::vector<std::string> kept_;    ///< paths, oldest first
     std::future<void> removal_;        ///< of older ones, by rank 0
 };

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
+#include "core/stop_request.hpp"
 #include "initial_state/initial_state.hpp"
 #include "initial_state/random_insertion.hpp"
 #include "initial_state/scene_input.hpp"
@@ -86,6 +87,11 @@ private:
         Simulation simulation(stretch(), std::move(discs_), communicator_, tuning_);
         try {
             while (simulation.step() < 1) simulation.advance_towards(1);
+        } catch (const StopRequested&) {
+            throw StopRequested(fmt::format(
+                "stopped on request while discs are compressed, at a packing fraction of {:.4g} of "
+                "{:.4g}; nothing is kept to go on from",
+                scene_.packing() * size_ * size_, scene_.packing()));
         } catch (const CollectiveError& error) {
             fail_jammed(error.what());
         }

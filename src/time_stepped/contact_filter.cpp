@@ -5,6 +5,8 @@
 #include <cmath>
 #include <type_traits>
 
+#include "core/stop_request.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "time_stepped/contact_filter.cpp"
 #include "hwy/foreach_target.h" // compiles this file once per instruction set
@@ -126,6 +128,9 @@ HWY_INLINE std::size_t find_near_passes(D d, const FlightLanes& lanes, SlotRange
     return n;
 }
 
+/// Discs of a cell whose partners are listed at a time: in a box of one cell it holds all of them.
+constexpr std::uint32_t discs_in_piece = 256;
+
 /// FilterColumn where discs fly much further than they are wide.
 template <class D>
 HWY_INLINE std::size_t filter_long_flights(D d, const CellGrid& grid, int column,
@@ -137,10 +142,15 @@ HWY_INLINE std::size_t filter_long_flights(D d, const CellGrid& grid, int column
     const float passing = passing_squared(grid, touching_squared);
     std::vector<NearPass> near;
     std::size_t n_pairs = 0;
-    for (int row = 0; row < n_rows; ++row) {
-        const SlotRange cell = grid.run(column, row, row);
+    SlotRange cell = grid.run(column, 0, 0);
+    for (int row = 0; row < n_rows && !is_stop_overdue(); cell.begin = cell.end) {
+        const std::uint32_t end = grid.run(column, row, row).end;
+        cell.end = HWY_MIN(cell.begin + discs_in_piece, end);
         const std::size_t n_in_cell = cell.end - cell.begin;
-        if (n_in_cell == 0) continue;
+        if (n_in_cell == 0) {
+            ++row;
+            continue;
+        }
         std::size_t n_near = 0;
         for (int other = column; other <= last_column; ++other) {
             const SlotRange run = other == column

@@ -7,6 +7,7 @@
 #include <omp.h>
 
 #include "cell_list/shared_work.hpp"
+#include "core/stop_request.hpp"
 #include "time_stepped/contact_filter.hpp"
 
 namespace carrom {
@@ -19,6 +20,8 @@ constexpr std::size_t around_ahead = 4;
 constexpr std::size_t hits_per_batch = 128;
 /// Pairs judged later whose states are asked for now: they are far apart in memory.
 constexpr std::size_t pairs_ahead = 8;
+/// Pairs judged before a request to stop is looked for again.
+constexpr std::size_t pairs_per_look = 65536;
 
 /// What was predicted for the micro-steps from `from` on.
 void add(SearchLists& lists, const Window& window, int from, int m, const Candidate& candidate) {
@@ -28,14 +31,17 @@ void add(SearchLists& lists, const Window& window, int from, int m, const Candid
 
 void prefetch(std::span<const Disc> discs, LocalIndex index) { __builtin_prefetch(&discs[index]); }
 
-/// Calls ask(pair) some time before judge(pair), for the first n pairs.
+/// Calls ask(pair) some time before judge(pair), for the first n pairs. Leaves some out if a
+/// request to stop is overdue.
 template <class Ask, class Judge>
 void for_each_ahead(const std::vector<DiscPair>& pairs, std::size_t n, const Ask& ask,
                     const Judge& judge) {
     for (std::size_t k = 0; k < std::min(pairs_ahead, n); ++k) ask(pairs[k]);
-    for (std::size_t k = 0; k < n; ++k) {
-        if (k + pairs_ahead < n) ask(pairs[k + pairs_ahead]);
-        judge(pairs[k]);
+    for (std::size_t k = 0; k < n && !is_stop_overdue();) {
+        for (const std::size_t end = std::min(k + pairs_per_look, n); k < end; ++k) {
+            if (k + pairs_ahead < n) ask(pairs[k + pairs_ahead]);
+            judge(pairs[k]);
+        }
     }
 }
 
@@ -126,6 +132,7 @@ template <class Dynamics>
 void Search<Dynamics>::predict_column(const Population& population, const CellGrid& grid,
                                       const Window& window, const Bounds& bounds, int column,
                                       SearchLists& lists) const {
+    if (is_stop_overdue()) return; // then the engine gives up the step
     lists.n_pairs = dynamics_.has_pairs()
                         ? filter_column(grid, column, bounds.touching_squared, lists.pairs)
                         : 0;

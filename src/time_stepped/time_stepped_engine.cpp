@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/stop_request.hpp"
 #include "engine/dynamics_of_scene.hpp"
 #include "engine/speed_survey.hpp"
 #include "engine/state_sums.hpp"
@@ -189,12 +190,14 @@ bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
     }
     // Within a micro-step no disc flies on after its collision, so only later ones have to worry
     // about its speed.
-    std::uint64_t updates[2] = {verdicts_.undecided.size(),
-                                speed_exceeded_ && m > window.first_micro ? 1u : 0u};
+    std::uint64_t updates[] = {verdicts_.undecided.size(),
+                               speed_exceeded_ && m > window.first_micro ? 1u : 0u,
+                               is_stop_overdue() ? 1u : 0u};
     if (communicator_.size() > 1) {
         const PhaseClock::Scope scope(phases_, Phase::wait);
         communicator_.sum(updates);
     }
+    if (updates[2] > 0) throw StopRequested("stopped on request inside a step");
     if (updates[1] > 0) return false;
     if (updates[0] > 0) {
         const PhaseClock::Scope scope(phases_, Phase::conflicts);

@@ -61,7 +61,9 @@ kill -USR1 "$program"
 wait "$program"
 code=$?
 expect_code 75 'USR1 while discs are made'
-[ "$(ls kept/checkpoints)" = checkpoint-000000000000.h5 ] ||
+# On a busy machine the start takes so long that it is given up.
+grep -qF 'stopped on request while discs are placed' "$test_folder/err" ||
+    [ "$(ls kept/checkpoints)" = checkpoint-000000000000.h5 ] ||
     complain "USR1 while discs are made did not leave the start: $(ls kept/checkpoints)"
 
 # A signal at any moment, from MPI's start to its end, does not make a failure of a short run: it is

@@ -15,6 +15,7 @@
 #include "apps/run/summary.hpp"
 #include "apps/shell/standard_streams.hpp"
 #include "apps/shell/stop_signals.hpp"
+#include "core/stop_request.hpp"
 #include "machine/machine.hpp"
 #include "parallel/agreement.hpp"
 #include "run/checkpoints.hpp"
@@ -73,6 +74,15 @@ void print_result(const RunOptions& options, const Scene& scene, const RunResult
     agree(ranks, failure.empty(), failure, ExitCode::output_failure);
 }
 
+/// What a run says that has given up a step after `step`; `kept` says what is left.
+StopRequested given_up(std::int64_t step, const std::string& kept, const Scene& scene) {
+    return StopRequested(fmt::format(
+        "stopped on request inside a step after {} of {}, which would take too long; {}{}", step,
+        scene.steps, kept,
+        scene.folder.empty() ? ""
+                             : fmt::format("; carrom run -o {} --resume goes on", scene.folder)));
+}
+
 /// Steps to the end of the scene, writing on the way what it asks for, or to where the run is asked
 /// to stop: false then. A restart does not write the lines of its first step again. **Collective.**
 bool step_to_end(Simulation& simulation, RunResult& result, double& output_seconds,
@@ -98,7 +108,12 @@ bool step_to_end(Simulation& simulation, RunResult& result, double& output_secon
         const std::int64_t step = simulation.step();
         const std::int64_t next = std::min(
             {lines.next_due(step), checkpoints.next_look(step), recordings.next_due(step)});
-        advance_or_report(simulation, next, scene, ranks);
+        try {
+            advance_or_report(simulation, next, scene, ranks);
+        } catch (const StopRequested&) {
+            lines.close();
+            throw given_up(step, checkpoints.write_copy(recordings), scene);
+        }
         result.wall_seconds += watch.lap();
         write_if_due();
         recordings.record(simulation);

@@ -7,16 +7,18 @@
 
 #include <unistd.h>
 
+#include "core/stop_request.hpp"
+
 namespace carrom {
 
 namespace {
 
-volatile std::sig_atomic_t signal_that_has_come = 0, is_answer_due = 0;
+volatile std::sig_atomic_t signal_that_has_come = 0, is_answer_due = 0; // for the answer alone
 
 /// Calls only what a handler may call.
 void answer(int number) {
-    constexpr std::string_view text = "\ntold to stop: the steps under way are finished first, two "
-                                      "seconds' worth of them or one";
+    constexpr std::string_view text = "\ntold to stop: the steps under way are finished first if "
+                                      "that takes no more than a second";
     constexpr std::string_view advice = "; once more ends the run at once";
     for (const std::string_view part :
          {text, number == SIGINT ? advice : std::string_view(), std::string_view("\n")}) {
@@ -27,6 +29,7 @@ void answer(int number) {
 
 void note_signal(int number) {
     signal_that_has_come = number;
+    request_stop();
     if (is_answer_due == 0) return;
     is_answer_due = 0;
     const int number_of_error = errno;
@@ -64,6 +67,6 @@ StopSignals::StopSignals(bool are_reported) {
 
 StopSignals::~StopSignals() { is_answer_due = 0; }
 
-bool StopSignals::has_come() const { return signal_that_has_come != 0; }
+bool StopSignals::has_come() const { return is_stop_requested(); }
 
 } // namespace carrom

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // USR1 and TERM, as batch systems send them before they end a job, and Ctrl-C's INT: noted, to be
-// acted upon at the end of a step. A second INT ends the process.
+// acted upon at the end of a step, or inside one that takes long (core/stop_request.hpp). A second
+// INT ends the process.
 #pragma once
 
 namespace carrom {

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A request to stop, as a handler of signals notes it, and what all ranks throw who obey it.
+//
+// A run obeys between two steps. What takes too long for that gives itself up: a start, or a step
+// whose end does not come within the patience. Ranks get signals at different times, so they must
+// agree before they throw.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+
+#include "core/errors.hpp"
+
+namespace carrom {
+
+namespace stop_request {
+extern std::atomic<std::int64_t> asked_at; ///< in nanoseconds of the steady clock; 0: never
+bool has_patience_ended();
+} // namespace stop_request
+
+/// Notes a request; the first one counts. A handler of signals may call it.
+void request_stop();
+
+inline bool is_stop_requested() {
+    return stop_request::asked_at.load(std::memory_order_relaxed) != 0;
+}
+
+/// Whether the request has been there for longer than the patience, so that the step under way is
+/// to be given up. Costs one comparison as long as there is no request.
+inline bool is_stop_overdue() { return is_stop_requested() && stop_request::has_patience_ended(); }
+
+/// How long a step may still take after a request; a second unless this is called.
+void set_stop_patience(double seconds);
+
+/// Thrown on every rank where a start or a step is given up because of a request. What was under
+/// way is in no consistent state then. Exit code 75.
+class StopRequested : public CollectiveError {
+public:
+    explicit StopRequested(const std::string& text) : CollectiveError(text, ExitCode::stopped) {}
+};
+
+} // namespace carrom
