@@ -325,14 +325,6 @@ double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m,
 }
 
 template <class Dynamics>
-void TimeSteppedEngine<Dynamics>::update_flight(LocalIndex index, const Disc& disc) {
-    if constexpr (Dynamics::is_periodic)
-        discs_.grid().update_flight_of_image(index, disc);
-    else
-        discs_.grid().update_flight(index, disc);
-}
-
-template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::note_velocities(std::span<const Disc> results) {
     unhit_.clear();
     for (const Candidate& c : verdicts_.kept) unhit_.push_back(results[c.p]);

@@ -61,7 +61,12 @@ private:
     double collide(const Candidate& candidate, int m, std::vector<Disc>& results,
                    VirialTerms& terms, PairVirial& virial);
     void prefetch(const Candidate& candidate, const std::vector<Disc>& results, bool is_last) const;
-    void update_flight(LocalIndex index, const Disc& disc);
+    void update_flight(LocalIndex index, const Disc& disc) {
+        if constexpr (Dynamics::is_periodic)
+            discs_.grid().update_flight_of_image(index, disc);
+        else
+            discs_.grid().update_flight(index, disc);
+    }
     void update_halo(const Window& window, int m);
     void note_velocities(std::span<const Disc> results);
     void log_collisions(std::span<const Disc> results, int m);
