@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "cell_list/disc_sorter_passes.hpp"
@@ -40,6 +41,13 @@ struct StoredPlaces {
     static double x_of(const Disc& disc, double time) { return disc.x_at(time); }
     static double y_of(const Disc& disc, double time) { return disc.y_at(time); }
 };
+
+/// How an image flies along x where boxes move, in cells per window. Apart, so that boxes at rest
+/// pay for the question alone.
+[[gnu::noinline, gnu::cold]] float lane_of_image(const Periods& periods, const Disc& disc,
+                                                 double cells_per_speed) {
+    return static_cast<float>(periods.vx_of(disc) * cells_per_speed);
+}
 
 } // namespace
 
@@ -92,6 +100,11 @@ void CellGrid::place(const Places& places, float* flight, std::size_t length,
     flight[length] = static_cast<float>((y - geometry_.across_low) * cells);
     flight[2 * length] = static_cast<float>(vx * duration_ * cells);
     flight[3 * length] = static_cast<float>(vy * duration_ * cells);
+    if constexpr (std::is_same_v<Places, Periods>) {
+        if (places.are_moving()) [[unlikely]]
+            flight[geometry_.axis == Axis::x ? 2 * length : 3 * length] = lane_of_image(
+                places, disc, duration_ * cells);
+    }
 }
 
 void CellGrid::sort(std::span<Disc> own, const GridGeometry& geometry, double anchor, double time,

@@ -37,7 +37,7 @@ Disc as_seen(const Disc& disc, const Frame& frame, double time, double micro_ste
     if (!frame.is_moving) return disc;
     Disc seen = frame.in_box(disc, time);
     seen.tau = micro_steps_since_sync;
-    if (frame.period_x != 0 || frame.period_y != 0) set_image(seen, {});
+    if (frame.periods.are_any()) set_image(seen, {});
     return seen;
 }
 
@@ -148,20 +148,19 @@ std::vector<SceneDisc> StateCheck::discs_before() const {
     const auto clock = static_cast<double>(micro_steps_before_ % scene_.sync_every);
     const auto unit = static_cast<double>(scene_.micro_steps);
     const Periods periods = scene_.effects.periods(scene_.box);
-    const auto inside = [&](double x, double period, double low, double high) {
-        return period != 0 ? wrapped(x, period) : std::clamp(x, low, high);
-    };
     const Extent walls = walls_before();
     std::vector<SceneDisc> discs;
     for (const Known& known : before_) {
-        const Disc& disc = known.disc;
+        Disc disc = known.disc;
         const double radius = species_.of(disc.id).radius * growth_at(micro_steps_before_);
+        PlainDynamics::advance(disc, clock);
+        periods.wrap(disc, clock);
+        if (periods.x == 0)
+            disc.x = std::clamp(disc.x, walls.x_low + radius, walls.x_high - radius);
+        if (periods.y == 0)
+            disc.y = std::clamp(disc.y, walls.y_low + radius, walls.y_high - radius);
         discs.push_back(
-            {{disc.id,
-              inside(disc.x_at(clock), periods.x, walls.x_low + radius, walls.x_high - radius),
-              inside(disc.y_at(clock), periods.y, walls.y_low + radius, walls.y_high - radius),
-              disc.vx * unit, disc.vy * unit},
-             known.spin * unit});
+            {{disc.id, disc.x, disc.y, disc.vx * unit, disc.vy * unit}, known.spin * unit});
     }
     return discs;
 }
@@ -323,9 +322,9 @@ Finding StateCheck::first_overlap(const LocalView& now) const {
         if (now.population.discs[b].id < now.population.discs[a].id) std::swap(a, b);
         if (a >= now.population.n_own) return; // the rank of the lower id judges the pair
         Disc p = now.population.discs[a], q = now.population.discs[b];
-        if (now.periods.are_any())
-            q.x += now.periods.x_between(p, q), q.y += now.periods.y_between(p, q);
         for (Disc* disc : {&p, &q}) PlainDynamics::advance(*disc, now.time);
+        const Shift shift = now.periods.between(p, q, now.time);
+        q.x += shift.x, q.y += shift.y, q.vx += shift.vx;
         const double depth = diameter_of(p, q) - std::hypot(q.x - p.x, q.y - p.y);
         if (depth > bound) suspects.push_back({p, q, depth, bound, 0, communicator_.rank()});
     });

@@ -57,10 +57,6 @@ void keep_first(std::vector<Neighbour>& neighbours) {
     neighbours.resize(std::min(neighbours.size(), most_around));
 }
 
-double to_nearest_image(double d, double period) {
-    return period != 0 ? d - period * std::round(d / period) : d;
-}
-
 } // namespace
 
 std::vector<SceneDisc> discs_around(const Finding& finding, std::span<const SceneDisc> discs,
@@ -73,11 +69,10 @@ std::vector<SceneDisc> discs_around(const Finding& finding, std::span<const Scen
     const std::vector<DiscId> wanted = wanted_discs(finding, log, communicator);
     std::vector<Neighbour> mine;
     for (const SceneDisc& each : discs) {
-        const double dx = to_nearest_image(each.disc.x - centre.x, periods.x),
-                     dy = to_nearest_image(each.disc.y - centre.y, periods.y);
+        const Shift to = periods.nearest(each.disc.x - centre.x, each.disc.y - centre.y, 0);
         const auto place = std::find(wanted.begin(), wanted.end(), each.disc.id);
         mine.push_back({each, place != wanted.end() ? static_cast<double>(place - wanted.end())
-                                                    : dx * dx + dy * dy});
+                                                    : to.x * to.x + to.y * to.y});
     }
     keep_first(mine);
     Neighbours padded;

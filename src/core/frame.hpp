@@ -3,8 +3,8 @@
 //
 // Under gravity states are stored in a frame that falls freely from each sync on. Under drag they
 // are stored in a clock that slows down as discs do. There they fly straight and evenly, so pairs
-// need neither. In a periodic box stored states fly on where a disc leaves it. Without these
-// effects the frame is the box's, and nothing is computed.
+// need neither. In a periodic box stored states fly on where a disc leaves it, and the box sees the
+// image that is in it. Without these effects the frame is the box's, and nothing is computed.
 #pragma once
 
 #include "core/disc.hpp"
@@ -15,13 +15,15 @@ namespace carrom {
 struct Frame {
     bool is_moving =
         false; ///< or its clock is another one, or places are to be brought into a periodic box
-    double x = 0, y = 0;               ///< its origin in the box
-    double vx = 0, vy = 0;             ///< its velocity, per micro-step
-    double slowing = 1;                ///< how fast its clock goes
-    double clock = 0;                  ///< its time
-    double period_x = 0, period_y = 0; ///< of a periodic box
+    double x = 0, y = 0;   ///< its origin in the box
+    double vx = 0, vy = 0; ///< its velocity, per micro-step
+    double slowing = 1;    ///< how fast its clock goes
+    double clock = 0;      ///< its time
+    Periods periods{};     ///< of a periodic box
 
-    bool keeps_velocities() const { return vx == 0 && vy == 0 && slowing == 1; }
+    bool keeps_velocities() const {
+        return vx == 0 && vy == 0 && slowing == 1 && !periods.are_moving();
+    }
 
     /// The disc at `time`, which is the frame's, as the box sees it. One that has left the box is
     /// stored so.
@@ -32,10 +34,11 @@ struct Frame {
         disc.y = stored.y_at(time);
         disc.tau = time;
         if (!is_moving) return disc;
-        disc.x = wrapped(disc.x + x, period_x);
-        disc.y = wrapped(disc.y + y, period_y);
+        disc.x += x;
+        disc.y += y;
         disc.vx = disc.vx * slowing + vx;
         disc.vy = disc.vy * slowing + vy;
+        periods.wrap(disc, time);
         return disc;
     }
 };

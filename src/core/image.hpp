@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Images of discs in a box with periodic sides.
+// Images of discs in a box with periodic sides, and what an image is: a shift and a velocity, as
+// functions of time. Every room that needs to know where an image is asks `Periods`.
 //
 // A stored state is never shifted: between syncs a disc may fly out of the box and on. What an
-// engine looks at is the state and by how many box lengths it is meant to be displaced, its image.
-// Two entries of the same disc differ in that alone. A pair's contact depends on the difference of
-// its two images, a whole number, which is the same for everybody who sees the pair. Images are
-// part of the state's cache line, so that they go where the disc goes. Only engines see them, and a
-// scene without periodic sides has none.
+// engine works with is the state and the number of boxes, along x and along y, by which it is meant
+// to be displaced: its image. Two entries of the same disc differ in that alone. A pair's contact
+// depends on the difference of its two images, a pair of whole numbers, which is the same for
+// everybody who sees the pair. Images are part of the state's cache line, so that they go where the
+// disc goes. Only engines see them, and a scene without periodic sides has none.
+//
+// Usually boxes repeat themselves at rest, and an image is shifted by a whole number of box
+// lengths. Under shear (Lees and Edwards, J. Phys. C 5, 1921 (1972)) the row of boxes above moves
+// along x with a constant velocity, the next row with twice that, and so on. The kernels that have
+// to be fast are compiled for boxes at rest, and ask the functions without a time.
 #pragma once
 
 #include <algorithm>
@@ -20,12 +26,18 @@
 
 namespace carrom {
 
-/// In box lengths.
+/// In boxes.
 struct Image {
     int x = 0, y = 0;
 
     friend bool operator==(const Image&, const Image&) = default;
     friend Image operator-(Image image) { return {-image.x, -image.y}; }
+};
+
+/// From a disc to an image of it, or from one image to another one.
+struct Shift {
+    double x = 0, y = 0;
+    double vx = 0; ///< how fast the shift grows; it never does along y
 };
 
 inline Image image_of(const Disc& disc) {
@@ -40,7 +52,7 @@ inline bool are_shifted_alike(const Disc& p, const Disc& q) {
     return p.image_x == q.image_x && p.image_y == q.image_y;
 }
 
-/// Less than 16000 box lengths along each axis (Periods::home).
+/// Less than 16000 boxes along each axis (Periods::home).
 inline void set_image(Disc& disc, Image image) {
     disc.image_x = static_cast<std::int16_t>(image.x);
     disc.image_y = static_cast<std::int16_t>(image.y);
@@ -60,29 +72,48 @@ struct Inside {
     }
 };
 
-/// The lengths after which a box repeats itself along x and y; 0 where it does not.
+/// A place in [0, period) for one anywhere: a function of the two alone, one rounding away.
+/// Unchanged where there is no period. Adds to `lengths` how many periods it went up, if that is
+/// asked for.
+inline double wrapped(double place, double period, double* lengths = nullptr) {
+    if (period == 0 || (place >= 0 && place < period)) return place;
+    double up = -std::floor(place / period), inside = std::fma(up, period, place);
+    if (inside < 0) { // what is left of it may be less than a rounding of the period
+        inside += period;
+        up += 1;
+    }
+    if (!(inside < period)) {
+        inside -= period;
+        up -= 1;
+    }
+    if (lengths) *lengths += up;
+    return inside;
+}
+
+/// How a box repeats itself. Times are micro-steps since the last sync.
 struct Periods {
-    double x = 0, y = 0;
+    double x = 0, y = 0; ///< the lengths after which it does so along x and y; 0 where it does not
+    double offset = 0;   ///< by which the row of boxes above is shifted along x at time 0
+    double speed = 0;    ///< with which it moves along x; 0 where boxes are at rest
 
     bool are_any() const { return x != 0 || y != 0; }
+    bool are_moving() const { return speed != 0; }
     /// 0 where there are none.
     double shortest() const { return x == 0 || y == 0 ? std::max(x, y) : std::min(x, y); }
     double along(Axis axis) const { return carrom::along(axis, x, y); }
+    /// Of the row above the box.
+    double offset_at(double time) const { return offset + speed * time; }
 
-    /// Where the disc's image is.
-    [[gnu::always_inline]] double x_of(const Disc& disc, double time) const {
-        return is_unshifted(disc) ? disc.x_at(time) : shifted_x(disc, time);
+    /// What an image is.
+    Shift shift_of(Image image, double time) const {
+        return {image.x * x + image.y * offset_at(time), image.y * y, image.y * speed};
     }
-    [[gnu::always_inline]] double y_of(const Disc& disc, double time) const {
-        return is_unshifted(disc) ? disc.y_at(time) : shifted_y(disc, time);
+    /// From the image of `p` to that of `q`, beside the difference of their stored states: the same
+    /// numbers with the other sign for (q, p).
+    Shift between(const Disc& p, const Disc& q, double time) const {
+        return are_shifted_alike(p, q) ? Shift{} : shifted_between(p, q, time);
     }
-
-    double place_of(const Disc& disc, Axis axis, double time) const {
-        return axis == Axis::x ? x_of(disc, time) : y_of(disc, time);
-    }
-
-    /// How much further the difference of two stored places is for their images: the same number
-    /// with the other sign for (q, p).
+    /// Where boxes are at rest.
     double x_between(const Disc& p, const Disc& q) const {
         return are_shifted_alike(p, q) ? 0 : (image_of(q).x - image_of(p).x) * x;
     }
@@ -90,9 +121,44 @@ struct Periods {
         return are_shifted_alike(p, q) ? 0 : (image_of(q).y - image_of(p).y) * y;
     }
 
+    /// Where the disc's image is, and how fast it flies along x.
+    [[gnu::always_inline]] double x_of(const Disc& disc, double time) const {
+        if (is_unshifted(disc)) return disc.x_at(time);
+        const double at_rest = shifted_x(disc, time);
+        return are_moving() ? moved(at_rest, disc, time) : at_rest;
+    }
+    [[gnu::always_inline]] double y_of(const Disc& disc, double time) const {
+        return is_unshifted(disc) ? disc.y_at(time) : shifted_y(disc, time);
+    }
+    double vx_of(const Disc& disc) const { return disc.vx + image_of(disc).y * speed; }
+
+    double place_of(const Disc& disc, Axis axis, double time) const {
+        return axis == Axis::x ? x_of(disc, time) : y_of(disc, time);
+    }
+
     /// The image that is in the box, to within a rounding.
     Image home(const Disc& disc, double time) const {
-        return {lengths(disc.x_at(time), x), lengths(disc.y_at(time), y)};
+        const int up = lengths(disc.y_at(time), y);
+        return {lengths(disc.x_at(time) + up * offset_at(time), x), up};
+    }
+    /// Replaces a state at `time` by that of the image in the box.
+    void wrap(Disc& disc, double time) const {
+        double up = 0;
+        disc.y = wrapped(disc.y, y, &up);
+        if (up != 0 && are_moving()) {
+            disc.x += up * offset_at(time);
+            disc.vx += up * speed;
+        }
+        disc.x = wrapped(disc.x, x);
+    }
+    /// The shortest of the differences (dx, dy) between images of two discs.
+    Shift nearest(double dx, double dy, double time) const {
+        if (y != 0) {
+            const double down = std::round(dy / y);
+            dy -= down * y;
+            dx -= down * offset_at(time);
+        }
+        return {x != 0 ? dx - x * std::round(dx / x) : dx, dy};
     }
 
     /// The box.
@@ -102,13 +168,21 @@ struct Periods {
                 y == 0 ? infinity : y};
     }
 
+    friend bool operator==(const Periods&, const Periods&) = default;
+
 private:
     // Not inlined, so that what nearly all discs need is.
     [[gnu::noinline]] double shifted_x(const Disc& disc, double time) const {
         return disc.x_at(time) + image_of(disc).x * x;
     }
+    [[gnu::noinline, gnu::cold]] double moved(double at_rest, const Disc& disc, double time) const {
+        return at_rest + image_of(disc).y * offset_at(time);
+    }
     [[gnu::noinline]] double shifted_y(const Disc& disc, double time) const {
         return disc.y_at(time) + image_of(disc).y * y;
+    }
+    [[gnu::noinline]] Shift shifted_between(const Disc& p, const Disc& q, double time) const {
+        return shift_of({image_of(q).x - image_of(p).x, image_of(q).y - image_of(p).y}, time);
     }
     static int lengths(double place, double period) {
         if (period == 0 || (place >= 0 && place < period)) return 0;
@@ -118,15 +192,5 @@ private:
         return -static_cast<int>(n);
     }
 };
-
-/// A place in [0, period) for one anywhere: a function of the two alone, one rounding away.
-/// Unchanged where there is no period.
-inline double wrapped(double place, double period) {
-    if (period == 0 || (place >= 0 && place < period)) return place;
-    double inside = std::fma(-std::floor(place / period), period, place);
-    if (inside < 0)
-        inside += period; // what is left of it may be less than a rounding of the period
-    return inside < period ? inside : inside - period;
-}
 
 } // namespace carrom

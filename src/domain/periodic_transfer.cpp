@@ -122,20 +122,27 @@ TransferPlan plan_periodic_halo(const Strips& strips, int rank, std::span<const 
     std::vector<Slab> slabs;
     for (const int other : plan.partners) slabs.emplace_back(strips, other, period);
     const double period_across = periods.along(other_axis(axis));
+    // Rows of boxes move along x, so strips are cut along y where they do.
+    ensure(axis == Axis::y || !periods.are_moving(), "strips are cut along the rows of boxes");
+    const double slide = axis == Axis::y ? periods.offset_at(time) : 0;
     const Inside box = periods.inside();
     const double across_low = axis == Axis::x ? box.y_low : box.x_low;
     const double across_high = axis == Axis::x ? box.y_high : box.x_high;
     const auto look_at = [&](LocalIndex i) {
         const auto [u, v] = turned(axis, periods.x_of(own[i], time), periods.y_of(own[i], time));
         const Image home = image_of(own[i]);
-        const Shifts across(v, reach, across_low, across_high, period_across);
+        const Shifts at_rest(v, reach, across_low, across_high, period_across);
         for (std::size_t k = 0; k < slabs.size(); ++k) {
             const Shifts along(u, reach, slabs[k].low, slabs[k].high, period);
             for (int n = along.first; n <= along.last; ++n) {
                 const double image_u = u + n * period;
                 if (image_u + reach < slabs[k].low || image_u - reach > slabs[k].high) continue;
+                const double beside = v + n * slide;
+                Shifts across = at_rest;
+                if (n != 0 && slide != 0) [[unlikely]]
+                    across = Shifts(beside, reach, across_low, across_high, period_across);
                 for (int m = across.first; m <= across.last; ++m) {
-                    const double image_v = v + m * period_across;
+                    const double image_v = beside + m * period_across;
                     if (image_v + reach < across_low || image_v - reach > across_high) continue;
                     if (plan.partners[k] == rank && n == 0 && m == 0) continue;
                     const auto [by_x, by_y] = turned(axis, n, m);

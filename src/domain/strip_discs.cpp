@@ -35,7 +35,11 @@ Inside inner_part(const Strips& strips, int rank, double reach) {
 
 /// The disc's place in the box along the strips' axis.
 double place_in_box(const Strips& strips, const Periods& periods, const Disc& disc, double time) {
-    return wrapped(strips.place_of(disc, time), periods.along(strips.axis()));
+    Disc in_box = disc;
+    in_box.x = disc.x_at(time);
+    in_box.y = disc.y_at(time);
+    periods.wrap(in_box, time);
+    return strips.place_of(in_box, in_box.tau);
 }
 
 } // namespace
@@ -171,9 +175,8 @@ void StripDiscs::set_home_images(double time, double farthest, std::vector<Disc>
         for (std::size_t i = range.begin; i < range.end; ++i) {
             Disc& disc = discs_[i];
             const Image image = image_of(disc);
-            const bool is_at_home = inside.holds(disc.x_at(time) + image.x * periods_.x,
-                                                 disc.y_at(time) +
-                                                     image.y * periods_.y); // nearly all
+            const bool is_at_home = inside.holds(periods_.x_of(disc, time),
+                                                 periods_.y_of(disc, time)); // nearly all
             if (is_at_home && !companion) continue;
             const Image home = is_at_home ? image : periods_.home(disc, time);
             if (!is_at_home) set_image(disc, home);

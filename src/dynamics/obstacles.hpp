@@ -75,10 +75,6 @@ private:
         double ux = 0, uy = 0, length = 0; ///< of a line: direction and length
         bool is_line() const { return length > 0; }
     };
-    /// How far an image of a body is from the body.
-    struct Shift {
-        double x, y;
-    };
     /// Numbers go on beyond a periodic side.
     struct Cells {
         std::int64_t first_column, last_column, first_row, last_row;

@@ -164,8 +164,7 @@ template <class Dynamics> Extent EngineBase<Dynamics>::extent() const {
 template <class Dynamics> Frame EngineBase<Dynamics>::frame() const {
     Frame frame = dynamics_.frame_at(time_);
     if (!discs_.periods().are_any()) return frame;
-    frame.period_x = discs_.periods().x;
-    frame.period_y = discs_.periods().y;
+    frame.periods = discs_.periods();
     frame.clock = time_;
     frame.is_moving = true;
     return frame;

@@ -146,7 +146,8 @@ public:
     /// Of two that touch.
     bool slide(LocalIndex a, LocalIndex b) const {
         const auto [dx, dy] = separation(a, b);
-        const double wx = disc(b).vx - disc(a).vx, wy = disc(b).vy - disc(a).vy,
+        const Shift shift = touching_.periods.between(disc(a), disc(b), time_);
+        const double wx = (disc(b).vx - disc(a).vx) + shift.vx, wy = disc(b).vy - disc(a).vy,
                      approach = dx * wx + dy * wy, square = wx * wx + wy * wy;
         return square > 0 && approach * approach <= 4 * touching_.tolerance *
                                                         touching_.diameter_of(disc(a), disc(b)) *
@@ -158,8 +159,8 @@ private:
     std::pair<double, double> separation(LocalIndex a, LocalIndex b) const {
         const Disc &p = disc(a), &q = disc(b);
         const double dx = q.x_at(time_) - p.x_at(time_), dy = q.y_at(time_) - p.y_at(time_);
-        if (!touching_.periods.are_any()) return {dx, dy};
-        return {dx + touching_.periods.x_between(p, q), dy + touching_.periods.y_between(p, q)};
+        const Shift shift = touching_.periods.between(p, q, time_);
+        return {dx + shift.x, dy + shift.y};
     }
 
     const Population& population_;

@@ -88,8 +88,9 @@ void BoxLayout::sort(std::span<const Disc> discs, std::size_t n_own, const BoxCe
         const Disc& disc = discs[listed_[k]];
         const bool is_at_home = listed_[k] < n_own || !periods.are_any();
         const Image home = is_at_home ? image_of(disc) : periods.home(disc, time);
-        const double x = disc.x_at(time) + home.x * periods.x - cells.x_low,
-                     y = disc.y_at(time) + home.y * periods.y - cells.y_low;
+        const Shift shift = periods.shift_of(home, time);
+        const double x = disc.x_at(time) + shift.x - cells.x_low,
+                     y = disc.y_at(time) + shift.y - cells.y_low;
         cell_of_[k] = cell_along(x * columns_per_length, cells.n_columns) * n_rows +
                       cell_along(y * rows_per_length, cells.n_rows);
         ++box_starts_[cell_of_[k]];

@@ -49,8 +49,9 @@ void refuse_overlaps(const Population& population, const CellGrid& grid, double 
         if (a >= population.n_own) return; // the rank of the lower id counts the pair
         const Disc& p = population.discs[a];
         const Disc& q = population.discs[b];
-        const double dx = (q.x_at(time) - p.x_at(time)) + touching.periods.x_between(p, q);
-        const double dy = (q.y_at(time) - p.y_at(time)) + touching.periods.y_between(p, q);
+        const Shift shift = touching.periods.between(p, q, time);
+        const double dx = (q.x_at(time) - p.x_at(time)) + shift.x;
+        const double dy = (q.y_at(time) - p.y_at(time)) + shift.y;
         const double depth = touching.diameter_of(p, q) - std::sqrt(dx * dx + dy * dy);
         if (depth > 2 * touching.tolerance) mine.add({p.id, q.id, depth});
     });

@@ -24,8 +24,8 @@ template <class SomeFrame, class Visit> void visit_frame(SomeFrame& frame, const
     visit("frame_clock", frame.clock);
 }
 template <class SomeFrame, class Visit> void visit_periods(SomeFrame& frame, const Visit& visit) {
-    visit("period_x", frame.period_x);
-    visit("period_y", frame.period_y);
+    visit("period_x", frame.periods.x);
+    visit("period_y", frame.periods.y);
 }
 
 /// What a recording keeps of a header.
@@ -54,8 +54,7 @@ void write_header(hid_t group, const CheckpointHeader& header) {
     if (!header.box().is_square()) write(box_height_name, header.box_height);
     if (!header.frame.is_moving) return;
     visit_frame(header.frame, write);
-    if (header.frame.period_x != 0 || header.frame.period_y != 0)
-        visit_periods(header.frame, write);
+    if (header.frame.periods.are_any()) visit_periods(header.frame, write);
 }
 
 CheckpointHeader read_header(hid_t file) {

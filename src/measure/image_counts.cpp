@@ -11,7 +11,7 @@ namespace carrom {
 
 std::vector<Disc> flown_on(const Simulation& simulation) {
     Frame frame = simulation.frame();
-    frame.period_x = frame.period_y = 0;
+    frame.periods = {};
     std::vector<Disc> discs;
     for (const Disc& disc : simulation.discs())
         discs.push_back(frame.in_box(disc, simulation.clock()));

@@ -87,11 +87,9 @@ private:
     }
 
     void see(const Disc& disc, const Disc& other) {
-        Seen seen{other.x_at(view_.time) - disc.x_at(view_.time),
-                  other.y_at(view_.time) - disc.y_at(view_.time), 0, other.id};
-        if (view_.periods.are_any())
-            seen.dx += view_.periods.x_between(disc, other),
-                seen.dy += view_.periods.y_between(disc, other);
+        const Shift shift = view_.periods.between(disc, other, view_.time);
+        Seen seen{(other.x_at(view_.time) - disc.x_at(view_.time)) + shift.x,
+                  (other.y_at(view_.time) - disc.y_at(view_.time)) + shift.y, 0, other.id};
         seen.squared = seen.dx * seen.dx + seen.dy * seen.dy;
         if (seen.squared < reach_ * reach_ && is_in_box(other)) seen_.push_back(seen);
     }
@@ -158,10 +156,9 @@ void add_pairs_of(int column, const LocalView& view, std::span<const BondOrder> 
         if (discs[b].id < discs[a].id) std::swap(a, b);
         if (a >= view.population.n_own || !orders[a].has_cell() || !orders[b].has_cell()) return;
         const Disc &p = discs[a], &q = discs[b];
-        double dx = q.x_at(view.time) - p.x_at(view.time),
-               dy = q.y_at(view.time) - p.y_at(view.time);
-        if (view.periods.are_any())
-            dx += view.periods.x_between(p, q), dy += view.periods.y_between(p, q);
+        const Shift shift = view.periods.between(p, q, view.time);
+        const double dx = (q.x_at(view.time) - p.x_at(view.time)) + shift.x,
+                     dy = (q.y_at(view.time) - p.y_at(view.time)) + shift.y;
         const double bin = std::sqrt(dx * dx + dy * dy) * bins_per_length;
         if (!(bin < n_bins)) return;
         ++sums.pairs[static_cast<std::size_t>(bin)];

@@ -26,7 +26,6 @@ void count_pair_distances(const LocalView& local_view, double bin_width,
     const std::size_t n_each = counts.size() / n_pair_kinds(species_ends.size());
     const double bins_per_length = 1 / bin_width, n_bins = static_cast<double>(n_each);
     const bool are_alike = species_ends.size() == 1;
-    const bool is_periodic = local_view.periods.are_any();
     const int n_columns = local_view.grid->geometry().n_columns;
 #pragma omp parallel num_threads(n_threads)
     {
@@ -39,11 +38,9 @@ void count_pair_distances(const LocalView& local_view, double bin_width,
                 if (population.discs[b].id < population.discs[a].id) std::swap(a, b);
                 if (a >= population.n_own) return; // the rank of the lower id counts the pair
                 const Disc &p = population.discs[a], &q = population.discs[b];
-                double dx = q.x_at(local_view.time) - p.x_at(local_view.time),
-                       dy = q.y_at(local_view.time) - p.y_at(local_view.time);
-                if (is_periodic)
-                    dx += local_view.periods.x_between(p, q),
-                        dy += local_view.periods.y_between(p, q);
+                const Shift shift = local_view.periods.between(p, q, local_view.time);
+                const double dx = (q.x_at(local_view.time) - p.x_at(local_view.time)) + shift.x,
+                             dy = (q.y_at(local_view.time) - p.y_at(local_view.time)) + shift.y;
                 const double bin = std::sqrt(dx * dx + dy * dy) * bins_per_length;
                 if (!(bin < n_bins)) return;
                 const std::size_t kind = are_alike ? 0
