@@ -12,7 +12,7 @@ namespace carrom {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// A disc's new state and its place among the discs that went to this neighbour's halo.
 struct Update {
@@ -29,8 +29,8 @@ Strips equal_strips(const Box& box, int n_ranks) {
 /// Places further than `reach` from the ends of the strip.
 Inside inner_part(const Strips& strips, int rank, double reach) {
     const double low = strips.low(rank) + reach, high = strips.high(rank) - reach;
-    return strips.axis() == Axis::x ? Inside{low, high, -infinity, infinity}
-                                    : Inside{-infinity, infinity, low, high};
+    return strips.axis() == Axis::x ? Inside{low, high, -unbounded, unbounded}
+                                    : Inside{-unbounded, unbounded, low, high};
 }
 
 /// The disc's place in the box along the strips' axis.
