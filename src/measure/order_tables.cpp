@@ -45,7 +45,7 @@ MeasuredTable psi6_means(const MeasuredTable& history) {
                          "where there are too few)"},
                         {},
                         {{}}};
-    for (const std::size_t column : {1, 4, 5, 6, 7}) {
+    for (const std::size_t column : {1u, 4u, 5u, 6u, 7u}) {
         std::vector<double> terms;
         for (const std::vector<double>& row : history.rows) terms.push_back(row[column]);
         const double sum = std::accumulate(terms.begin(), terms.end(), 0.0);

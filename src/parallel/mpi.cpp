@@ -19,6 +19,7 @@
 #include "core/errors.hpp"
 #include "core/printable.hpp"
 #include "parallel/handle.hpp"
+#include "parallel/launcher.hpp"
 
 namespace carrom {
 
@@ -94,21 +95,6 @@ int agreed_code(const Communicator& communicator, const Outcome& outcome, double
                    &request);
     wait_or_abort(request, outcome.text, patience_seconds, outcome.code_alone);
     return largest;
-}
-
-/// Whether a launcher has started this process, as the first of several perhaps. One that is
-/// missing here leaves each process to itself.
-bool has_launcher() {
-    constexpr std::array variables = {
-        "OMPI_COMM_WORLD_SIZE", // mpirun of Open MPI
-        "PMIX_RANK",
-        "PMI_RANK",      // what many launchers speak, srun and MPICH's among them
-        "SLURM_STEP_ID", // srun
-        "PALS_RANKID",
-        "ALPS_APP_PE", // Cray
-        "FLUX_TASK_RANK"};
-    return std::any_of(variables.begin(), variables.end(),
-                       [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
 /// Settings of Open MPI that the user has not chosen.

@@ -4,7 +4,21 @@
 #include "apps/shell/standard_streams.hpp"
 #include "apps/shell/stop_signals.hpp"
 #include "io/start_io.hpp"
+#include "parallel/launcher.hpp"
 #include "parallel/mpi.hpp"
+
+namespace {
+
+/// False, and the reason printed once, where a launcher of another MPI library has started several
+/// copies of a program that each take themselves for the only one.
+bool is_started_well(const carrom::Communicator& ranks) {
+    const carrom::LoneProcess process = carrom::lone_process(ranks.size());
+    if (!process.problem.empty() && process.is_first)
+        carrom::print_message("the launcher {}\n", process.problem);
+    return process.problem.empty();
+}
+
+} // namespace
 
 int main(int argc, char** argv) {
     carrom::keep_standard_streams();
@@ -16,6 +30,7 @@ int main(int argc, char** argv) {
                                            : carrom::Mpi::Start::under_launcher);
     return carrom::run_on_all(
         carrom::Communicator::world(), [&action](const carrom::Communicator& ranks) {
+            if (!is_started_well(ranks)) return static_cast<int>(carrom::ExitCode::bad_input);
             const carrom::ExitCode code = action.act(ranks);
             const bool is_told = carrom::finish_standard_output();
             return static_cast<int>(is_told || code != carrom::ExitCode::success

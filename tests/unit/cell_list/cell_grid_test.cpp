@@ -130,7 +130,7 @@ TEST_CASE("side columns and companions go where discs go") {
 TEST_CASE("threads bring discs into the order of the cells in which they are") {
     std::mt19937 random(11);
     const double time = 0.7, duration = 3;
-    for (const std::size_t n : {0, 1, 3, 500, 4000, 20000}) {
+    for (const std::size_t n : {0u, 1u, 3u, 500u, 4000u, 20000u}) {
         for (const double reach : {2.0, 9.0, 150.0, 400.0}) {
             for (const int n_threads : {1, 2, 3, 5, 16}) {
                 std::vector<Disc> discs = gas(random, n);
@@ -166,7 +166,7 @@ TEST_CASE(
     "a halo's discs have cells of their own where there are any, and flights that can be changed") {
     std::mt19937 random(12);
     const double time = 2, duration = 4;
-    for (const std::size_t n : {0, 1, 40, 2000}) {
+    for (const std::size_t n : {0u, 1u, 40u, 2000u}) {
         for (const double reach : {2.0, 30.0}) {
             std::vector<Disc> discs = gas(random, 1000);
             const std::vector<Disc> halo = gas(random, n);
