@@ -6,7 +6,7 @@
 
 namespace carrom {
 
-/// "0.2.0". Not collective.
+/// "0.3.0". Not collective.
 std::string version();
 
 } // namespace carrom

@@ -158,25 +158,7 @@ void refuse_in_obstacles(const Scene& scene, const std::vector<InputDisc>& discs
     agree_on_problems(communicator, problems);
 }
 
-void add_streams(const Scene& scene, std::vector<InputDisc>& discs) {
-    if (scene.streams.empty()) return;
-    for (InputDisc& disc : discs) {
-        const Velocity stream = stream_velocity(scene, {disc.x, disc.y});
-        disc.vx += stream.x;
-        disc.vy += stream.y;
-    }
-}
-
 } // namespace
-
-void give_velocities(const Scene& scene, std::vector<InputDisc>& discs) {
-    for (InputDisc& disc : discs) {
-        const Velocity velocity = generated_velocity(scene, disc.id);
-        disc.vx = velocity.x;
-        disc.vy = velocity.y;
-    }
-    add_streams(scene, discs);
-}
 
 std::vector<InputDisc> initial_state(const Scene& scene, std::istream* lines,
                                      const Communicator& communicator) {
@@ -194,7 +176,7 @@ std::vector<InputDisc> initial_state(const Scene& scene, std::istream* lines,
         add_streams(scene, discs);
     } else {
         discs = generated_discs(scene, communicator);
-        give_velocities(scene, discs);
+        give_velocities(scene, discs, communicator);
     }
     return discs;
 }

@@ -11,9 +11,6 @@
 
 namespace carrom {
 
-/// Velocities of the scene's random numbers and streams, for discs that it generates.
-void give_velocities(const Scene& scene, std::vector<InputDisc>& discs);
-
 /// Every disc of the scene exactly once, each on some rank; no rank holds more than its share and a
 /// bounded chunk. Compressed starts need engines (simulation/compression.hpp). `lines` is the
 /// stream of listed discs on rank 0 (null where the scene generates); its problems become an

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "initial_state/velocities.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/axis.hpp"
+#include "core/exact_sum.hpp"
 #include "core/random_numbers.hpp"
+#include "dynamics/species.hpp"
 
 namespace carrom {
 
-Velocity generated_velocity(const Scene& scene, DiscId id) {
+Velocity drawn_velocity(const Scene& scene, DiscId id) {
     DiscRandom random(scene.seed, Purpose::velocity, id);
     const Direction direction = random_direction(random);
     const double speed = scene.velocities == VelocityKind::maxwell
-                             ? scene.speed * std::sqrt(random_exponential(random))
-                             : scene.speed * (std::numbers::sqrt3 * random.uniform());
+                             ? std::sqrt(random_exponential(random))
+                             : std::numbers::sqrt3 * random.uniform();
     // A box that is taller than wide has the gas of the same one lying down.
     const auto [vx, vy] = turned(longer_axis(scene.box), speed * direction.x, speed * direction.y);
     return {vx, vy};
@@ -30,6 +33,125 @@ Velocity stream_velocity(const Scene& scene, Point place) {
         sum.y += stream.vy;
     }
     return sum;
+}
+
+void add_streams(const Scene& scene, std::vector<InputDisc>& discs) {
+    if (scene.streams.empty()) return;
+    for (InputDisc& disc : discs) {
+        const Velocity stream = stream_velocity(scene, {disc.x, disc.y});
+        disc.vx += stream.x;
+        disc.vy += stream.y;
+    }
+}
+
+namespace {
+
+/// Masses are taken over the heaviest, so that sums of any masses stay within range.
+class Motion {
+public:
+    Motion(const Scene& scene, const std::vector<InputDisc>& discs, const Communicator& ranks)
+        : ranks_(ranks), n_discs_(static_cast<double>(scene.n_discs)),
+          species_(scene.effects.species, scene.radius) {
+        double heaviest = 0;
+        for (const InputDisc& disc : discs) heaviest = std::max(heaviest, mass_of(disc));
+        heaviest_ = ranks.max(heaviest);
+        total_ = sum_over(discs, 1, [this](const InputDisc& disc) { return share_of(disc); });
+    }
+
+    double heaviest() const { return heaviest_; }
+    double share_of(const InputDisc& disc) const { return mass_of(disc) / heaviest_; }
+
+    /// The velocity of the centre of mass. **Collective.**
+    Velocity mean_velocity(const std::vector<InputDisc>& discs) const {
+        const double largest = largest_component(discs);
+        const auto momentum = [&](double InputDisc::* component) {
+            return sum_over(discs, largest, [&](const InputDisc& disc) {
+                return share_of(disc) * disc.*component;
+            });
+        };
+        const double x = momentum(&InputDisc::vx), y = momentum(&InputDisc::vy);
+        return {x / total_, y / total_};
+    }
+
+    /// The mean of m v^2 over that of m. **Collective.**
+    double mean_square(const std::vector<InputDisc>& discs) const {
+        const double largest = largest_component(discs);
+        return sum_over(discs, 2 * largest * largest,
+                        [this](const InputDisc& disc) {
+                            return share_of(disc) * (disc.vx * disc.vx + disc.vy * disc.vy);
+                        }) /
+               total_;
+    }
+
+    /// Of all discs, over the heaviest.
+    double total_mass() const { return total_; }
+
+private:
+    double mass_of(const InputDisc& disc) const { return species_.of(disc.id).mass; }
+
+    double largest_component(const std::vector<InputDisc>& discs) const {
+        double largest = 0;
+        for (const InputDisc& disc : discs)
+            largest = std::max({largest, std::fabs(disc.vx), std::fabs(disc.vy)});
+        return ranks_.max(largest);
+    }
+
+    /// No term is larger than `largest`.
+    template <class Term>
+    double sum_over(const std::vector<InputDisc>& discs, double largest, const Term& term) const {
+        if (largest == 0) return 0;
+        ExactSum sum(n_discs_ * largest);
+        for (const InputDisc& disc : discs) sum.add(term(disc));
+        ranks_.sum(sum);
+        return sum.value();
+    }
+
+    const Communicator& ranks_;
+    double n_discs_;
+    SpeciesTable species_;
+    double heaviest_ = 1, total_ = 0;
+};
+
+void subtract_drift(const Scene& scene, std::vector<InputDisc>& discs, const Motion& motion) {
+    const Periods periods = scene.effects.periods(scene.box);
+    if (!periods.are_any() || scene.n_discs == 1) return;
+    Velocity drift = motion.mean_velocity(discs);
+    if (periods.x == 0) drift.x = 0;
+    if (periods.y == 0) drift.y = 0;
+    for (InputDisc& disc : discs) {
+        disc.vx -= drift.x;
+        disc.vy -= drift.y;
+    }
+}
+
+/// What speeds are multiplied by. With a temperature the discs have speeds of sqrt(heaviest / m)
+/// until then, so that all species have one kT on average.
+double scale_of(const Scene& scene, const std::vector<InputDisc>& discs, const Motion& motion) {
+    const double root = std::sqrt(motion.mean_square(discs));
+    if (root == 0) return 0;
+    if (!scene.temperature) return scene.speed / root;
+    const double per_disc = motion.total_mass() / static_cast<double>(scene.n_discs);
+    return std::sqrt(2 * (*scene.temperature / motion.heaviest()) / per_disc) / root;
+}
+
+} // namespace
+
+void give_velocities(const Scene& scene, std::vector<InputDisc>& discs,
+                     const Communicator& communicator) {
+    const Motion motion(scene, discs, communicator);
+    for (InputDisc& disc : discs) {
+        const Velocity drawn = drawn_velocity(scene, disc.id);
+        const double factor = scene.temperature ? std::sqrt(1 / motion.share_of(disc)) : 1;
+        disc.vx = factor * drawn.x;
+        disc.vy = factor * drawn.y;
+    }
+    subtract_drift(scene, discs, motion);
+    const double scale = scale_of(scene, discs, motion);
+    for (InputDisc& disc : discs) {
+        disc.vx *= scale;
+        disc.vy *= scale;
+    }
+    add_streams(scene, discs);
 }
 
 } // namespace carrom

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Velocities of generated discs: pure functions of the scene and the disc's id.
+// Velocities of generated discs: drawn for each disc alone, then corrected for all discs together.
 //
-// "uniform": direction isotropic, speed uniform in [0, sqrt(3) v], where v = discs.speed is its
-// root mean square. "maxwell": the Maxwell distribution in two dimensions, both components normal;
-// speed = v sqrt(E), E exponential of mean 1, which makes the root mean square v. Nothing is
-// rescaled by a measured sum: a sample's own energy and momentum scatter about their means as those
-// of independent discs do.
+// "maxwell": the Maxwell distribution in two dimensions, both components normal. The speed is
+// sqrt(E), E exponential of mean 1. "uniform": isotropic directions, speeds uniform in
+// [0, sqrt(3)]. Either has the root mean square 1. A drawn sample has another energy and a total
+// momentum by chance, and both stay for the whole run. So the motion of the centre of mass is
+// subtracted along periodic axes, where no wall would ever stop it, and speeds are scaled to the
+// energy that the scene asks for. The sums are exact, so the number of ranks does not change a bit.
 #pragma once
+
+#include <vector>
 
 #include "core/disc.hpp"
 #include "lattices/lattice.hpp"
+#include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
 
 namespace carrom {
@@ -20,11 +24,22 @@ struct Velocity {
     friend bool operator==(const Velocity&, const Velocity&) = default;
 };
 
-/// The velocity per step that `scene` gives to disc `id`, streams not counted.
-Velocity generated_velocity(const Scene& scene, DiscId id);
+/// The velocity drawn for disc `id`, of root mean square 1.
+Velocity drawn_velocity(const Scene& scene, DiscId id);
 
 /// What the streams add to a disc at `place`: the sum over all regions that hold it (edges
 /// included).
 Velocity stream_velocity(const Scene& scene, Point place);
+
+/// Adds them to all discs, which have their places.
+void add_streams(const Scene& scene, std::vector<InputDisc>& discs);
+
+/// Gives velocities per step to the discs that the scene generates, in any distribution over the
+/// ranks. The energy of all discs is N kT with `discs.temperature`, and half their mass times
+/// `discs.speed` squared otherwise, both to rounding. Along periodic axes their momentum is zero to
+/// rounding; a disc that is alone keeps it, because it would be at rest. Streams are added last.
+/// **Collective.**
+void give_velocities(const Scene& scene, std::vector<InputDisc>& discs,
+                     const Communicator& communicator);
 
 } // namespace carrom

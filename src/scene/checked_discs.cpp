@@ -218,6 +218,20 @@ void check_generator(const Check& check) {
                               "discs.generator = \"compressed\""));
 }
 
+/// The lightest discs are the fastest ones.
+void check_temperature(const Check& check) {
+    const Scene& scene = check.scene;
+    if (!scene.temperature || *scene.temperature == 0) return;
+    double lightest = scene.effects.species.empty() ? 1 : INFINITY;
+    for (const Species& one : scene.effects.species) lightest = std::min(lightest, one.mass);
+    const double speed = std::sqrt(2 * (*scene.temperature / lightest));
+    std::string text = speed_problem(speed, scene);
+    if (!(speed >= smallest_size && speed <= 0x1p-8 * largest_size))
+        text = fmt::format("discs of mass {} would have a speed of {:.4g}, outside 2^-250 to 2^242",
+                           lightest, speed);
+    if (!text.empty()) check.refuse({"discs.temperature"}, "'discs.temperature': " + text);
+}
+
 void check_velocities(const Check& check) {
     const Scene& scene = check.scene;
     if (scene.generator == Generator::legacy && scene.seed > 0xFFFFFFFFu)
@@ -227,6 +241,7 @@ void check_velocities(const Check& check) {
     if (const std::string text = speed_problem(scene.speed, scene);
         !text.empty() && scene.generator != Generator::file)
         check.refuse({"discs.speed"}, "'discs.speed': " + text);
+    check_temperature(check);
     check.refuse_rows("discs.streams", [&scene](const Numbers& n, std::size_t) {
         std::string text;
         const bool is_finite = std::all_of(n.begin(), n.begin() + 4,

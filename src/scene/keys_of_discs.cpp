@@ -282,13 +282,21 @@ std::vector<Key> keys_of_discs() {
             [](auto& s) -> auto& { return s.disc_columns; })
             .needs(listed)
             .excludes({"discs.list"}),
-        key("discs.speed", "length/step", "Root mean square of the distribution of speeds.",
+        key("discs.speed", "length/step",
+            "Root mean square of the speeds at the start; the heavier count more, by their mass.",
             [](auto& s) -> auto& { return s.speed; })
             .within({smallest_size, 0x1p-8 * largest_size, false, true})
             .needs(random_speeds),
+        key("discs.temperature", "mass length^2/step^2",
+            "kT at the start, in place of the speed: the kinetic energy over N.",
+            [](auto& s) -> auto& { return s.temperature; })
+            .by_default("from 'discs.speed'")
+            .within({.low = 0})
+            .needs(random_speeds)
+            .excludes({"discs.speed"}),
         key("discs.velocities", "",
             "Maxwell distribution, or isotropic with speeds uniform up to sqrt(3) times "
-            "discs.speed.",
+            "their root mean square.",
             [](auto& s) -> auto& { return s.velocities; })
             .needs(random_speeds),
         growth_rate_key(),

@@ -135,6 +135,7 @@ struct Scene {
     std::string discs_from; ///< an HDF5 file, likewise, whose discs follow as lines
     std::optional<std::int64_t> discs_from_step; ///< of a frame; else the last one
     double speed = 1;                            ///< root mean square of the generated speeds
+    std::optional<double> temperature;           ///< kT of generated discs, in place of the speed
     VelocityKind velocities = VelocityKind::maxwell;
     double growth_rate = 0.01; ///< of Generator::compressed: how fast the largest diameter grows,
                                ///< over the root mean square speed

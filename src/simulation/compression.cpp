@@ -38,10 +38,8 @@ public:
     std::vector<InputDisc> run() {
         discs_ = insert_at_random(stretch(), communicator_);
         if (size_ == 1) return std::move(discs_);
-        Scene unit = scene_;
-        unit.speed = 1;
         for (InputDisc& disc : discs_) {
-            const Velocity velocity = generated_velocity(unit, disc.id);
+            const Velocity velocity = drawn_velocity(scene_, disc.id);
             disc.vx = velocity.x;
             disc.vy = velocity.y;
         }
@@ -126,7 +124,7 @@ private:
 std::vector<InputDisc> compressed_discs(const Scene& scene, const Communicator& communicator,
                                         const Tuning& tuning) {
     std::vector<InputDisc> discs = Compression(scene, communicator, tuning).run();
-    give_velocities(scene, discs);
+    give_velocities(scene, discs, communicator);
     return discs;
 }
 

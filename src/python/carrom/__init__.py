@@ -33,7 +33,7 @@ from carrom.sweeping import sweep
 from carrom.sweeps import Sweep, SweepError
 from carrom.tables import Table, Tables, read_csv
 
-__version__ = "0.2.0"
+__version__ = "0.3.0"
 
 __all__ = [
     "CarromError",

@@ -71,7 +71,7 @@ def find_launcher(launcher: str | os.PathLike[str] | None = None) -> str:
 
 
 def program_version(program: str | os.PathLike[str] | None = None) -> str:
-    """Return the version that the program prints, for example "0.2.0".
+    """Return the version that the program prints, for example "0.3.0".
 
     Raises:
         ProgramNotFoundError: there is no program, or it prints none

@@ -14,7 +14,7 @@ class Carrom(CMakePackage):
 
     license("BSD-3-Clause")
 
-    version("0.2.0")
+    version("0.3.0")
 
     depends_on("c", type="build")
     depends_on("cxx", type="build")
