@@ -89,7 +89,8 @@ StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64
 }
 
 void StateCheck::look(const LocalView& now, std::int64_t micro_steps_done, Log log,
-                      std::span<const double> spins) {
+                      std::span<const double> spins, double work_of_images) {
+    work_of_images_ = work_of_images;
     before_ = known_;
     micro_steps_before_ = std::exchange(micro_steps_done_, micro_steps_done);
     const std::span<const Disc> own = now.population.discs.first(now.population.n_own);

@@ -47,9 +47,10 @@ public:
                std::span<const double> spins = {});
 
     /// Looks at the end of a step; `log` has this rank's share of the collisions since the last
-    /// look. If an invariant is broken every rank throws the same CheckFailure. **Collective.**
+    /// look. If an invariant is broken every rank throws the same CheckFailure. `work_of_images` is
+    /// what Engine::add_work_to has found since then on this rank. **Collective.**
     void look(const LocalView& now, std::int64_t micro_steps_done, std::span<const Collision> log,
-              std::span<const double> spins = {});
+              std::span<const double> spins = {}, double work_of_images = 0);
 
 private:
     struct Known {
@@ -110,6 +111,7 @@ private:
     double stretch() const { return static_cast<double>(micro_steps_done_ - micro_steps_before_); }
     double n_syncs_since(std::int64_t micro_step) const;
     void note_speeds();
+    bool may_have_met_seam(std::size_t i) const;
 
     int slab_of_disc(DiscId id) const;
     /// How far rounding moves a disc: so many ulp(L), and what it flies while times are rounded.
@@ -122,6 +124,8 @@ private:
     double total_mass_ = 0, smallest_mass_ = 1;
     double wall_speed_ = 0, wall_pull_ = 0; ///< of oscillating walls: the largest, and by which
                                             ///< acceleration one presses a disc
+    double work_of_images_ = 0;             ///< on this rank, since the last look
+    double fastest_up_ = 0; ///< between sheared sides: along y, now or at the last look
     bool may_lose_energy_ = false, walls_give_energy_ = false;
     Communicator communicator_;
     std::uint64_t first_id_ = 0;

@@ -52,11 +52,16 @@ Finding StateCheck::first_other_motion() const {
                     0,
                     1};
         if (now.walls + now.pairs > 0) continue;
-        const double wx = disc.vx - (then.vx * left + effects_.gravity.x * time),
-                     wy = disc.vy - (then.vy * left + effects_.gravity.y * time);
-        const double bound = is_free ? 0
-                                     : motion_bound * (1 + n_syncs_since(micro_steps_before_)) *
-                                           (std::sqrt(squared_speed_of(then)) + gained);
+        const double seam = effects_.periods(scene_.box).speed;
+        double wx = disc.vx - (then.vx * left + effects_.gravity.x * time);
+        const double wy = disc.vy - (then.vy * left + effects_.gravity.y * time);
+        if (seam != 0) // a disc is shown with the velocity of its image in the box
+            wx += seam * std::round((then.y + then.vy * time - disc.y) / scene_.box.y);
+        const double bound = seam != 0 ? motion_bound *
+                                             (std::sqrt(squared_speed_of(then)) + std::fabs(seam))
+                             : is_free ? 0
+                                       : motion_bound * (1 + n_syncs_since(micro_steps_before_)) *
+                                             (std::sqrt(squared_speed_of(then)) + gained);
         if (!(std::fabs(wx) <= bound && std::fabs(wy) <= bound))
             return {Invariant::motion, now.owner, first_id_ + i, std::hypot(wx, wy), bound};
     }
@@ -111,6 +116,9 @@ Finding StateCheck::first_other_total(std::span<const Disc> own,
         const double k = static_cast<double>(scene_.micro_steps);
         const double fall = std::fabs(effects_.gravity.x) + std::fabs(effects_.gravity.y);
         expected = energy_ * energy_left();
+        if (effects_.are_sheared())
+            for (const double work : communicator_.all_gather(work_of_images_))
+                expected += k * k * work;
         scale = energy_ + total_mass_ * k * k * fall * scene_.box.longest();
         allowed = bound * scale + n * k * k * communicator_.max(gain) + k * k * work_of_walls();
         energy_ = energy;
@@ -134,9 +142,20 @@ SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     }
     if (obstacles_) energy.n_reflections = static_cast<double>(known.walls);
     if (effects_.drag != 0) energy.allowance += energy_bound * energy.before;
-    if (walls_give_energy_ && known.walls > 0)
+    if ((walls_give_energy_ && known.walls > 0) || may_have_met_seam(i))
         energy.allowance = std::numeric_limits<double>::infinity();
     return energy;
+}
+
+/// Images beyond the seam give energy to discs that collide with them, and discs that come through
+/// it are shown with another velocity. What all discs get together is checked (first_other_total);
+/// what each gets is not. Collisions may make a disc faster for a part of a step: four times as
+/// fast as any is at its ends.
+bool StateCheck::may_have_met_seam(std::size_t i) const {
+    if (!effects_.are_sheared()) return false;
+    const double near = 4 * fastest_up_ * stretch() + 2 * scene_.radius;
+    const auto is_near = [&](double y) { return y < near || y > scene_.box.y - near; };
+    return is_near(before_[i].disc.y) || is_near(known_[i].disc.y);
 }
 
 /// Distances of surfaces grow at a constant rate.
@@ -152,6 +171,12 @@ void StateCheck::note_speeds() {
     if (!scene_.effects.are_any()) return;
     double square = 0;
     for (const Known& known : known_) square = std::max(square, squared_speed_of(known.disc));
+    if (effects_.are_sheared()) {
+        double up = 0;
+        for (const std::vector<Known>* looked_at : {&before_, &known_})
+            for (const Known& known : *looked_at) up = std::max(up, std::fabs(known.disc.vy));
+        fastest_up_ = communicator_.max(up);
+    }
     fastest_ = std::max(fastest_, std::sqrt(communicator_.max(square)) + wall_speed_);
 }
 
@@ -220,13 +245,14 @@ double StateCheck::energy_of(std::span<const Disc> own) const {
             seen.push_back(known.disc);
             spins.push_back(known.spin);
         }
-        own = seen;
+        // Between sheared sides a sync changes what is stored, and the engine knows by how much.
+        if (!effects_.are_sheared()) own = seen;
     }
     const SpeciesTable* const species_table = effects_.species.empty() ? nullptr : &species_;
     const auto unit = static_cast<double>(scene_.micro_steps);
     measure_motion(own, species_table, unit, communicator_, totals);
     if (effects_.contact.kind == ContactKind::rough)
-        measure_rotation(own, spins, species_, effects_.contact.inertia, unit, communicator_,
+        measure_rotation(seen, spins, species_, effects_.contact.inertia, unit, communicator_,
                          totals);
     if (effects_.gravity.is_any())
         measure_height(own, species_table, scene_.effects.gravity, scene_.box, communicator_,

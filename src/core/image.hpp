@@ -104,6 +104,15 @@ struct Periods {
     /// Of the row above the box.
     double offset_at(double time) const { return offset + speed * time; }
 
+    /// From now on times count from micro-step `n` of the scene. The offset is exact to a rounding
+    /// of the box's length, however far the row has gone.
+    void begin_interval(std::int64_t n) {
+        if (!are_moving()) return;
+        const double steps = static_cast<double>(n), gone = speed * steps,
+                     rest = std::fma(speed, steps, -gone);
+        offset = wrapped(wrapped(gone, x) + rest, x);
+    }
+
     /// What an image is.
     Shift shift_of(Image image, double time) const {
         return {image.x * x + image.y * offset_at(time), image.y * y, image.y * speed};

@@ -20,10 +20,17 @@ struct Update {
     std::uint64_t place;
 };
 
-Strips equal_strips(const Box& box, int n_ranks) {
+/// Rows of boxes that move slide along x. Strips are rows then, so that only the first and the last
+/// one see the others move.
+Axis cut_axis(const Box& box, const Periods& periods) {
+    return periods.are_moving() ? Axis::y : longer_axis(box);
+}
+
+Strips equal_strips(const Box& box, const Periods& periods, int n_ranks) {
+    const Axis axis = cut_axis(box, periods);
     std::vector<double> cuts;
-    for (int k = 1; k < n_ranks; ++k) cuts.push_back(box.longest() * k / n_ranks);
-    return Strips(cuts, longer_axis(box));
+    for (int k = 1; k < n_ranks; ++k) cuts.push_back(along(axis, box) * k / n_ranks);
+    return Strips(cuts, axis);
 }
 
 /// Places further than `reach` from the ends of the strip.
@@ -46,8 +53,8 @@ double place_in_box(const Strips& strips, const Periods& periods, const Disc& di
 
 StripDiscs::StripDiscs(const Communicator& communicator, const Box& box, std::vector<Disc> discs,
                        const Periods& periods, SideColumns columns)
-    : communicator_(communicator), length_(box.longest()), periods_(periods),
-      strips_(equal_strips(box, communicator.size())), redistributed_strips_(strips_),
+    : communicator_(communicator), length_(along(cut_axis(box, periods), box)), periods_(periods),
+      strips_(equal_strips(box, periods, communicator.size())), redistributed_strips_(strips_),
       exchange_(communicator) {
     columns_ = std::move(columns);
     columns_.resize(discs.size());

@@ -98,6 +98,8 @@ public:
     }
 
     const Periods& periods() const { return periods_; }
+    /// After a sync: boxes that move are elsewhere.
+    void set_periods(const Periods& periods) { periods_ = periods; }
     /// Whether no rank has a halo, for want of neighbours.
     bool has_no_halo() const { return communicator_.size() == 1 && !periods_.are_any(); }
     /// Takes the images of own discs away.

@@ -9,6 +9,7 @@
 #include "dynamics/growing_dynamics.hpp"
 #include "dynamics/periodic_dynamics.hpp"
 #include "dynamics/plain_dynamics.hpp"
+#include "dynamics/sheared_dynamics.hpp"
 #include "dynamics/study_dynamics.hpp"
 
 // make(dynamics) for each.
@@ -16,7 +17,8 @@
     make(PlainDynamics) make(StudyDynamics<double>) make(StudyDynamics<float>)                     \
         make(InelasticDynamics) make(MixedDynamics) make(RoughDynamics)                            \
             make(PeriodicElasticDynamics) make(PeriodicInelasticDynamics)                          \
-                make(PeriodicMixedDynamics) make(PeriodicRoughDynamics) make(GrowingDynamics)
+                make(PeriodicMixedDynamics) make(PeriodicRoughDynamics) make(GrowingDynamics)      \
+                    make(ShearedMixedDynamics) make(ShearedRoughDynamics)
 
 namespace carrom {
 

@@ -15,8 +15,7 @@ Boundaries::Boundaries(const Box& box, double radius, const Effects& effects,
     effects_.species = {};
     for (std::size_t side = 0; side < 4; ++side) {
         speeds_[side] = effects.boundaries[side].speed;
-        if (effects.boundaries[side].kind == BoundaryKind::periodic)
-            away_[side] = -sign_of(side) * never;
+        if (effects.boundaries[side].is_periodic()) away_[side] = -sign_of(side) * never;
         oscillations_[side] = Oscillation(effects.boundaries[side], sign_of(side),
                                           gravity_[side / 2], 8 * 0x1p-52 * box.longest());
     }

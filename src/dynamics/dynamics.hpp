@@ -24,6 +24,7 @@ concept Dynamics = std::copyable<D> && requires(D changing, const D d, Disc& p, 
                                                 double m, double t, Axis axis) {
     // What may happen at all. Kernels leave out what does not.
     { D::is_periodic } -> std::convertible_to<bool>;        // discs have images
+    { D::has_moving_images } -> std::convertible_to<bool>;  // which move with the row they are in
     { D::has_species } -> std::convertible_to<bool>;        // radii and masses differ
     { D::has_spin } -> std::convertible_to<bool>;           // collisions take and change spins
     { D::has_mirror_walls } -> std::convertible_to<bool>;   // walls only reverse a velocity
@@ -47,6 +48,10 @@ concept Dynamics = std::copyable<D> && requires(D changing, const D d, Disc& p, 
     { d.search_diameter() } -> std::same_as<double>; // no contact is farther apart
     // All of these are of radii that have not grown; they are larger by this factor.
     { d.growth_at(time) } -> std::convertible_to<double>;
+
+    // Speeds that searches allow for: of the disc as it is, and at home in the box at a time.
+    { d.squared_speed(disc) } -> std::same_as<double>;
+    { d.squared_speed_at(disc, time) } -> std::same_as<double>;
 
     // Clock and frame, in which discs fly straight.
     changing.begin_interval(n);                   // times now count from micro-step n

@@ -226,18 +226,18 @@ private:
                                                   double impulse) const {
         advance(p, time);
         advance(q, time);
-        exchange_momentum_at(p, q, q.x - p.x, q.y - p.y, impulse);
+        exchange_momentum_at(p, q, encounter(p, q, q.x - p.x, q.y - p.y), impulse);
     }
     [[gnu::always_inline]] void exchange_spin(Disc& p, Disc& q, double time, bool is_guarded,
                                               double& p_spin, double& q_spin) const {
         advance(p, time);
         advance(q, time);
-        exchange_spin_at(p, q, q.x - p.x, q.y - p.y, is_guarded, p_spin, q_spin);
+        exchange_spin_at(p, q, encounter(p, q, q.x - p.x, q.y - p.y), is_guarded, p_spin, q_spin);
     }
 
 protected:
     // Sizes and masses of pairs and at walls, for images too. Discs are advanced to where they
-    // touch, q at the separation (ex, ey) from p.
+    // touch.
 
     /// Sums of two numbers are the same in any order.
     [[gnu::always_inline]] double pair_diameter(const Disc& p, const Disc& q) const {
@@ -252,24 +252,24 @@ protected:
 
     /// Of the momentum that equal discs would exchange each takes 2 m' / (m + m') as velocity, m'
     /// being the other's mass; 1 if they are equal.
-    [[gnu::always_inline]] void exchange_momentum_at(Disc& p, Disc& q, double ex, double ey,
+    [[gnu::always_inline]] void exchange_momentum_at(Disc& p, Disc& q, const Encounter& encounter,
                                                      double impulse) const {
         if constexpr (is_mixed) {
             const double p_mass = species_.of(p.id).mass, q_mass = species_.of(q.id).mass;
             const double half = (p_mass + q_mass) / 2;
-            push_apart(p, q, ex, ey, impulse, q_mass / half, p_mass / half);
+            push_apart(p, q, encounter, impulse, q_mass / half, p_mass / half);
         } else {
-            push_apart(p, q, ex, ey, impulse);
+            push_apart(p, q, encounter, impulse);
         }
     }
 
     /// As exchange_momentum_at, with an impulse s along the surfaces, which acts on both spins
     /// alike; in units of the distance of centres, as k is. With s = 0 its bits.
-    [[gnu::always_inline]] void exchange_spin_at(Disc& p, Disc& q, double ex, double ey,
+    [[gnu::always_inline]] void exchange_spin_at(Disc& p, Disc& q, const Encounter& encounter,
                                                  bool is_guarded, double& p_spin,
                                                  double& q_spin) const {
         const SizeAndMass &p_has = species_.of(p.id), &q_has = species_.of(q.id);
-        const double wx = q.vx - p.vx, wy = q.vy - p.vy;
+        const auto [ex, ey, wx, wy] = encounter;
         const double square = ex * ex + ey * ey, distance = std::sqrt(square);
         const double k = (is_guarded ? 1 : contact_.normal()) * ((wx * ex + wy * ey) / square);
         const double slip = (wy * ex - wx * ey) / square -

@@ -44,6 +44,7 @@ std::string description(const Boundary& side, const char* name) {
                            side.period);
     case BoundaryKind::open: return fmt::format("{} side open", name);
     case BoundaryKind::periodic: return fmt::format("{} side periodic", name);
+    case BoundaryKind::sheared: return fmt::format("{} side sheared", name);
     }
     return {};
 }
@@ -99,6 +100,7 @@ Effects per_micro_step(const Effects& effects, double micro_steps) {
     }
     scaled.drag /= micro_steps;
     scaled.growth /= micro_steps;
+    scaled.shear /= micro_steps;
     scaled.gravity.x /= micro_steps * micro_steps;
     scaled.gravity.y /= micro_steps * micro_steps;
     return scaled;
@@ -123,6 +125,7 @@ std::string description(const Effects& effects) {
         add(fmt::format("gravity ({:g}, {:g})", effects.gravity.x, effects.gravity.y));
     if (effects.drag != 0) add(fmt::format("drag {:g}", effects.drag));
     if (effects.growth != 0) add(fmt::format("radii growing by {:g} a step", effects.growth));
+    if (effects.are_sheared()) add(fmt::format("shear at the rate {:g}", effects.shear));
     if (effects.obstacles.are_any()) add(description(effects.obstacles));
     return text;
 }

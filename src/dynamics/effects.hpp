@@ -39,7 +39,7 @@ struct ContactEffect {
 };
 
 /// What a side of the box is.
-enum class BoundaryKind { fixed, thermal, moving, oscillating, open, periodic };
+enum class BoundaryKind { fixed, thermal, moving, oscillating, open, periodic, sheared };
 
 struct Boundary {
     BoundaryKind kind = BoundaryKind::fixed;
@@ -52,6 +52,10 @@ struct Boundary {
     double phase = 0; ///< at the start, as an angle
 
     bool is_plain() const { return kind == BoundaryKind::fixed && restitution == 1; }
+    /// Whether the box repeats itself beyond it.
+    bool is_periodic() const {
+        return kind == BoundaryKind::periodic || kind == BoundaryKind::sheared;
+    }
     friend bool operator==(const Boundary&, const Boundary&) = default;
 };
 
@@ -99,15 +103,23 @@ struct Effects {
     std::vector<Species>
         species{};     ///< in the order of ids; empty where all discs are of one radius and mass 1
     double growth = 0; ///< radii grow by this share of their first value per time
+    double shear = 0;  ///< between sheared sides: the rate at which vx grows with y
 
     bool have_plain_boundaries() const;
     bool have_open_boundaries() const;
     /// The reader of scenes makes opposite sides periodic together.
-    bool is_periodic_x() const { return boundaries[0].kind == BoundaryKind::periodic; }
-    bool is_periodic_y() const { return boundaries[2].kind == BoundaryKind::periodic; }
+    bool is_periodic_x() const { return boundaries[0].is_periodic(); }
+    bool is_periodic_y() const { return boundaries[2].is_periodic(); }
+    bool are_sheared() const { return boundaries[2].kind == BoundaryKind::sheared; }
     bool are_periodic() const { return is_periodic_x() || is_periodic_y(); }
+    /// At the scene's start; see Periods::begin_interval.
     Periods periods(const Box& box) const {
-        return {is_periodic_x() ? box.x : 0, is_periodic_y() ? box.y : 0};
+        return {is_periodic_x() ? box.x : 0, is_periodic_y() ? box.y : 0, 0,
+                are_sheared() ? shear * box.y : 0};
+    }
+    /// The mean velocity along x of sheared discs at this height; 0 in all other boxes.
+    double flow_at(double y, const Box& box) const {
+        return are_sheared() ? shear * (y - box.y / 2) : 0;
     }
     /// How much larger radii are at `time` since the scene's start.
     double growth_at(double time) const { return 1 + growth * time; }

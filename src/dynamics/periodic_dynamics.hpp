@@ -81,10 +81,10 @@ public:
     }
 
     /// Brings a state that a sync has just rewritten into the box.
-    void wrap(Disc& disc) const {
-        disc.x = wrapped(disc.x, periods_.x);
-        disc.y = wrapped(disc.y, periods_.y);
-    }
+    void wrap(Disc& disc) const { periods_.wrap(disc, disc.tau); }
+
+protected:
+    Periods periods_;
 
 private:
     [[gnu::flatten]] PairContact<double> contact(const Disc& p, const Disc& q,
@@ -100,14 +100,14 @@ private:
         this->advance(p, time);
         this->advance(q, time);
         const Separation to = separation(p, q);
-        this->exchange_momentum_at(p, q, to.x, to.y, impulse);
+        this->exchange_momentum_at(p, q, this->encounter(p, q, to.x, to.y), impulse);
     }
     void exchange_spin(Disc& p, Disc& q, double time, bool is_guarded, double& p_spin,
                        double& q_spin) const {
         this->advance(p, time);
         this->advance(q, time);
         const Separation to = separation(p, q);
-        this->exchange_spin_at(p, q, to.x, to.y, is_guarded, p_spin, q_spin);
+        this->exchange_spin_at(p, q, this->encounter(p, q, to.x, to.y), is_guarded, p_spin, q_spin);
     }
 
     double side_time(const Disc& disc, double m) const {
@@ -126,8 +126,6 @@ private:
                                                  : walls.axis_stop(Axis::y, disc, rest);
         this->stop_at(disc, m, at_wall, left);
     }
-
-    Periods periods_;
 };
 
 /// The usual gas in a periodic box.

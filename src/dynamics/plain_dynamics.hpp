@@ -30,11 +30,19 @@ struct Separation {
     double x = 0, y = 0;
 };
 
+/// Of two discs that touch: the separation of the second one's centre from the first one's, and its
+/// relative velocity.
+struct Encounter {
+    double ex = 0, ey = 0;
+    double wx = 0, wy = 0;
+};
+
 class PlainDynamics {
 public:
     static constexpr double never = std::numeric_limits<double>::infinity();
     static constexpr bool is_for_study = false;
     static constexpr bool is_periodic = false;
+    static constexpr bool has_moving_images = false;
     static constexpr bool has_species = false;
     static constexpr bool has_spin = false;
     static constexpr bool has_mirror_walls = true;
@@ -85,6 +93,11 @@ public:
         return {q.x_at(time) - p.x_at(time), q.y_at(time) - p.y_at(time)};
     }
     static constexpr double mass_of(const Disc& /*disc*/) { return 1; }
+    /// What searches have to allow for: the square of the disc's speed now, and at `time`.
+    static double squared_speed(const Disc& disc) { return squared_speed_of(disc); }
+    static double squared_speed_at(const Disc& disc, double /*time*/) {
+        return squared_speed_of(disc);
+    }
 
     // The time-stepped method.
 
@@ -120,7 +133,7 @@ public:
     static void collide_at(Disc& p, Disc& q, double time) {
         advance(p, time);
         advance(q, time);
-        push_apart(p, q, q.x - p.x, q.y - p.y, 1);
+        push_apart(p, q, encounter(p, q, q.x - p.x, q.y - p.y), 1);
     }
     double x_wall_time(const Disc& disc) const {
         return disc.tau + walls(Axis::x).delay(disc.x, disc.vx);
@@ -186,13 +199,19 @@ public:
 protected:
     static constexpr double time_rounding = 0x1p-50;
 
-    /// New velocities of discs that touch, q at the separation (ex, ey) from p. `impulse` is in
-    /// units of that of an elastic contact of equal masses, of which p and q take their shares.
-    /// Multiplying by 1 leaves every bit, and no instruction.
-    [[gnu::always_inline]] static void push_apart(Disc& p, Disc& q, double ex, double ey,
+    /// The encounter of two discs at a separation (ex, ey) from p to q.
+    [[gnu::always_inline]] static Encounter encounter(const Disc& p, const Disc& q, double ex,
+                                                      double ey) {
+        return {ex, ey, q.vx - p.vx, q.vy - p.vy};
+    }
+
+    /// New velocities of discs that touch. `impulse` is in units of that of an elastic contact of
+    /// equal masses, of which p and q take their shares. Multiplying by 1 leaves every bit, and no
+    /// instruction.
+    [[gnu::always_inline]] static void push_apart(Disc& p, Disc& q, const Encounter& encounter,
                                                   double impulse, double p_share = 1,
                                                   double q_share = 1) {
-        const double wx = q.vx - p.vx, wy = q.vy - p.vy;
+        const auto [ex, ey, wx, wy] = encounter;
         const double k = impulse * ((wx * ex + wy * ey) / (ex * ex + ey * ey));
         p.vx = p.vx + k * p_share * ex;
         p.vy = p.vy + k * p_share * ey;

@@ -17,6 +17,10 @@ template <class Make> auto with_dynamics_of(const Scene& scene, const Make& make
     const Effects& effects = scene.effects;
     const bool is_periodic = effects.are_periodic();
     if (effects.growth != 0) return make.template operator()<GrowingDynamics>();
+    if (effects.are_sheared())
+        return effects.contact.kind == ContactKind::rough
+                   ? make.template operator()<ShearedRoughDynamics>()
+                   : make.template operator()<ShearedMixedDynamics>();
     if (effects.contact.kind == ContactKind::rough)
         return is_periodic ? make.template operator()<PeriodicRoughDynamics>()
                            : make.template operator()<RoughDynamics>();

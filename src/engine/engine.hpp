@@ -72,6 +72,9 @@ public:
     void log_to(std::vector<Collision>* log) { log_ = log; }
     /// See Simulation::add_impulses_to.
     void add_impulses_to(WallImpulses* impulses) { impulses_ = impulses; }
+    /// From now on the energy that moving images give own discs is added to `work`, as long as
+    /// collisions are logged; per micro-step, of stored states. Null ends that.
+    void add_work_to(double* work) { work_ = work; }
     /// From now on what own discs exchange is added to `virial` of one rank; null ends that. A
     /// pair's collision is added by the rank that owns its first disc.
     void add_virial_to(PairVirial* virial) {
@@ -94,6 +97,7 @@ protected:
     std::vector<Collision>* log_ = nullptr;
     WallImpulses* impulses_ = nullptr;
     PairVirial* virial_ = nullptr;
+    double* work_ = nullptr;
     /// Where parts of it begin. In its units all terms are 0 until somebody asks for them.
     PairVirial no_virial_{0x1p900};
     std::vector<std::vector<Crossing>*> crossings_;

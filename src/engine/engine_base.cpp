@@ -50,8 +50,10 @@ EngineBase<Dynamics>::EngineBase(const Scene& scene, StoredState state,
     if constexpr (Dynamics::is_for_study) {
         for (Disc& disc : discs_.all()) Dynamics::round(disc);
     }
+    if constexpr (Dynamics::is_periodic) discs_.set_periods(dynamics_.periods());
     for (const Disc& disc : own())
-        largest_speed_ = std::max(largest_speed_, std::sqrt(squared_speed_of(disc)));
+        largest_speed_ = std::max(largest_speed_,
+                                  std::sqrt(dynamics_.squared_speed_at(disc, time_)));
 }
 
 template <class Dynamics> void EngineBase<Dynamics>::distribute() {
@@ -97,6 +99,7 @@ template <class Dynamics> void EngineBase<Dynamics>::sync() {
     const PhaseClock::Scope scope(phases_, Phase::sync);
     const double largest_speed = restart_states();
     dynamics_.begin_interval(last_sync());
+    if constexpr (Dynamics::is_periodic) discs_.set_periods(dynamics_.periods());
     finish_sync(largest_speed);
     redistributed_time_ -= time_;
     time_ = 0;
@@ -113,6 +116,8 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
     const auto n = static_cast<std::int64_t>(discs.size());
     const bool frame_moves = dynamics_.frame_at(time_).is_moving;
     double fastest = 0;
+    const bool is_work_asked = Dynamics::has_moving_images && work_ != nullptr;
+    if (is_work_asked) *work_ -= energy_of_own();
 #pragma omp parallel for num_threads(tuning_.threads) schedule(static) reduction(max : fastest)
     for (std::int64_t i = 0; i < n; ++i) {
         Disc& disc = discs[static_cast<std::size_t>(i)];
@@ -121,9 +126,16 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
         if (frame_moves) dynamics_.restart_frame(disc, time_);
         if constexpr (Dynamics::is_periodic) this->wrap(disc);
         disc.tau = 0;
-        fastest = std::max(fastest, squared_speed_of(disc));
+        fastest = std::max(fastest, dynamics_.squared_speed(disc));
     }
+    if (is_work_asked) *work_ += energy_of_own();
     return std::sqrt(fastest);
+}
+
+template <class Dynamics> double EngineBase<Dynamics>::energy_of_own() const {
+    double energy = 0;
+    for (const Disc& disc : own()) energy += 0.5 * dynamics_.mass_of(disc) * squared_speed_of(disc);
+    return energy;
 }
 
 /// Brings a state that a sync has rewritten into the box. Threads call it for different discs at

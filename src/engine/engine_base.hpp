@@ -89,6 +89,7 @@ private:
     void sync();
     double restart_states();
     void wrap(Disc& disc);
+    double energy_of_own() const;
 
     std::int64_t last_micro_step_, n_syncs_ = 0;
 };

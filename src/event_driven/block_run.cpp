@@ -115,6 +115,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_all() {
         for (std::uint32_t slot = 0; slot < discs.size(); ++slot)
             if (!ghost_at(slot)) predict_walls(slot);
     if (!dynamics.has_pairs()) return;
+    if (Dynamics::has_moving_images && is_whole) return predict_pairs_of_all();
     const CellTable table{cell_starts.data(),
                           cell_rows,
                           cells.end_column - cells.first_column,
@@ -133,9 +134,16 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_all() {
     }
 }
 
-template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_pairs(std::uint32_t slot) {
-    if (!dynamics.has_pairs()) return;
-    const Flight flight = flight_of(slot);
+/// Where rows slide, the ghosts of a pair need not lie in opposite cells: of a pair across the seam
+/// neither disc may come first. So all partners of each disc are looked for, and a pair may be
+/// found twice.
+template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_pairs_of_all() {
+    for (std::uint32_t slot = 0; slot < discs.size(); ++slot)
+        if (!ghost_at(slot)) predict_pairs({x[slot], y[slot], vx[slot], vy[slot], 0, slot});
+}
+
+template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_pairs(const Flight& flight) {
+    const std::uint32_t slot = flight.slot;
     look_around(box_of(flight));
     const std::size_t n_partners = filter_flights(lanes, std::span(runs).first(n_runs), flight,
                                                   touching_squared, partners.data());
@@ -309,6 +317,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event&
         const double mass = dynamics.mass_of(p) * dynamics.slowing_at(event.time);
         virial_terms.add(mass * (p.vx - vx_before), mass * (p.vy - vy_before),
                          dynamics.separation(p, q), outcome->virial);
+        if constexpr (Dynamics::has_moving_images)
+            outcome->work += mass * (p.vx - vx_before) * periods().between(p, q, event.time).vx;
     }
     if (Dynamics::is_periodic && event.has_image()) move_image(q, -event.image());
 }
@@ -317,7 +327,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event&
 /// there has got further than the bound on speeds allows, in truth or because the run is wrong.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::check_partner(std::uint32_t slot) {
     if (is_compared(slot)) return;
-    outcome->far_partner = std::max({outcome->far_partner, std::sqrt(speed_squared(discs[slot])),
+    outcome->far_partner = std::max({outcome->far_partner,
+                                     std::sqrt(dynamics.squared_speed(discs[slot])),
                                      ground.window.speed_bound * (1 + 1e-6)});
 }
 
@@ -338,8 +349,8 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
     else
         past_events.add<Dynamics::has_spin>(event.time, disc, partner_id, spin);
     if (is_own[slot] != 0) {
-        const float before = vx[slot] * vx[slot] + vy[slot] * vy[slot];
-        const double now = speed_squared(disc);
+        const float before = lane_speed_squared(slot);
+        const double now = dynamics.squared_speed(disc);
         if (now > bound_squared || before > bound_lane_squared) [[unlikely]]
             hold_to_schedule(slot, event.time);
     }
@@ -357,12 +368,16 @@ void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double ti
     const Disc& disc = discs[slot];
     const Disc& at_start = ground.discs[indices[slot]];
     const BlockWindow& window = ground.window;
-    const double dx = disc.x - at_start.x_at(window.begin),
-                 dy = disc.y - at_start.y_at(window.begin);
+    const double elapsed = time - window.begin;
+    double dx = disc.x - at_start.x_at(window.begin);
+    const double dy = disc.y - at_start.y_at(window.begin);
+    if constexpr (Dynamics::has_moving_images) // of the fastest image next to the disc
+        dx = std::fabs(dx + (periods().vx_of(disc) - disc.vx) * elapsed) +
+             std::fabs(periods().speed) * elapsed;
     const double away = std::sqrt(dx * dx + dy * dy) * (1 + 1e-12) +
                         8 * 0x1p-53 * dynamics.box().longest();
-    const double speed = std::sqrt(speed_squared(disc));
-    if (speed <= window.speed_bound && away <= window.speed_bound * (time - window.begin)) return;
+    const double speed = std::sqrt(dynamics.squared_speed(disc));
+    if (speed <= window.speed_bound && away <= window.speed_bound * elapsed) return;
     const bool will_be_seen = speed > window.speed_bound * (1 + 1e-5); // by its next collision
     if (will_be_seen && speed < 2 * window.speed_bound &&
         away + speed * (window.end - time) <= window.speed_bound * window.duration())

@@ -119,6 +119,7 @@ struct BlockOutcome {
     std::vector<LoggedEvent> log;
     std::uint64_t n_events = 0; ///< whose first disc is own
     PairVirial virial{1};       ///< of these
+    double work = 0;            ///< that moving images have done in them, if they are logged
     double too_fast = 0;        ///< the largest speed of an own disc that got too far, else 0
     double far_partner = 0; ///< the largest speed of a disc from beyond the ring that an own disc
                             ///< has met, else 0

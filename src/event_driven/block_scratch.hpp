@@ -41,8 +41,6 @@ struct EventHistory {
 };
 static_assert(sizeof(EventHistory) == 16);
 
-inline double speed_squared(const Disc& disc) { return disc.vx * disc.vx + disc.vy * disc.vy; }
-
 /// Where the partners of a flight can have been at the window's start, in cells.
 struct FlightBox {
     float left = 0, right = 0, bottom = 0, top = 0;
@@ -62,7 +60,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     [[gnu::always_inline]] void place(std::uint32_t slot, double start) {
         const Disc& disc = discs[slot];
         const auto [along, across] = turned(axis, x_of(disc, start), y_of(disc, start));
-        const auto [v_along, v_across] = turned(axis, disc.vx, disc.vy);
+        const auto [v_along, v_across] = turned(axis, vx_of(disc), disc.vy);
         x[slot] = static_cast<float>((along - x_corner) * cells_per_length);
         y[slot] = static_cast<float>((across - y_corner) * cells_per_length);
         vx[slot] = static_cast<float>(v_along * cells_per_speed);
@@ -74,6 +72,19 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         y[ghost.slot] = y[ghost.disc] + ghost.y_shift;
         vx[ghost.slot] = vx[ghost.disc];
         vy[ghost.slot] = vy[ghost.disc];
+        if constexpr (Dynamics::has_moving_images)
+            vx[ghost.slot] += static_cast<float>(ghost.image.y * periods().speed * cells_per_speed);
+    }
+    /// Of the disc's fastest image near by, in cells per window.
+    float lane_speed_squared(std::uint32_t slot) const {
+        if constexpr (Dynamics::has_moving_images) {
+            const auto [along, across] = turned(axis, vx[slot], vy[slot]);
+            const float fastest = std::abs(along) +
+                                  static_cast<float>(std::abs(periods().speed) * cells_per_speed);
+            return fastest * fastest + across * across;
+        } else {
+            return vx[slot] * vx[slot] + vy[slot] * vy[slot];
+        }
     }
     void predict_all();
     void happen(const Event& event);
@@ -84,7 +95,11 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void hold_to_schedule(std::uint32_t slot, double time);
     FlightBox box_of(const Flight& flight) const;
     void look_around(const FlightBox& box);
-    void predict_pairs(std::uint32_t slot);
+    void predict_pairs(std::uint32_t slot) {
+        if (dynamics.has_pairs()) predict_pairs(flight_of(slot));
+    }
+    void predict_pairs(const Flight& flight);
+    void predict_pairs_of_all();
     void predict_pairs_of(std::uint32_t p, std::uint32_t q);
     void predict_pair(std::uint32_t a, std::uint32_t b);
     void predict_walls(std::uint32_t slot);
@@ -127,6 +142,12 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
             return dynamics.periods().y_of(disc, time);
         else
             return disc.y_at(time);
+    }
+    [[gnu::always_inline]] double vx_of(const Disc& disc) const {
+        if constexpr (Dynamics::has_moving_images)
+            return dynamics.periods().vx_of(disc);
+        else
+            return disc.vx;
     }
     int owning_column(int column) const {
         return std::clamp(column, ground.own_cells.first_column, ground.own_cells.end_column - 1);

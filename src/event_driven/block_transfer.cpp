@@ -20,6 +20,7 @@ void BlockRun<Dynamics>::Scratch::begin(const BlockGround& of_rank, BlockOutcome
     outcome->ring.clear();
     outcome->log.clear();
     outcome->n_events = 0;
+    outcome->work = 0;
     outcome->virial = ground.no_virial;
     outcome->is_cascade = false;
     outcome->far_partner = 0;
@@ -205,7 +206,8 @@ void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
                 continue;
             }
             if (!ground.is_alone) histories[indices[slot]] = history;
-            end_squared = std::max(end_squared, speed_squared(discs[slot]));
+            end_squared = std::max(end_squared,
+                                   dynamics.squared_speed_at(discs[slot], ground.window.end));
             if (history == 0) continue;
             outcome->hit[next] = indices[slot];
             outcome->states.emplace_back(discs[slot]);

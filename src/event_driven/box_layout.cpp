@@ -38,6 +38,7 @@ BoxCells cells_of_box(const Extent& extent, const Periods& periods, double reach
 void BoxLayout::lay(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
                     const Periods& periods, double time) {
     list_once(discs, n_own);
+    if (periods.are_moving()) return lay_sliding(discs, n_own, cells, periods, time);
     sort(discs, n_own, cells, periods, time);
     const std::vector<Line> columns = lines(cells.n_columns, cells.n_beside),
                             rows = lines(cells.n_rows, cells.n_above);

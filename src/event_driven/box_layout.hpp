@@ -74,6 +74,8 @@ private:
               const Periods& periods, double time);
     void add_ghosts(const BoxCells& cells, std::span<const Line> columns,
                     std::span<const Line> rows);
+    void lay_sliding(std::span<const Disc> discs, std::size_t n_own, const BoxCells& cells,
+                     const Periods& periods, double time);
     static std::vector<Line> lines(int n_cells, int n_beyond);
 
     std::vector<LocalIndex> indices_;

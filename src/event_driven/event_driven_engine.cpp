@@ -343,6 +343,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
         largest_speed_ = std::max(largest_speed_, block.outcome.largest_speed_at_end);
         if (this->virial_) *this->virial_ += block.outcome.virial;
         if (this->is_followed()) log_events(block.outcome);
+        if (Dynamics::has_moving_images && this->work_) *this->work_ += block.outcome.work;
     }
     for (Block& block : blocks_) block.has_run = false;
     last_duration_ = window_.duration();

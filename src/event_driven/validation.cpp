@@ -172,7 +172,7 @@ bool EventDrivenEngine<Dynamics>::sees_all_images(const Block& block) const {
     const int halo = block.halo * geometry.n_reach;
     const double reach = this->reach();
     const Axis axis = discs_.strips().axis();
-    const double length = dynamics_.box().longest();
+    const double length = along(axis, dynamics_.box());
     const int around = static_cast<int>(std::ceil(length / geometry.cell_width)) + 1 +
                        geometry.n_reach;
     const bool rank_has_all = communicator_.size() == 1 || halo_depth_ * reach > length + 2 * reach;

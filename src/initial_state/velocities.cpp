@@ -36,10 +36,10 @@ Velocity stream_velocity(const Scene& scene, Point place) {
 }
 
 void add_streams(const Scene& scene, std::vector<InputDisc>& discs) {
-    if (scene.streams.empty()) return;
+    if (scene.streams.empty() && !scene.effects.are_sheared()) return;
     for (InputDisc& disc : discs) {
         const Velocity stream = stream_velocity(scene, {disc.x, disc.y});
-        disc.vx += stream.x;
+        disc.vx += stream.x + scene.effects.flow_at(disc.y, scene.box);
         disc.vy += stream.y;
     }
 }

@@ -31,7 +31,7 @@ Velocity drawn_velocity(const Scene& scene, DiscId id);
 /// included).
 Velocity stream_velocity(const Scene& scene, Point place);
 
-/// Adds them to all discs, which have their places.
+/// Adds them, and the flow of sheared sides, to all discs, which have their places.
 void add_streams(const Scene& scene, std::vector<InputDisc>& discs);
 
 /// Gives velocities per step to the discs that the scene generates, in any distribution over the

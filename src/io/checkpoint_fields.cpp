@@ -28,6 +28,12 @@ template <class SomeFrame, class Visit> void visit_periods(SomeFrame& frame, con
     visit("period_y", frame.periods.y);
 }
 
+/// Of boxes that move.
+template <class SomeFrame, class Visit> void visit_images(SomeFrame& frame, const Visit& visit) {
+    visit("image_offset", frame.periods.offset);
+    visit("image_speed", frame.periods.speed);
+}
+
 /// What a recording keeps of a header.
 template <class Header, class Visit> void visit_recorded(Header& header, const Visit& visit) {
     visit_header(header, [&](std::string_view name, auto& value) {
@@ -55,6 +61,7 @@ void write_header(hid_t group, const CheckpointHeader& header) {
     if (!header.frame.is_moving) return;
     visit_frame(header.frame, write);
     if (header.frame.periods.are_any()) visit_periods(header.frame, write);
+    if (header.frame.periods.are_moving()) visit_images(header.frame, write);
 }
 
 CheckpointHeader read_header(hid_t file) {
@@ -68,6 +75,7 @@ CheckpointHeader read_header(hid_t file) {
     header.frame.is_moving = has("frame_x");
     if (header.frame.is_moving) visit_frame(header.frame, read);
     if (has("period_x")) visit_periods(header.frame, read);
+    if (has("image_speed")) visit_images(header.frame, read);
     for (const SideColumn column : all_side_columns)
         if (h5::has(file, path_of(column))) header.columns.add(column);
     return header;

@@ -34,8 +34,16 @@ constexpr const char* sums_path = "/carrom/measurements/sums";
 /// something else.
 void check_header(const CheckpointHeader& header) {
     const Frame& frame = header.frame;
-    const std::array finite = {frame.x,       frame.y,     frame.vx,        frame.vy,
-                               frame.slowing, frame.clock, frame.periods.x, frame.periods.y};
+    const std::array finite = {frame.x,
+                               frame.y,
+                               frame.vx,
+                               frame.vy,
+                               frame.slowing,
+                               frame.clock,
+                               frame.periods.x,
+                               frame.periods.y,
+                               frame.periods.offset,
+                               frame.periods.speed};
     const bool is_sound = header.micro_steps >= 1 && header.sync_every >= 1 && header.step >= 0 &&
                           header.n_discs > 0 &&
                           header.micro_steps_done / header.micro_steps == header.step &&

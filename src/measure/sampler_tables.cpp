@@ -130,7 +130,7 @@ MeasuredTable pressure_history(const SampleSums& s, const Scene& scene) {
         std::vector<double> row = {from, to};
         for (std::size_t side = 0; side < 4;
              ++side) // walls move evenly: their mean length is that in the middle
-            row.push_back(scene.effects.boundaries[side].kind == BoundaryKind::periodic
+            row.push_back(scene.effects.boundaries[side].is_periodic()
                               ? std::nan("")
                               : s.impulses[4 * k + side] /
                                     (length_of(scene, side, (from + to) / 2) * (to - from)));

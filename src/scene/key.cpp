@@ -37,6 +37,7 @@ const std::vector<Table>& tables() {
         {"effects.gravity", "Uniform gravity."},
         {"effects.drag", "Air at rest that slows discs down."},
         {"effects.growth", "Discs that grow."},
+        {"effects.shear", "A flow between sheared sides, whose images move."},
         {"effects.thermal", "Thermal walls."},
         {"effects.obstacles", "Bodies that stand fixed in the box."},
         {"output", "What a run writes; no key of output changes a bit of the result."},

@@ -19,6 +19,9 @@ const Need obstacles{"without 'effects.obstacles.discs' or 'effects.obstacles.se
 const Need thermal{"without a side of kind = \"thermal\"",
                    [](const Scene& s) { return has_boundary(s.effects, BoundaryKind::thermal); }};
 
+const Need sheared{"without box.bottom.kind = \"sheared\" and box.top.kind = \"sheared\"",
+                   [](const Scene& s) { return s.effects.are_sheared(); }};
+
 constexpr Range shares{0, 1};
 
 Need side_needs(std::size_t side, BoundaryKind kind, const char* word) {
@@ -47,7 +50,8 @@ void add_side(std::vector<Key>& all, std::size_t side) {
     all.push_back(
         key(table + ".kind", "",
             "Wall; thermal: discs leave as if from a gas; moving: a piston; oscillating: a shaker; "
-            "open: discs leave the box; periodic, in pairs.",
+            "open: discs leave the box; periodic, in pairs; sheared: bottom and top, periodic with "
+            "images that move.",
             [side](auto& s) -> auto& { return s.effects.boundaries[side].kind; }));
     all.push_back(key(table + ".restitution", "1",
                       "Share of the normal velocity that is left after a collision.",
@@ -139,6 +143,12 @@ std::vector<Key> keys_of_effects() {
             "Radii grow by this share of their first value in each step.",
             [](auto& s) -> auto& { return s.effects.growth; })
             .within({.low = 0}),
+        key("effects.shear.rate", "1/step",
+            "Between sheared sides: discs flow along x with rate (y - Ly / 2) in the mean.",
+            [](auto& s) -> auto& { return s.effects.shear; })
+            .within({-1e6, 1e6})
+            .needs(sheared)
+            .required(),
         key("effects.thermal.seed", "1", "Seed of the random numbers of thermal walls.",
             [](auto& s) -> auto& { return s.effects.thermal_seed; })
             .within({.low = 0})

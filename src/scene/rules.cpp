@@ -130,6 +130,53 @@ std::vector<Rule> rules_of_effects() {
     };
 }
 
+/// Sides whose images move.
+std::vector<Rule> rules_of_shear() {
+    return {
+        rule("a sheared side", "another kind of side opposite",
+             "box.bottom.kind and box.top.kind must both be \"sheared\", or neither",
+             {"box.bottom.kind", "box.top.kind"},
+             [](const Scene& s) {
+                 const auto& sides = s.effects.boundaries;
+                 return (sides[2].kind == BoundaryKind::sheared) !=
+                        (sides[3].kind == BoundaryKind::sheared);
+             }),
+        rule("sheared sides left or right", "a flow along x",
+             "the flow is along x and grows with y; make bottom and top sheared",
+             {"box.left.kind", "box.right.kind"},
+             [](const Scene& s) {
+                 const auto& sides = s.effects.boundaries;
+                 return sides[0].kind == BoundaryKind::sheared ||
+                        sides[1].kind == BoundaryKind::sheared;
+             }),
+        rule("sheared sides", "walls or open sides left and right",
+             "the flow goes through them; make box.left.kind and box.right.kind \"periodic\"",
+             {"box.left.kind", "box.right.kind"},
+             [](const Scene& s) { return s.effects.are_sheared() && !s.effects.is_periodic_x(); }),
+        rule("sheared sides", "drag or obstacles",
+             "both stand still, and the flow has no place where it does",
+             {"effects.drag.rate", "effects.obstacles.discs", "effects.obstacles.segments"},
+             [](const Scene& s) {
+                 return s.effects.are_sheared() && (s.effects.drag != 0 || has_obstacles(s));
+             }),
+        rule("sheared sides", "growing discs", "this version does not have both",
+             {"effects.growth.rate"},
+             [](const Scene& s) { return s.effects.are_sheared() && has_growth(s); }),
+        rule("sheared sides", "\"image\"", "images move: whole numbers do not say where they are",
+             {"output.trajectory.fields"},
+             [](const Scene& s) {
+                 return s.trajectory && s.trajectory->has_image && s.effects.are_sheared();
+             }),
+        rule("sheared sides", "\"displacement\", \"diffusion\" or \"structure_factor\"",
+             "discs drift apart with the flow, and waves are bent by it", {quantities},
+             [](const Scene& s) {
+                 const MeasurementOutput output = measured(s);
+                 return s.effects.are_sheared() &&
+                        (output.displacement || output.diffusion || output.structure_factor);
+             }),
+    };
+}
+
 std::vector<Rule> rules_of_starts() {
     return {
         rule("discs.generator = \"legacy\"", "box.size = [Lx, Ly]",
@@ -256,9 +303,9 @@ std::vector<Rule> rules_of_outputs() {
 const std::vector<Rule>& rules() {
     static const std::vector<Rule> all = [] {
         std::vector<Rule> list = rules_of_methods();
-        for (const auto& part :
-             {rules_of_effects(), rules_of_oscillations(), rules_of_growth(), rules_of_starts(),
-              rules_of_outputs(), rules_of_columns(std::make_index_sequence<n_side_columns>())})
+        for (const auto& part : {rules_of_effects(), rules_of_shear(), rules_of_oscillations(),
+                                 rules_of_growth(), rules_of_starts(), rules_of_outputs(),
+                                 rules_of_columns(std::make_index_sequence<n_side_columns>())})
             list.insert(list.end(), part.begin(), part.end());
         return list;
     }();

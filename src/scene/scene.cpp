@@ -22,7 +22,7 @@ double Scene::packing() const {
 
 void choose_fields(TrajectoryOutput& trajectory, const Scene& scene) {
     trajectory.columns = side_columns_of(scene);
-    trajectory.has_image = scene.effects.are_periodic();
+    trajectory.has_image = scene.effects.are_periodic() && !scene.effects.are_sheared();
 }
 
 double first_number(const Scene& scene, SideColumn column, DiscId id) {

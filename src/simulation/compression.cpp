@@ -67,7 +67,7 @@ private:
         for (const Species& one : scene_.effects.species)
             scene.effects.species.push_back({one.count, one.radius * size_, 1});
         for (std::size_t side = 0; side < boundary_names.size(); ++side)
-            if (scene_.effects.boundaries[side].kind == BoundaryKind::periodic)
+            if (scene_.effects.boundaries[side].is_periodic())
                 scene.effects.boundaries[side].kind = BoundaryKind::periodic;
         scene.effects.growth = growth_;
         scene.steps = scene.sync_every = 1;

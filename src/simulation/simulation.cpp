@@ -87,7 +87,8 @@ double usual_speed(const Scene& scene, std::span<const Disc> own, const Communic
     fastest = std::max(fastest, std::sqrt(2 * pull * scene.box.longest()));
     for (const Boundary& side : effects.boundaries)
         fastest = std::max({fastest, std::fabs(side.speed), std::sqrt(side.temperature)});
-    fastest = std::max(fastest, largest_wall_speed(effects));
+    fastest = std::max(
+        {fastest, largest_wall_speed(effects), std::fabs(effects.shear) * scene.box.y});
     return (fastest > 0 ? fastest : scene.radius) / static_cast<double>(scene.micro_steps);
 }
 
@@ -164,7 +165,7 @@ MotionNow Simulation::motion() const {
 Look Simulation::look() const {
     const SpeciesTable* const species_table = effects_.species.empty() ? nullptr
                                                                        : engine_->species_table();
-    Look look = look_at(in_motion(), species_table, heaviest_, engine_->n_discs(), n_threads_,
+    Look look = look_at(in_flow(), species_table, heaviest_, engine_->n_discs(), n_threads_,
                         communicator_);
     look.virial = sum_of(*virial_, communicator_);
     const Extent box = extent_at(effects_, box_, static_cast<double>(step()));
@@ -179,11 +180,15 @@ void Simulation::check_every_step(const Scene& scene) {
 
 void Simulation::advance_checked() {
     std::vector<Collision> collisions;
+    double work = 0;
     engine_->log_to(&collisions);
+    engine_->add_work_to(&work);
     engine_->advance_towards(step() + 1);
     engine_->log_to(log_);
+    engine_->add_work_to(nullptr);
     const LocalView now = engine_->local_view();
-    check_->look(now, micro_steps_done(), collisions, engine_->side_columns()[SideColumn::spin]);
+    check_->look(now, micro_steps_done(), collisions, engine_->side_columns()[SideColumn::spin],
+                 work);
     engine_->forget_images();
     if (log_) log_->insert(log_->end(), collisions.begin(), collisions.end());
 }
@@ -262,6 +267,13 @@ std::span<const Disc> Simulation::shown() const {
 
 std::span<const Disc> Simulation::in_motion() const {
     return frame().keeps_velocities() ? discs() : shown();
+}
+
+std::span<const Disc> Simulation::in_flow() const {
+    if (!effects_.are_sheared()) return in_motion();
+    static_cast<void>(shown());
+    for (Disc& disc : shown_) disc.vx -= effects_.flow_at(disc.y, box_) / velocity_unit_;
+    return shown_;
 }
 
 double Simulation::clock() const { return engine_->clock(); }

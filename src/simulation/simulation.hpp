@@ -140,6 +140,8 @@ private:
     Look look() const;
     /// As `shown()`, for whoever looks at velocities only.
     std::span<const Disc> in_motion() const;
+    /// The same without the mean flow between sheared sides, which is no temperature.
+    std::span<const Disc> in_flow() const;
 
     Communicator communicator_;
     double velocity_unit_;

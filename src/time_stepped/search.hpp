@@ -57,6 +57,8 @@ struct SearchLists {
 template <class Dynamics> class Search {
 public:
     Search(const Dynamics& dynamics, int n_threads);
+    /// Another one of the same kind from now on: boxes that move are elsewhere after a sync.
+    void change_dynamics(const Dynamics& dynamics) { dynamics_ = dynamics; }
 
     /// Predicts everything in `window`. The grid must have been built for it; `reach` is that of
     /// discs that it has not set apart.

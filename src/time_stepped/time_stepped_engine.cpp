@@ -76,6 +76,7 @@ template <class Dynamics> Window TimeSteppedEngine<Dynamics>::redistribute(int n
     const PhaseClock::Scope scope(phases_, Phase::redistribute);
     if (part_ == 0) {
         this->set_departed_aside();
+        survey_images();
         agree_on_speed();
         if (largest_speed_ > 0 && (n_windows_ == 0 || n_parts_ > 1)) // all ranks have agreed on it
             spread_ = survey_speeds(discs_.own(), largest_speed_, communicator_);
@@ -152,6 +153,19 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::agree_on_speed() {
     const PhaseClock::Scope scope(phases_, Phase::wait);
     travel_speed_ = communicator_.max(largest_speed_);
     largest_speed_ = refreshed_speed_ > 0 ? std::exchange(refreshed_speed_, 0) : travel_speed_;
+}
+
+/// Where images move, a disc that comes to another row of boxes has another speed there without a
+/// collision. It may do so before the window's anchor.
+template <class Dynamics> void TimeSteppedEngine<Dynamics>::survey_images() {
+    if constexpr (Dynamics::has_moving_images) {
+        double fastest = 0;
+        for (const Disc& disc : discs_.own())
+            fastest = std::max(fastest, dynamics_.squared_speed_at(disc, time_));
+        largest_speed_ = std::max(largest_speed_,
+                                  std::sqrt(fastest) + std::fabs(dynamics_.periods().speed));
+        if (refreshed_speed_ > 0) refreshed_speed_ += std::fabs(dynamics_.periods().speed);
+    }
 }
 
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::migrate() {
@@ -282,7 +296,17 @@ template <class Dynamics>
     if (is_summed) {
         const double mass = dynamics_.mass_of(p);
         terms.add(mass * (p.vx - vx), mass * (p.vy - vy), to, virial);
+        if constexpr (Dynamics::has_moving_images)
+            if (const double slip = dynamics_.periods().between(p, q, 0).vx;
+                this->work_ && slip != 0) {
+                const double work = mass * (p.vx - vx) * slip;
+#pragma omp atomic
+                *this->work_ += work;
+            }
     }
+    if constexpr (Dynamics::has_moving_images) // other ranks see to their own discs
+        return std::max(c.p < discs_.n_own() ? dynamics_.squared_speed(p) : 0,
+                        c.q < discs_.n_own() ? dynamics_.squared_speed(q) : 0);
     return std::max(squared_speed_of(p), squared_speed_of(q));
 }
 
@@ -324,36 +348,6 @@ double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m,
     return std::sqrt(fastest);
 }
 
-template <class Dynamics>
-void TimeSteppedEngine<Dynamics>::note_velocities(std::span<const Disc> results) {
-    unhit_.clear();
-    for (const Candidate& c : verdicts_.kept) unhit_.push_back(results[c.p]);
-}
-
-/// Two ranks may know of a collision: the one that owns the first disc logs it.
-template <class Dynamics>
-void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const Disc> results, int m) {
-    const auto k = static_cast<double>(this->micro_steps_);
-    for (std::size_t i = 0; i < unhit_.size(); ++i) {
-        const Candidate& c = verdicts_.kept[i];
-        if (c.p >= discs_.n_own()) continue;
-        if (results[c.p].has_departed()) unhit_[i].vx = unhit_[i].vy = 0; // nothing has pushed it
-        const double dx = (results[c.p].vx - unhit_[i].vx) * k,
-                     dy = (results[c.p].vy - unhit_[i].vy) * k;
-        double mass = 1;
-        if constexpr (Dynamics::has_species) mass = dynamics_.species_table().of(unhit_[i].id).mass;
-        if (this->impulses_ && c.is_wall()) {
-            const auto [at_x, at_y] = dynamics_.met_walls(unhit_[i], m, c.time);
-            if (at_x) this->impulses_->add(0, mass * dx);
-            if (at_y) this->impulses_->add(1, mass * dy);
-        }
-        if (this->log_)
-            this->log_->push_back({this->last_sync() + m, c.time, 0, unhit_[i].id,
-                                   c.is_wall() ? Collision::wall : results[c.q].id,
-                                   mass * std::sqrt(dx * dx + dy * dy)});
-    }
-}
-
 /// Exchanges new states with the neighbours; `hits_` grows by those discs of the halo that this
 /// rank has not struck itself.
 template <class Dynamics>
@@ -374,6 +368,7 @@ void TimeSteppedEngine<Dynamics>::update_halo(const Window& window, int m) {
 /// The next migration still allows for the largest speed before the sync.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::finish_sync(double largest_speed) {
     unchanged_until_ -= time_;
+    if constexpr (Dynamics::has_moving_images) search_.change_dynamics(dynamics_);
     const PhaseClock::Scope wait(phases_, Phase::wait);
     refreshed_speed_ = communicator_.max(largest_speed);
     const std::uint64_t n_kept = communicator_.sum(n_kept_ -

@@ -35,7 +35,7 @@ void EventDrivenReference::run_micro_steps(std::int64_t count) {
                 disc.vy *= setting_.slowing_at(disc.tau);
             }
             restart_frame(disc, disc.tau);
-            bring_inside(setting_, disc);
+            bring_inside(setting_, disc, setting_.tiles(next_sync - setting_.sync_every));
             disc.tau = 0;
         }
         predict_all();
@@ -213,12 +213,13 @@ void EventDrivenReference::restart_frame(Disc& disc, double time) const {
 void EventDrivenReference::predict_pair(DiscId p, DiscId q) {
     if (!setting_.discs_meet() || has_left(discs_[p]) || has_left(discs_[q])) return;
     if (p > q) std::swap(p, q);
+    const Tiles tiles = setting_.tiles(last_sync());
     const auto look = [&](Copy copy) {
-        const Contact found = discs_grow() ? growing_contact(discs_[p], discs_[q], copy)
-                                           : contact(discs_[p], discs_[q],
-                                                     setting_.radius_of(p) + setting_.radius_of(q),
-                                                     std::numeric_limits<double>::infinity(), copy,
-                                                     setting_.box());
+        const Contact found = discs_grow()
+                                  ? growing_contact(discs_[p], discs_[q], copy)
+                                  : contact(discs_[p], discs_[q],
+                                            setting_.radius_of(p) + setting_.radius_of(q),
+                                            std::numeric_limits<double>::infinity(), copy, tiles);
         if (found.delay < 0) return;
         const double time = found.base + found.delay;
         if (history_of_[p].partner == q && history_of_[q].partner == p &&
@@ -229,7 +230,8 @@ void EventDrivenReference::predict_pair(DiscId p, DiscId q) {
     if (!setting_.effects.are_periodic()) return look({});
     const double begin = std::max(discs_[p].tau, discs_[q].tau),
                  end = static_cast<double>(setting_.sync_every);
-    for (const Copy copy : copies_near(setting_, discs_[p], discs_[q], begin, end)) look(copy);
+    for (const Copy copy : copies_near(setting_, discs_[p], discs_[q], begin, end, tiles))
+        look(copy);
 }
 
 /// Later events than the next sync are dropped: the sync rewrites the states that they follow from.
@@ -295,12 +297,12 @@ void EventDrivenReference::carry_out(const Event& event) {
         advance(q, event.time);
         if (setting_.are_rough())
             collide_rough(setting_, p, q, spins_[event.p], spins_[event.q], is_touched, event.copy,
-                          setting_.box());
+                          setting_.tiles(last_sync()));
         else if (discs_grow())
             push_growing(p, q, is_touched ? 1 : setting_.restitution(), event.copy);
         else
             exchange_momentum(setting_, p, q, is_touched ? 1 : setting_.restitution(), event.copy,
-                              setting_.box());
+                              setting_.tiles(last_sync()));
         p.pair_collisions += 1;
         q.pair_collisions += 1;
         pair_collisions_ += 1;

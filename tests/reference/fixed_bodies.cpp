@@ -62,7 +62,7 @@ double FixedBodies::meeting_time(const Disc& disc, const Body& body, Copy copy) 
         fixed.x = body.x;
         fixed.y = body.y;
         fixed.tau = disc.tau;
-        const Contact found = contact(disc, fixed, reach, never, copy, box);
+        const Contact found = contact(disc, fixed, reach, never, copy, {box});
         return found.delay < 0 ? never : found.base + found.delay;
     }
     // Off the line to its left, along it, and what changes both.

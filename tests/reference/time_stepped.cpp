@@ -26,12 +26,12 @@ bool before(const Collision& a, const Collision& b) {
 } // namespace
 
 Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance, Copy copy,
-                const Box& box) {
+                const Tiles& tiles) {
     const double base = p.tau > q.tau ? p.tau : q.tau;
     const double px = p.x + p.vx * (base - p.tau), py = p.y + p.vy * (base - p.tau);
     const double qx = q.x + q.vx * (base - q.tau), qy = q.y + q.vy * (base - q.tau);
-    const double dx = (qx - px) + copy.x * box.x, dy = (qy - py) + copy.y * box.y;
-    const double wx = q.vx - p.vx, wy = q.vy - p.vy;
+    const double dx = (qx - px) + tiles.x_to(copy, base), dy = (qy - py) + tiles.y_to(copy);
+    const double wx = (q.vx - p.vx) + tiles.vx_of(copy), wy = q.vy - p.vy;
 
     const double b = dx * wx + dy * wy;
     if (b >= 0) return {base, -1};
@@ -67,48 +67,10 @@ void advance(Disc& disc, double time) {
     disc.tau = time;
 }
 
-std::vector<Copy> copies_near(const Setting& setting, const Disc& p, const Disc& q, double begin,
-                              double end) {
-    // Of discs that grow: to twice their radius.
-    const double sigma = (setting.effects.growth == 0 ? 2 : 4) * setting.radius;
-    const bool is_x = setting.effects.is_periodic_x(), is_y = setting.effects.is_periodic_y();
-    const double away = (std::fabs(p.vx) + std::fabs(q.vx) + std::fabs(p.vy) + std::fabs(q.vy)) *
-                            (end - begin) +
-                        1.01 * sigma;
-    const auto range = [&](bool is_periodic, double length,
-                           double distance) { // of n with |distance + n L| within reach
-        if (!is_periodic) return std::pair(0, 0);
-        return std::pair(static_cast<int>(std::floor((-away - distance) / length)),
-                         static_cast<int>(std::ceil((away - distance) / length)));
-    };
-    const auto place = [begin](double x, double v, double tau) { return x + v * (begin - tau); };
-    const auto [x_low, x_high] = range(is_x, setting.box().x,
-                                       place(q.x, q.vx, q.tau) - place(p.x, p.vx, p.tau));
-    const auto [y_low, y_high] = range(is_y, setting.box().y,
-                                       place(q.y, q.vy, q.tau) - place(p.y, p.vy, p.tau));
-    std::vector<Copy> copies;
-    for (int x = x_low; x <= x_high; ++x)
-        for (int y = y_low; y <= y_high; ++y) copies.push_back({x, y});
-    return copies;
-}
-
-void bring_inside(const Setting& setting, Disc& disc) {
-    const auto inside = [](double place, double length) {
-        if (place >= 0 && place < length) return place;
-        const double periods = std::floor(place / length);
-        double rest = std::fma(-periods, length, place); // exactly rounded once
-        if (rest < 0) rest = rest + length;
-        if (rest >= length) rest = rest - length;
-        return rest;
-    };
-    if (setting.effects.is_periodic_x()) disc.x = inside(disc.x, setting.box().x);
-    if (setting.effects.is_periodic_y()) disc.y = inside(disc.y, setting.box().y);
-}
-
 void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitution, Copy copy,
-                       const Box& box) {
-    const double ex = (q.x - p.x) + copy.x * box.x, ey = (q.y - p.y) + copy.y * box.y;
-    const double wx = q.vx - p.vx, wy = q.vy - p.vy;
+                       const Tiles& tiles) {
+    const double ex = (q.x - p.x) + tiles.x_to(copy, p.tau), ey = (q.y - p.y) + tiles.y_to(copy);
+    const double wx = (q.vx - p.vx) + tiles.vx_of(copy), wy = q.vy - p.vy;
     const double k = (1 + restitution) / 2 * ((wx * ex + wy * ey) / (ex * ex + ey * ey));
     const double mp = setting.mass_of(p.id), mq = setting.mass_of(q.id), mean = (mp + mq) / 2;
     p.vx += k * (mq / mean) * ex;
@@ -118,10 +80,10 @@ void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitut
 }
 
 void collide_rough(const Setting& setting, Disc& p, Disc& q, double& p_spin, double& q_spin,
-                   bool is_touched, Copy copy, const Box& box) {
+                   bool is_touched, Copy copy, const Tiles& tiles) {
     const ContactEffect& contact = setting.effects.contact;
-    const double ex = (q.x - p.x) + copy.x * box.x, ey = (q.y - p.y) + copy.y * box.y;
-    const double wx = q.vx - p.vx, wy = q.vy - p.vy;
+    const double ex = (q.x - p.x) + tiles.x_to(copy, p.tau), ey = (q.y - p.y) + tiles.y_to(copy);
+    const double wx = (q.vx - p.vx) + tiles.vx_of(copy), wy = q.vy - p.vy;
     const double rp = setting.radius_of(p.id), rq = setting.radius_of(q.id);
     const double mp = setting.mass_of(p.id), mq = setting.mass_of(q.id), mean = (mp + mq) / 2;
     const double square = ex * ex + ey * ey, distance = std::sqrt(square);
@@ -218,6 +180,7 @@ void TimeSteppedReference::run_micro_step() {
 
 void TimeSteppedReference::find_candidates(double m) {
     candidates_.clear();
+    const Tiles tiles = setting_.tiles(last_sync());
     for (const Disc& p : discs_) {
         if (has_left(p)) continue;
         const double t = wall_time(p, m);
@@ -227,7 +190,7 @@ void TimeSteppedReference::find_candidates(double m) {
             const auto look = [&](Copy copy) {
                 const Contact found = contact(p, discs_[id],
                                               setting_.radius_of(p.id) + setting_.radius_of(id),
-                                              tolerance_, copy, setting_.box());
+                                              tolerance_, copy, tiles);
                 if (found.delay < 0) return;
                 const double in_step = (found.base - m) + found.delay;
                 if (in_step >= 0 && in_step <= 1)
@@ -236,7 +199,8 @@ void TimeSteppedReference::find_candidates(double m) {
             if (!setting_.effects.are_periodic())
                 look({});
             else
-                for (const Copy copy : copies_near(setting_, p, discs_[id], m, m + 1)) look(copy);
+                for (const Copy copy : copies_near(setting_, p, discs_[id], m, m + 1, tiles))
+                    look(copy);
         }
     }
 }
@@ -259,9 +223,10 @@ void TimeSteppedReference::keep(const Collision& candidate, double m) {
     advance(q, m + candidate.t);
     if (setting_.are_rough())
         collide_rough(setting_, p, q, spins_[p.id], spins_[q.id], false, candidate.copy,
-                      setting_.box());
+                      setting_.tiles(last_sync()));
     else
-        exchange_momentum(setting_, p, q, setting_.restitution(), candidate.copy, setting_.box());
+        exchange_momentum(setting_, p, q, setting_.restitution(), candidate.copy,
+                          setting_.tiles(last_sync()));
     p.pair_collisions += 1;
     q.pair_collisions += 1;
     counters_.pair_collisions += 1;
@@ -281,7 +246,7 @@ void TimeSteppedReference::synchronize() {
     for (Disc& disc : discs_) {
         if (has_left(disc)) continue;
         advance(disc, static_cast<double>(setting_.sync_every));
-        bring_inside(setting_, disc);
+        bring_inside(setting_, disc, setting_.tiles(micro_step_ - setting_.sync_every));
         disc.tau = 0;
     }
 }

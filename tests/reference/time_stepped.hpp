@@ -22,6 +22,26 @@
 
 namespace carrom::reference {
 
+/// An image of a disc: so many boxes further.
+struct Copy {
+    int x = 0, y = 0;
+
+    friend bool operator==(const Copy&, const Copy&) = default;
+};
+
+/// The box as it repeats itself. Under shear the row above slides along x: how far at the last
+/// sync, and how fast, per micro-step.
+struct Tiles {
+    Box box{};
+    double slid = 0, speed = 0;
+
+    double x_to(Copy copy, double time) const {
+        return copy.x * box.x + copy.y * (slid + speed * time);
+    }
+    double y_to(Copy copy) const { return copy.y * box.y; }
+    double vx_of(Copy copy) const { return copy.y * speed; }
+};
+
 /// The box and the clock of a run. Inputs give velocities per step; `micro_steps` divides them.
 struct Setting {
     double box_size = 0; ///< along x
@@ -63,6 +83,8 @@ struct Setting {
     std::function<double(std::size_t side, std::int64_t sync, double distance, double rate,
                          double from_wall, double time)>
         oscillating_delay{};
+    /// As they are from the sync at that micro-step on.
+    Tiles tiles(std::int64_t sync) const;
     double clock_at(std::int64_t count) const {
         const auto time = static_cast<double>(count);
         return drag_clock ? drag_clock(time) : time;
@@ -99,13 +121,6 @@ struct Counters {
     friend bool operator==(const Counters&, const Counters&) = default;
 };
 
-/// An image of a disc: so many periods of the box further.
-struct Copy {
-    int x = 0, y = 0;
-
-    friend bool operator==(const Copy&, const Copy&) = default;
-};
-
 /// One kept collision: disc p with a wall, or the pair p < q. Sorted by (t, p, wall before pair, q)
 /// in a micro-step.
 struct Collision {
@@ -129,15 +144,16 @@ struct Contact {
 /// The predicate of section 4, of p and that copy of q in that box, if it repeats itself.
 /// `tolerance` is the deepest overlap that still collides; infinity in the event-driven method.
 Contact contact(const Disc& p, const Disc& q, double sigma, double tolerance, Copy copy = {},
-                const Box& box = {});
+                const Tiles& tiles = {});
 
 /// The copies of q that p may come near until `end`, both flying on from their states: all others
 /// stay farther than sigma.
 std::vector<Copy> copies_near(const Setting& setting, const Disc& p, const Disc& q, double begin,
-                              double end);
+                              double end, const Tiles& tiles);
 
-/// Of a sync: the state's place in the box where sides are periodic, one rounding away.
-void bring_inside(const Setting& setting, Disc& disc);
+/// Of a sync: the state's place in the box where sides are periodic, one rounding away. `tiles` as
+/// they were until then.
+void bring_inside(const Setting& setting, Disc& disc, const Tiles& tiles);
 
 /// What stands for a disc that has left the box: at rest where it left, with a time that no other
 /// has.
@@ -147,10 +163,10 @@ void set_left(const Setting& setting, Disc& disc, std::size_t side);
 /// The two states' positions at `time`, the impulse of a pair; p has the lower id.
 void advance(Disc& disc, double time);
 void exchange_momentum(const Setting& setting, Disc& p, Disc& q, double restitution, Copy copy = {},
-                       const Box& box = {});
+                       const Tiles& tiles = {});
 /// The same of rough discs, by the page's formulas; `is_touched` ones part as elastic and smooth.
 void collide_rough(const Setting& setting, Disc& p, Disc& q, double& p_spin, double& q_spin,
-                   bool is_touched, Copy copy = {}, const Box& box = {});
+                   bool is_touched, Copy copy = {}, const Tiles& tiles = {});
 
 /// Numbers the discs 0 .. N-1 as given (ids must be a permutation of that) and divides velocities
 /// by `micro_steps`.
@@ -175,6 +191,9 @@ public:
     const std::vector<Collision>& log() const { return log_; }
 
 private:
+    std::int64_t last_sync() const {
+        return micro_step_ / setting_.sync_every * setting_.sync_every;
+    }
     void run_micro_step();
     void find_candidates(double m);
     void keep(const Collision& candidate, double m);

@@ -240,6 +240,22 @@ run 1 run mixture.toml --steps 90 --quiet --report mixed_whole.json
 [ "$(json_value mixed_rest.json state_hash)" = "$(json_value mixed_whole.json state_hash)" ] ||
     complain 'a mixture has another state hash after a restart'
 
+# Images that move are where the scene's time says: a run goes on on another shape, and is checked.
+for method in time-stepped event-driven; do
+    sheared=("$CARROM_SOURCE_DIR/inputs/sheared.toml" --set discs.count=300
+        --set box.size=160 --set time.method=$method --set time.sync_every=16 --quiet)
+    run 2 run "${sheared[@]}" --steps 60 --check --report sheared.json -o sheared --overwrite
+    expect_code 0 "sheared discs, $method"
+    run 1 run "${sheared[@]}" --steps 25 -o shearing --overwrite
+    expect_code 0 "sheared discs, $method, the first stretch"
+    run 2 verify shearing/checkpoints/checkpoint-000000000025.h5
+    expect_code 0 'a checkpoint of sheared discs'
+    run 3 run --restart shearing --steps 60 --quiet --report sheared_rest.json
+    expect_code 0 "sheared discs, $method, the second stretch"
+    [ "$(json_value sheared_rest.json state_hash)" = "$(json_value sheared.json state_hash)" ] ||
+        complain "sheared discs, $method: another state hash after a restart"
+done
+
 # Rough discs turn: their spins go into files and come back with a restart.
 rough=("$CARROM_SOURCE_DIR/inputs/rough.toml" --set discs.count=1200 --quiet)
 run 2 run "${rough[@]}" --report rough.json --set output.trajectory.every_steps=1 -o turned

@@ -53,7 +53,7 @@ Extent room_of(const CheckpointHeader& header, const Effects& effects) {
     const auto make_room = [&](std::size_t side, double& line, double outwards) {
         if (effects.boundaries[side].kind == BoundaryKind::open)
             line = outwards * infinity; // discs may be on their way out
-        if (effects.boundaries[side].kind == BoundaryKind::periodic)
+        if (effects.boundaries[side].is_periodic())
             line += outwards * header.radius; // centres are anywhere in the box
     };
     make_room(0, box.x_low, -1);

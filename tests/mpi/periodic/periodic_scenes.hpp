@@ -24,7 +24,7 @@ inline constexpr std::array<Boundary, 4> both{periodic, periodic, periodic, peri
     along_x{periodic, periodic, Boundary{}, Boundary{}},
     along_y{Boundary{}, Boundary{}, periodic, periodic};
 
-const char* name_of(const std::array<Boundary, 4>& boundaries) {
+inline const char* name_of(const std::array<Boundary, 4>& boundaries) {
     return boundaries == both ? "both" : boundaries == along_x ? "x" : "y";
 }
 

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The dynamics of uniform shear: a box whose images above and below move along x (A. W. Lees and
+// S. F. Edwards, J. Phys. C 5, 1921 (1972)), so that the gas flows with vx = rate (y - const)
+// without any wall.
+//
+// It is the dynamics of periodic sides with one more question to each pair: how fast is the image?
+// The separation of two discs grows with the shift of their images, and their relative velocity has
+// the image's velocity. Both are whole multiples of numbers of the scene, so that all ranks find
+// the same bits. A disc that leaves through the seam keeps its stored state until the next sync,
+// which brings it back with the velocity of the image in the box.
+//
+// Price: images near the seam are faster than discs in the box by rate times the box's height, and
+// searches have to allow for that.
+#pragma once
+
+#include <cmath>
+
+#include "dynamics/periodic_dynamics.hpp"
+
+namespace carrom {
+
+template <class Walled> class ShearedDynamics : public PeriodicDynamics<Walled> {
+    using Resting = PeriodicDynamics<Walled>;
+
+public:
+    static constexpr bool has_moving_images = true;
+
+    /// `effects` per micro-step.
+    ShearedDynamics(const Box& box, double radius, const Effects& effects)
+        : Resting(box, radius, effects) {}
+
+    void begin_interval(std::int64_t n) {
+        Resting::begin_interval(n);
+        this->periods_.begin_interval(n);
+    }
+
+    /// Both discs are where they collide.
+    Separation separation(const Disc& p, const Disc& q) const {
+        const Shift shift = this->periods_.between(p, q, p.tau);
+        return {(q.x - p.x) + shift.x, (q.y - p.y) + shift.y};
+    }
+    Separation separation_at(const Disc& p, const Disc& q, double time) const {
+        const Separation stored = Walled::separation_at(p, q, time);
+        const Shift shift = this->periods_.between(p, q, time);
+        return {stored.x + shift.x, stored.y + shift.y};
+    }
+
+    PairContact<double> contact(const Disc& p, const Disc& q) const {
+        return contact(p, q, this->tolerance());
+    }
+    PairContact<double> event_contact(const Disc& p, const Disc& q) const {
+        return contact(p, q, Walled::never);
+    }
+
+    /// There is nothing fixed, so nothing has to stop.
+    void collide(Disc& p, Disc& q, double m, double t) const {
+        exchange_momentum(p, q, m + t, this->contact_.impulse());
+    }
+    void collide_at(Disc& p, Disc& q, double time) const {
+        exchange_momentum(p, q, time, this->contact_.impulse_at(p, q, time));
+    }
+    /// Rough discs.
+    void collide(Disc& p, Disc& q, double m, double t, double& p_spin, double& q_spin) const {
+        exchange_spin(p, q, m + t, false, p_spin, q_spin);
+    }
+    void collide_at(Disc& p, Disc& q, double time, double& p_spin, double& q_spin) const {
+        exchange_spin(p, q, time, this->contact_.is_guarded(p, q, time), p_spin, q_spin);
+    }
+
+    /// Of the fastest image next to the disc's own one.
+    double squared_speed(const Disc& disc) const {
+        const double vx = std::fabs(this->periods_.vx_of(disc)) + std::fabs(this->periods_.speed);
+        return vx * vx + disc.vy * disc.vy;
+    }
+    double squared_speed_at(const Disc& disc, double time) const {
+        Disc at_home = disc;
+        set_image(at_home, this->periods_.home(disc, time));
+        return squared_speed(at_home);
+    }
+
+private:
+    [[gnu::flatten]] PairContact<double> contact(const Disc& p, const Disc& q,
+                                                 double deepest_overlap) const {
+        const double base = std::max(p.tau, q.tau);
+        const Shift shift = this->periods_.between(p, q, base);
+        const double dx = (q.x_at(base) - p.x_at(base)) + shift.x,
+                     dy = (q.y_at(base) - p.y_at(base)) + shift.y;
+        return {base, contact_delay(dx, dy, (q.vx - p.vx) + shift.vx, q.vy - p.vy,
+                                    this->pair_diameter(p, q), deepest_overlap)};
+    }
+    /// Advances both discs to where they collide; what q's image does as p sees it.
+    Encounter encounter_at(Disc& p, Disc& q, double time) const {
+        this->advance(p, time);
+        this->advance(q, time);
+        const Shift shift = this->periods_.between(p, q, time);
+        return {(q.x - p.x) + shift.x, (q.y - p.y) + shift.y, (q.vx - p.vx) + shift.vx,
+                q.vy - p.vy};
+    }
+    void exchange_momentum(Disc& p, Disc& q, double time, double impulse) const {
+        this->exchange_momentum_at(p, q, encounter_at(p, q, time), impulse);
+    }
+    void exchange_spin(Disc& p, Disc& q, double time, bool is_guarded, double& p_spin,
+                       double& q_spin) const {
+        this->exchange_spin_at(p, q, encounter_at(p, q, time), is_guarded, p_spin, q_spin);
+    }
+};
+
+/// One species or several, of any restitution, 1 included.
+using ShearedMixedDynamics = ShearedDynamics<MixedDynamics>;
+using ShearedRoughDynamics = ShearedDynamics<RoughDynamics>;
+
+} // namespace carrom

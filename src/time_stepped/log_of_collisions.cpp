@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the time-stepped engine logs of its collisions, where somebody follows them.
+#include <cmath>
+
+#include "time_stepped/time_stepped_engine.hpp"
+
+namespace carrom {
+
+template <class Dynamics>
+void TimeSteppedEngine<Dynamics>::note_velocities(std::span<const Disc> results) {
+    unhit_.clear();
+    for (const Candidate& c : verdicts_.kept) unhit_.push_back(results[c.p]);
+}
+
+/// Two ranks may know of a collision: the one that owns the first disc logs it.
+template <class Dynamics>
+void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const Disc> results, int m) {
+    const auto k = static_cast<double>(this->micro_steps_);
+    for (std::size_t i = 0; i < unhit_.size(); ++i) {
+        const Candidate& c = verdicts_.kept[i];
+        if (c.p >= discs_.n_own()) continue;
+        if (results[c.p].has_departed()) unhit_[i].vx = unhit_[i].vy = 0; // nothing has pushed it
+        const double dx = (results[c.p].vx - unhit_[i].vx) * k,
+                     dy = (results[c.p].vy - unhit_[i].vy) * k;
+        double mass = 1;
+        if constexpr (Dynamics::has_species) mass = dynamics_.species_table().of(unhit_[i].id).mass;
+        if (this->impulses_ && c.is_wall()) {
+            const auto [at_x, at_y] = dynamics_.met_walls(unhit_[i], m, c.time);
+            if (at_x) this->impulses_->add(0, mass * dx);
+            if (at_y) this->impulses_->add(1, mass * dy);
+        }
+        if (this->log_)
+            this->log_->push_back({this->last_sync() + m, c.time, 0, unhit_[i].id,
+                                   c.is_wall() ? Collision::wall : results[c.q].id,
+                                   mass * std::sqrt(dx * dx + dy * dy)});
+    }
+}
+
+// What the engine's own file calls. The class itself is compiled there.
+#define CARROM_DEFINE(Dynamics)                                                                    \
+    template void TimeSteppedEngine<Dynamics>::note_velocities(std::span<const Disc>);             \
+    template void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const Disc>, int);
+CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
+#undef CARROM_DEFINE
+
+} // namespace carrom
