@@ -9,16 +9,27 @@
 // Carillo, Maggs, Krauth, J. Chem. Phys. 157, 234111 (2022), equations (13c) and (19a).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <string_view>
+#include <utility>
 
 namespace carrom {
 
-/// The error is one standard error of the mean, by block averaging; NaN where there are too few
-/// blocks for one. Both are NaN where nothing is averaged.
+/// The error is one standard error of the mean, by blocks that are long enough to be independent.
+/// It is NaN where there are too few blocks, where the average is conserved, and where it is still
+/// changing, because a trend is not an error. All are NaN where nothing is averaged.
 struct Estimate {
     double value = std::numeric_limits<double>::quiet_NaN();
     double error = std::numeric_limits<double>::quiet_NaN();
+    /// In steps; half a block is the shortest that can be seen.
+    double correlation_time = std::numeric_limits<double>::quiet_NaN();
+    double independent_samples = std::numeric_limits<double>::quiet_NaN();
+    bool is_conserved = false; ///< all blocks have the same value but for rounding
+    bool is_changing = false;  ///< the halves of the run differ by more than errors allow
+    double first = std::numeric_limits<double>::quiet_NaN(); ///< of the first block, if it changes
+    double last = std::numeric_limits<double>::quiet_NaN();  ///< of the last block, if it changes
 };
 
 /// The same both ways along x and y.
@@ -40,6 +51,19 @@ struct Averages {
     TensorEstimate pressure_tensor; ///< kinetic part, and impulse times distance of pairs
     Estimate pressure;              ///< half its trace
     Estimate compressibility;       ///< P A / (N kT)
+
+    /// Those that every run has, with short names.
+    std::array<std::pair<std::string_view, Estimate>, 9> named() const {
+        return {{{"collision rate", collision_frequency},
+                 {"kT", temperature},
+                 {"P", pressure},
+                 {"Z", compressibility},
+                 {"P_xx", pressure_tensor.xx},
+                 {"P_xy", pressure_tensor.xy},
+                 {"P_yy", pressure_tensor.yy},
+                 {"mean speed", mean_speed},
+                 {"kurtosis", speed_kurtosis}}};
+    }
 };
 
 } // namespace carrom

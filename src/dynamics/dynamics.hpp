@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "core/axis.hpp"
+#include "core/flight_integral.hpp"
 #include "core/frame.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/obstacles.hpp"
@@ -30,6 +31,7 @@ concept Dynamics = std::copyable<D> && requires(D changing, const D d, Disc& p, 
     { D::has_mirror_walls } -> std::convertible_to<bool>;   // walls only reverse a velocity
     { D::may_have_obstacles } -> std::convertible_to<bool>; // fixed bodies stand in the box
     { D::may_lose_discs } -> std::convertible_to<bool>;     // discs leave through open sides
+    { D::has_elastic_pairs } -> std::convertible_to<bool>;  // they keep the kinetic energy
     { D::is_for_study } -> std::convertible_to<bool>;       // states are rounded, contacts missed
     { d.has_pairs() } -> std::same_as<bool>;                // discs collide with each other
     { d.has_walls() } -> std::same_as<bool>;                // there is anything fixed to meet
@@ -58,8 +60,10 @@ concept Dynamics = std::copyable<D> && requires(D changing, const D d, Disc& p, 
     { d.clock_at(time) } -> std::same_as<double>; // of micro-steps since the sync
     { d.micro_steps_at(time) } -> std::same_as<double>;
     { d.frame_at(time) } -> std::same_as<Frame>;
-    { d.extent_at(time) } -> std::same_as<Extent>;       // where the walls are
-    { d.jump_at(axis, time) } -> std::same_as<double>;   // how far the frame moves at a sync
+    { d.extent_at(time) } -> std::same_as<Extent>;     // where the walls are
+    { d.jump_at(axis, time) } -> std::same_as<double>; // how far the frame moves at a sync
+    { d.flight_integral_at(time) } -> std::same_as<FlightIntegral>; // see StressSums
+    { d.pair_weight_at(time) } -> std::convertible_to<double>;
     { d.speed_gained_at(time) } -> std::same_as<double>; // the frame's, at most
     d.restart_frame(p, time); // the state in the frame of the next interval
     D::advance(p, time);      // free flight

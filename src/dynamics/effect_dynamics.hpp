@@ -25,6 +25,7 @@ public:
     static constexpr bool has_species = is_mixed;
     static constexpr bool has_spin = std::is_same_v<Contact, RoughContact>;
     static constexpr bool has_mirror_walls = false;
+    static constexpr bool has_elastic_pairs = std::is_same_v<Contact, ElasticContact>;
     static constexpr bool may_have_obstacles = true;
     static constexpr bool may_lose_discs = true;
 
@@ -53,6 +54,8 @@ public:
     double micro_steps_at(double clock) const { return fall_.micro_steps_at(clock); }
     Frame frame_at(double time) const { return fall_.at(time); }
     double slowing_at(double time) const { return fall_.slowing_at(time); }
+    FlightIntegral flight_integral_at(double time) const { return fall_.flight_integral_at(time); }
+    double pair_weight_at(double time) const { return fall_.pair_weight_at(time); }
     void restart_frame(Disc& disc, double time) const { fall_.restart(disc, time); }
     double jump_at(Axis axis, double time) const { return fall_.jump_at(axis, time); }
     double speed_gained_at(double time) const { return fall_.speed_gained_at(time); }

@@ -68,6 +68,24 @@ double FallingFrame::clock_at(double micro_steps) const {
 
 double FallingFrame::micro_steps_at(double clock) const { return time_of_drag_clock(drag_, clock); }
 
+/// The velocity in the box is (1 - c s) v + g s, and a step of the clock takes ds / (1 - c s). With
+/// q = c s the integrals are those of 1 - q for v v, of s for v g and of s^2 / (1 - q) for g g. The
+/// square is completed in v.
+FlightIntegral FallingFrame::flight_integral_at(double time) const {
+    if (!(time > 0)) return {};
+    const double q = drag_ * time, weight = time * (1 - 0.5 * q);
+    if (!gravity_.is_any()) return {weight, 0, 0, 0, 0};
+    double of_squares = 0; // over s^3
+    if (q < 0x1p-6) {
+        for (int k = 10; k >= 3; --k) of_squares = 1.0 / k + q * of_squares;
+    } else {
+        of_squares = (dragged_fall(drag_, time) / (time * time) - 0.5) / q;
+    }
+    const double shift = 0.5 * time / (1 - 0.5 * q);
+    const double rest = time * std::sqrt(time * (of_squares - 0.25 / (1 - 0.5 * q)));
+    return {weight, shift * gravity_.x, shift * gravity_.y, rest * gravity_.x, rest * gravity_.y};
+}
+
 Frame FallingFrame::at(double time) const {
     return {gravity_.is_any() || drag_ != 0,
             fallen(gravity_.x, time),

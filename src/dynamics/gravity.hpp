@@ -17,6 +17,7 @@
 
 #include "core/axis.hpp"
 #include "core/disc.hpp"
+#include "core/flight_integral.hpp"
 #include "core/frame.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/never.hpp"
@@ -68,6 +69,15 @@ public:
     }
     /// exp(-c t) = 1 - c s: turns velocities in the clock into those in the box.
     double slowing_at(double time) const { return 1 - drag_ * time; }
+
+    /// What flights have gathered since the sync; the C library is not asked, so that its bits are
+    /// those of every machine.
+    FlightIntegral flight_integral_at(double time) const;
+    /// The weight of flight_integral_at over slowing_at: what impulses in the box are multiplied
+    /// by.
+    double pair_weight_at(double time) const {
+        return drag_ == 0 ? time : time * (1 - 0.5 * drag_ * time) / slowing_at(time);
+    }
 
     /// The frame's origin and velocity in the box.
     Frame at(double time) const;

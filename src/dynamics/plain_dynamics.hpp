@@ -13,6 +13,7 @@
 
 #include "core/axis.hpp"
 #include "core/disc.hpp"
+#include "core/flight_integral.hpp"
 #include "core/frame.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/pair_contact.hpp"
@@ -46,6 +47,7 @@ public:
     static constexpr bool has_species = false;
     static constexpr bool has_spin = false;
     static constexpr bool has_mirror_walls = true;
+    static constexpr bool has_elastic_pairs = true;
     static constexpr bool may_have_obstacles = false;
     static constexpr bool may_lose_discs = false;
     static constexpr double one_time = 0x1p-40;
@@ -74,6 +76,8 @@ public:
     static constexpr double micro_steps_at(double clock) { return clock; }
     static Frame frame_at(double /*time*/) { return {}; }
     static constexpr double slowing_at(double /*time*/) { return 1; }
+    static FlightIntegral flight_integral_at(double time) { return {time, 0, 0, 0, 0}; }
+    static constexpr double pair_weight_at(double time) { return time; }
     static void restart_frame(Disc& /*disc*/, double /*time*/) {}
     static constexpr double jump_at(Axis /*axis*/, double /*time*/) { return 0; }
     static constexpr double speed_gained_at(double /*time*/) { return 0; }

@@ -34,6 +34,10 @@ public:
         this->periods_.begin_interval(n);
     }
 
+    // Kinetic stress is that of velocities in the flow, which change along a flight. It is sampled.
+    static FlightIntegral flight_integral_at(double /*time*/) { return {}; }
+    static constexpr double pair_weight_at(double /*time*/) { return 0; }
+
     /// Both discs are where they collide.
     Separation separation(const Disc& p, const Disc& q) const {
         const Shift shift = this->periods_.between(p, q, p.tau);

@@ -14,8 +14,8 @@
 #include "domain/strips.hpp"
 #include "dynamics/species.hpp"
 #include "engine/collision.hpp"
-#include "engine/pair_virial.hpp"
 #include "engine/stored_state.hpp"
+#include "engine/stress_sums.hpp"
 #include "engine/totals.hpp"
 #include "engine/tuning.hpp"
 #include "engine/wall_impulses.hpp"
@@ -75,14 +75,16 @@ public:
     /// From now on the energy that moving images give own discs is added to `work`, as long as
     /// collisions are logged; per micro-step, of stored states. Null ends that.
     void add_work_to(double* work) { work_ = work; }
-    /// From now on what own discs exchange is added to `virial` of one rank; null ends that. A
-    /// pair's collision is added by the rank that owns its first disc.
-    void add_virial_to(PairVirial* virial) {
-        virial_ = virial;
-        if (!virial) return;
-        no_virial_ = *virial;
-        no_virial_.clear();
+    /// From now on what own discs add to the time integral of stress is added to `sums` of one
+    /// rank; null ends that. A pair's collision is added by the rank that owns its first disc.
+    void add_stress_to(StressSums* sums) {
+        stress_ = sums;
+        if (!sums) return;
+        no_stress_ = *sums;
+        no_stress_.clear();
     }
+    /// What flights have gathered since the last sync, and no sum has yet.
+    virtual FlightIntegral flight_integral() const { return {}; }
     /// See Simulation::note_crossings_in.
     void note_crossings_in(std::vector<Crossing>& crossings) { crossings_.push_back(&crossings); }
     void forget_crossings_in(std::vector<Crossing>& crossings) {
@@ -96,10 +98,10 @@ protected:
 
     std::vector<Collision>* log_ = nullptr;
     WallImpulses* impulses_ = nullptr;
-    PairVirial* virial_ = nullptr;
+    StressSums* stress_ = nullptr;
     double* work_ = nullptr;
     /// Where parts of it begin. In its units all terms are 0 until somebody asks for them.
-    PairVirial no_virial_{0x1p900};
+    StressSums no_stress_{0x1p900};
     std::vector<std::vector<Crossing>*> crossings_;
 };
 

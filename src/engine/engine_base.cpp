@@ -115,18 +115,30 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
     std::vector<Disc>& discs = discs_.all();
     const auto n = static_cast<std::int64_t>(discs.size());
     const bool frame_moves = dynamics_.frame_at(time_).is_moving;
+    const FlightIntegral flight = flight_integral();
     double fastest = 0;
     const bool is_work_asked = Dynamics::has_moving_images && work_ != nullptr;
     if (is_work_asked) *work_ -= energy_of_own();
-#pragma omp parallel for num_threads(tuning_.threads) schedule(static) reduction(max : fastest)
-    for (std::int64_t i = 0; i < n; ++i) {
-        Disc& disc = discs[static_cast<std::size_t>(i)];
-        if (Dynamics::may_lose_discs && disc.has_departed()) continue;
-        Dynamics::advance(disc, time_);
-        if (frame_moves) dynamics_.restart_frame(disc, time_);
-        if constexpr (Dynamics::is_periodic) this->wrap(disc);
-        disc.tau = 0;
-        fastest = std::max(fastest, dynamics_.squared_speed(disc));
+#pragma omp parallel num_threads(tuning_.threads) reduction(max : fastest)
+    {
+        StressSums flights = no_stress_;
+        StressTerms terms;
+#pragma omp for schedule(static)
+        for (std::int64_t i = 0; i < n; ++i) {
+            Disc& disc = discs[static_cast<std::size_t>(i)];
+            if (Dynamics::may_lose_discs && disc.has_departed()) continue;
+            terms.add_flight(dynamics_.mass_of(disc), disc, flight, flights);
+            Dynamics::advance(disc, time_);
+            if (frame_moves) dynamics_.restart_frame(disc, time_);
+            if constexpr (Dynamics::is_periodic) this->wrap(disc);
+            disc.tau = 0;
+            fastest = std::max(fastest, dynamics_.squared_speed(disc));
+        }
+        terms.add_to(flights);
+        flights.energy += flights.xx;
+        flights.energy += flights.yy;
+#pragma omp critical(stress)
+        if (stress_) *stress_ += flights;
     }
     if (is_work_asked) *work_ += energy_of_own();
     return std::sqrt(fastest);

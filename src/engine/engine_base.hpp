@@ -36,6 +36,7 @@ public:
     }
     double clock() const final { return time_; }
     Frame frame() const final;
+    FlightIntegral flight_integral() const final { return dynamics_.flight_integral_at(time_); }
     std::uint64_t n_discs() const final { return discs_.n_with_departed(); }
     PhaseSeconds phase_seconds() const final { return phases_.seconds(); }
 

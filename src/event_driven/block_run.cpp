@@ -64,7 +64,7 @@ void BlockRun<Dynamics>::run_gathered(std::span<std::uint64_t> histories) {
     for (Event event;
          s.queue.pop(event, before, is_current) && !s.outcome->is_cascade && !is_stop_overdue();)
         s.happen(event);
-    s.virial_terms.add_to(s.outcome->virial);
+    s.stress_terms.add_to(s.outcome->stress);
     s.report(histories);
 }
 
@@ -279,6 +279,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Event& event) {
     Disc& p = discs[event.p];
     const double vx_before = p.vx, vy_before = p.vy;
+    if (is_wall(event.q) && is_own[event.p] != 0) add_flight(1, event);
     if (event.q == x_wall) {
         dynamics.bounce_x_at(p, event.time);
     } else if (event.q == y_wall) {
@@ -294,6 +295,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
     }
     if constexpr (Dynamics::has_spin && Dynamics::may_lose_discs)
         if (p.has_departed()) columns[SideColumn::spin][event.p] = 0;
+    if (is_wall(event.q) && is_own[event.p] != 0) add_flight(-1, event);
     note(event.p, event.q, event);
     if (is_own[event.p] != 0) {
         outcome->n_events += 1;
@@ -306,7 +308,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
 /// Two discs, the second one where the event's image has it.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event& event) {
     Disc &p = discs[event.p], &q = discs[event.q];
-    const double vx_before = p.vx, vy_before = p.vy;
+    const PairStress stress(p, q);
     if (Dynamics::is_periodic && event.has_image()) move_image(q, event.image());
     if constexpr (Dynamics::has_spin)
         dynamics.collide_at(p, q, event.time, columns[SideColumn::spin][event.p],
@@ -314,11 +316,10 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::collide(const Event&
     else
         dynamics.collide_at(p, q, event.time);
     if (is_own[event.p] != 0) {
-        const double mass = dynamics.mass_of(p) * dynamics.slowing_at(event.time);
-        virial_terms.add(mass * (p.vx - vx_before), mass * (p.vy - vy_before),
-                         dynamics.separation(p, q), outcome->virial);
+        [[maybe_unused]] const double impulse = stress.add_to(
+            stress_terms, outcome->stress, dynamics, p, q, dynamics.separation(p, q), event.time);
         if constexpr (Dynamics::has_moving_images)
-            outcome->work += mass * (p.vx - vx_before) * periods().between(p, q, event.time).vx;
+            outcome->work += impulse * periods().between(p, q, event.time).vx;
     }
     if (Dynamics::is_periodic && event.has_image()) move_image(q, -event.image());
 }

@@ -19,7 +19,7 @@
 #include "core/disc.hpp"
 #include "core/side_columns.hpp"
 #include "dynamics/all_dynamics.hpp"
-#include "engine/pair_virial.hpp"
+#include "engine/stress_sums.hpp"
 #include "event_driven/box_layout.hpp"
 
 namespace carrom {
@@ -56,7 +56,7 @@ struct BlockGround {
     BlockWindow window;
     bool is_logged = false;
     const SideColumns* columns = nullptr; ///< by disc
-    PairVirial no_virial{0x1p900};        ///< where sums begin
+    StressSums no_stress{0x1p900};        ///< where sums begin
     BoxCells box_cells{};                 ///< for runs of the whole box
     bool is_alone = false; ///< there is one run, of the whole box: nobody compares histories, and
                            ///< the grid says nothing
@@ -118,7 +118,7 @@ struct BlockOutcome {
     std::vector<HaloRecord> ring;
     std::vector<LoggedEvent> log;
     std::uint64_t n_events = 0; ///< whose first disc is own
-    PairVirial virial{1};       ///< of these
+    StressSums stress{1};       ///< of these
     double work = 0;            ///< that moving images have done in them, if they are logged
     double too_fast = 0;        ///< the largest speed of an own disc that got too far, else 0
     double far_partner = 0; ///< the largest speed of a disc from beyond the ring that an own disc

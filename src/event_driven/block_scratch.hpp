@@ -89,6 +89,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void predict_all();
     void happen(const Event& event);
     void carry_out(const Event& event);
+    void add_flight(double sign, const Event& event);
     void collide(const Event& event);
     void check_partner(std::uint32_t slot);
     void note(std::uint32_t slot, std::uint32_t partner, const Event& event);
@@ -228,7 +229,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     double cascade_begin = 0; ///< when the present collision cascade began, if it is one
     std::uint64_t cascade = 0;
     BlockOutcome* outcome = nullptr;
-    VirialTerms virial_terms;     ///< of the outcome, to be added to its virial
+    StressTerms stress_terms;     ///< of the outcome, to be added to its sums
     double bound_squared = 0;     ///< of the speed
     float bound_lane_squared = 0; ///< the same in cells per window, somewhat less
     double too_fast = 0;          ///< see BlockOutcome

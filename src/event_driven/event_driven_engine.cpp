@@ -303,7 +303,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
     const PhaseClock::Scope scope(phases_, Phase::search);
     const BlockGround ground{
         discs_.all(),        discs_.n_own(),    &discs_.grid(),   own_cells_, window_,
-        this->is_followed(), &discs_.columns(), this->no_virial_, box_cells_, is_alone_};
+        this->is_followed(), &discs_.columns(), this->no_stress_, box_cells_, is_alone_};
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
     for (Block& block : blocks_) {
         if (block.is_marked == 0) continue;
@@ -341,7 +341,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
     for (const Block& block : blocks_) {
         n_events_ += block.outcome.n_events;
         largest_speed_ = std::max(largest_speed_, block.outcome.largest_speed_at_end);
-        if (this->virial_) *this->virial_ += block.outcome.virial;
+        if (this->stress_) *this->stress_ += block.outcome.stress;
         if (this->is_followed()) log_events(block.outcome);
         if (Dynamics::has_moving_images && this->work_) *this->work_ += block.outcome.work;
     }

@@ -9,79 +9,102 @@ namespace carrom {
 
 namespace {
 
-std::array<ExactSum*, 3> parts_of(PairVirial& virial) {
-    return {&virial.xx, &virial.xy, &virial.yy};
+constexpr std::size_t n_words = 2 * 4; ///< of StressSums
+constexpr std::size_t n_numbers = 13;
+
+std::vector<double> numbers_of(const Look& l) {
+    return {l.motion.xx, l.motion.xy,  l.motion.yy, l.momentum_x, l.momentum_y,
+            l.mass,      l.speed_unit, l.n_discs,   l.area,       l.stress.xx,
+            l.stress.xy, l.stress.yy,  l.energy};
+}
+
+Look look_of(const std::vector<double>& numbers) {
+    Look l;
+    l.motion = {numbers[0], numbers[1], numbers[2]};
+    l.momentum_x = numbers[3];
+    l.momentum_y = numbers[4];
+    l.mass = numbers[5];
+    l.speed_unit = numbers[6];
+    l.n_discs = numbers[7];
+    l.area = numbers[8];
+    l.stress = {numbers[9], numbers[10], numbers[11]};
+    l.energy = numbers[12];
+    return l;
 }
 
 } // namespace
 
 PressureSampler::PressureSampler(Simulation& simulation, const Communicator& ranks)
-    : simulation_(&simulation), ranks_(&ranks), last_virial_(simulation.virial()) {}
+    : simulation_(&simulation), ranks_(&ranks), last_sums_(simulation.stress_sums()) {}
 
 PressureSampler::PressureSampler(Simulation& simulation, const Communicator& ranks,
                                  SampleSums& sums)
     : PressureSampler(simulation, ranks) {
-    sums.virial_bound = simulation.virial_bound();
-    last_ = simulation.motion();
+    sums.virial_bound = simulation.stress_bound();
+    begin_interval(simulation.look());
 }
 
 PressureSampler PressureSampler::going_on(Simulation& simulation, const Communicator& ranks,
                                           SampleSums& sums) {
-    simulation.begin_virial(sums.virial_bound);
+    simulation.begin_stress_sums(sums.virial_bound);
     PressureSampler sampler(simulation, ranks);
-    if (sums.pending_virial.size() != 6 || sums.last_motion.size() != 5)
+    if (sums.pending_virial.size() != n_words || sums.last_motion.size() != n_numbers)
         throw InputError({{"[output.measurements]", 0,
                            "the checkpoint's measurements of "
                            "\"pressure\" are not whole"}});
-    const std::vector<double>& m = sums.last_motion;
-    sampler.last_ = {{m[0], m[1], m[2]}, m[3], m[4], 0};
+    sampler.last_ = look_of(sums.last_motion);
     if (ranks.is_root()) {
-        PairVirial pending(sums.virial_bound);
+        StressSums pending(sums.virial_bound);
         std::size_t next = 0;
-        for (ExactSum* part : parts_of(pending)) {
+        for (ExactSum* part : pending.parts()) {
             part->add_words(sums.pending_virial[next], sums.pending_virial[next + 1]);
             next += 2;
         }
-        sampler.last_virial_ -= pending;
+        sampler.last_sums_ -= pending;
     }
     sums.pending_virial.clear();
     sums.last_motion.clear();
     return sampler;
 }
 
-/// Over all ranks. **Collective.**
-PairVirial PressureSampler::since_last() const {
-    PairVirial since = simulation_->virial();
-    since -= last_virial_;
-    for (ExactSum* part : parts_of(since)) ranks_->sum(*part);
+/// The last sample is at `now`: what sums have until then does not count. **Collective.**
+void PressureSampler::begin_interval(const Look& now) {
+    last_sums_ = simulation_->stress_sums();
+    last_ = now;
+    simulation_->integrate(since_last(), last_);
+}
+
+/// Of this rank.
+StressSums PressureSampler::since_last() const {
+    StressSums since = simulation_->stress_sums();
+    since -= last_sums_;
     return since;
 }
 
 void PressureSampler::sample(SampleSums& sums, double steps) {
-    const MotionNow now = simulation_->motion();
-    const PairVirial virial = since_last();
-    const double area = (last_.area + now.area) / 2, unit = simulation_->velocity_unit() / steps;
-    const auto mean = [this, &now](double Tensor::* part) {
-        return (last_.flux.*part + now.flux.*part) / 2;
-    };
-    const double energy = (mean(&Tensor::xx) + mean(&Tensor::yy)) / 2; // N kT
-    const double n_discs = (last_.n_discs + now.n_discs) / 2;
+    Look now = simulation_->look();
+    simulation_->integrate(since_last(), now);
+    const MotionIntegrals mean = integrals_between(simulation_->averaged_system(), last_, now,
+                                                   steps);
     for (const double number :
-         {(mean(&Tensor::xx) + unit * virial.xx.value()) / area,
-          (mean(&Tensor::xy) + unit * virial.xy.value()) / area,
-          (mean(&Tensor::yy) + unit * virial.yy.value()) / area, energy / n_discs, energy / area})
+         {mean.pressure(&Tensor::xx), mean.pressure(&Tensor::xy), mean.pressure(&Tensor::yy),
+          mean.temperature(), mean.energy() / mean.area})
         sums.pressures.push_back(number);
-    last_virial_ = simulation_->virial();
-    last_ = now;
+    begin_interval(now);
+}
+
+double PressureSampler::temperature() const {
+    return temperature_at(simulation_->averaged_system(), last_);
 }
 
 void PressureSampler::store(SampleSums& sums) const {
-    PairVirial since = since_last();
-    for (const ExactSum* part : parts_of(since)) {
+    StressSums since = since_last();
+    for (ExactSum* part : since.parts()) {
+        ranks_->sum(*part);
         sums.pending_virial.push_back(part->low_word());
         sums.pending_virial.push_back(part->high_word());
     }
-    sums.last_motion = {last_.flux.xx, last_.flux.xy, last_.flux.yy, last_.n_discs, last_.area};
+    sums.last_motion = numbers_of(last_);
 }
 
 } // namespace carrom

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pressure tensor between two samples: the virial of all collisions of pairs since the last
-// one, and the mean of the kinetic parts at both (docs/understanding/pressure.md). Price of a
-// sample: two passes over the discs.
+// The pressure tensor between two samples, from the time integral of stress since the last one
+// (docs/understanding/pressure.md). Price of a sample: two passes over the discs.
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "engine/pair_virial.hpp"
+#include "engine/stress_sums.hpp"
 #include "measure/sample_sums.hpp"
 #include "parallel/communicator.hpp"
 #include "simulation/simulation.hpp"
@@ -25,20 +24,22 @@ public:
 
     /// Adds an interval, of so many steps, to `sums`. **Collective.**
     void sample(SampleSums& sums, double steps);
-    /// Of the last sample. Without collisions where sampling goes on from a checkpoint.
-    const MotionNow& last() const { return last_; }
+    /// Of the last sample. Speeds and counts are unknown where sampling goes on from a checkpoint.
+    const Look& last() const { return last_; }
+    double temperature() const; ///< at the last sample
     /// Fills in what has happened since the last sample. **Collective.**
     void store(SampleSums& sums) const;
 
 private:
     PressureSampler(Simulation& simulation, const Communicator& ranks);
 
-    PairVirial since_last() const;
+    StressSums since_last() const;
+    void begin_interval(const Look& now);
 
     Simulation* simulation_;
     const Communicator* ranks_;
-    PairVirial last_virial_; ///< of this rank, at the last sample
-    MotionNow last_;         ///< at the last sample
+    StressSums last_sums_; ///< of this rank, at the last sample
+    Look last_;            ///< then; its integrals are those of flights since the sync before
 };
 
 } // namespace carrom

@@ -298,10 +298,10 @@ void Sampler::sample_impulses(std::int64_t /*step*/) {
 
 void Sampler::sample_thermo() {
     const Totals totals = simulation_.energies();
-    const MotionNow& now = pressure_->last();
+    const Look& now = pressure_->last();
     sums_.thermo.insert(sums_.thermo.end(),
                         {totals.kinetic_energy + totals.rotational_energy + totals.potential_energy,
-                         (now.flux.xx + now.flux.yy) / (2 * now.n_discs), now.n_discs,
+                         pressure_->temperature(), now.n_discs,
                          static_cast<double>(now.pair_collisions)});
 }
 

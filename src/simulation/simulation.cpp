@@ -98,7 +98,7 @@ double heaviest_of(const Scene& scene) {
     return heaviest;
 }
 
-AveragedSystem averaged_system(const Scene& scene, std::uint64_t n_discs) {
+AveragedSystem system_to_average(const Scene& scene, std::uint64_t n_discs) {
     AveragedSystem system;
     system.n_discs = static_cast<double>(n_discs);
     system.box = scene.box;
@@ -110,6 +110,8 @@ AveragedSystem averaged_system(const Scene& scene, std::uint64_t n_discs) {
     system.keeps_discs = !scene.effects.have_open_boundaries();
     system.is_periodic_x = scene.effects.is_periodic_x();
     system.is_periodic_y = scene.effects.is_periodic_y();
+    system.has_flow = scene.effects.are_sheared();
+    system.keeps_energy = !scene.effects.are_any(); // others keep it, too: a look more is no harm
     system.last_step = scene.steps;
     return system;
 }
@@ -127,17 +129,19 @@ Simulation::Simulation(const Scene& scene, StoredState state, const Communicator
       n_threads_(tuning.threads), heaviest_(heaviest_of(scene)),
       averages_from_(scene.averages_from),
       engine_(engine_for(scene, std::move(state), communicator, tuning)),
-      averages_(std::make_unique<BlockAverages>(averaged_system(scene, engine_->n_discs()))) {
-    // Terms are some 2^45 units, and sums come to 2^80 of them.
-    begin_virial(heaviest_ * scene.radius * usual_speed(scene, engine_->own(), communicator) *
-                 0x1p80);
+      averages_(std::make_unique<BlockAverages>(system_to_average(scene, engine_->n_discs()))) {
+    // Terms are some 2^45 units, and sums come to 2^80 of them. The largest are those of a whole
+    // flight between syncs. Rare longer ones take another path.
+    const double speed = usual_speed(scene, engine_->own(), communicator),
+                 flight = speed * static_cast<double>(std::min<std::int64_t>(scene.sync_every, 64));
+    begin_stress_sums(heaviest_ * std::max(scene.radius, flight) * speed * 0x1p80);
 }
 
 Simulation::~Simulation() = default;
 
 void Simulation::advance_towards(std::int64_t last_step) {
     if (!averages_->has_begun() && step() >= averages_from_) average_anew();
-    const std::int64_t next = averages_->has_begun() ? averages_->block_end() : averages_from_;
+    const std::int64_t next = averages_->has_begun() ? averages_->next_look() : averages_from_;
     if (check_ && step() < last_step)
         advance_checked();
     else // never beyond the first step after a sync
@@ -145,32 +149,38 @@ void Simulation::advance_towards(std::int64_t last_step) {
     if (!averages_->has_begun() && step() >= averages_from_)
         average_anew();
     else if (averages_->has_begun() && averages_->is_due(step()))
-        averages_->add(step(), look());
+        averages_->add(step(), integrated_look());
 }
 
-void Simulation::begin_virial(double bound) {
-    if (virial_ && bound == virial_bound_) return; // it may go on from a checkpoint
-    virial_bound_ = bound;
-    virial_ = std::make_unique<PairVirial>(bound);
-    engine_->add_virial_to(virial_.get());
+void Simulation::begin_stress_sums(double bound) {
+    if (stress_ && bound == stress_bound_) return; // it may go on from a checkpoint
+    stress_bound_ = bound;
+    stress_ = std::make_unique<StressSums>(bound);
+    engine_->add_stress_to(stress_.get());
 }
 
-const PairVirial& Simulation::virial() const { return *virial_; }
+const StressSums& Simulation::stress_sums() const { return *stress_; }
 
-MotionNow Simulation::motion() const {
-    const Look now = look();
-    return {averages_->motion_of(now), now.n_discs, now.area, now.pair_collisions};
-}
+const AveragedSystem& Simulation::averaged_system() const { return averages_->system(); }
 
 Look Simulation::look() const {
     const SpeciesTable* const species_table = effects_.species.empty() ? nullptr
                                                                        : engine_->species_table();
     Look look = look_at(in_flow(), species_table, heaviest_, engine_->n_discs(), n_threads_,
                         communicator_);
-    look.virial = sum_of(*virial_, communicator_);
     const Extent box = extent_at(effects_, box_, static_cast<double>(step()));
     look.area = (box.x_high - box.x_low) * (box.y_high - box.y_low);
     return look;
+}
+
+void Simulation::integrate(const StressSums& mine, Look& look) const {
+    add_integrals(mine, engine_->flight_integral(), frame(), communicator_, look);
+}
+
+Look Simulation::integrated_look() const {
+    Look now = look();
+    integrate(*stress_, now);
+    return now;
 }
 
 void Simulation::check_every_step(const Scene& scene) {
@@ -193,13 +203,13 @@ void Simulation::advance_checked() {
     if (log_) log_->insert(log_->end(), collisions.begin(), collisions.end());
 }
 
-void Simulation::average_anew() { averages_->begin(step(), look()); }
+void Simulation::average_anew() { averages_->begin(step(), integrated_look()); }
 
 std::vector<std::int64_t> Simulation::stored_averages() const {
     if (!averages_->has_begun()) return {};
-    PairVirial all = *virial_;
-    std::vector<std::int64_t> words = {averages_from_, std::bit_cast<std::int64_t>(virial_bound_)};
-    for (ExactSum* sum : {&all.xx, &all.xy, &all.yy}) {
+    StressSums all = *stress_;
+    std::vector<std::int64_t> words = {averages_from_, std::bit_cast<std::int64_t>(stress_bound_)};
+    for (ExactSum* sum : all.parts()) {
         communicator_.sum(*sum);
         words.push_back(static_cast<std::int64_t>(sum->low_word()));
         words.push_back(static_cast<std::int64_t>(sum->high_word()));
@@ -210,16 +220,16 @@ std::vector<std::int64_t> Simulation::stored_averages() const {
 }
 
 void Simulation::go_on_averaging(std::span<const std::int64_t> words) {
-    constexpr std::size_t n_virial = 8;
-    if (words.size() < n_virial || words[0] != averages_from_) return;
+    constexpr std::size_t n_sums = 10;
+    if (words.size() < n_sums || words[0] != averages_from_) return;
     const auto bound = std::bit_cast<double>(words[1]);
-    if (!(bound > 0) || !std::isfinite(bound) || !averages_->set_words(words.subspan(n_virial)))
+    if (!(bound > 0) || !std::isfinite(bound) || !averages_->set_words(words.subspan(n_sums)))
         return;
-    virial_.reset();
-    begin_virial(bound);
+    stress_.reset();
+    begin_stress_sums(bound);
     if (!communicator_.is_root()) return; // all ranks' sums are added up
     std::size_t next = 2;
-    for (ExactSum* sum : {&virial_->xx, &virial_->xy, &virial_->yy}) {
+    for (ExactSum* sum : stress_->parts()) {
         sum->add_words(static_cast<std::uint64_t>(words[next]),
                        static_cast<std::uint64_t>(words[next + 1]));
         next += 2;
@@ -228,7 +238,7 @@ void Simulation::go_on_averaging(std::span<const std::int64_t> words) {
 
 Averages Simulation::averages() const {
     if (!averages_->has_begun()) return {};
-    return averages_->averages(step(), look());
+    return averages_->averages(step(), integrated_look());
 }
 
 std::int64_t Simulation::step() const {

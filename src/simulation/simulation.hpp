@@ -24,6 +24,7 @@
 
 namespace carrom {
 
+struct AveragedSystem;
 class BlockAverages;
 class Engine;
 class StateCheck;
@@ -31,8 +32,7 @@ struct BondOrder;
 struct HexaticSums;
 struct LocalView;
 struct Look;
-struct MotionNow;
-struct PairVirial;
+struct StressSums;
 struct WallImpulses;
 
 class Simulation {
@@ -84,16 +84,20 @@ public:
     /// `crossings`, until it is forgotten.
     void note_crossings_in(std::vector<Crossing>& crossings);
     void forget_crossings_in(std::vector<Crossing>& crossings);
-    /// The virial of this rank's collisions of pairs since the simulation was made, in the unit of
-    /// `virial_bound()`.
-    const PairVirial& virial() const;
-    double virial_bound() const { return virial_bound_; }
+    /// This rank's sums of stress since the simulation was made, up to the last sync and with all
+    /// collisions since then, in the unit of `stress_bound()`.
+    const StressSums& stress_sums() const;
+    double stress_bound() const { return stress_bound_; }
     int n_threads() const { return n_threads_; }
-    /// What the kinetic part of the pressure follows from, now. **Collective.**
-    MotionNow motion() const;
-    /// Begins the sum anew in another unit, as a checkpoint's measurements need it; before any
+    /// What the averages follow from, now, but for the integrals of stress and energy.
+    /// **Collective.**
+    Look look() const;
+    /// Adds these, where `mine` are this rank's sums of the time that counts. **Collective.**
+    void integrate(const StressSums& mine, Look& look) const;
+    const AveragedSystem& averaged_system() const;
+    /// Begins the sums anew in another unit, as a checkpoint's measurements need it; before any
     /// step.
-    void begin_virial(double bound);
+    void begin_stress_sums(double bound);
 
     /// Adds to counts[k] this rank's pairs of discs at distances from k to k + 1 times `bin_width`,
     /// now; over all ranks each pair is counted once. The counts of all bins reach no further than
@@ -117,7 +121,8 @@ public:
 
     /// Averages since the run's start, or since `average_anew`. **Collective.**
     Averages averages() const;
-    /// What `averages` and the virial rest on, for a checkpoint; empty before they have begun.
+    /// What `averages` and the sums of stress rest on, for a checkpoint; empty before they have
+    /// begun.
     /// **Collective.**
     std::vector<std::int64_t> stored_averages() const;
     /// Goes on with those of a checkpoint of the present step, before any step. They begin anew
@@ -137,7 +142,7 @@ public:
 private:
     void advance_checked();
     LocalView find_orders(double reach_beyond, std::vector<BondOrder>& orders) const;
-    Look look() const;
+    Look integrated_look() const;
     /// As `shown()`, for whoever looks at velocities only.
     std::span<const Disc> in_motion() const;
     /// The same without the mean flow between sheared sides, which is no temperature.
@@ -150,11 +155,11 @@ private:
     Box box_;
     int n_threads_;
     double heaviest_ = 1; ///< mass of a disc
-    double virial_bound_ = 1;
+    double stress_bound_ = 1;
     std::int64_t averages_from_;
     std::unique_ptr<Engine> engine_;
     std::unique_ptr<BlockAverages> averages_;
-    std::unique_ptr<PairVirial> virial_; ///< the engine adds to it
+    std::unique_ptr<StressSums> stress_; ///< the engine adds to it
     std::unique_ptr<StateCheck> check_;
     mutable std::vector<Disc> shown_;       ///< under gravity
     mutable std::vector<Disc> stored_;      ///< once discs have left

@@ -271,20 +271,27 @@ template <class Dynamics>
 }
 
 /// Returns the square of the largest speed after it. Walls at rest that only mirror do not matter.
-/// Two ranks may carry out a collision: the one that owns the first disc adds its virial.
+/// Two ranks may carry out a collision: the one that owns the first disc adds it to the sums.
 template <class Dynamics>
 [[gnu::always_inline]] inline double TimeSteppedEngine<Dynamics>::collide(
-    const Candidate& c, int m, std::vector<Disc>& results, VirialTerms& terms, PairVirial& virial) {
+    const Candidate& c, int m, std::vector<Disc>& results, StressTerms& terms, StressSums& stress) {
     Disc& p = results[c.p];
+    const bool is_summed = this->stress_ && c.p < discs_.n_own();
     if (c.is_wall()) {
+        const auto add_flight = [&](double sign) {
+            if (!is_summed || (Dynamics::may_lose_discs && p.has_departed())) return;
+            stress.add_flight(sign, dynamics_.mass_of(p), p,
+                              dynamics_.flight_integral_at(m + c.time));
+        };
+        add_flight(1);
         dynamics_.bounce(p, m, c.time);
+        add_flight(-1);
         if constexpr (Dynamics::has_spin && Dynamics::may_lose_discs)
             if (p.has_departed()) discs_.columns()[SideColumn::spin][c.p] = 0;
         return Dynamics::has_mirror_walls ? 0 : squared_speed_of(p);
     }
     Disc& q = results[c.q];
-    const bool is_summed = this->virial_ && c.p < discs_.n_own();
-    const double vx = p.vx, vy = p.vy;
+    const PairStress before(p, q);
     const Separation to = is_summed ? dynamics_.separation_at(p, q, m + c.time) : Separation{};
     // A spin does not affect the search, so it need not wait for a cut micro-step's end.
     if constexpr (Dynamics::has_spin) {
@@ -294,12 +301,12 @@ template <class Dynamics>
         dynamics_.collide(p, q, m, c.time);
     }
     if (is_summed) {
-        const double mass = dynamics_.mass_of(p);
-        terms.add(mass * (p.vx - vx), mass * (p.vy - vy), to, virial);
+        [[maybe_unused]] const double impulse = before.add_to(terms, stress, dynamics_, p, q, to,
+                                                              m + c.time);
         if constexpr (Dynamics::has_moving_images)
             if (const double slip = dynamics_.periods().between(p, q, 0).vx;
                 this->work_ && slip != 0) {
-                const double work = mass * (p.vx - vx) * slip;
+                const double work = impulse * slip;
 #pragma omp atomic
                 *this->work_ += work;
             }
@@ -323,14 +330,14 @@ double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m,
     double fastest = 0;
 #pragma omp parallel num_threads(tuning_.threads) reduction(max : fastest) if (n_kept > 256)
     {
-        PairVirial virial = this->no_virial_;
-        VirialTerms terms;
+        StressSums stress = this->no_stress_;
+        StressTerms terms;
 #pragma omp for schedule(static)
         for (std::int64_t k = 0; k < n_kept; ++k) {
             if (k + prefetch_distance < n_kept)
                 prefetch(kept[static_cast<std::size_t>(k + prefetch_distance)], results, is_last);
             const Candidate& c = kept[static_cast<std::size_t>(k)];
-            fastest = std::max(fastest, collide(c, m, results, terms, virial));
+            fastest = std::max(fastest, collide(c, m, results, terms, stress));
             if (is_last) continue;
             const auto place = static_cast<std::size_t>(2 * k);
             hits_[place] = c.p;
@@ -341,9 +348,9 @@ double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m,
                 update_flight(index, results[index]);
             }
         }
-        terms.add_to(virial);
-#pragma omp critical(virial)
-        if (this->virial_) *this->virial_ += virial;
+        terms.add_to(stress);
+#pragma omp critical(stress)
+        if (this->stress_) *this->stress_ += stress;
     }
     return std::sqrt(fastest);
 }

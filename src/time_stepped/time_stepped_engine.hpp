@@ -60,7 +60,7 @@ private:
     void apply(const Window& window, int m);
     double collide_all(const Window& window, int m, std::vector<Disc>& results);
     double collide(const Candidate& candidate, int m, std::vector<Disc>& results,
-                   VirialTerms& terms, PairVirial& virial);
+                   StressTerms& terms, StressSums& stress);
     void prefetch(const Candidate& candidate, const std::vector<Disc>& results, bool is_last) const;
     void update_flight(LocalIndex index, const Disc& disc) {
         if constexpr (Dynamics::is_periodic)

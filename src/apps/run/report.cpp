@@ -19,8 +19,15 @@ nlohmann::ordered_json number_or_null(double value) {
 }
 
 nlohmann::ordered_json estimate_json(const Estimate& estimate, const Averages& averages) {
-    nlohmann::ordered_json json = {{"value", number_or_null(estimate.value)},
-                                   {"error", number_or_null(estimate.error)}};
+    nlohmann::ordered_json json = {
+        {"value", number_or_null(estimate.value)},
+        {"error", number_or_null(estimate.error)},
+        {"correlation_time", number_or_null(estimate.correlation_time)},
+        {"independent_samples", number_or_null(estimate.independent_samples)}};
+    if (estimate.is_changing) {
+        json["first"] = number_or_null(estimate.first);
+        json["last"] = number_or_null(estimate.last);
+    }
     const std::string reason = reason_without_error(estimate, averages);
     if (!reason.empty()) json["without_error"] = reason;
     return json;

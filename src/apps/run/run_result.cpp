@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/errors.hpp"
 #include "machine/machine.hpp"
@@ -94,13 +95,45 @@ double collisions_per_disc(const Scene& scene, const RunResult& result) {
                  disc_steps(result) * static_cast<double>(scene.micro_steps));
 }
 
+namespace {
+
+/// Below this an error is a fifth too small on average (statistics/blocking.hpp).
+constexpr int fewest_independent_samples = 8;
+
+} // namespace
+
 std::string reason_without_error(const Estimate& estimate, const Averages& averages) {
+    if (estimate.is_conserved) return "conserved";
+    if (estimate.is_changing) return "still changing: a trend is not an error";
     if (std::isfinite(estimate.error)) return {};
     if (averages.steps == 0) return "nothing is averaged: no step came after the first one";
     if (std::isnan(estimate.value)) return "the scene's effects leave it without a meaning";
     if (std::isinf(estimate.value)) return "no disc met another one";
     return fmt::format("the {} averaged steps make {} blocks, and an error takes {}",
                        averages.steps, averages.n_blocks, fewest_blocks);
+}
+
+std::string doubts_of_averages(const Averages& averages) {
+    if (averages.steps == 0 || averages.n_blocks < static_cast<std::int64_t>(fewest_blocks))
+        return "none: " + reason_without_error({averages.temperature.value}, averages);
+    std::vector<std::string_view> changing, uncertain;
+    std::size_t n_errors = 0;
+    for (const auto& [name, estimate] : averages.named()) {
+        n_errors += std::isfinite(estimate.error);
+        if (estimate.is_changing) changing.push_back(name);
+        if (estimate.independent_samples < fewest_independent_samples) uncertain.push_back(name);
+    }
+    std::string text;
+    if (!changing.empty())
+        text = fmt::format("{} {} still changing, so without an error", fmt::join(changing, ", "),
+                           changing.size() == 1 ? "is" : "are");
+    if (!uncertain.empty())
+        text += fmt::format(
+            "{}uncertain themselves{}, with less than {} independent samples",
+            text.empty() ? "" : "; ",
+            uncertain.size() == n_errors ? "" : fmt::format(" for {}", fmt::join(uncertain, ", ")),
+            fewest_independent_samples);
+    return text;
 }
 
 namespace {

@@ -59,6 +59,9 @@ double rejected_share(const RunResult& result);
 
 /// Why an average has no error; empty where it has one.
 std::string reason_without_error(const Estimate& estimate, const Averages& averages);
+/// One line on averages that are still changing, and on those whose errors rest on few independent
+/// samples; empty where there are none.
+std::string doubts_of_averages(const Averages& averages);
 
 /// What a time-stepped run is estimated to miss; docs/understanding/pressure.md has the formula.
 struct LostCollisions {

@@ -69,11 +69,12 @@ std::string windows_text(const RollbackCounts& runs) {
         100 * ratio(static_cast<double>(runs.blocks_redone), static_cast<double>(runs.blocks)));
 }
 
-/// The error of what a run conserves is that of rounding, which is none of statistics.
 std::string estimate_text(const Estimate& estimate) {
+    if (estimate.is_conserved) return fmt::format("{:.7g} (conserved)", estimate.value);
+    if (estimate.is_changing)
+        return fmt::format("{:.5g} (from {:.5g} to {:.5g})", estimate.value, estimate.first,
+                           estimate.last);
     if (!(estimate.error >= 0)) return fmt::format("{:.5g}", estimate.value);
-    if (estimate.error <= 1e-12 * std::fabs(estimate.value))
-        return fmt::format("{:.7g}", estimate.value);
     return fmt::format("{:.7g} +- {:.1g}", estimate.value, estimate.error);
 }
 
@@ -182,8 +183,8 @@ std::string average_lines(const Scene& scene, const Averages& averages) {
     if (!scene.effects.are_any())
         text += labelled_line("pressure", counted_pressure_text(averages));
     text += labelled_line("speeds", speeds_text(scene, averages));
-    const std::string reason = reason_without_error(averages.temperature, averages);
-    return reason.empty() ? text : text + labelled_line("errors", "none: " + reason);
+    const std::string doubts = doubts_of_averages(averages);
+    return doubts.empty() ? text : text + labelled_line("errors", doubts);
 }
 
 /// What the method made of the collisions.

@@ -128,16 +128,30 @@ TEST_CASE("What nothing is averaged of is null, with the reason") {
     }
 }
 
-TEST_CASE("What is conserved is printed without an error, and keeps it in the report") {
+TEST_CASE("What is conserved or still changing has no error, and says so") {
     RunResult result = small_result();
     result.averages.steps = 50;
-    result.averages.temperature = {0.998, 2e-15};
-    result.averages.pressure = {0.5, 2e-12};
+    result.averages.n_blocks = 40;
+    result.averages.temperature.value = 0.998;
+    result.averages.temperature.is_conserved = true;
+    result.averages.pressure = {0.5, 2e-12, 3, 5};
+    result.averages.compressibility.value = 29;
+    result.averages.compressibility.is_changing = true;
+    result.averages.compressibility.first = 29.5;
+    result.averages.compressibility.last = 28.5;
     const std::string text = summary_text(small_scene(), result);
-    CHECK(text.find("kT = 0.998\n") != std::string::npos);
+    CHECK(text.find("kT = 0.998 (conserved)\n") != std::string::npos);
+    CHECK(text.find("= 29 (from 29.5 to 28.5)\n") != std::string::npos);
+    CHECK(text.find("Z is still changing, so without an error; uncertain themselves, with less "
+                    "than 8 independent samples\n") != std::string::npos);
     CHECK(text.find("P = 0.5 +- 2e-12") != std::string::npos);
     const auto report = nlohmann::json::parse(report_text(small_scene(), result));
-    CHECK(report.at("temperature").at("error") == 2e-15);
+    CHECK(report.at("temperature").at("error").is_null());
+    CHECK(report.at("temperature").at("without_error") == "conserved");
+    CHECK(report.at("compressibility").at("error").is_null());
+    CHECK(report.at("compressibility").at("first") == 29.5);
+    CHECK(report.at("compressibility").at("last") == 28.5);
+    CHECK(report.at("pressure").at("correlation_time") == 3);
 }
 
 } // namespace carrom

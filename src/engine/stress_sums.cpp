@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/pair_virial.hpp"
+#include "engine/stress_sums.hpp"
 
 #include <bit>
 #include <cmath>
@@ -18,8 +18,39 @@ std::uint64_t bits(double number) { return std::bit_cast<std::uint64_t>(number);
 
 } // namespace
 
+StressSums& StressSums::operator+=(const StressSums& other) {
+    for (std::size_t k = 0; k < parts().size(); ++k) *parts()[k] += *other.parts()[k];
+    return *this;
+}
+
+StressSums& StressSums::operator-=(const StressSums& other) {
+    for (std::size_t k = 0; k < parts().size(); ++k) *parts()[k] -= *other.parts()[k];
+    return *this;
+}
+
+void StressSums::add_flight(double sign, double mass, const Disc& disc,
+                            const FlightIntegral& integral) {
+    const double vx = disc.vx + integral.shift_x, vy = disc.vy + integral.shift_y,
+                 weight = integral.weight, factor = sign * mass;
+    const double term_xx = factor * (weight * vx * vx + integral.rest_x * integral.rest_x),
+                 term_yy = factor * (weight * vy * vy + integral.rest_y * integral.rest_y);
+    xx.add(term_xx);
+    xy.add(factor * (weight * vx * vy + integral.rest_x * integral.rest_y));
+    yy.add(term_yy);
+    energy.add(term_xx + term_yy);
+}
+
+void StressTerms::add_flight(double mass, const Disc& disc, const FlightIntegral& integral,
+                             StressSums& sum) {
+    const double vx = disc.vx + integral.shift_x, vy = disc.vy + integral.shift_y;
+    add(-mass * vx, -mass * vy, {integral.weight * vx, integral.weight * vy}, sum);
+    if (integral.rest_x != 0 || integral.rest_y != 0)
+        add(-mass * integral.rest_x, -mass * integral.rest_y, {integral.rest_x, integral.rest_y},
+            sum);
+}
+
 /// The mean of xy and yx counts: rough discs make them differ.
-void VirialTerms::add_to(PairVirial& sum) {
+void StressTerms::add_to(StressSums& sum) {
     const double from = shift / sum.xx.scale(), // of all three: they have one bound
         from_twice = 2 * from;
     std::uint64_t xx = 0, xy = 0, yy = 0, changed = 0;
@@ -45,7 +76,7 @@ void VirialTerms::add_to(PairVirial& sum) {
 }
 
 /// To the same bits.
-void VirialTerms::add_each(PairVirial& sum) const {
+void StressTerms::add_each(StressSums& sum) const {
     const auto add_one = [](ExactSum& part, double term) {
         const double units = term * part.scale();
         if (std::fabs(units) < most_units)

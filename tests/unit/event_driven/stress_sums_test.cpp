@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "engine/pair_virial.hpp"
+#include "engine/stress_sums.hpp"
 
 using namespace carrom;
 
@@ -31,9 +31,9 @@ std::vector<Impulse> impulses(std::size_t count, int least, int most, std::uint6
     return all;
 }
 
-PairVirial virial_of(const std::vector<Impulse>& impulses, double bound, std::size_t split) {
-    PairVirial sum(bound), rest(bound);
-    VirialTerms terms;
+StressSums virial_of(const std::vector<Impulse>& impulses, double bound, std::size_t split) {
+    StressSums sum(bound), rest(bound);
+    StressTerms terms;
     for (std::size_t k = 0; k < impulses.size(); ++k) {
         if (k == split) terms.add_to(sum);
         terms.add(impulses[k].x, impulses[k].y, impulses[k].to, k < split ? sum : rest);
@@ -42,7 +42,7 @@ PairVirial virial_of(const std::vector<Impulse>& impulses, double bound, std::si
     return sum += rest;
 }
 
-std::array<double, 3> values_of(const PairVirial& virial) {
+std::array<double, 3> values_of(const StressSums& virial) {
     return {virial.xx.value(), virial.xy.value(), virial.yy.value()};
 }
 

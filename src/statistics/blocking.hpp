@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Errors of averages over time, for samples that remember the ones before them.
+//
+// Samples become blocks of equal length. When there are `most_blocks`, each two become one, so that
+// memory does not grow with time. The error comes from blocks so long that their means are
+// independent (Flyvbjerg and Petersen, J. Chem. Phys. 91, 461 (1989)). Jonsson's test (Phys. Rev. E
+// 98, 043304 (2018)) finds that length without a person who looks at a curve. What correlation is
+// left between neighbouring blocks of that length is added.
+//
+// In runs of at least 30 correlation times the claimed error is within 10 % of the scatter between
+// runs. It is a fifth too small where there are only eight.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace carrom {
+
+/// An error takes at least this many blocks.
+constexpr std::size_t fewest_blocks = 4;
+/// Blocks are joined in pairs when there are this many.
+constexpr std::size_t most_blocks = 128;
+
+/// What the means of consecutive blocks show about the mean of all of them.
+struct BlockedMean {
+    double error = std::numeric_limits<double>::quiet_NaN(); ///< one standard error, or NaN where
+                                                             ///< blocks are too few
+    /// How many blocks it takes to get one that is independent of those before, at least 1.
+    double blocks_per_independent = std::numeric_limits<double>::quiet_NaN();
+    bool is_constant = false; ///< all blocks agree but for rounding: a conserved quantity
+    bool is_changing = false; ///< the run's halves differ by more than chance explains, or the
+                              ///< blocks follow a trend
+};
+
+/// `terms` are the means of blocks of one length, in the order of time.
+BlockedMean blocked_mean(std::span<const double> terms);
+/// Its error alone.
+double standard_error(std::span<const double> terms);
+
+/// A mean over samples with its error.
+struct SampledMean {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    double error = std::numeric_limits<double>::quiet_NaN();
+    double correlation_time = std::numeric_limits<double>::quiet_NaN(); ///< in samples; the
+                                                                        ///< shortest that can be
+                                                                        ///< seen is half a block
+    double independent_samples = std::numeric_limits<double>::quiet_NaN();
+    bool is_constant = false, is_changing = false;
+};
+
+/// Samples of a vector, for instance of g(r) in all its bins. It needs no more than `most_blocks`
+/// vectors of memory.
+class VectorBlocks {
+public:
+    explicit VectorBlocks(std::size_t n_values = 0) : n_values_(n_values) {}
+
+    std::size_t n_values() const { return n_values_; }
+    std::int64_t n_samples() const;
+    std::int64_t samples_per_block() const { return samples_per_block_; }
+    std::size_t n_blocks() const { return n_values_ == 0 ? 0 : blocks_.size() / n_values_; }
+
+    /// Adds one sample, of `n_values()` numbers. Samples are taken at equal intervals.
+    void add(std::span<const double> sample);
+
+    /// One for each value.
+    std::vector<SampledMean> means() const;
+
+    /// Everything it knows, for a checkpoint. The numbers do not depend on ranks or threads if the
+    /// samples do not.
+    std::vector<std::int64_t> words() const;
+    /// Goes on with such words; false, and nothing has changed, where they do not fit.
+    bool set_words(std::span<const std::int64_t> words);
+
+private:
+    void join_pairs();
+
+    std::size_t n_values_ = 0;
+    std::int64_t samples_per_block_ = 1, n_present_ = 0;
+    std::vector<double> blocks_;  ///< sums over whole blocks, one block after the other
+    std::vector<double> present_; ///< sums over the samples of the block that is being filled
+};
+
+} // namespace carrom

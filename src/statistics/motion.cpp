@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "statistics/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carrom {
+
+namespace {
+
+/// A power of two that is two to four times the largest component of a velocity.
+double speed_unit_of(std::span<const Disc> own, int n_threads, const Communicator& communicator) {
+    double largest = 0;
+    const auto n = static_cast<std::int64_t>(own.size());
+#pragma omp parallel for num_threads(n_threads) schedule(static)                                   \
+    reduction(max : largest) if (n > 10000)
+    for (std::int64_t i = 0; i < n; ++i) {
+        const Disc& disc = own[static_cast<std::size_t>(i)];
+        largest = std::max({largest, std::fabs(disc.vx), std::fabs(disc.vy)});
+    }
+    int exponent = 0;
+    std::frexp(communicator.max(largest), &exponent);
+    return std::ldexp(1.0, std::max(exponent, -1000) + 1);
+}
+
+} // namespace
+
+/// No term is above 1: the sum of as many as there are discs stays below 2^63.
+double terms_per_unit_of(std::uint64_t n_discs) {
+    const double bits = std::ceil(std::log2(static_cast<double>(n_discs)));
+    return std::ldexp(1.0, 62 - static_cast<int>(bits));
+}
+
+Look look_at(std::span<const Disc> own, const SpeciesTable* species_table, double heaviest,
+             std::uint64_t n_discs, int n_threads, const Communicator& communicator) {
+    Look look;
+    look.speed_unit = speed_unit_of(own, n_threads, communicator);
+    const double terms_per_unit = terms_per_unit_of(n_discs);
+    const double per_unit = 1 / look.speed_unit;
+    std::uint64_t walls = 0, pairs = 0, speeds = 0, squares = 0, fourths = 0, departed = 0;
+    std::uint64_t masses = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+    const auto n = static_cast<std::int64_t>(own.size());
+    const auto fixed = [terms_per_unit](double term) {
+        return static_cast<std::uint64_t>(static_cast<std::int64_t>(term * terms_per_unit));
+    };
+#pragma omp parallel for num_threads(n_threads) schedule(static)                                   \
+    reduction(+ : walls, pairs, speeds, squares, fourths, departed, masses, x, y, xx, xy,          \
+                  yy) if (n > 10000)
+    for (std::int64_t i = 0; i < n; ++i) {
+        const Disc& disc = own[static_cast<std::size_t>(i)];
+        walls += disc.wall_collisions;
+        pairs += disc.pair_collisions;
+        const bool has_departed = disc.has_departed(); // and is at rest
+        departed += has_departed;
+        const double vx = disc.vx * per_unit, vy = disc.vy * per_unit;
+        const double square = vx * vx + vy * vy;
+        speeds += fixed(std::sqrt(square));
+        fourths += fixed(square * square);
+        double px = vx, py = vy;
+        if (species_table) {
+            const double mass = species_table->of(disc.id).mass / heaviest;
+            px = mass * vx;
+            py = mass * vy;
+            squares += fixed(square);
+            masses += has_departed ? 0 : fixed(mass);
+        }
+        x += fixed(px);
+        y += fixed(py);
+        xx += fixed(px * vx);
+        xy += fixed(px * vy);
+        yy += fixed(py * vy);
+    }
+    if (!species_table) squares = xx + yy;
+    std::uint64_t sums[] = {walls,  pairs, speeds, squares, fourths, departed,
+                            masses, x,     y,      xx,      xy,      yy};
+    communicator.sum(sums);
+    const double per_term = 1 / terms_per_unit;
+    look.n_discs = static_cast<double>(n_discs - sums[5]);
+    const double per_disc = per_term / std::max(1.0, look.n_discs);
+    look.wall_collisions = sums[0];
+    look.pair_collisions = sums[1] / 2;
+    look.mean_speed = static_cast<double>(sums[2]) * per_disc;
+    look.mean_square = static_cast<double>(sums[3]) * per_disc;
+    look.mean_fourth = static_cast<double>(sums[4]) * per_disc;
+    const auto signed_sum = [&](std::size_t k) {
+        return static_cast<double>(static_cast<std::int64_t>(sums[k])) * (per_term * heaviest);
+    };
+    look.mass = species_table ? signed_sum(6) : look.n_discs;
+    look.momentum_x = signed_sum(7);
+    look.momentum_y = signed_sum(8);
+    look.motion = {signed_sum(9), signed_sum(10), signed_sum(11)};
+    return look;
+}
+
+namespace {
+
+/// The sum of m (v + a)_a (v + a)_b, where that of m v_a v_b, momenta and mass are known.
+Tensor shifted(const Tensor& squares, double px, double py, double mass, double ax, double ay) {
+    return {squares.xx + 2 * px * ax + mass * ax * ax,
+            squares.xy + px * ay + py * ax + mass * ax * ay,
+            squares.yy + 2 * py * ay + mass * ay * ay};
+}
+
+} // namespace
+
+void add_integrals(const StressSums& mine, const FlightIntegral& flights, const Frame& frame,
+                   const Communicator& communicator, Look& look) {
+    StressSums all = mine;
+    for (ExactSum* sum : all.parts()) communicator.sum(*sum);
+    look.stress = {all.xx.value(), all.xy.value(), all.yy.value()};
+    look.energy = all.energy.value();
+    if (flights.weight == 0) return; // a sync has just been
+    // The stored velocity is (v - frame's) / slowing.
+    const double unit = look.speed_unit, slowing = frame.slowing;
+    const double ax = flights.shift_x * slowing - frame.vx,
+                 ay = flights.shift_y * slowing - frame.vy;
+    const double px = unit * look.momentum_x, py = unit * look.momentum_y;
+    const Tensor squares = shifted((unit * unit) * look.motion, px, py, look.mass, ax, ay);
+    Tensor flown = (flights.weight / (slowing * slowing)) * squares;
+    const double rx = flights.rest_x, ry = flights.rest_y;
+    flown += look.mass * Tensor{rx * rx, rx * ry, ry * ry};
+    look.stress += flown;
+    look.energy += flown.xx + flown.yy;
+}
+
+Tensor& Tensor::operator+=(const Tensor& other) {
+    xx += other.xx;
+    xy += other.xy;
+    yy += other.yy;
+    return *this;
+}
+
+MotionIntegrals& MotionIntegrals::operator+=(const MotionIntegrals& other) {
+    steps += other.steps;
+    area += other.area;
+    n_discs += other.n_discs;
+    kinetic += other.kinetic;
+    stress += other.stress;
+    return *this;
+}
+
+namespace {
+
+/// Integral of a_k b_k over `steps` where both change evenly from the first to the second.
+double integral_of_product(const double (&a)[2], const double (&b)[2], double steps) {
+    return steps / 6 * (2 * a[0] * b[0] + a[0] * b[1] + a[1] * b[0] + 2 * a[1] * b[1]);
+}
+
+/// Integral of the momentum's square over the mass: what a drift has of the sum of m v v.
+Tensor drift_between(const AveragedSystem& system, const Look& before, const Look& after,
+                     double steps) {
+    const auto drift = [&system](bool is_periodic, const Look& look, double momentum) {
+        if (!is_periodic || !(look.mass > 0)) return 0.0;
+        return momentum / look.mass * look.speed_unit * system.velocity_unit;
+    };
+    const double vx[2] = {drift(system.is_periodic_x, before, before.momentum_x),
+                          drift(system.is_periodic_x, after, after.momentum_x)},
+                 vy[2] = {drift(system.is_periodic_y, before, before.momentum_y),
+                          drift(system.is_periodic_y, after, after.momentum_y)};
+    const double mass = (before.mass + after.mass) / 2;
+    return mass * Tensor{integral_of_product(vx, vx, steps), integral_of_product(vx, vy, steps),
+                         integral_of_product(vy, vy, steps)};
+}
+
+} // namespace
+
+/// What is not exact: how the kinetic energy is shared between the axes, and a drift that changes
+/// between looks. Both are needed with the weight 1 / N alone, along periodic sides.
+MotionIntegrals integrals_between(const AveragedSystem& system, const Look& before,
+                                  const Look& after, double steps) {
+    MotionIntegrals result;
+    result.steps = steps;
+    result.area = steps * (before.area + after.area) / 2;
+    result.n_discs = steps * (before.n_discs + after.n_discs) / 2;
+    const double unit = system.velocity_unit, energy = unit * (after.energy - before.energy);
+    Tensor sampled;
+    for (const Look* one : {&before, &after})
+        sampled += (steps / 2 * unit * unit * one->speed_unit * one->speed_unit) * one->motion;
+    const double difference = (sampled.xx - sampled.yy) / 2;
+    const Tensor all = system.has_flow
+                           ? sampled
+                           : Tensor{energy / 2 + difference, sampled.xy, energy / 2 - difference};
+
+    const double n = result.n_discs / steps, larger = n > 1 ? n / (n - 1) : 1;
+    const double x_factor = system.is_periodic_x ? larger : 1,
+                 y_factor = system.is_periodic_y ? larger : 1;
+    const Tensor drift = drift_between(system, before, after, steps);
+    result.kinetic = {x_factor * (all.xx - drift.xx),
+                      std::sqrt(x_factor * y_factor) * (all.xy - drift.xy),
+                      y_factor * (all.yy - drift.yy)};
+    result.stress = unit * Tensor{after.stress.xx - before.stress.xx,
+                                  after.stress.xy - before.stress.xy,
+                                  after.stress.yy - before.stress.yy};
+    result.stress += result.kinetic;
+    if (!system.has_flow) result.stress += -1.0 * all; // which the sums have
+    return result;
+}
+
+double temperature_at(const AveragedSystem& system, const Look& look) {
+    Look before = look, after = look; // a step further, if nothing changes
+    before.energy = 0;
+    after.energy = system.velocity_unit * look.speed_unit * look.speed_unit *
+                   (look.motion.xx + look.motion.yy);
+    return integrals_between(system, before, after, 1).temperature();
+}
+
+} // namespace carrom
