@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The table of the usual quantities over time, against totals of the run and sums over all discs.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
