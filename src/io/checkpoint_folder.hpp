@@ -26,6 +26,6 @@ std::vector<FoundFile> find_checkpoints(const std::string& folder);
 
 /// Makes the folder where there is none. Returns what keeps files from being written there, if
 /// anything does.
-Obstacle obstacle_to_folder(const std::string& folder);
+WriteProblem write_problem_of_folder(const std::string& folder);
 
 } // namespace carrom
