@@ -2,17 +2,19 @@
 #include <carrom/simulation.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "io/checkpoint.hpp"
+#include "io/files.hpp"
 #include "library/checked_source.hpp"
 #include "library/session_state.hpp"
 #include "library/simulation_state.hpp"
 #include "machine/machine.hpp"
 #include "parallel/sample_sort.hpp"
-#include "stored_scene/stored_scene.hpp"
+#include "run/start/load.hpp"
+#include "run/start/restart.hpp"
 
 namespace carrom::api {
 
@@ -29,38 +31,28 @@ Tuning tuning_of(const Options& options, const Communicator& ranks) {
     return tuning;
 }
 
+Messages messages_of(const Options& options, const Communicator& ranks) {
+    return ranks.is_root() ? Messages(options.messages) : Messages();
+}
+
 std::unique_ptr<Simulation::State> begun(const Session& session, const Scene& scene,
                                          const Options& options) {
     const Communicator& ranks = ranks_of(session);
     const Tuning tuning = tuning_of(options, ranks);
     FirstState first = first_state(scene, ranks, tuning);
-    return std::make_unique<Simulation::State>(ranks, std::move(first.scene),
-                                               std::move(first.discs), tuning);
+    return std::make_unique<Simulation::State>(std::move(first.scene),
+                                               RunStart{.discs = std::move(first.discs)}, ranks,
+                                               tuning, messages_of(options, ranks));
 }
 
 bool is_earlier(const Disc& a, const Disc& b) { return a.id < b.id; }
 
 } // namespace
 
-Simulation::State::State(const Communicator& all, carrom::Scene checked,
-                         std::vector<InputDisc> discs, const Tuning& tuning)
-    : ranks(all), scene(std::move(checked)), facts(facts_of(scene)), n_threads(tuning.threads),
-      simulation(scene, std::move(discs), ranks, tuning) {
-    if (!scene.measurements) return;
-    sampler.emplace(scene, simulation, ranks);
-    sampler->look();
-}
-
-Simulation::State::State(const Communicator& all, carrom::Scene checked, StoredState stored,
-                         StoredSamples samples, const Tuning& tuning)
-    : ranks(all), scene(std::move(checked)), facts(facts_of(scene)), n_threads(tuning.threads),
-      simulation(scene, std::move(stored), ranks, tuning) {
-    simulation.go_on_averaging(samples.averages);
-    if (!scene.measurements) return;
-    sampler.emplace(scene, simulation, ranks);
-    sampler->go_on(std::move(samples));
-    sampler->look();
-}
+Simulation::State::State(carrom::Scene checked, RunStart start, const Communicator& ranks,
+                         const Tuning& tuning, const Messages& messages)
+    : run(std::move(checked), std::move(start), ranks, tuning, messages),
+      facts(facts_of(run.scene())) {}
 
 Simulation::Simulation(const Session& session, const Scene& scene, const Options& options)
     : state_(begun(session, scene, options)) {}
@@ -74,45 +66,34 @@ Simulation Simulation::from_checkpoint(const Session& session, const std::string
                                        const std::vector<std::string>& settings,
                                        const Options& options) {
     const Communicator& ranks = ranks_of(session);
-    Checkpoint checkpoint = read_checkpoint(path, ranks);
-    const CheckpointHeader& header = checkpoint.header;
-    carrom::Scene scene = with_named_keys([&] { return scene_of(header, settings); });
-    refuse_other_run(header, scene, path);
-    if (scene.steps < header.step)
-        throw InputError({{path, 0,
-                           fmt::format("the checkpoint is of step {}, and time.steps is {}",
-                                       header.step, scene.steps)}});
-    StoredState stored{std::move(checkpoint.discs), header.micro_steps_done,
-                       std::move(checkpoint.columns)};
-    return Simulation(std::make_unique<State>(ranks, std::move(scene), std::move(stored),
-                                              std::move(checkpoint.samples),
-                                              tuning_of(options, ranks)));
+    RunOptions wanted;
+    wanted.restart = path;
+    wanted.overrides = settings;
+    wanted.messages = messages_of(options, ranks);
+    Loaded loaded;
+    with_named_keys([&] { load_restart(wanted, loaded, ranks); });
+    return Simulation(std::make_unique<State>(std::move(loaded.scene), std::move(loaded.start),
+                                              ranks, tuning_of(options, ranks), wanted.messages));
 }
 
 const SceneFacts& Simulation::scene() const { return state_->facts; }
-std::int64_t Simulation::step() const { return state_->simulation.step(); }
+std::int64_t Simulation::step() const { return state_->run.step(); }
 
 void Simulation::advance(std::int64_t n_steps) {
-    const std::int64_t left = state_->scene.steps - step();
-    advance_to(n_steps > left ? state_->scene.steps + 1 : step() + n_steps);
+    const std::int64_t left = state_->facts.steps - step();
+    advance_to(n_steps > left ? state_->facts.steps + 1 : step() + n_steps);
 }
 
 void Simulation::advance_to(std::int64_t step) {
-    carrom::Simulation& simulation = state_->simulation;
-    if (step < simulation.step() || step > state_->scene.steps)
+    if (step < this->step() || step > state_->facts.steps)
         throw InputError({{"advance_to", 0,
                            fmt::format("step {} is not from the present step {} to time.steps = {}",
-                                       step, simulation.step(), state_->scene.steps)}});
-    while (simulation.step() < step) {
-        std::int64_t next = step;
-        if (state_->sampler) next = std::min(next, state_->sampler->next_due(simulation.step()));
-        simulation.advance_towards(next);
-        if (state_->sampler) state_->sampler->look();
-    }
+                                       step, this->step(), state_->facts.steps)}});
+    state_->run.advance_to(step);
 }
 
 std::vector<Disc> Simulation::discs() const {
-    const carrom::Simulation& simulation = state_->simulation;
+    const carrom::Simulation& simulation = state_->run.simulation();
     const double unit = simulation.velocity_unit(), clock = simulation.clock();
     const std::span<const double> spins = simulation.spins();
     std::vector<Disc> discs;
@@ -133,24 +114,49 @@ std::vector<Disc> Simulation::discs() const {
 }
 
 std::vector<Disc> Simulation::gathered_discs() const {
-    return sample_sort(state_->ranks, discs(), is_earlier, 1);
+    return sample_sort(state_->run.ranks(), discs(), is_earlier, 1);
 }
 
-Totals Simulation::totals() const { return state_->simulation.totals(); }
-Averages Simulation::averages() const { return state_->simulation.averages(); }
-void Simulation::restart_averages() { state_->simulation.average_anew(); }
+Totals Simulation::totals() const { return state_->run.simulation().totals(); }
+Averages Simulation::averages() const { return state_->run.simulation().averages(); }
+void Simulation::restart_averages() { state_->run.simulation().average_anew(); }
 
 std::vector<MeasuredTable> Simulation::measurements() const {
-    return state_->sampler ? state_->sampler->tables() : std::vector<MeasuredTable>{};
+    const Sampler* const sampler = state_->run.sampler();
+    return sampler ? sampler->tables() : std::vector<MeasuredTable>{};
 }
 
 void Simulation::write_checkpoint(const std::string& path) const {
-    const State& now = *state_;
-    StoredSamples samples = now.sampler ? now.sampler->stored() : StoredSamples{};
-    samples.averages = now.simulation.stored_averages();
-    carrom::write_checkpoint(path, header_now(now.scene, now.simulation), now.simulation.discs(),
-                             now.ranks, {.n_threads = now.n_threads}, samples,
-                             now.simulation.side_columns());
+    state_->run.write_checkpoint(path);
+}
+
+void Simulation::keep_checkpoints(const CheckpointSchedule& schedule) {
+    const Communicator& ranks = state_->run.ranks();
+    std::vector<Problem> problems;
+    const auto refuse = [&problems](const char* key, const auto& number, const char* accepted) {
+        problems.push_back(
+            {"keep_checkpoints", 0, fmt::format("{} = {}; {}", key, number, accepted)});
+    };
+    if (state_->checkpoints) problems.push_back({"keep_checkpoints", 0, "has been called before"});
+    if (schedule.folder.empty()) problems.push_back({"keep_checkpoints", 0, "names no folder"});
+    if (schedule.every_steps < 0) refuse("every_steps", schedule.every_steps, "0 or more steps");
+    if (!(schedule.every_minutes >= 0))
+        refuse("every_minutes", schedule.every_minutes, "0 or more minutes");
+    if (schedule.keep < 1) refuse("keep", schedule.keep, "1 or more checkpoints");
+    if (!problems.empty()) throw InputError(std::move(problems));
+    on_root(ranks, schedule.folder, ExitCode::output_failure, [&] {
+        std::error_code error;
+        std::filesystem::create_directories(schedule.folder, error);
+        if (error) throw FileError("cannot be made: " + error.message());
+    });
+    CheckpointOutput wanted;
+    wanted.folder = schedule.folder;
+    wanted.keep = schedule.keep;
+    wanted.at_end = schedule.at_end;
+    if (schedule.every_steps > 0) wanted.every_steps = schedule.every_steps;
+    if (schedule.every_minutes > 0) wanted.every_minutes = schedule.every_minutes;
+    state_->checkpoints.emplace(state_->run, std::move(wanted));
+    state_->run.add(*state_->checkpoints);
 }
 
 } // namespace carrom::api

@@ -34,11 +34,12 @@ TrajectoryOutput wanted_of(const TrajectoryFields& fields, const carrom::Scene& 
 } // namespace
 
 struct TrajectoryWriter::State {
-    State(const Simulation::State& run, const std::string& path, const TrajectoryFields& fields)
-        : of(run), file(path),
-          trajectory(path, layout_of(run.scene, wanted_of(fields, run.scene, path)), run.ranks) {}
+    State(const Run& of_run, const std::string& path, const TrajectoryFields& fields)
+        : run(of_run), file(path),
+          trajectory(path, layout_of(of_run.scene(), wanted_of(fields, of_run.scene(), path)),
+                     of_run.ranks()) {}
 
-    const Simulation::State& of;
+    const Run& run;
     std::string file;
     carrom::Trajectory trajectory;
     std::int64_t last_step = -1; ///< that has a frame; the same on all ranks
@@ -46,18 +47,18 @@ struct TrajectoryWriter::State {
 
 TrajectoryWriter::TrajectoryWriter(const Simulation& simulation, const std::string& path,
                                    const TrajectoryFields& fields)
-    : state_(std::make_unique<State>(simulation.state(), path, fields)) {
+    : state_(std::make_unique<State>(simulation.state().run, path, fields)) {
     state_->trajectory.begin();
 }
 
 TrajectoryWriter TrajectoryWriter::going_on(const Simulation& simulation, const std::string& path,
                                             const TrajectoryFields& fields) {
-    const Simulation::State& run = simulation.state();
+    const Run& run = simulation.state().run;
     auto state = std::make_unique<State>(run, path, fields);
-    state->last_step = state->trajectory.go_on(
-        run.simulation.step(),
-        [&run](const CheckpointHeader& there) { return first_difference(there, run.scene); });
-    run.ranks.broadcast(state->last_step); // rank 0 has read the file
+    state->last_step = state->trajectory.go_on(run.step(), [&run](const CheckpointHeader& there) {
+        return first_difference(there, run.scene());
+    });
+    run.ranks().broadcast(state->last_step); // rank 0 has read the file
     return TrajectoryWriter(std::move(state));
 }
 
@@ -66,7 +67,7 @@ TrajectoryWriter::TrajectoryWriter(TrajectoryWriter&&) noexcept = default;
 TrajectoryWriter::~TrajectoryWriter() = default;
 
 void TrajectoryWriter::append() {
-    const carrom::Simulation& simulation = state_->of.simulation;
+    const carrom::Simulation& simulation = state_->run.simulation();
     const std::int64_t step = simulation.step();
     if (step <= state_->last_step)
         throw InputError({{state_->file, 0, fmt::format("step {} has a frame already", step)}});
