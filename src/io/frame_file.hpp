@@ -18,6 +18,8 @@ enum class FileKind { checkpoint, trajectory, collisions };
 /// Its box is that of the last frame.
 struct FileSummary : RecordedSystem {
     FileKind kind = FileKind::checkpoint;
+    /// Whether the file carries checksums of all its bytes, as all do that this program writes.
+    bool has_checksums = false;
     /// The numbers of a row that the file has, in the scene's units. Of discs: x, y, vx, vy,
     /// pair_collisions, wall_collisions, then the columns beside the states (side_columns.hpp).
     std::vector<std::string> columns;

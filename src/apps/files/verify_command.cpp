@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/shell/codes_of_files.hpp"
 #include "io/checkpoint.hpp"
 #include "io/frame_file.hpp"
 #include "parallel/agreement.hpp"
@@ -182,15 +183,22 @@ void verify_log(const FrameFile& file, const std::string& path) {
 
 ExitCode verify(const std::string& path, const Communicator& ranks) {
     const bool is_checkpoint = check_damage(path, ranks).has_value();
+    bool has_checksums = false;
     let_root(ranks, [&] {
         const FrameFile file(path);
         file.check_numbers();
+        has_checksums = file.summary().has_checksums;
         if (file.summary().kind == FileKind::trajectory) verify_frames(file, path);
         if (file.summary().kind == FileKind::collisions) verify_log(file, path);
     });
     if (is_checkpoint) verify_checkpoint(path, ranks);
-    if (ranks.is_root()) fmt::print("{}: whole\n", path);
-    return ExitCode::success;
+    const bool is_whole = ranks.any(has_checksums);
+    if (ranks.is_root())
+        fmt::print("{}: {}\n", path,
+                   is_whole ? "whole"
+                            : "no checksums, so nobody knows whether it is as it was written; its "
+                              "numbers are possible");
+    return is_whole ? ExitCode::success : no_checksums;
 }
 
 } // namespace
@@ -204,7 +212,8 @@ Subcommand verify_subcommand() {
         return {[path](const Communicator& ranks) { return verify(*path, ranks); }};
     };
     return {"verify",
-            "Check a file: every byte, the state hash, the discs; exit code 2 if it is damaged",
+            "Check a file: every byte, the state hash, the discs; exit code 2 if it is damaged, 5 if it "
+            "has no checksums",
             examples,
             {{"FILE", "", help_of_file, path.get(), true}},
             action};
