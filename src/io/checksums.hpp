@@ -80,7 +80,8 @@ struct Checksums {
 Checksums read_checksums(hid_t file);
 
 /// Whether the file's bytes hold a text of checksums, wherever its structure leads: damage of one
-/// link hides all that a checkpoint is known by. Reads the whole file. Of one rank; throws FileError.
+/// link hides all that a checkpoint is known by. Reads the whole file. Of one rank; throws
+/// FileError.
 bool has_text_of_checksums(const std::string& path);
 
 /// The checksum of a file without these bytes. Of one rank; throws FileError.

@@ -156,6 +156,9 @@ void FrameFile::open() {
         summary_.state_hash = header.state_hash;
     } else if (h5::has(file, "/carrom/collisions")) {
         summary_.kind = FileKind::collisions;
+        if (h5::has(file, h5md::gaps_path))
+            summary_.gaps = h5::read_column<std::int64_t>(file, h5md::gaps_path);
+        if (summary_.gaps.size() % 2 != 0) throw FileError("its gaps are no pairs of steps");
         for (const ColumnSource& source : state_->sources = sources_of_logs())
             summary_.columns.push_back(source.column);
         summary_.n_rows = h5::n_rows_of(

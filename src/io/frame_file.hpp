@@ -27,6 +27,7 @@ struct FileSummary : RecordedSystem {
     std::size_t bytes_per_number = 8; ///< of a trajectory's positions and velocities
     std::vector<std::int64_t> steps;  ///< of the frames
     std::string state_hash;           ///< of a checkpoint
+    std::vector<std::int64_t> gaps;   ///< of a log: first and last step of each stretch it lacks
 
     /// The place of a column, or that of the end where there is none.
     std::size_t place_of(std::string_view column) const;

@@ -8,9 +8,12 @@
 
 #include "io/checkpoint.hpp"
 #include "library/checked_source.hpp"
+#include "library/live_part.hpp"
 #include "library/session_state.hpp"
 #include "library/simulation_state.hpp"
 #include "machine/machine.hpp"
+#include "parallel/agreement.hpp"
+#include "parallel/meeting.hpp"
 #include "parallel/sample_sort.hpp"
 #include "stored_scene/stored_scene.hpp"
 
@@ -20,8 +23,10 @@ namespace {
 
 /// **Collective.**
 Tuning tuning_of(const Options& options, const Communicator& ranks) {
+    std::vector<Problem> problems; // of one rank alone, perhaps
     if (options.threads < 0)
-        throw InputError({{"Options", 0, fmt::format("{} threads", options.threads)}});
+        problems.push_back({"Options", 0, fmt::format("{} threads", options.threads)});
+    agree_on_problems(ranks, problems);
     Tuning tuning;
     const int usual = default_threads(ranks);
     tuning.threads = options.threads > 0 ? options.threads : usual;
@@ -32,6 +37,7 @@ Tuning tuning_of(const Options& options, const Communicator& ranks) {
 std::unique_ptr<Simulation::State> begun(const Session& session, const Scene& scene,
                                          const Options& options) {
     const Communicator& ranks = ranks_of(session);
+    meet(ranks, "Simulation");
     const Tuning tuning = tuning_of(options, ranks);
     FirstState first = first_state(scene, ranks, tuning);
     return std::make_unique<Simulation::State>(ranks, std::move(first.scene),
@@ -70,10 +76,15 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
+Simulation::State& Simulation::live() const { return live_part(state_, "Simulation"); }
+
 Simulation Simulation::from_checkpoint(const Session& session, const std::string& path,
                                        const std::vector<std::string>& settings,
                                        const Options& options) {
     const Communicator& ranks = ranks_of(session);
+    std::string all = path;
+    for (const std::string& setting : settings) all += '\n' + setting;
+    meet(ranks, "Simulation::from_checkpoint", hash_of_argument(all));
     Checkpoint checkpoint = read_checkpoint(path, ranks);
     const CheckpointHeader& header = checkpoint.header;
     carrom::Scene scene = with_named_keys([&] { return scene_of(header, settings); });
@@ -89,30 +100,31 @@ Simulation Simulation::from_checkpoint(const Session& session, const std::string
                                               tuning_of(options, ranks)));
 }
 
-const SceneFacts& Simulation::scene() const { return state_->facts; }
-std::int64_t Simulation::step() const { return state_->simulation.step(); }
+const SceneFacts& Simulation::scene() const { return live().facts; }
+std::int64_t Simulation::step() const { return live().simulation.step(); }
 
 void Simulation::advance(std::int64_t n_steps) {
-    const std::int64_t left = state_->scene.steps - step();
-    advance_to(n_steps > left ? state_->scene.steps + 1 : step() + n_steps);
+    const std::int64_t left = live().scene.steps - step();
+    advance_to(n_steps > left ? live().scene.steps + 1 : step() + n_steps);
 }
 
 void Simulation::advance_to(std::int64_t step) {
-    carrom::Simulation& simulation = state_->simulation;
-    if (step < simulation.step() || step > state_->scene.steps)
+    meet(live().ranks, "Simulation::advance_to", static_cast<std::uint64_t>(step));
+    carrom::Simulation& simulation = live().simulation;
+    if (step < simulation.step() || step > live().scene.steps)
         throw InputError({{"advance_to", 0,
                            fmt::format("step {} is not from the present step {} to time.steps = {}",
-                                       step, simulation.step(), state_->scene.steps)}});
+                                       step, simulation.step(), live().scene.steps)}});
     while (simulation.step() < step) {
         std::int64_t next = step;
-        if (state_->sampler) next = std::min(next, state_->sampler->next_due(simulation.step()));
+        if (live().sampler) next = std::min(next, live().sampler->next_due(simulation.step()));
         simulation.advance_towards(next);
-        if (state_->sampler) state_->sampler->look();
+        if (live().sampler) live().sampler->look();
     }
 }
 
 std::vector<Disc> Simulation::discs() const {
-    const carrom::Simulation& simulation = state_->simulation;
+    const carrom::Simulation& simulation = live().simulation;
     const double unit = simulation.velocity_unit(), clock = simulation.clock();
     const std::span<const double> spins = simulation.spins();
     std::vector<Disc> discs;
@@ -133,19 +145,30 @@ std::vector<Disc> Simulation::discs() const {
 }
 
 std::vector<Disc> Simulation::gathered_discs() const {
-    return sample_sort(state_->ranks, discs(), is_earlier, 1);
+    meet(live().ranks, "Simulation::gathered_discs");
+    return sample_sort(live().ranks, discs(), is_earlier, 1);
 }
 
-Totals Simulation::totals() const { return state_->simulation.totals(); }
-Averages Simulation::averages() const { return state_->simulation.averages(); }
-void Simulation::restart_averages() { state_->simulation.average_anew(); }
+Totals Simulation::totals() const {
+    meet(live().ranks, "Simulation::totals");
+    return live().simulation.totals();
+}
+Averages Simulation::averages() const {
+    meet(live().ranks, "Simulation::averages");
+    return live().simulation.averages();
+}
+void Simulation::restart_averages() {
+    meet(live().ranks, "Simulation::restart_averages");
+    live().simulation.average_anew();
+}
 
 std::vector<MeasuredTable> Simulation::measurements() const {
-    return state_->sampler ? state_->sampler->tables() : std::vector<MeasuredTable>{};
+    return live().sampler ? live().sampler->tables() : std::vector<MeasuredTable>{};
 }
 
 void Simulation::write_checkpoint(const std::string& path) const {
-    const State& now = *state_;
+    const State& now = live();
+    meet(now.ranks, "Simulation::write_checkpoint", hash_of_argument(path));
     StoredSamples samples = now.sampler ? now.sampler->stored() : StoredSamples{};
     samples.averages = now.simulation.stored_averages();
     carrom::write_checkpoint(path, header_now(now.scene, now.simulation), now.simulation.discs(),

@@ -60,6 +60,9 @@ Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_resta
         else if (!log_->go_on(step) && step > 0)
             messages_.warn("{}: begins with step {}; of the steps before there is no log\n",
                            scene_.collisions->file, step + 1);
+        else if (const auto& gaps = log_->gaps(); !gaps.empty() && gaps.back() == step)
+            messages_.warn("{}: has no collisions of steps {} to {}, and goes on with step {}\n",
+                           scene_.collisions->file, gaps[gaps.size() - 2], step, step + 1);
         simulation.log_to(&collisions_);
     }
     if (scene_.trajectory && scene_.trajectory->has_image) {
@@ -97,7 +100,7 @@ std::int64_t Recordings::next_due(std::int64_t step) const {
 
 void Recordings::record(const Simulation& simulation) {
     const std::int64_t step = simulation.step();
-    if (log_) record_collisions();
+    if (log_) record_collisions(step);
     if (sampler_) sample();
     if (images_) static_cast<void>(images_->counts()); // so that they need little memory
     if (trajectory_ && step % scene_.trajectory->every_steps == 0) {
@@ -126,14 +129,14 @@ void Recordings::commit_now_and_then() {
     commit_seconds_ = since_look_.lap();
 }
 
-void Recordings::record_collisions() {
+void Recordings::record_collisions(std::int64_t step) {
     const std::vector<Collision> sorted = sample_sort(ranks_, std::exchange(collisions_, {}),
                                                       comes_before, ranks_.size());
     std::vector<LoggedCollision> entries;
     entries.reserve(sorted.size());
     for (const Collision& collision : sorted)
         entries.push_back(logged(collision, scene_.micro_steps));
-    log_->append(entries);
+    log_->append(entries, step);
 }
 
 void Recordings::commit() {

@@ -56,7 +56,7 @@ public:
 
 private:
     void report_missing_frames(std::int64_t last, std::int64_t step) const;
-    void record_collisions();
+    void record_collisions(std::int64_t step);
     void sample();
     void commit_now_and_then();
 

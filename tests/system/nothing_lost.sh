@@ -69,6 +69,53 @@ rm start/report.json
 run 2 run "${scene[@]}" -o start --steps 10 --resume
 expect_code 0 'a run that recorded its start only'
 
+# --overwrite removes what the run has written, and nothing else, and nothing behind a link.
+cp -r kept mine
+foreign=(mine/measurements/lab.csv mine/measurements/thermo_old.csv mine/trajectory/notes.h5
+         mine/collisions/lab.csv mine/checkpoints/checkpoint-best.h5 mine/checkpoints/lab.h5)
+for file in "${foreign[@]}"; do echo mine >"$file"; done
+touch mine/trajectory/0009.h5
+run 2 run "${scene[@]}" -o mine --overwrite --steps 4
+expect_code 0 '--overwrite beside files of somebody'
+for file in "${foreign[@]}"; do [ -e "$file" ] || complain "$file was removed"; done
+[ ! -e mine/trajectory/0009.h5 ] || complain 'a segment of the run before is left'
+[ "$(ls mine/checkpoints/checkpoint-0*)" = mine/checkpoints/checkpoint-000000000004.h5 ] ||
+    complain "other checkpoints: $(ls mine/checkpoints)"
+mkdir far
+mv mine/checkpoints/* far/
+rmdir mine/checkpoints
+ln -s ../far mine/checkpoints
+(cd far && md5sum -- *) >before_far
+run 1 run "${scene[@]}" -o mine --overwrite --steps 6
+expect_code 2 '--overwrite through a link'
+expect_told 'mine/checkpoints is a symbolic link' '--overwrite through a link'
+(cd far && md5sum -- *) | cmp - before_far || complain 'files behind a link have changed'
+
+# Tables and reports that a killed run has left unfinished are removed, and nobody else's.
+rm mine/checkpoints
+touch mine/measurements/velocities.csv.123-0.partial mine/report.json.77-3.partial \
+    mine/measurements/lab.csv.partial
+run 1 run "${scene[@]}" -o mine --overwrite --steps 2
+expect_code 0 'after a killed run'
+[ -e mine/measurements/lab.csv.partial ] || complain 'a foreign .partial was removed'
+[ ! -e mine/measurements/velocities.csv.123-0.partial ] || complain 'a table is left unfinished'
+[ ! -e mine/report.json.77-3.partial ] || complain 'a report is left unfinished'
+
+# A gap in the log of collisions is told, now and later.
+run 1 run "${scene[@]}" -o gap --steps 10
+cp -r gap/collisions gap/collisions.h5 .
+run 1 run "${scene[@]}" -o gap --resume --steps 20
+rm -r gap/collisions gap/collisions.h5
+mv collisions collisions.h5 gap/
+run 2 run "${scene[@]}" -o gap --resume --steps 30
+expect_code 0 'an older log'
+expect_told 'has no collisions of steps 11 to 20, and goes on with step 21' 'an older log'
+run 1 verify gap/collisions.h5
+expect_code 6 'verify of a log with a gap'
+grep -q 'without the collisions of steps 11 to 20$' "$test_folder/out" || complain 'no gap is named'
+run 1 verify kept/collisions.h5
+expect_code 0 'verify of a log without a gap'
+
 run 1 replicas "${scene[@]}" --set output.collisions=false --count 2 -o many --steps 20
 expect_code 0 'replicas'
 (cd many && find . -type f -exec md5sum {} + | sort) >before_replicas

@@ -122,7 +122,7 @@ ExitCode compare(const CompareOptions& options, const Communicator& ranks) {
     int is_graded = grader.has_graded_all() ? 1 : 0; // rank 0 knows
     ranks.broadcast(is_graded);
     if (!is_same) return ExitCode::difference;
-    return is_graded == 1 ? ExitCode::success : not_graded;
+    return is_graded == 1 ? ExitCode::success : incomplete;
 }
 
 } // namespace

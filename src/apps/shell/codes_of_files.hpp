@@ -8,7 +8,8 @@ namespace carrom {
 
 /// A file has no checksums, so nobody knows whether it is whole.
 inline constexpr ExitCode no_checksums{5};
-/// An output has no mistake as far as it could be graded, and could not be graded to its end.
-inline constexpr ExitCode not_graded{6};
+/// No fault was found in what is there, and something is missing: a log has a gap, or a step could
+/// not be graded.
+inline constexpr ExitCode incomplete{6};
 
 } // namespace carrom

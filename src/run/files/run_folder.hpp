@@ -21,8 +21,8 @@ std::string checkpoints_of_run(const std::string& folder);
 /// The name of something that a run has written there; empty if there is nothing.
 std::string trace_of_run(const std::string& folder);
 
-/// The name of something that a run has recorded there after step 0; empty if there is nothing. What
-/// cannot be read counts.
+/// The name of something that a run has recorded there after step 0; empty if there is nothing.
+/// What cannot be read counts.
 std::string recorded_beyond_start(const std::string& folder);
 
 /// The copy of the scene, if there is one; else empty.
