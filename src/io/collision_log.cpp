@@ -6,6 +6,7 @@
 #include <bit>
 #include <vector>
 
+#include "io/checked_dataset.hpp"
 #include "io/h5md.hpp"
 #include "io/segmented_file.hpp"
 #include "parallel/exchange.hpp"
