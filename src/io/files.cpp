@@ -112,7 +112,7 @@ void reserve(const std::string& path) {
 void refuse_special(const std::string& path) {
     if (path.empty() || path.find('\0') != std::string::npos) throw FileError("is no file's name");
     struct stat status{};
-    if (::lstat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+    if (::lstat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISLNK(status.st_mode))
         throw FileError("is not a plain file");
 }
 

@@ -38,7 +38,7 @@ Session::Session(int fortran_communicator) {
 }
 
 Session::~Session() {
-    if (state_) Departure(state_->ranks).leave();
+    if (!has_mpi_ended()) Departure(state_->ranks).leave(); // the program may have ended it
 }
 
 int Session::rank() const { return state_->ranks.rank(); }

@@ -25,7 +25,6 @@ LONGEST_RUN = 64  # zeros beyond these are room that no structure uses
 MARKS = (b"carrom", b"run\0", b"checksums", b"particles", b"TREE", b"SNOD", b"HEAP", b"OHDR")
 ORIGINAL, WORK = Path("original"), Path("work")
 CHECKPOINT = "checkpoints/checkpoint-000000000004.h5"
-EARLIER = "checkpoints/checkpoint-000000000002.h5"
 FILES = {
     "checkpoint": CHECKPOINT,
     "index of a trajectory": "trajectory.h5",
@@ -161,7 +160,7 @@ def main() -> int:
     failures: list[str] = []
     for kind, name in FILES.items():
         data = (ORIGINAL / name).read_bytes()
-        flips = bits(data, used(data), 1) if is_all else bits(data, sampled(data), 4)
+        flips = bits(data, used(data), 1) if is_all else bits(data, sampled(data), 8)
         for number, (what, damaged) in enumerate(itertools.chain(pages(data), flips)):
             shutil.rmtree(WORK, ignore_errors=True)
             shutil.copytree(ORIGINAL, WORK)
