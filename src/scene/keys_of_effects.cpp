@@ -93,7 +93,11 @@ std::vector<Key> keys_of_contact() {
         key("effects.contact.kind", "",
             "None: discs pass through each other. Restitution: they lose energy. Rough: "
             "they turn and rub, too.",
-            [](auto& s) -> auto& { return s.effects.contact.kind; }),
+            [](auto& s) -> auto& { return s.effects.contact.kind; })
+            .advises({{"inelastic", "\"restitution\""},
+                      {"smooth", "\"elastic\" or \"restitution\""},
+                      {"frictional", "\"rough\""},
+                      {"ideal", "\"none\""}}),
         key("effects.contact.restitution", "1",
             "e, the share of the normal relative velocity that is left.",
             [](auto& s) -> auto& { return s.effects.contact.restitution; })
@@ -152,7 +156,8 @@ std::vector<Key> keys_of_effects() {
         key("effects.thermal.seed", "1", "Seed of the random numbers of thermal walls.",
             [](auto& s) -> auto& { return s.effects.thermal_seed; })
             .within({.low = 0})
-            .needs(thermal),
+            .needs(thermal)
+            .seed(),
         key("effects.obstacles.discs", "length", "Fixed discs; a radius of 0 is a point.",
             [](auto& s) -> auto& { return s.effects.obstacles.discs; })
             .with_rows({{"", "[x, y, radius]", 3, 3}}),

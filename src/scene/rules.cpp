@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "scene/disc_columns.hpp"
+#include "scene/effects/effect.hpp"
 #include "scene/key.hpp"
 #include "scene/limits.hpp"
 
@@ -307,6 +308,8 @@ const std::vector<Rule>& rules() {
                                  rules_of_growth(), rules_of_starts(), rules_of_outputs(),
                                  rules_of_columns(std::make_index_sequence<n_side_columns>())})
             list.insert(list.end(), part.begin(), part.end());
+        for (const EffectDeclaration& effect : all_effects())
+            list.insert(list.end(), effect.rules.begin(), effect.rules.end());
         return list;
     }();
     return all;
