@@ -55,8 +55,7 @@ StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64
       first_id_(slab_begin(communicator.rank(), scene.n_discs, communicator.size())),
       micro_steps_done_(micro_steps_done), micro_steps_before_(micro_steps_done),
       tolerance_(PlainDynamics(scene.box, scene.radius).tolerance()) {
-    may_lose_energy_ = may_lose_in_contacts() || effects_.obstacles.restitution < 1 ||
-                       (effects_.gravity.is_any() && effects_.drag != 0);
+    may_lose_energy_ = may_lose_in_contacts();
     const CheckAllowance allowance = allowance_of(scene.effects);
     may_lose_energy_ = may_lose_energy_ || allowance.collisions_take_energy;
     walls_give_energy_ = allowance.walls_give_energy;

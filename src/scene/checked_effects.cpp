@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/drag.hpp"
-#include "dynamics/gravity.hpp"
 #include "dynamics/oscillation.hpp"
 #include "scene/check.hpp"
 #include "scene/limits.hpp"
@@ -15,24 +13,13 @@ namespace carrom {
 
 namespace {
 
-/// Rate times the time between syncs.
-constexpr double longest_drag = 4;
 /// Of a wall, in times between syncs: those are known to 2^-53 of themselves.
 constexpr double smallest_period = 1e-6;
-/// Of a fixed disc's radius and that of a disc, over the box: a disc touches the nearest images of
-/// a body at most.
-constexpr double largest_in_period = 0.99;
 /// Tables that grow with time are kept in memory and in checkpoints.
 constexpr std::int64_t most_samples_of_histories = 100000;
 
-constexpr std::string_view quantities = "output.measurements.quantities";
-
 std::string side_key(std::size_t side, const char* name) {
     return fmt::format("box.{}.{}", boundary_names[side], name);
-}
-
-double steps_between_syncs(const Scene& scene) {
-    return static_cast<double>(scene.sync_every) / static_cast<double>(scene.micro_steps);
 }
 
 /// What contact times may be, and why; in steps.
@@ -63,61 +50,6 @@ void check_contact_time(const Check& check) {
     if (time > longest)
         check.refuse({key}, fmt::format("'{}' must be at most {} steps, {}, not {}", key, longest,
                                         why, time));
-}
-
-/// The falling frame must not leave the box far behind: its coordinates would be coarser than the
-/// box's.
-void check_fall(const Check& check) {
-    const Scene& scene = check.scene;
-    const double time = steps_between_syncs(scene), drag = scene.effects.drag;
-    if (drag * time > longest_drag) return; // a problem already
-    const double fall = drag > 0 ? dragged_fall(drag, drag_clock(drag, time)) : 0.5 * time * time;
-    for (const auto& [key, g] : {std::pair("effects.gravity.x", scene.effects.gravity.x),
-                                 {"effects.gravity.y", scene.effects.gravity.y}}) {
-        if (std::fabs(g) * fall <= 0.5 * scene.box.longest()) continue;
-        const double longest = std::floor(std::sqrt(scene.box.longest() / std::fabs(g)) *
-                                          static_cast<double>(scene.micro_steps));
-        check.refuse({key},
-                     fmt::format("'{}' = {} makes discs fall further than half the box "
-                                 "from sync to sync; {}",
-                                 key, g,
-                                 longest >= 1
-                                     ? fmt::format("time.sync_every = {} or less will do", longest)
-                                     : "take more time.micro_steps"));
-    }
-}
-
-void check_obstacles(const Check& check) {
-    const Box box = check.scene.box;
-    const double size = box.longest(), radius = check.scene.radius;
-    const bool is_periodic = check.scene.effects.are_periodic();
-    const double period = check.scene.effects.periods(box).shortest();
-    const auto is_inside = [box](double x, double y) {
-        return x >= 0 && x <= box.x && y >= 0 && y <= box.y;
-    };
-    check.refuse_rows("effects.obstacles.discs", [&](const Numbers& n, std::size_t) -> std::string {
-        if (!is_inside(n[0], n[1]))
-            return fmt::format("the centre ({}, {}) is not in the box", n[0], n[1]);
-        if (!(n[2] >= 0 && n[2] <= size))
-            return fmt::format("the radius must be from 0 to {}, not {}", size, n[2]);
-        if (is_periodic && !(n[2] + radius <= largest_in_period * period))
-            return fmt::format("the radius must be at most {:g}, not {}: with a disc's it would "
-                               "reach through a periodic box and into itself",
-                               largest_in_period * period - radius, n[2]);
-        return {};
-    });
-    check.refuse_rows(
-        "effects.obstacles.segments", [&](const Numbers& n, std::size_t) -> std::string {
-            if (!is_inside(n[0], n[1]) || !is_inside(n[2], n[3]))
-                return fmt::format("the segment from ({}, {}) to ({}, {}) has an end outside the "
-                                   "box",
-                                   n[0], n[1], n[2], n[3]);
-            const double length = std::hypot(n[2] - n[0], n[3] - n[1]);
-            if (!(length > 0x1p-30 * size))
-                return fmt::format("a segment of length {}: a point is a fixed disc of radius 0",
-                                   length);
-            return {};
-        });
 }
 
 void check_periodic_box(const Check& check) {
@@ -208,26 +140,6 @@ void check_oscillating_walls(const Check& check) {
                                      "may be; take another '{}', or list the discs",
                                      boundary_names[side], phase));
     }
-}
-
-/// Discs that grow must have room until the last step.
-void check_growth(const Check& check) {
-    const Scene& scene = check.scene;
-    if (scene.effects.growth == 0) return;
-    const double growth = scene.effects.growth_at(static_cast<double>(scene.steps));
-    const double densest = scene.effects.species.empty() ? largest_packing : 1;
-    const auto room = [&scene](double side, bool is_periodic) {
-        return side / ((is_periodic ? 4 * (1 + 1e-6) : 2) * scene.radius);
-    };
-    const double most = std::min({std::sqrt(densest / scene.packing()),
-                                  room(scene.box.x, scene.effects.is_periodic_x()),
-                                  room(scene.box.y, scene.effects.is_periodic_y())});
-    if (growth <= most || most < 1) return; // no room at the start is told elsewhere
-    check.refuse({"effects.growth.rate"},
-                 fmt::format("after {} steps discs of radius {:g} would cover {:.4g} of the box; "
-                             "there is room for them up to step {:.0f}",
-                             scene.steps, scene.radius * growth, scene.last_packing(),
-                             std::floor((most - 1) / scene.effects.growth)));
 }
 
 /// A last step of 0 shows the start, and measures nothing.
@@ -348,26 +260,16 @@ void check_times(const Check& check) {
                      fmt::format("precision = \"single\" counts micro-steps up to {} between "
                                  "syncs; 'time.sync_every' is {}",
                                  longest_single_sync, scene.sync_every));
-    const double interval = steps_between_syncs(scene);
-    if (scene.effects.drag * interval > longest_drag)
-        check.refuse({"effects.drag.rate"},
-                     fmt::format("'effects.drag.rate' = {} leaves less than a fiftieth of a "
-                                 "velocity from sync to sync: {:g} at most, or a smaller "
-                                 "time.sync_every",
-                                 scene.effects.drag, longest_drag / interval));
     check_contact_time(check);
     check_samples(check);
     check_window(check);
 }
 
 void check_room(const Check& check) {
-    check_fall(check);
     check_periodic_box(check);
     check_thermal_walls(check);
     check_moving_walls(check);
     check_oscillating_walls(check);
-    check_growth(check);
-    check_obstacles(check);
     check_distance(check);
     check_wavenumber(check);
 }

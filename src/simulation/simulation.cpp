@@ -83,13 +83,9 @@ double usual_speed(const Scene& scene, std::span<const Disc> own, const Communic
     for (const Disc& disc : own)
         fastest = std::max({fastest, std::fabs(disc.vx), std::fabs(disc.vy)});
     fastest = ranks.max(fastest) * static_cast<double>(scene.micro_steps);
-    fastest = std::max(fastest, scene.radius * effects.growth);
-    const double pull = std::fabs(effects.gravity.x) + std::fabs(effects.gravity.y);
-    fastest = std::max(fastest, std::sqrt(2 * pull * scene.box.longest()));
     for (const Boundary& side : effects.boundaries)
         fastest = std::max({fastest, std::fabs(side.speed), std::sqrt(side.temperature)});
-    fastest = std::max({fastest, largest_wall_speed(effects), usual_speed_of_effects(scene),
-                        std::fabs(effects.shear) * scene.box.y});
+    fastest = std::max({fastest, largest_wall_speed(effects), usual_speed_of_effects(scene)});
     return (fastest > 0 ? fastest : scene.radius) / static_cast<double>(scene.micro_steps);
 }
 

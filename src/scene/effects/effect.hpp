@@ -48,7 +48,8 @@ struct EffectDeclaration {
     std::unique_ptr<SyncEffect> (*at_syncs)(const Scene&) = nullptr;
 };
 
-#define CARROM_FOR_EACH_EFFECT(effect) effect(thermostat)
+#define CARROM_FOR_EACH_EFFECT(effect)                                                             \
+    effect(gravity) effect(drag) effect(growth) effect(shear) effect(obstacles) effect(thermostat)
 
 /// In the order of the reference.
 const std::vector<EffectDeclaration>& all_effects();
