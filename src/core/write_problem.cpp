@@ -6,7 +6,7 @@
 
 namespace carrom {
 
-Obstacle obstacle(const std::string& what, int error) {
+WriteProblem write_problem(const std::string& what, int error) {
     const bool is_failure = error == ENOSPC || error == EDQUOT || error == EIO || error == EROFS ||
                             error == EACCES || error == EPERM;
     return {what + ": " + std::strerror(error), is_failure};

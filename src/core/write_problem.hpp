@@ -7,13 +7,13 @@
 namespace carrom {
 
 /// What keeps a file from being written; `text` is empty if nothing does.
-struct Obstacle {
+struct WriteProblem {
     std::string text;
     bool is_failure =
         false; ///< of the disk, or a lack of rights: the place could be right. Else it cannot be.
 };
 
-/// The obstacle with the system's words for `error`, an errno, after `what`.
-Obstacle obstacle(const std::string& what, int error);
+/// The problem with the system's words for `error`, an errno, after `what`.
+WriteProblem write_problem(const std::string& what, int error);
 
 } // namespace carrom

@@ -39,7 +39,7 @@ concept Dynamics = std::copyable<D> && requires(D changing, const D d, Disc& p, 
     { d.has_open_sides() } -> std::same_as<bool>;
     { d.parts_overlaps() } -> std::same_as<bool>; // overlapping discs collide if they approach
     // Thousands of collisions of a disc within so many micro-steps are a cascade without end.
-    { D::one_time } -> std::convertible_to<double>;
+    { D::cascade_interval } -> std::convertible_to<double>;
 
     // Sizes. The radius is the largest one.
     { d.box() } -> std::same_as<const Box&>;

@@ -24,7 +24,7 @@ public:
     static constexpr bool may_have_obstacles = false;
     /// Discs that jam collide ever faster as long as they grow: a run should end before it takes
     /// hours.
-    static constexpr double one_time = 0x1p-10;
+    static constexpr double cascade_interval = 0x1p-10;
 
     /// `effects` per micro-step.
     GrowingDynamics(const Box& box, double radius, const Effects& effects)

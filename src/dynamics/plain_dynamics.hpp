@@ -50,7 +50,7 @@ public:
     static constexpr bool has_elastic_pairs = true;
     static constexpr bool may_have_obstacles = false;
     static constexpr bool may_lose_discs = false;
-    static constexpr double one_time = 0x1p-40;
+    static constexpr double cascade_interval = 0x1p-40;
 
     PlainDynamics(const Box& box, double radius)
         : box_(box), radius_(radius), diameter_(2 * radius), band_(1e-8 * radius),

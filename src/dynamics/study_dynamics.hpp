@@ -44,7 +44,7 @@ public:
     static constexpr bool is_for_study = true;
     /// Where discs have no room, rounding moves them on in time now and then: a cascade without end
     /// is not at one time.
-    static constexpr double one_time = 0x1p-3;
+    static constexpr double cascade_interval = 0x1p-3;
 
     StudyDynamics(const Box& box, double radius, ContactFormula formula)
         : PlainDynamics(Box(real(box.x), real(box.y)), real(radius)), formula_(formula),

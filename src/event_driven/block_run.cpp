@@ -11,8 +11,8 @@ namespace carrom {
 
 namespace {
 
-/// So many collisions of a block's discs within `Dynamics::one_time` are a collision cascade, and
-/// some for each disc more.
+/// So many collisions of a block's discs within `Dynamics::cascade_interval` are a collision
+/// cascade, and some for each disc more.
 constexpr std::uint64_t cascade_count = 100000, cascade_count_per_disc = 1000;
 
 } // namespace
@@ -244,7 +244,7 @@ void BlockRun<Dynamics>::Scratch::push(double time, std::uint32_t a, std::uint32
 }
 
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& event) {
-    if (event.time > cascade_begin + Dynamics::one_time) {
+    if (event.time > cascade_begin + Dynamics::cascade_interval) {
         cascade_begin = event.time;
         cascade = 0;
     }

@@ -52,11 +52,11 @@ public:
     bool operator()(const Event& a, const Event& b) const {
         if (a.time != b.time) [[likely]]
             return a.time < b.time;
-        return before_at_one_time(a, b);
+        return before_at_equal_times(a, b);
     }
 
 private:
-    bool before_at_one_time(const Event& a, const Event& b) const {
+    bool before_at_equal_times(const Event& a, const Event& b) const {
         if (a.generation != b.generation) return a.generation < b.generation;
         if (a.p != b.p && discs_[a.p].id != discs_[b.p].id)
             return discs_[a.p].id < discs_[b.p].id; // or two images of one

@@ -58,14 +58,14 @@ std::vector<FoundFile> find_checkpoints(const std::string& folder) {
     return found;
 }
 
-Obstacle obstacle_to_folder(const std::string& folder) {
+WriteProblem write_problem_of_folder(const std::string& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error) return obstacle("cannot be made", error.value());
+    if (error) return write_problem("cannot be made", error.value());
     const std::string probe =
         (std::filesystem::path(folder) / fmt::format(".carrom-{}", ::getpid())).string();
     const int file = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file < 0) return obstacle("no file can be made there", errno);
+    if (file < 0) return write_problem("no file can be made there", errno);
     ::close(file);
     ::unlink(probe.c_str());
     return {};

@@ -29,6 +29,6 @@ bool is_named_as_checkpoint(const std::string& path);
 
 /// Makes the folder where there is none. Returns what keeps files from being written there, if
 /// anything does.
-Obstacle obstacle_to_folder(const std::string& folder);
+WriteProblem write_problem_of_folder(const std::string& folder);
 
 } // namespace carrom

@@ -53,7 +53,7 @@ std::vector<ColumnSource> sources_of_logs() {
 }
 
 /// Rows of a data set, with `width` numbers each, as doubles.
-std::vector<double> read_block(hid_t file, const std::string& path, const h5::Rows& rows,
+std::vector<double> read_block(hid_t file, const std::string& path, const h5::RowRange& rows,
                                hsize_t width = 1) {
     const h5::Dataset dataset = h5::open_checked(file, path);
     const std::vector<hsize_t> sizes = h5::dimensions_of(dataset.id());

@@ -96,7 +96,7 @@ struct Selection {
     Space memory, file;
 };
 
-Selection select(hid_t dataset, const Rows& rows) {
+Selection select(hid_t dataset, const RowRange& rows) {
     std::vector<hsize_t> count = dimensions_of(dataset), start(count.size(), 0);
     if (count.empty()) throw FileError("a data set has no rows");
     const std::size_t axis = count.size() > 1 ? 1 : 0;
@@ -298,13 +298,13 @@ std::uint64_t n_rows_of(hid_t dataset) {
     return sizes.empty() ? 0 : sizes[sizes.size() > 1 ? 1 : 0];
 }
 
-void read_rows(hid_t dataset, const Rows& rows, hid_t type, void* numbers) {
+void read_rows(hid_t dataset, const RowRange& rows, hid_t type, void* numbers) {
     const Selection selected = select(dataset, rows);
     checked(H5Dread(dataset, type, selected.memory.id(), selected.file.id(), H5P_DEFAULT, numbers),
             "cannot be read");
 }
 
-void write_rows(hid_t dataset, const Rows& rows, hid_t type, const void* numbers,
+void write_rows(hid_t dataset, const RowRange& rows, hid_t type, const void* numbers,
                 Transfer transfer) {
     const Selection selected = select(dataset, rows);
     const Properties list = properties(H5P_DATASET_XFER);

@@ -156,7 +156,7 @@ std::vector<hsize_t> dimensions_of(hid_t dataset);
 
 /// Rows run along a data set's only axis, or along the second one, behind that of frames, where it
 /// has several.
-struct Rows {
+struct RowRange {
     std::uint64_t begin = 0, end = 0, frame = 0;
 };
 
@@ -164,14 +164,14 @@ std::uint64_t n_rows_of(hid_t dataset);
 
 /// Rows, at least one, of a data set. Not collective: a rank's rows are one large piece of the
 /// file, so there is nothing for MPI-IO to gather.
-void read_rows(hid_t dataset, const Rows& rows, hid_t type, void* numbers);
+void read_rows(hid_t dataset, const RowRange& rows, hid_t type, void* numbers);
 
 /// Independent: each rank writes as it comes to it. Collective: all ranks write together, and
 /// MPI-IO may hand the numbers to a few of them that write them in large pieces.
 enum class Transfer { independent, collective };
 
 /// This rank's rows of a data set. **Collective** if `transfer` is; a rank may have no rows then.
-void write_rows(hid_t dataset, const Rows& rows, hid_t type, const void* numbers,
+void write_rows(hid_t dataset, const RowRange& rows, hid_t type, const void* numbers,
                 Transfer transfer);
 
 /// Makes a new file where there is none, nor a symbolic link, of that name, filled by

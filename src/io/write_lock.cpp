@@ -58,14 +58,14 @@ WriteLock::~WriteLock() {
 
 WriteLock::WriteLock(WriteLock&& other) noexcept
     : path_(std::move(other.path_)), holder_(std::move(other.holder_)),
-      obstacle_(std::move(other.obstacle_)), file_(std::exchange(other.file_, -1)) {}
+      problem_(std::move(other.problem_)), file_(std::exchange(other.file_, -1)) {}
 
 /// True where there is nothing to wait for.
 bool WriteLock::try_once() {
     holder_.clear();
     const int file = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (file < 0) {
-        obstacle_ = fmt::format("{} cannot be opened: {}", path_, std::strerror(errno));
+        problem_ = fmt::format("{} cannot be opened: {}", path_, std::strerror(errno));
         return true;
     }
     if (::flock(file, LOCK_EX | LOCK_NB) != 0) {

@@ -23,12 +23,12 @@ public:
 
     const std::string& holder() const { return holder_; }
     /// Why there can be no lock, as where the name is a symbolic link; empty else.
-    const std::string& obstacle() const { return obstacle_; }
+    const std::string& problem() const { return problem_; }
 
 private:
     bool try_once();
 
-    std::string path_, holder_, obstacle_;
+    std::string path_, holder_, problem_;
     int file_ = -1; ///< open where the lock is held
 };
 

@@ -79,11 +79,11 @@ std::string write_failure_scene(const std::string& folder, const Scene& scene,
     if (failure.discs_around.empty()) return "there are no discs around it to show";
     const std::string name = fmt::format("check_step_{}_disc_{}", failure.step, failure.disc);
     const std::string scene_path = (std::filesystem::path(folder) / (name + ".toml")).string();
-    std::string obstacle = write_whole_file(
+    std::string write_error = write_whole_file(
         (std::filesystem::path(folder) / (name + ".discs")).string(), disc_lines(scene, failure));
-    if (obstacle.empty())
-        obstacle = write_whole_file(scene_path, text_around(scene, failure, name + ".discs"));
-    if (!obstacle.empty()) return "the discs around it could not be written: " + obstacle;
+    if (write_error.empty())
+        write_error = write_whole_file(scene_path, text_around(scene, failure, name + ".discs"));
+    if (!write_error.empty()) return "the discs around it could not be written: " + write_error;
     return fmt::format("{} discs around it, from the step before, are in {}",
                        failure.discs_around.size(), scene_path);
 }

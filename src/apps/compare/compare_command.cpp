@@ -44,7 +44,7 @@ struct CompareOptions {
 };
 
 /// What keeps a scene from being compared.
-std::vector<Problem> obstacles(const Scene& scene) {
+std::vector<Problem> reasons_against(const Scene& scene) {
     std::vector<Problem> problems;
     const auto add = [&](const char* text) { problems.push_back({scene.name, 0, text}); };
     if (scene.text_output == TextOutput::none)
@@ -68,7 +68,7 @@ Scene read_scene_on_all(const CompareOptions& options, std::istream& stream,
         text.columns = load_columns(scene, &stream, ranks);
         scene = read_scene(text, options.overrides);
     }
-    if (std::vector<Problem> problems = obstacles(scene); !problems.empty())
+    if (std::vector<Problem> problems = reasons_against(scene); !problems.empty())
         throw InputError(std::move(problems));
     return scene;
 }

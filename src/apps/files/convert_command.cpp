@@ -180,7 +180,7 @@ void write_log(const FrameFile& file, DataOutput& output) {
 }
 
 /// What keeps a file from being written in that format; empty if nothing does.
-std::string obstacle_to_format(const FileSummary& summary, Format format) {
+std::string reason_against(const FileSummary& summary, Format format) {
     if (format == Format::csv) return {};
     if (summary.kind == FileKind::collisions)
         return "is a log of collisions; it can be converted to csv only";
@@ -197,8 +197,8 @@ std::string convert_alone(const std::string& path, Format format, const std::str
     if (!problems.empty()) throw InputError(std::move(problems));
     const FrameFile file(path);
     file.check_numbers();
-    if (const std::string obstacle = obstacle_to_format(file.summary(), format); !obstacle.empty())
-        throw InputError({{path, 0, obstacle}});
+    if (const std::string failure = reason_against(file.summary(), format); !failure.empty())
+        throw InputError({{path, 0, failure}});
     DataOutput output(target);
     if (file.summary().kind == FileKind::collisions)
         write_log(file, output);

@@ -27,7 +27,7 @@ CsvTable::CsvTable(std::string path, std::string header)
     std::error_code ignored;
     if (std::filesystem::exists(path_, ignored))
         throw InputError({{place_of(path_), 0, "is there already; name a new file"}});
-    const Obstacle found = obstacle_to_opening(path_);
+    const WriteProblem found = write_problem_of_stream(path_);
     if (found.is_failure) fail_with(path_, found.text);
     if (!found.text.empty()) throw InputError({{place_of(path_), 0, found.text}});
 }

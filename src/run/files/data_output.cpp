@@ -54,12 +54,12 @@ void DataOutput::close() {
     file_ = -1;
 }
 
-Obstacle obstacle_to_opening(const std::string& path) {
+WriteProblem write_problem_of_stream(const std::string& path) {
     int file = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
     const bool is_new = file < 0 && errno == ENOENT;
     if (is_new) file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file < 0 && errno == ENXIO) return {}; // a named pipe that nobody reads yet
-    if (file < 0) return obstacle("cannot be written", errno);
+    if (file < 0) return write_problem("cannot be written", errno);
     ::close(file);
     if (is_new) ::unlink(path.c_str());
     return {};

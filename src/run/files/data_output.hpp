@@ -51,6 +51,6 @@ private:
 
 /// What would keep a DataOutput from opening `path`, if anything is known to. Leaves the file as it
 /// is.
-Obstacle obstacle_to_opening(const std::string& path);
+WriteProblem write_problem_of_stream(const std::string& path);
 
 } // namespace carrom

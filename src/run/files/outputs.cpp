@@ -22,7 +22,7 @@ namespace {
 constexpr const char* folder_key = "output.folder";
 
 /// What would keep a folder from being made, without making it.
-Obstacle obstacle_to_making(const std::string& folder) {
+WriteProblem write_problem_of_new_folder(const std::string& folder) {
     std::error_code ignored;
     std::filesystem::path place = std::filesystem::absolute(folder, ignored);
     while (place.has_relative_path() && !std::filesystem::exists(place, ignored))
@@ -30,11 +30,11 @@ Obstacle obstacle_to_making(const std::string& folder) {
     if (!std::filesystem::is_directory(place, ignored))
         return {fmt::format("cannot be made: {} is not a folder", place.string())};
     if (::access(place.c_str(), W_OK | X_OK) == 0) return {};
-    return obstacle("cannot be made in " + place.string(), errno);
+    return write_problem("cannot be made in " + place.string(), errno);
 }
 
 /// What in the folder keeps the run from writing there.
-std::string obstacle_in_folder(const RunOptions& options, const Scene& scene) {
+std::string problem_in_folder(const RunOptions& options, const Scene& scene) {
     const std::string& folder = scene.folder;
     std::error_code ignored;
     for (const std::string& path : files_of_run(folder)) {
@@ -63,7 +63,7 @@ std::string obstacle_in_folder(const RunOptions& options, const Scene& scene) {
 
 WriteLock locked(const std::string& folder, PlaceProblems& found) {
     WriteLock lock(folder + "/.carrom.lock");
-    found.note(folder_key, folder, {lock.obstacle()});
+    found.note(folder_key, folder, {lock.problem()});
     if (!lock.holder().empty())
         found.note(folder_key, folder,
                    {fmt::format("another run is writing there ({}); wait for its end, or name "
@@ -88,15 +88,16 @@ void check_places(PlaceProblems& found, const RunOptions& options, const Scene& 
     std::error_code ignored;
     const bool may_try = (locks && found.all().empty()) || std::filesystem::exists(folder, ignored);
     found.note(folder_key, folder,
-               may_try ? obstacle_to_folder(folder) : obstacle_to_making(folder));
+               may_try ? write_problem_of_folder(folder) : write_problem_of_new_folder(folder));
     if (!found.all().empty()) return;
     if (locks) locks->push_back(locked(folder, found));
-    if (found.all().empty()) found.note(folder_key, folder, {obstacle_in_folder(options, scene)});
+    if (found.all().empty()) found.note(folder_key, folder, {problem_in_folder(options, scene)});
 }
 
 } // namespace
 
-void PlaceProblems::note(const std::string& key, const std::string& path, const Obstacle& found) {
+void PlaceProblems::note(const std::string& key, const std::string& path,
+                         const WriteProblem& found) {
     if (found.text.empty()) return;
     (found.is_failure ? failures : problems)
         .push_back({fmt::format("{} {}", key, path), 0, found.text});

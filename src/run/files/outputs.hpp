@@ -21,7 +21,7 @@ struct PlaceProblems {
     std::vector<Problem> problems, failures;
 
     /// Adds what was found, if anything; `key` is what names the path.
-    void note(const std::string& key, const std::string& path, const Obstacle& found);
+    void note(const std::string& key, const std::string& path, const WriteProblem& found);
     std::vector<Problem> all() const;
     /// Ends with code 2 where there are problems, with code 4 where there are only failures.
     /// **Collective.**

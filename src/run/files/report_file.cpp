@@ -78,7 +78,7 @@ private:
 
 } // namespace
 
-Obstacle obstacle_to_writing(const std::string& path) {
+WriteProblem write_problem_of_file(const std::string& path) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (std::filesystem::is_directory(status)) return {"is a directory; name a file"};
@@ -86,7 +86,7 @@ Obstacle obstacle_to_writing(const std::string& path) {
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
         return {"is not a plain file"};
     const FileBeside file(path);
-    return file.number < 0 ? obstacle("cannot be written", errno) : Obstacle{};
+    return file.number < 0 ? write_problem("cannot be written", errno) : WriteProblem{};
 }
 
 std::string write_whole_file(const std::string& path, const std::string& text) {

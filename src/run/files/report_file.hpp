@@ -12,7 +12,7 @@ namespace carrom {
 
 /// What would keep `write_whole_file` from writing to `path`, if anything is known to. Leaves
 /// nothing behind.
-Obstacle obstacle_to_writing(const std::string& path);
+WriteProblem write_problem_of_file(const std::string& path);
 
 /// Replaces `path` by a file with this text. Returns what went wrong, empty if nothing did.
 std::string write_whole_file(const std::string& path, const std::string& text);

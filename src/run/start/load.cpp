@@ -75,9 +75,9 @@ std::vector<NamedFile> read_by(const RunOptions& options) {
 void check_destinations(const RunOptions& options, PlaceProblems& found) {
     const Problems shared = problems_with(named_by(options), read_by(options));
     if (!options.output.empty())
-        found.note("--output", options.output, obstacle_to_opening(options.output));
+        found.note("--output", options.output, write_problem_of_stream(options.output));
     if (!options.report.empty() && shared.empty())
-        found.note("--report", options.report, obstacle_to_writing(options.report));
+        found.note("--report", options.report, write_problem_of_file(options.report));
     append(found.problems, shared);
 }
 

@@ -48,12 +48,12 @@ TEST_CASE("A report replaces the file that was there and leaves nothing beside i
 
 TEST_CASE("Places that cannot take a report are found out without a trace") {
     const ScratchFolder folder;
-    CHECK(obstacle_to_writing(folder.file("report.json")).text.empty());
+    CHECK(write_problem_of_file(folder.file("report.json")).text.empty());
     CHECK(folder.n_files() == 0);
-    CHECK(obstacle_to_writing(folder.file("nowhere/report.json")).text.find("No such file") !=
+    CHECK(write_problem_of_file(folder.file("nowhere/report.json")).text.find("No such file") !=
           std::string::npos);
-    CHECK(obstacle_to_writing(folder.file(".")).text.find("directory") != std::string::npos);
-    CHECK(obstacle_to_writing("/dev/null").text.find("not a plain file") != std::string::npos);
+    CHECK(write_problem_of_file(folder.file(".")).text.find("directory") != std::string::npos);
+    CHECK(write_problem_of_file("/dev/null").text.find("not a plain file") != std::string::npos);
     CHECK(write_whole_file(folder.file("nowhere/report.json"), "x").find("No such file") !=
           std::string::npos);
 }
@@ -66,7 +66,7 @@ TEST_CASE("Files and links beside a report are left as they are") {
     CHECK(write_whole_file(left_over, "of another run\n").empty());
     for (const char* number : {"0", "1"})
         std::filesystem::create_symlink(victim, path + '.' + pid + '-' + number + ".partial");
-    CHECK(obstacle_to_writing(path).text.empty());
+    CHECK(write_problem_of_file(path).text.empty());
     CHECK(write_whole_file(path, "numbers\n").empty());
     CHECK(content(path) == "numbers\n");
     CHECK(content(victim) == "precious\n");
@@ -77,14 +77,14 @@ TEST_CASE("Files and links beside a report are left as they are") {
 TEST_CASE("A file for data is emptied only when it is opened") {
     const ScratchFolder folder;
     const std::string path = folder.file("lines.txt");
-    CHECK(obstacle_to_opening(path).text.empty());
+    CHECK(write_problem_of_stream(path).text.empty());
     CHECK(folder.n_files() == 0);
     CHECK(write_whole_file(path, "old\n").empty());
-    CHECK(obstacle_to_opening(path).text.empty());
+    CHECK(write_problem_of_stream(path).text.empty());
     CHECK(content(path) == "old\n");
-    CHECK(obstacle_to_opening(folder.file(".")).text.find("cannot be written") !=
+    CHECK(write_problem_of_stream(folder.file(".")).text.find("cannot be written") !=
           std::string::npos);
-    CHECK_FALSE(obstacle_to_opening(folder.file(".")).is_failure); // the place, not the disk
+    CHECK_FALSE(write_problem_of_stream(folder.file(".")).is_failure); // the place, not the disk
     DataOutput output(path);
     output.buffer().append(std::string("new\n"));
     output.flush_if_full();
