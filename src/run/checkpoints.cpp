@@ -20,7 +20,7 @@ namespace carrom {
 
 namespace {
 
-constexpr double seconds_between_looks = 0.5;
+constexpr double seconds_between_agreements = 0.5;
 /// A rank with more discs keeps no copy of them.
 constexpr double most_copied = 1e6;
 /// Between copies: each takes some 20 ns a disc, and what measurements keep as much again.
@@ -32,92 +32,82 @@ constexpr double longest_stretch = 1e15; // steps
 
 } // namespace
 
-Checkpoints::Checkpoints(const Scene& scene, std::int64_t first_step, bool is_restart,
-                         std::function<bool()> must_stop, const Communicator& ranks, int n_threads)
-    : ranks_(ranks), scene_(scene), must_stop_(std::move(must_stop)), n_threads_(n_threads),
-      last_looked_(first_step) {
-    if (!scene_.checkpoint || !is_restart) return;
-    last_written_ = first_step;
-    kept_ = earlier_checkpoints(scene_, first_step, ranks_);
-    kept_.push_back(checkpoint_path(scene_.checkpoint->folder, first_step));
+Checkpoints::Checkpoints(Run& run, std::optional<CheckpointOutput> wanted)
+    : run_(run), ranks_(run.ranks()), wanted_(std::move(wanted)), last_agreed_(run.step()) {
+    if (!wanted_ || !run.is_restart()) return;
+    last_written_ = run.step();
+    kept_ = earlier_checkpoints(wanted_->folder, run.scene(), run.step(), ranks_);
+    kept_.push_back(checkpoint_path(wanted_->folder, run.step()));
     if (!ranks_.is_root()) return;
-    remove_unfinished(scene_.checkpoint->folder); // by the run that was killed
+    remove_unfinished(wanted_->folder); // by the run that was killed
 }
 
-std::int64_t Checkpoints::next_look(std::int64_t step) const {
-    std::int64_t next = step + stretch_;
-    if (!scene_.checkpoint) return next;
-    if (const auto every = scene_.checkpoint->every_steps)
-        next = std::min(next, (step / *every + 1) * *every);
-    return next;
+std::int64_t Checkpoints::next_due(std::int64_t step) const {
+    const std::int64_t next = step + stretch_;
+    if (!wanted_ || !wanted_->every_steps) return next;
+    return std::min(next, (step / *wanted_->every_steps + 1) * *wanted_->every_steps);
 }
 
-bool Checkpoints::look_up(const Simulation& simulation, Recordings& recordings) {
-    const std::int64_t step = simulation.step();
+bool Checkpoints::act() {
+    const std::int64_t step = run_.step();
     const Updates now = updates(step);
-    const bool is_end = step >= scene_.steps;
-    if (!scene_.checkpoint) return now.must_stop && !is_end;
-    const CheckpointOutput& wanted = *scene_.checkpoint;
+    const bool is_end = step >= run_.scene().steps, goes_on = !now.must_stop || is_end;
+    if (!wanted_) return goes_on;
     const bool is_due = now.must_stop || now.is_time ||
-                        (wanted.every_steps && step > 0 && step % *wanted.every_steps == 0) ||
-                        (is_end && wanted.at_end);
-    if (is_due && step != last_written_) write(simulation, recordings);
-    if (!now.must_stop && now.is_copy_due && step != last_written_) copy(simulation, recordings);
-    return now.must_stop && !is_end;
+                        (wanted_->every_steps && step > 0 && step % *wanted_->every_steps == 0) ||
+                        (is_end && wanted_->at_end);
+    if (is_due && step != last_written_) write();
+    if (!now.must_stop && now.is_copy_due && step != last_written_) copy();
+    return goes_on;
 }
 
 /// What all ranks agree on: whether any has a signal, and what rank 0's clock says. **Collective.**
 Checkpoints::Updates Checkpoints::updates(std::int64_t step) {
-    std::array<std::uint64_t, 5> sums = {must_stop_() ? 1u : 0u, 0, 0, 0, 0};
-    const double discs_per_rank = static_cast<double>(scene_.n_discs) / ranks_.size();
+    std::array<std::uint64_t, 5> sums = {is_stop_requested() ? 1u : 0u, 0, 0, 0, 0};
+    const double discs_per_rank = static_cast<double>(run_.scene().n_discs) / ranks_.size();
     if (ranks_.is_root()) {
         const double seconds = stretch_watch_.lap();
-        const double steps = static_cast<double>(step - last_looked_) * seconds_between_looks /
+        const double steps = static_cast<double>(step - last_agreed_) * seconds_between_agreements /
                              std::max(seconds, 1e-6);
         seconds_since_written_ += seconds;
         seconds_since_copied_ += seconds;
         const double pause = std::max(seconds_between_copies,
                                       seconds_per_copied_disc * discs_per_rank);
-        sums[3] = step == last_looked_ || seconds_since_copied_ > pause ? 1 : 0;
+        sums[3] = step == last_agreed_ || seconds_since_copied_ > pause ? 1 : 0;
         sums[4] = static_cast<std::uint64_t>(std::min(2e3 * seconds, 1e6));
-        sums[1] = scene_.checkpoint && scene_.checkpoint->every_minutes &&
-                          seconds_since_written_ >= *scene_.checkpoint->every_minutes * 60
+        sums[1] = wanted_ && wanted_->every_minutes &&
+                          seconds_since_written_ >= *wanted_->every_minutes * 60
                       ? 1
                       : 0;
         sums[2] = static_cast<std::uint64_t>(std::clamp(steps, 1.0, longest_stretch));
     }
     ranks_.sum(sums);
-    last_looked_ = step;
+    last_agreed_ = step;
     stretch_ = static_cast<std::int64_t>(sums[2]);
-    const bool is_copied = !scene_.checkpoint || discs_per_rank <= most_copied;
+    const bool is_copied = !wanted_ || discs_per_rank <= most_copied;
     const double as_long_again = static_cast<double>(sums[4]) / 1e3;
     set_stop_patience(is_copied ? patience : std::clamp(as_long_again, patience, most_patience));
-    return {sums[0] > 0, sums[1] > 0, scene_.checkpoint && is_copied && sums[3] > 0};
+    return {sums[0] > 0, sums[1] > 0, wanted_ && is_copied && sums[3] > 0};
 }
 
-StoredSamples Checkpoints::samples_now(const Simulation& simulation, Recordings& recordings) const {
-    StoredSamples samples = recordings.samples();
-    samples.averages = simulation.stored_averages();
-    return samples;
-}
-
-void Checkpoints::copy(const Simulation& simulation, Recordings& recordings) {
+void Checkpoints::copy() {
     if (!copy_) copy_.emplace();
+    const Simulation& simulation = run_.simulation();
     const std::span<const Disc> discs = simulation.discs();
-    copy_->header = header_now(scene_, simulation);
+    copy_->header = header_now(run_.scene(), simulation);
     copy_->discs.assign(discs.begin(), discs.end());
     copy_->columns = SideColumns(simulation.side_columns());
-    copy_->samples = samples_now(simulation, recordings);
+    copy_->samples = run_.stored_samples();
     stretch_watch_.lap();
     seconds_since_copied_ = 0;
 }
 
-std::string Checkpoints::write_copy(Recordings& recordings) {
-    recordings.commit();
+std::string Checkpoints::write_copy() {
+    run_.commit();
     if (copy_) {
-        const std::string path = checkpoint_path(scene_.checkpoint->folder, copy_->header.step);
+        const std::string path = checkpoint_path(wanted_->folder, copy_->header.step);
         write_checkpoint(path, copy_->header, copy_->discs, ranks_,
-                         {n_threads_, scene_.checkpoint->transfers == Transfers::collective},
+                         {run_.n_threads(), wanted_->transfers == Transfers::collective},
                          copy_->samples, copy_->columns.spans());
         note_written(path, copy_->header.step);
     }
@@ -126,16 +116,11 @@ std::string Checkpoints::write_copy(Recordings& recordings) {
                : fmt::format("the last state that is kept is of step {}", last_written_);
 }
 
-void Checkpoints::write(const Simulation& simulation, Recordings& recordings) {
+void Checkpoints::write() {
     if (removal_.valid()) removal_.get(); // its room may be needed
-    recordings
-        .commit(); // a restart cuts them back to its step, but cannot make up for what is missing
-    const CheckpointHeader header = header_now(scene_, simulation);
-    const std::string path = checkpoint_path(scene_.checkpoint->folder, header.step);
-    write_checkpoint(path, header, simulation.discs(), ranks_,
-                     {n_threads_, scene_.checkpoint->transfers == Transfers::collective},
-                     samples_now(simulation, recordings), simulation.side_columns());
-    note_written(path, header.step);
+    const std::string path = checkpoint_path(wanted_->folder, run_.step());
+    run_.write_checkpoint(path, wanted_->transfers);
+    note_written(path, run_.step());
 }
 
 void Checkpoints::note_written(const std::string& path, std::int64_t step) {
@@ -152,7 +137,7 @@ void Checkpoints::note_written(const std::string& path, std::int64_t step) {
 /// steps.
 void Checkpoints::remove_oldest() {
     const auto n_removed = std::max<std::ptrdiff_t>(
-        0, std::ssize(kept_) - static_cast<std::ptrdiff_t>(scene_.checkpoint->keep));
+        0, std::ssize(kept_) - static_cast<std::ptrdiff_t>(wanted_->keep));
     std::vector<std::string> removed(kept_.begin(), kept_.begin() + n_removed);
     kept_.erase(kept_.begin(), kept_.begin() + n_removed);
     if (removed.empty() || !ranks_.is_root()) return;

@@ -96,13 +96,4 @@ CollectiveError reported(const CheckFailure& failure, const Scene& scene,
     return CollectiveError(fmt::format("{}\n{}", failure.what(), sentence), failure.code());
 }
 
-void advance_or_report(Simulation& simulation, std::int64_t last_step, const Scene& scene,
-                       const Communicator& ranks) {
-    try {
-        simulation.advance_towards(last_step);
-    } catch (const CheckFailure& failure) {
-        throw reported(failure, scene, ranks);
-    }
-}
-
 } // namespace carrom

@@ -7,7 +7,6 @@
 #include "check/check_failure.hpp"
 #include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
-#include "simulation/simulation.hpp"
 
 namespace carrom {
 
@@ -21,9 +20,5 @@ std::string write_failure_scene(const std::string& folder, const Scene& scene,
 /// code 70. **Collective.**
 CollectiveError reported(const CheckFailure& failure, const Scene& scene,
                          const Communicator& ranks);
-
-/// Simulation::advance_towards; a failed check is printed. **Collective.**
-void advance_or_report(Simulation& simulation, std::int64_t last_step, const Scene& scene,
-                       const Communicator& ranks);
 
 } // namespace carrom

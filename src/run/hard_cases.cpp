@@ -58,8 +58,8 @@ void refuse_blurred_places(const Scene& scene, double speed) {
 
 } // namespace
 
-void look_for_hard_cases(const Scene& scene, const Simulation& simulation,
-                         const Communicator& ranks, const Messages& messages) {
+void refuse_hard_cases(const Scene& scene, const Simulation& simulation, const Communicator& ranks,
+                       const Messages& messages) {
     const double speed = largest_speed(simulation, ranks);
     refuse_blurred_places(scene, speed);
     refuse_long_flights(scene, speed);

@@ -13,8 +13,8 @@ namespace carrom {
 /// Warns if discs go noticeably far in the rounding of a time. Throws InputError on every
 /// rank if they go through a box with periodic sides more often than can be counted.
 /// **Collective.**
-void look_for_hard_cases(const Scene& scene, const Simulation& simulation,
-                         const Communicator& ranks, const Messages& messages);
+void refuse_hard_cases(const Scene& scene, const Simulation& simulation, const Communicator& ranks,
+                       const Messages& messages);
 
 /// The same for what rounding or the order of ids decides as the scene starts: discs that overlap
 /// (in the time-stepped method), that touch several others, that slide along each other.

@@ -42,43 +42,40 @@ LoggedCollision logged(const Collision& collision, std::int64_t micro_steps) {
     return entry;
 }
 
-Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_restart,
-                       StoredSamples samples, const Communicator& ranks, const Messages& messages)
-    : scene_(scene), ranks_(ranks), messages_(messages), thermo_(scene, ranks) {
-    const std::int64_t step = simulation.step();
-    if (scene_.trajectory) {
-        trajectory_.emplace(scene_.trajectory->file, layout_of(scene_, *scene_.trajectory), ranks_);
-        if (is_restart)
-            report_missing_frames(trajectory_->go_on(step), step);
-        else
-            trajectory_->begin();
-    }
-    if (scene_.collisions) {
-        log_.emplace(scene_.collisions->file, system_of(scene_), ranks_);
-        if (!is_restart)
-            log_->begin();
-        else if (!log_->go_on(step) && step > 0)
-            messages_.warn("{}: begins with step {}; of the steps before there is no log\n",
-                           scene_.collisions->file, step + 1);
-        else if (const auto& gaps = log_->gaps(); !gaps.empty() && gaps.back() == step)
-            messages_.warn("{}: has no collisions of steps {} to {}, and goes on with step {}\n",
-                           scene_.collisions->file, gaps[gaps.size() - 2], step, step + 1);
-        simulation.log_to(&collisions_);
-    }
-    if (scene_.trajectory && scene_.trajectory->has_image) {
-        images_.emplace(scene_.box, simulation, ranks_);
-        if (samples.have_images)
-            images_->go_on(samples.first_places, &FirstPlace::image_x, &FirstPlace::image_y);
-        else if (is_restart && step > 0)
-            messages_.warn("{}: image counts from step {}; the checkpoint has no counts\n",
-                           scene_.trajectory->file, step);
-    }
-    if (scene_.measurements) {
-        sampler_.emplace(scene_, simulation, ranks_);
-        if (is_restart) sampler_->go_on(std::move(samples));
-        sample();
-    }
-    if (!is_restart) record(simulation);
+Recordings::Recordings(Run& run, const Messages& messages)
+    : run_(run), scene_(run.scene()), ranks_(run.ranks()), messages_(messages),
+      thermo_(run.scene(), run.ranks()) {
+    if (scene_.trajectory) open_trajectory();
+    if (scene_.collisions) open_log();
+    if (run_.images() && run_.is_restart() && !run_.has_earlier_images() && run_.step() > 0)
+        messages_.warn("{}: image counts from step {}; the checkpoint has no counts\n",
+                       scene_.trajectory->file, run_.step());
+    if (run_.is_restart())
+        add_thermo();
+    else
+        act();
+}
+
+void Recordings::open_trajectory() {
+    trajectory_.emplace(scene_.trajectory->file, layout_of(scene_, *scene_.trajectory), ranks_);
+    if (run_.is_restart())
+        report_missing_frames(trajectory_->go_on(run_.step()), run_.step());
+    else
+        trajectory_->begin();
+}
+
+void Recordings::open_log() {
+    const std::int64_t step = run_.step();
+    log_.emplace(scene_.collisions->file, system_of(scene_), ranks_);
+    if (!run_.is_restart())
+        log_->begin();
+    else if (!log_->go_on(step) && step > 0)
+        messages_.warn("{}: begins with step {}; of the steps before there is no log\n",
+                       scene_.collisions->file, step + 1);
+    else if (const auto& gaps = log_->gaps(); !gaps.empty() && gaps.back() == step)
+        messages_.warn("{}: has no collisions of steps {} to {}, and goes on with step {}\n",
+                       scene_.collisions->file, gaps[gaps.size() - 2], step, step + 1);
+    run_.simulation().log_to(&collisions_);
 }
 
 /// What the restart of a run finds of its trajectory.
@@ -91,36 +88,35 @@ void Recordings::report_missing_frames(std::int64_t last, std::int64_t step) con
 }
 
 std::int64_t Recordings::next_due(std::int64_t step) const {
-    std::int64_t next = std::numeric_limits<std::int64_t>::max();
-    if (scene_.trajectory)
-        next = (step / scene_.trajectory->every_steps + 1) * scene_.trajectory->every_steps;
-    if (sampler_) next = std::min(next, sampler_->next_due(step));
-    return next;
+    if (!scene_.trajectory) return std::numeric_limits<std::int64_t>::max();
+    return (step / scene_.trajectory->every_steps + 1) * scene_.trajectory->every_steps;
 }
 
-void Recordings::record(const Simulation& simulation) {
+bool Recordings::act() {
+    const Simulation& simulation = run_.simulation();
     const std::int64_t step = simulation.step();
     if (log_) record_collisions(step);
-    if (sampler_) sample();
-    if (images_) static_cast<void>(images_->counts()); // so that they need little memory
+    add_thermo();
+    ImageCounts* const counts = run_.images();
+    if (counts) static_cast<void>(counts->counts()); // so that they need little memory
     if (trajectory_ && step % scene_.trajectory->every_steps == 0) {
         std::vector<BondOrder> orders; // first: finding them moves discs in memory
         if (scene_.trajectory->has_psi6 || scene_.trajectory->has_neighbours)
             orders = simulation.bond_orders();
-        const std::vector<DiscImage> images = images_ ? images_->now() : std::vector<DiscImage>{};
+        const std::vector<DiscImage> images = counts ? counts->now() : std::vector<DiscImage>{};
         trajectory_->append(step, simulation.shown(), simulation.clock(), simulation.side_columns(),
                             orders, images);
     }
     commit_now_and_then();
+    return true;
 }
 
-void Recordings::sample() {
-    sampler_->look();
-    thermo_.add_rows_of(*sampler_);
+void Recordings::add_thermo() {
+    if (run_.sampler()) thermo_.add_rows_of(*run_.sampler());
 }
 
 void Recordings::commit_now_and_then() {
-    if (!trajectory_ && !log_ && !sampler_) return;
+    if (!trajectory_ && !log_ && !run_.sampler()) return;
     seconds_uncommitted_ += since_look_.lap();
     const double wait = std::max(seconds_between_commits, commit_seconds_ / largest_share);
     if (!ranks_.any(ranks_.is_root() && seconds_uncommitted_ > wait)) return;
@@ -142,14 +138,7 @@ void Recordings::record_collisions(std::int64_t step) {
 void Recordings::commit() {
     if (trajectory_) trajectory_->commit();
     if (log_) log_->commit();
-    if (sampler_) write_tables(scene_, sampler_->tables(), ranks_);
-}
-
-StoredSamples Recordings::samples() {
-    StoredSamples samples = sampler_ ? sampler_->stored() : StoredSamples{};
-    samples.have_images = images_.has_value();
-    if (images_) images_->store(samples.first_places, &FirstPlace::image_x, &FirstPlace::image_y);
-    return samples;
+    if (run_.sampler()) write_tables(scene_, run_.sampler()->tables(), ranks_);
 }
 
 void Recordings::finish() {

@@ -14,6 +14,7 @@
 #include "initial_state/random_insertion.hpp"
 #include "initial_state/scene_input.hpp"
 #include "initial_state/velocities.hpp"
+#include "simulation/advance.hpp"
 #include "simulation/simulation.hpp"
 
 namespace carrom {
@@ -84,7 +85,7 @@ private:
         for (InputDisc& disc : discs_) disc.vx *= speed, disc.vy *= speed;
         Simulation simulation(stretch(), std::move(discs_), communicator_, tuning_);
         try {
-            while (simulation.step() < 1) simulation.advance_towards(1);
+            advance_to(simulation, 1);
         } catch (const StopRequested&) {
             throw StopRequested(fmt::format(
                 "stopped on request while discs are compressed, at a packing fraction of {:.4g} of "

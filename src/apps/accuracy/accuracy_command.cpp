@@ -50,7 +50,7 @@ ExitCode study(const AccuracyOptions& options, std::vector<Problem> problems,
         throw InputError(
             {{loaded.scene.name, 0,
               "errors are known for scenes without effects only, and this one has '[effects]'"}});
-    (options.of_distances ? study_distances : study_costs)(loaded.scene, loaded.discs,
+    (options.of_distances ? study_distances : study_costs)(loaded.scene, loaded.start.discs,
                                                            options.study, ranks);
     return ExitCode::success;
 }

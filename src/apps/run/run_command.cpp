@@ -2,6 +2,7 @@
 #include "apps/run/run_command.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -16,18 +17,17 @@
 #include "apps/shell/standard_streams.hpp"
 #include "apps/shell/stop_signals.hpp"
 #include "core/stop_request.hpp"
+#include "core/stopwatch.hpp"
 #include "machine/machine.hpp"
 #include "parallel/agreement.hpp"
 #include "run/checkpoints.hpp"
-#include "run/failure_scene.hpp"
 #include "run/files/report_file.hpp"
 #include "run/files/run_folder.hpp"
 #include "run/hard_cases.hpp"
-#include "run/pilot/setting_choice.hpp"
 #include "run/recordings.hpp"
+#include "run/run.hpp"
 #include "run/start/load.hpp"
 #include "run/start/restart.hpp"
-#include "run/stopwatch.hpp"
 #include "simulation/known_bits.hpp"
 #include "simulation/simulation.hpp"
 
@@ -83,48 +83,68 @@ StopRequested given_up(std::int64_t step, const std::string& kept, const Scene& 
                              : fmt::format("; carrom run -o {} --resume goes on", scene.folder)));
 }
 
-/// Steps to the end of the scene, writing on the way what it asks for, or to where the run is asked
-/// to stop: false then. A restart does not write the lines of its first step again. **Collective.**
-bool step_to_end(Simulation& simulation, RunResult& result, double& output_seconds,
-                 const RunOptions& options, const Scene& scene, bool is_restart,
-                 StoredSamples samples, const StopSignals& signals, const Communicator& ranks) {
-    DiscLines lines(scene, options.output, options.digits, ranks);
-    Progress progress(simulation.step(), scene.steps, ranks.is_root() && !options.quiet);
-    Stopwatch watch;
-    const auto write_if_due = [&] {
-        if (!lines.is_due(simulation.step())) return;
-        progress.finish(); // both may go to the same terminal
-        lines.write(simulation);
-    };
-    if (!is_restart || simulation.step() == scene.steps) write_if_due();
-    Checkpoints checkpoints(
-        scene, simulation.step(), is_restart, [&signals] { return signals.has_come(); }, ranks,
-        result.threads);
-    Recordings recordings(scene, simulation, is_restart, std::move(samples), ranks,
-                          options.messages);
-    bool must_stop = checkpoints.look_up(simulation, recordings);
-    output_seconds += watch.lap();
-    while (simulation.step() < scene.steps && !must_stop) {
-        const std::int64_t step = simulation.step();
-        const std::int64_t next = std::min(
-            {lines.next_due(step), checkpoints.next_look(step), recordings.next_due(step)});
-        try {
-            advance_or_report(simulation, next, scene, ranks);
-        } catch (const StopRequested&) {
-            lines.close();
-            throw given_up(step, checkpoints.write_copy(recordings), scene);
-        }
-        result.wall_seconds += watch.lap();
-        write_if_due();
-        recordings.record(simulation);
-        must_stop = checkpoints.look_up(simulation, recordings);
-        progress.show(simulation.step());
-        output_seconds += watch.lap();
+/// The lines of discs on standard output or in a file, and how far the run is.
+class ShownSteps : public StepAction {
+public:
+    /// A restart does not write the lines of its first step again. **Collective.**
+    ShownSteps(const Run& run, const RunOptions& options)
+        : run_(run), lines_(run.scene(), options.output, options.digits, run.ranks()),
+          progress_(run.step(), run.scene().steps, run.ranks().is_root() && !options.quiet),
+          last_step_(run.step()) {
+        if (!run.is_restart() || run.step() == run.scene().steps) write_if_due();
     }
-    lines.close();
+
+    std::int64_t next_due(std::int64_t step) const override { return lines_.next_due(step); }
+    bool act() override {
+        write_if_due();
+        last_step_ = run_.step();
+        progress_.show(last_step_);
+        return true;
+    }
+    /// The last step that has been made whole.
+    std::int64_t last_step() const { return last_step_; }
+    /// **Collective.**
+    void finish() {
+        progress_.finish();
+        lines_.close();
+    }
+
+private:
+    void write_if_due() {
+        if (!lines_.is_due(run_.step())) return;
+        progress_.finish(); // both may go to the same terminal
+        lines_.write(run_.simulation());
+    }
+
+    const Run& run_;
+    DiscLines lines_;
+    Progress progress_;
+    std::int64_t last_step_;
+};
+
+/// Steps to the end of the scene, writing on the way what it asks for, or to where the run is asked
+/// to stop: false then. **Collective.**
+bool step_to_end(Run& run, const RunOptions& options, double& output_seconds) {
+    const Scene& scene = run.scene();
+    Stopwatch watch;
+    ShownSteps shown(run, options);
+    Checkpoints checkpoints(run, scene.checkpoint);
+    Recordings recordings(run, options.messages);
+    for (StepAction* action : std::initializer_list<StepAction*>{&shown, &recordings, &checkpoints})
+        run.add(*action);
+    bool is_done = checkpoints.act() || run.step() >= scene.steps;
+    output_seconds += watch.lap();
+    try {
+        is_done = is_done && run.advance_to(scene.steps);
+    } catch (const StopRequested&) {
+        shown.finish();
+        throw given_up(shown.last_step(), checkpoints.write_copy(), scene);
+    }
+    watch.lap();
+    shown.finish();
     recordings.finish();
-    result.tables = recordings.tables();
-    return !must_stop;
+    output_seconds += watch.lap() + run.seconds().actions;
+    return is_done;
 }
 
 /// **Collective.**
@@ -171,15 +191,9 @@ ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
     tuning.threads = options.threads.value_or(default_threads(ranks));
     warn_of_threads(tuning.threads, options.threads.has_value(), ranks);
     warn_of_other_bits(ranks);
-    if (loaded.scene.accuracy)
-        choose_setting(loaded.scene, loaded.discs, options.messages, ranks, tuning);
-    const Scene& scene = loaded.scene;
-    const bool is_restart = loaded.stored.has_value();
-    Simulation simulation = is_restart ? Simulation(scene, std::move(*loaded.stored), ranks, tuning)
-                                       : Simulation(scene, std::move(loaded.discs), ranks, tuning);
-
-    simulation.go_on_averaging(loaded.samples.averages);
-    look_for_hard_cases(scene, simulation, ranks, options.messages);
+    Run run(std::move(loaded.scene), std::move(loaded.start), ranks, tuning, options.messages);
+    const Scene& scene = run.scene();
+    Simulation& simulation = run.simulation();
     if (options.check) check_every_step(simulation, scene);
     RunResult result;
     result.threads = tuning.threads;
@@ -188,8 +202,9 @@ ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
     if (result.first_step == 0) warn_of_close_pairs(scene, result.start, options.messages);
     const double setup_seconds = watch.lap();
     double output_seconds = 0;
-    const bool is_done = step_to_end(simulation, result, output_seconds, options, scene, is_restart,
-                                     std::move(loaded.samples), *signals, ranks);
+    const bool is_done = step_to_end(run, options, output_seconds);
+    result.wall_seconds = run.seconds().steps;
+    if (run.sampler()) result.tables = run.sampler()->tables();
     fill_end(result, simulation);
     PhaseSeconds phases = simulation.phase_seconds();
     phases.emplace_back("set-up", setup_seconds);

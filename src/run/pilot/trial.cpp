@@ -7,7 +7,7 @@
 #include <time.h>
 
 #include "core/errors.hpp"
-#include "run/stopwatch.hpp"
+#include "core/stopwatch.hpp"
 
 namespace carrom {
 
@@ -28,10 +28,6 @@ double collisions_per_disc(const Totals& totals) {
 }
 
 } // namespace
-
-void advance_to(Simulation& simulation, std::int64_t step) {
-    while (simulation.step() < step) simulation.advance_towards(step);
-}
 
 std::vector<InputDisc> discs_now(const Simulation& simulation) {
     std::vector<InputDisc> discs;

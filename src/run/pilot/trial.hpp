@@ -9,6 +9,7 @@
 
 #include "parallel/communicator.hpp"
 #include "scene/scene.hpp"
+#include "simulation/advance.hpp"
 #include "simulation/simulation.hpp"
 
 namespace carrom {
@@ -53,8 +54,6 @@ struct Trial {
     std::vector<InputDisc> early; ///< this rank's discs at `early_step`, by id; empty if it is 0
 };
 
-/// Runs to the end of that step. **Collective.**
-void advance_to(Simulation& simulation, std::int64_t step);
 /// This rank's discs as they are now, by id, in the scene's units.
 std::vector<InputDisc> discs_now(const Simulation& simulation);
 

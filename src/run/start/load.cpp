@@ -276,27 +276,28 @@ Loaded load(const RunOptions& given, const Problems& problems, const Communicato
     }
     const Scene& scene = loaded.scene;
     try {
-        if (!loaded.stored) check_memory(scene, ranks);
+        if (!loaded.start.stored) check_memory(scene, ranks);
         loaded.locks = claim_outputs(options, scene, read_for(options, scene), named_by(options),
                                      ranks);
         // The last ranks of a run that was killed may have stored more before they ended.
         if (goes_on(options) && restart_candidates(options, scene, ranks) != found) {
             options.messages.note("another checkpoint has come meanwhile\n");
-            loaded.stored.reset(); // its memory is needed
+            loaded.start.stored.reset(); // its memory is needed
             load_restart(options, loaded, ranks);
         }
         if (goes_on(options) && !loaded.stored) begin_anew(options, scene, ranks);
     } catch (const InputError& error) { // on every rank
         Problems all;
         if (ranks.is_root()) all = error.problems();
-        if (ranks.is_root() && !loaded.stored) append(all, problems_of_disc_lines(scene, *stream));
+        if (ranks.is_root() && !loaded.start.stored)
+            append(all, problems_of_disc_lines(scene, *stream));
         agree_on_problems(ranks, all);
     }
     Tuning tuning = options.tuning;
     tuning.threads = options.threads.value_or(default_threads(ranks));
     check_threads(tuning.threads, ranks);
-    if (!loaded.stored) loaded.discs = first_discs(scene, stream.get(), ranks, tuning);
-    prepare_outputs(scene, !loaded.stored, ranks);
+    if (!loaded.start.stored) loaded.start.discs = first_discs(scene, stream.get(), ranks, tuning);
+    prepare_outputs(scene, !loaded.start.stored, ranks);
     for (const std::string& warning : scene.warnings)
         options.messages.warn("{}: warning: {}\n", scene.name, warning);
     return loaded;

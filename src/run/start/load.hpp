@@ -5,26 +5,22 @@
 // problems. Nothing of the run has been written when a problem is printed.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "core/errors.hpp"
-#include "core/stored_samples.hpp"
 #include "io/write_lock.hpp"
 #include "parallel/communicator.hpp"
 #include "run/start/run_options.hpp"
+#include "run/start/run_start.hpp"
 #include "scene/scene.hpp"
-#include "simulation/simulation.hpp"
 
 namespace carrom {
 
-/// Discs are in any distribution over the ranks.
+/// A scene and where its run starts.
 struct Loaded {
     Scene scene;
-    std::vector<InputDisc> discs;      ///< of a run from its start
-    std::optional<StoredState> stored; ///< what a restart goes on from
-    StoredSamples samples;             ///< the measurements that it goes on with
-    std::vector<WriteLock> locks;      ///< rank 0's, on what is written to
+    RunStart start;
+    std::vector<WriteLock> locks; ///< rank 0's, on what is written to
 };
 
 /// Throws InputError on every rank with `problems` (found so far, the same on all ranks), those of

@@ -120,10 +120,10 @@ std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths,
 
 } // namespace
 
-std::vector<std::string> earlier_checkpoints(const Scene& scene, std::int64_t step,
-                                             const Communicator& ranks) {
+std::vector<std::string> earlier_checkpoints(const std::string& folder, const Scene& scene,
+                                             std::int64_t step, const Communicator& ranks) {
     std::vector<std::string> paths;
-    for (const std::string& path : candidates_in(scene.checkpoint->folder, ranks, step)) {
+    for (const std::string& path : candidates_in(folder, ranks, step)) {
         try {
             const std::optional<CheckpointHeader> header = check_damage(path, ranks);
             if (header && header->step < step &&
@@ -177,9 +177,9 @@ void load_restart(const RunOptions& options, Loaded& loaded, const Communicator&
                fmt::format("the checkpoint is of step {}, and the run is to end at step {}",
                            header.step, loaded.scene.steps));
     options.messages.note("going on from step {}\n", header.step);
-    loaded.samples = std::move(checkpoint->samples);
-    loaded.stored = StoredState{std::move(checkpoint->discs), header.micro_steps_done,
-                                std::move(checkpoint->columns)};
+    loaded.start.samples = std::move(checkpoint->samples);
+    loaded.start.stored = StoredState{std::move(checkpoint->discs), header.micro_steps_done,
+                                      std::move(checkpoint->columns)};
 }
 
 } // namespace carrom

@@ -31,9 +31,9 @@ void begin_anew(const RunOptions& options, const Scene& scene, const Communicato
 std::vector<std::string> restart_candidates(const RunOptions& options, const Scene& scene,
                                             const Communicator& ranks);
 
-/// Whole checkpoints of the scene's run in its folder that are of earlier steps than `step`, oldest
+/// Whole checkpoints of the scene's run in a folder that are of earlier steps than `step`, oldest
 /// first. **Collective.**
-std::vector<std::string> earlier_checkpoints(const Scene& scene, std::int64_t step,
-                                             const Communicator& ranks);
+std::vector<std::string> earlier_checkpoints(const std::string& folder, const Scene& scene,
+                                             std::int64_t step, const Communicator& ranks);
 
 } // namespace carrom

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/run.hpp"
+
+#include <utility>
+
+#include "io/checkpoint.hpp"
+#include "run/failure_scene.hpp"
+#include "run/hard_cases.hpp"
+#include "run/pilot/setting_choice.hpp"
+#include "stored_scene/stored_scene.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// The scene with a method and micro-steps. **Collective.**
+Scene decided(Scene scene, const RunStart& start, const Communicator& ranks, const Tuning& tuning,
+              const Messages& messages) {
+    if (scene.accuracy) choose_setting(scene, start.discs, messages, ranks, tuning);
+    return scene;
+}
+
+/// **Collective.**
+Simulation simulation_from(const Scene& scene, RunStart& start, const Communicator& ranks,
+                           const Tuning& tuning) {
+    if (start.stored) return Simulation(scene, std::move(*start.stored), ranks, tuning);
+    return Simulation(scene, std::move(start.discs), ranks, tuning);
+}
+
+} // namespace
+
+Run::Run(Scene scene, RunStart start, const Communicator& ranks, const Tuning& tuning,
+         const Messages& messages)
+    : ranks_(ranks), scene_(decided(std::move(scene), start, ranks_, tuning, messages)),
+      is_restart_(start.stored.has_value()), n_threads_(tuning.threads),
+      simulation_(simulation_from(scene_, start, ranks_, tuning)) {
+    simulation_.go_on_averaging(start.samples.averages);
+    refuse_hard_cases(scene_, simulation_, ranks_, messages);
+    if (scene_.trajectory && scene_.trajectory->has_image) {
+        images_.emplace(scene_.box, simulation_, ranks_);
+        has_earlier_images_ = start.samples.have_images;
+        if (has_earlier_images_)
+            images_->go_on(start.samples.first_places, &FirstPlace::image_x, &FirstPlace::image_y);
+    }
+    if (!scene_.measurements) return;
+    sampler_.emplace(scene_, simulation_, ranks_);
+    if (is_restart_) sampler_->go_on(std::move(start.samples));
+    sampler_->look();
+    add(sampling_);
+}
+
+bool Run::Sampling::act() {
+    run_.sampler_->look();
+    return true;
+}
+
+bool Run::advance_to(std::int64_t last_step) {
+    try {
+        return carrom::advance_to(simulation_, last_step, actions_, &seconds_);
+    } catch (const CheckFailure& failure) {
+        throw reported(failure, scene_, ranks_);
+    }
+}
+
+void Run::commit() {
+    for (StepAction* action : actions_) action->commit();
+}
+
+StoredSamples Run::stored_samples() {
+    StoredSamples samples = sampler_ ? sampler_->stored() : StoredSamples{};
+    samples.have_images = images_.has_value();
+    if (images_) images_->store(samples.first_places, &FirstPlace::image_x, &FirstPlace::image_y);
+    samples.averages = simulation_.stored_averages();
+    return samples;
+}
+
+void Run::write_checkpoint(const std::string& path, Transfers transfers) {
+    commit();
+    carrom::write_checkpoint(path, header_now(scene_, simulation_), simulation_.discs(), ranks_,
+                             {n_threads_, transfers == Transfers::collective}, stored_samples(),
+                             simulation_.side_columns());
+}
+
+} // namespace carrom

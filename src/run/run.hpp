@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run of a scene: its simulation, what is measured as it goes on, and what is done between steps.
+//
+// The program and the library make a run alike and step it alike. They differ in the actions that
+// they add: the program adds lines of text, recordings and checkpoints; the library adds
+// checkpoints where it is asked for some.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/tuning.hpp"
+#include "measure/image_counts.hpp"
+#include "measure/sampler.hpp"
+#include "parallel/communicator.hpp"
+#include "run/messages.hpp"
+#include "run/start/run_start.hpp"
+#include "scene/scene.hpp"
+#include "simulation/advance.hpp"
+#include "simulation/simulation.hpp"
+
+namespace carrom {
+
+class Run {
+public:
+    /// Begins at step 0, or goes on from a stored state. Lets a pilot choose method and micro-steps
+    /// where the scene has `time.accuracy`. Throws InputError on every rank for a scene whose
+    /// numbers cannot be resolved. Takes the first sample if it is due. **Collective.**
+    Run(Scene scene, RunStart start, const Communicator& ranks, const Tuning& tuning,
+        const Messages& messages = {});
+    Run(const Run&) = delete;
+    Run& operator=(const Run&) = delete;
+
+    const Scene& scene() const { return scene_; } ///< with the setting that the pilot has chosen
+    const Communicator& ranks() const { return ranks_; }
+    int n_threads() const { return n_threads_; } ///< of this rank
+    bool is_restart() const { return is_restart_; }
+    Simulation& simulation() { return simulation_; }
+    const Simulation& simulation() const { return simulation_; }
+    std::int64_t step() const { return simulation_.step(); }
+
+    /// The measurements that the scene asks for; null if it asks for none.
+    const Sampler* sampler() const { return sampler_ ? &*sampler_ : nullptr; }
+    /// Of a trajectory that shows images; null if there is none. Counts go on from a checkpoint
+    /// that has some.
+    ImageCounts* images() { return images_ ? &*images_ : nullptr; }
+    bool has_earlier_images() const { return has_earlier_images_; }
+
+    /// From now on `action` is called between steps, after those added before. It must outlive
+    /// stepping.
+    void add(StepAction& action) { actions_.push_back(&action); }
+    /// Steps to the end of `last_step`. Returns false if an action ended the run before. A failed
+    /// check of `check_every_step` leaves a scene of the discs around it. **Collective.**
+    bool advance_to(std::int64_t last_step);
+    const StretchSeconds& seconds() const { return seconds_; }
+
+    /// Makes permanent what the actions have done so far. **Collective.**
+    void commit();
+    /// What a checkpoint keeps beside the state. **Collective.**
+    StoredSamples stored_samples();
+    /// Writes the present state as a whole file or not at all; every rank throws if it fails, and
+    /// an older file of that name is then as it was. **Collective.**
+    void write_checkpoint(const std::string& path, Transfers transfers = Transfers::independent);
+
+private:
+    /// Samples before all other actions, so that they see the sample of the present step.
+    class Sampling : public StepAction {
+    public:
+        explicit Sampling(Run& run) : run_(run) {}
+        std::int64_t next_due(std::int64_t step) const override {
+            return run_.sampler_->next_due(step);
+        }
+        bool act() override;
+
+    private:
+        Run& run_;
+    };
+
+    const Communicator ranks_;
+    Scene scene_;
+    bool is_restart_, has_earlier_images_ = false;
+    int n_threads_;
+    Simulation simulation_;
+    std::optional<ImageCounts> images_;
+    std::optional<Sampler> sampler_;
+    Sampling sampling_{*this};
+    std::vector<StepAction*> actions_;
+    StretchSeconds seconds_;
+};
+
+} // namespace carrom

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where a run starts: with the discs of its scene, or with what a checkpoint has kept.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/stored_samples.hpp"
+#include "engine/stored_state.hpp"
+#include "scene/scene.hpp"
+
+namespace carrom {
+
+/// Discs are in any distribution over the ranks.
+struct RunStart {
+    std::vector<InputDisc> discs{};      ///< of a run from step 0
+    std::optional<StoredState> stored{}; ///< the state that a restart goes on from
+    StoredSamples samples{};             ///< the measurements that it goes on with
+};
+
+} // namespace carrom

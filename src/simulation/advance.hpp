@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The loop of every run: steps to a wanted step, with something to do between steps.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "simulation/simulation.hpp"
+
+namespace carrom {
+
+/// Something that is done between the steps of a run: lines of text, files, checkpoints.
+class StepAction {
+public:
+    virtual ~StepAction() = default;
+
+    /// The first step after `step` that the run must not pass without calling `act`.
+    virtual std::int64_t next_due(std::int64_t step) const = 0;
+    /// Called after each stretch of steps, whether it is due or not. Returns false if the run must
+    /// end here. **Collective.**
+    virtual bool act() = 0;
+    /// Makes what has been done so far permanent: a checkpoint is about to be written, and a
+    /// restart cannot make up for what is missing before it. **Collective.**
+    virtual void commit() {}
+};
+
+/// Seconds that a run has spent on this rank.
+struct StretchSeconds {
+    double steps = 0, actions = 0;
+};
+
+/// Steps to the end of `last_step`, and calls the actions in their order after each stretch of
+/// steps. Returns false if an action ended the run before. **Collective.**
+bool advance_to(Simulation& simulation, std::int64_t last_step,
+                std::span<StepAction* const> actions = {}, StretchSeconds* seconds = nullptr);
+
+} // namespace carrom
