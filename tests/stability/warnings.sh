@@ -35,7 +35,7 @@ scene 1e7 1 64 event-driven && expect_warning 'a box of 1e7 radii' \
 # overlapping X: the second disc at X, two radii from the first at 5.
 overlapping() {
     local text='[box]\nsize = 10\n[discs]\nradius = 1\nlist = [[3, 3, 0, 0], [%s, 3, 0, 0]]\n'
-    printf "$text[time]\nsteps = 1\nmethod = \"time-stepped\"\n" "$1" >scene.toml
+    printf "${text}[time]\nsteps = 1\nmethod = \"time-stepped\"\n" "$1" >scene.toml
 }
 overlapping 4.9 && expect_warning 'discs that overlap' '1 pair of discs overlap at the start'
 overlapping 5 && expect_no_warning 'discs that touch'

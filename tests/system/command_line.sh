@@ -133,7 +133,7 @@ done
 
 # Control characters of files do not reach the terminal.
 esc=$(printf '\033')
-name="red$esc[31m.in"
+name="red${esc}[31m.in"
 cp tiny.in "$name"
 run 1 run "$name"
 expect_code 0 'a name with control characters'

@@ -69,7 +69,7 @@ expect_same() { cmp "$1" "$2" || complain "$3"; }
 # gas_scene SIZE COUNT PACKING SPEED STEPS: a scene's text, discs at random.
 gas_scene() {
     local text='[box]\nsize = %s\n[discs]\ncount = %s\npacking = %s\nspeed = %s\n'
-    printf "$text[time]\nmethod = \"time-stepped\"\nsteps = %s\n" "$@"
+    printf "${text}[time]\nmethod = \"time-stepped\"\nsteps = %s\n" "$@"
 }
 
 # json_value FILE KEY: the value of a key that stands on a line of its own.
