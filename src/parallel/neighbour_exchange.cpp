@@ -45,7 +45,6 @@ struct NeighbourExchange::State {
     int message_tag = 0;
     std::size_t first_capacity = 0; ///< payload of a first message
     std::uint64_t n_begun = 0;
-    bool is_under_way = false;
     std::vector<int> neighbours;
     std::vector<std::span<const std::byte>> parcels;
     std::vector<std::byte> firsts; ///< the first messages to receive, then those to send
@@ -59,10 +58,7 @@ NeighbourExchange::~NeighbourExchange() = default;
 NeighbourExchange::NeighbourExchange(NeighbourExchange&&) noexcept = default;
 NeighbourExchange& NeighbourExchange::operator=(NeighbourExchange&&) noexcept = default;
 
-void NeighbourExchange::clear_parcels() {
-    ensure(!state_->is_under_way, "a neighbour exchange began before the last one was complete");
-    state_->parcels.clear();
-}
+void NeighbourExchange::clear_parcels() { state_->parcels.clear(); }
 
 void NeighbourExchange::add_parcel(std::span<const std::byte> bytes) {
     state_->parcels.push_back(bytes);
@@ -71,7 +67,6 @@ void NeighbourExchange::add_parcel(std::span<const std::byte> bytes) {
 void NeighbourExchange::begin_parcels(std::span<const int> neighbours) {
     State& state = *state_;
     Communicator::Handle& handle = state.communicator.handle();
-    state.is_under_way = true;
     state.n_begun += 1;
     state.neighbours.assign(neighbours.begin(), neighbours.end());
     state.firsts.resize(2 * neighbours.size() * state.first_size());
@@ -101,7 +96,6 @@ void NeighbourExchange::begin_parcels(std::span<const int> neighbours) {
 
 std::span<const std::size_t> NeighbourExchange::receive_sizes() {
     State& state = *state_;
-    ensure(state.is_under_way, "a neighbour exchange was completed that had not begun");
     wait_for(state.receives);
     state.offsets.assign(1, 0);
     for (std::size_t k = 0; k < state.neighbours.size(); ++k) {
@@ -130,7 +124,6 @@ void NeighbourExchange::receive_parcels(std::span<std::byte> all) {
     }
     wait_for(state.receives);
     wait_for(state.sends);
-    state.is_under_way = false;
 }
 
 } // namespace carrom

@@ -20,8 +20,8 @@
 
 namespace carrom {
 
-/// Keeps its buffers from one exchange to the next. Several may be under way at once: each has tags
-/// of its own.
+/// Keeps its buffers from one exchange to the next, and has tags of its own, because a rank may be
+/// in the next exchange already while its neighbour is still in this one.
 class NeighbourExchange {
 public:
     /// Sends nothing, but all ranks must make their exchanges in the same order.
@@ -30,22 +30,19 @@ public:
     NeighbourExchange(NeighbourExchange&&) noexcept;
     NeighbourExchange& operator=(NeighbourExchange&&) noexcept;
 
-    /// Starts sending out[k] to neighbours[k]. The list holds ranks, each once, in any order; it
-    /// may be empty and may change from call to call. What a rank sends to itself is copied,
-    /// without a message. If a lists b, b must list a in the same call. `out` must stay unchanged
-    /// until `complete`. **Collective**: also ranks without neighbours take part, at no cost.
+    /// Sends out[k] to neighbours[k], and replaces `in` by what they send, grouped in the order of
+    /// `neighbours`. The list holds ranks, each once, in any order; it may be empty and may change
+    /// from call to call. What a rank sends to itself is copied, without a message. If a lists b, b
+    /// must list a in the same call. **Collective**: also ranks without neighbours take part, at no
+    /// cost.
     template <Message T>
-    void begin(std::span<const int> neighbours, const std::vector<std::vector<T>>& out) {
+    void exchange(std::span<const int> neighbours, const std::vector<std::vector<T>>& out,
+                  Received<T>& in) {
         ensure(out.size() == neighbours.size(),
                "a neighbour exchange needs one list of items per neighbour");
         clear_parcels();
         for (const std::vector<T>& items : out) add_parcel(std::as_bytes(std::span(items)));
         begin_parcels(neighbours);
-    }
-
-    /// Waits for what the neighbours sent in this exchange; replaces `in`, grouped in the order of
-    /// `neighbours`.
-    template <Message T> void complete(Received<T>& in) {
         const std::span<const std::size_t> byte_offsets = receive_sizes();
         in.offsets.clear();
         for (const std::size_t offset : byte_offsets) {
@@ -54,14 +51,6 @@ public:
         }
         in.items.resize(in.offsets.back());
         receive_parcels(std::as_writable_bytes(std::span(in.items)));
-    }
-
-    /// `begin` and `complete` in one.
-    template <Message T>
-    void exchange(std::span<const int> neighbours, const std::vector<std::vector<T>>& out,
-                  Received<T>& in) {
-        begin(neighbours, out);
-        complete(in);
     }
 
 private:
@@ -75,7 +64,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// One exchange with fresh buffers, for rare use; see NeighbourExchange::begin for what is
+/// One exchange with fresh buffers, for rare use; see NeighbourExchange::exchange for what is
 /// required. **Collective.**
 template <Message T>
 Received<T> exchange_with(const Communicator& communicator, std::span<const int> neighbours,
