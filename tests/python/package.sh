@@ -22,12 +22,14 @@ release_environment
 
 # The working folder is not the checkout's: what is tested is what pip has installed.
 export PYTHONDONTWRITEBYTECODE=1
-"$python" -m pytest -q -rs -p no:cacheprovider "$package/tests" || complain 'pytest'
+tests=$CARROM_SOURCE_DIR/tests/python/package
+"$python" -m pytest -q -rs -p no:cacheprovider "$tests" || complain 'pytest'
 
 for tool in mypy ruff; do
     has "$tool" "$tool" ||
         { printf 'skipped: %s is not to be had\n' "$tool"; continue; }
     cp -r "$package" "$tool-sources"
+    cp -r "$tests" "$tool-sources/tests"
     case $tool in
     mypy) (cd mypy-sources && "$python" -m mypy --cache-dir=/dev/null) || complain 'mypy' ;;
     ruff)
