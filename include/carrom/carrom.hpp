@@ -19,6 +19,7 @@
 // library's own code has other types of the same names in namespace carrom.
 namespace carrom {
 
+using api::CheckpointSchedule;
 using api::Disc;
 using api::FrameReader;
 using api::Options;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,21 +24,34 @@ namespace carrom::api {
 /// Choices that change how long a run takes, and never its result.
 struct Options {
     int threads = 0; ///< of each rank; 0: OMP_NUM_THREADS, else its share of the node's cores
+    /// Gets on rank 0 each line that `carrom run` prints as it starts, such as warnings and what a
+    /// pilot has chosen. Empty: nobody does.
+    std::function<void(const std::string& line)> messages{};
+};
+
+/// When `advance_to` writes checkpoints, and which of them it keeps.
+struct CheckpointSchedule {
+    std::string folder{};         ///< made where it is missing; no other run may write there
+    std::int64_t every_steps = 0; ///< 0: not by steps
+    double every_minutes = 0;     ///< of wall time; 0: not by time
+    std::int64_t keep = 2;        ///< older ones of this run are removed
+    bool at_end = true;           ///< also after the step `time.steps`
 };
 
 class Simulation {
 public:
-    /// The scene at step 0. Throws InputError with all problems of the scene and of its discs, and
-    /// for `time.accuracy`: choose `time.method` and `time.micro_steps` with `carrom accuracy`.
+    /// The scene at step 0. Throws InputError with all problems of the scene and of its discs. With
+    /// `time.accuracy` a pilot chooses method and micro-steps first: see `scene()` for its choice.
     /// Of the tables under `output` it acts on `output.measurements` alone, and writes no file.
     /// Memory: 94 bytes a disc and more (120 in the event-driven method), shared by the ranks.
     /// The session must outlive it. **Collective.**
     Simulation(const Session& session, const Scene& scene, const Options& options = {});
 
     /// Goes on from a checkpoint, of this library or of `carrom run`, with the same bits as the
-    /// uninterrupted run. The file has the scene; `settings` ("time.steps=200") go on top and may
-    /// change the last step and what is measured. Throws CollectiveError (code 2) where the file is
-    /// damaged, InputError where a setting would make it another run. **Collective.**
+    /// uninterrupted run. Of a folder it takes the newest whole one. The file has the scene;
+    /// `settings` ("time.steps=200") go on top and may change the last step and what is measured.
+    /// Throws CollectiveError (code 2) where the file is damaged, InputError where a setting would
+    /// make it another run. **Collective.**
     static Simulation from_checkpoint(const Session& session, const std::string& path,
                                       const std::vector<std::string>& settings = {},
                                       const Options& options = {});
@@ -82,6 +96,11 @@ public:
     /// CollectiveError (code 4) where it fails; an older file of that name is then as it was.
     /// 80 bytes a disc to disk. **Collective.**
     void write_checkpoint(const std::string& path) const;
+
+    /// From now on `advance_to` writes checkpoints as the schedule says, each as `write_checkpoint`
+    /// does; to be called once. Throws InputError for a wrong schedule, CollectiveError (code 4)
+    /// where the folder cannot be made. **Collective.**
+    void keep_checkpoints(const CheckpointSchedule& schedule);
 
     struct State; ///< the library's own
     const State& state() const { return live(); }

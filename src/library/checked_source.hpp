@@ -21,9 +21,9 @@ template <class Read> auto with_named_keys(const Read& read) {
         return read();
     } catch (const InputError& error) {
         std::vector<Problem> problems = error.problems();
-        const std::string option = "--set ";
-        for (Problem& problem : problems)
-            if (problem.place.starts_with(option)) problem.place.erase(0, option.size());
+        for (const std::string option : {"--set ", "--restart "})
+            for (Problem& problem : problems)
+                if (problem.place.starts_with(option)) problem.place.erase(0, option.size());
         throw InputError(std::move(problems));
     }
 }

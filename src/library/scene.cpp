@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <functional>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,7 +14,8 @@
 #include "library/session_state.hpp"
 #include "parallel/agreement.hpp"
 #include "parallel/meeting.hpp"
-#include "scene/disc_reader.hpp"
+#include "run/start/scene_source.hpp"
+#include "scene/read_scene.hpp"
 #include "simulation/compression.hpp"
 
 namespace carrom::api {
@@ -24,25 +26,6 @@ constexpr std::size_t longest_list = std::size_t{1} << 26;
 
 SceneText text_of(const Scene::Source& source) {
     return {source.name, source.text, source.lines_before_discs, source.discs_follow, {}};
-}
-
-carrom::Scene read(const SceneText& text, const Scene& scene) {
-    return with_named_keys([&] { return read_scene(text, scene.source().settings); });
-}
-
-/// The scene with the radii, masses and spins of its file of discs. **Collective.**
-carrom::Scene read_with_columns(SceneText text, const Scene& scene, const carrom::Scene& without,
-                                const Communicator& ranks) {
-    text.columns = load_columns(without, nullptr, ranks);
-    if (!text.columns->is_whole)
-        let_root(ranks, [&] {
-            std::ifstream file = open_input(discs_path(without));
-            std::vector<Problem> problems = disc_line_problems(file, without);
-            if (problems.empty())
-                problems.push_back({discs_path(without), 0, "changes while it is being read"});
-            throw InputError(std::move(problems));
-        });
-    return read(text, scene);
 }
 
 } // namespace
@@ -108,7 +91,10 @@ Scene& Scene::set_discs(std::span<const Disc> discs) {
     return set("discs.list", list);
 }
 
-SceneFacts Scene::check() const { return facts_of(read(text_of(source_), *this)); }
+SceneFacts Scene::check() const {
+    return facts_of(
+        with_named_keys([&] { return read_scene(text_of(source_), source_.settings); }));
+}
 
 SceneFacts facts_of(const carrom::Scene& scene) {
     SceneFacts facts;
@@ -144,27 +130,16 @@ void check_same_on_all(const Scene::Source& source, const Communicator& ranks) {
 
 FirstState first_state(const Scene& scene, const Communicator& ranks, const Tuning& tuning) {
     check_same_on_all(scene.source(), ranks);
-    const SceneText text = text_of(scene.source());
-    FirstState first;
-    first.scene = read(text, scene);
-    if (!first.scene.discs_from.empty())
-        throw InputError({{"discs.from", 0,
-                           "the library does not read it; open the checkpoint, and give its discs "
-                           "to set_discs"}});
-    if (!first.scene.disc_columns.empty() && !first.scene.discs_file.empty())
-        first.scene = read_with_columns(text, scene, first.scene, ranks);
-    if (first.scene.accuracy)
-        throw InputError({{"time.accuracy", 0,
-                           "the library does not choose a method; set time.method and "
-                           "time.micro_steps (carrom accuracy measures what they cost)"}});
-    std::ifstream lines;
+    SceneSource source{text_of(scene.source()), nullptr};
     let_root(ranks, [&] {
-        if (text.discs_follow) {
-            lines = open_input(text.name);
-            read_scene_text(lines, text.name); // up to the first disc
-        }
+        if (!source.text.discs_follow) return;
+        source.stream = std::make_unique<std::ifstream>(open_input(source.text.name));
+        read_scene_text(*source.stream, source.text.name); // up to the first disc
     });
-    first.discs = first_discs(first.scene, &lines, ranks, tuning);
+    FirstState first;
+    first.scene = with_named_keys(
+        [&] { return read_with_files(source, scene.source().settings, ranks); });
+    first.discs = first_discs(first.scene, source.stream.get(), ranks, tuning);
     return first;
 }
 

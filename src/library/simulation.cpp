@@ -2,11 +2,12 @@
 #include <carrom/simulation.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "io/checkpoint.hpp"
+#include "io/files.hpp"
 #include "library/checked_source.hpp"
 #include "library/live_part.hpp"
 #include "library/session_state.hpp"
@@ -15,7 +16,8 @@
 #include "parallel/agreement.hpp"
 #include "parallel/meeting.hpp"
 #include "parallel/sample_sort.hpp"
-#include "stored_scene/stored_scene.hpp"
+#include "run/start/load.hpp"
+#include "run/start/restart.hpp"
 
 namespace carrom::api {
 
@@ -34,39 +36,29 @@ Tuning tuning_of(const Options& options, const Communicator& ranks) {
     return tuning;
 }
 
+Messages messages_of(const Options& options, const Communicator& ranks) {
+    return ranks.is_root() ? Messages(options.messages) : Messages();
+}
+
 std::unique_ptr<Simulation::State> begun(const Session& session, const Scene& scene,
                                          const Options& options) {
     const Communicator& ranks = ranks_of(session);
     meet(ranks, "Simulation");
     const Tuning tuning = tuning_of(options, ranks);
     FirstState first = first_state(scene, ranks, tuning);
-    return std::make_unique<Simulation::State>(ranks, std::move(first.scene),
-                                               std::move(first.discs), tuning);
+    return std::make_unique<Simulation::State>(std::move(first.scene),
+                                               RunStart{.discs = std::move(first.discs)}, ranks,
+                                               tuning, messages_of(options, ranks));
 }
 
 bool is_earlier(const Disc& a, const Disc& b) { return a.id < b.id; }
 
 } // namespace
 
-Simulation::State::State(const Communicator& all, carrom::Scene checked,
-                         std::vector<InputDisc> discs, const Tuning& tuning)
-    : ranks(all), scene(std::move(checked)), facts(facts_of(scene)), n_threads(tuning.threads),
-      simulation(scene, std::move(discs), ranks, tuning) {
-    if (!scene.measurements) return;
-    sampler.emplace(scene, simulation, ranks);
-    sampler->look();
-}
-
-Simulation::State::State(const Communicator& all, carrom::Scene checked, StoredState stored,
-                         StoredSamples samples, const Tuning& tuning)
-    : ranks(all), scene(std::move(checked)), facts(facts_of(scene)), n_threads(tuning.threads),
-      simulation(scene, std::move(stored), ranks, tuning) {
-    simulation.go_on_averaging(samples.averages);
-    if (!scene.measurements) return;
-    sampler.emplace(scene, simulation, ranks);
-    sampler->go_on(std::move(samples));
-    sampler->look();
-}
+Simulation::State::State(carrom::Scene checked, RunStart start, const Communicator& ranks,
+                         const Tuning& tuning, const Messages& messages)
+    : run(std::move(checked), std::move(start), ranks, tuning, messages),
+      facts(facts_of(run.scene())) {}
 
 Simulation::Simulation(const Session& session, const Scene& scene, const Options& options)
     : state_(begun(session, scene, options)) {}
@@ -85,46 +77,35 @@ Simulation Simulation::from_checkpoint(const Session& session, const std::string
     std::string all = path;
     for (const std::string& setting : settings) all += '\n' + setting;
     meet(ranks, "Simulation::from_checkpoint", hash_of_argument(all));
-    Checkpoint checkpoint = read_checkpoint(path, ranks);
-    const CheckpointHeader& header = checkpoint.header;
-    carrom::Scene scene = with_named_keys([&] { return scene_of(header, settings); });
-    refuse_other_run(header, scene, path);
-    if (scene.steps < header.step)
-        throw InputError({{path, 0,
-                           fmt::format("the checkpoint is of step {}, and time.steps is {}",
-                                       header.step, scene.steps)}});
-    StoredState stored{std::move(checkpoint.discs), header.micro_steps_done,
-                       std::move(checkpoint.columns)};
-    return Simulation(std::make_unique<State>(ranks, std::move(scene), std::move(stored),
-                                              std::move(checkpoint.samples),
-                                              tuning_of(options, ranks)));
+    RunOptions wanted;
+    wanted.restart = path;
+    wanted.overrides = settings;
+    wanted.messages = messages_of(options, ranks);
+    Loaded loaded;
+    with_named_keys([&] { load_restart(wanted, loaded, ranks); });
+    return Simulation(std::make_unique<State>(std::move(loaded.scene), std::move(loaded.start),
+                                              ranks, tuning_of(options, ranks), wanted.messages));
 }
 
 const SceneFacts& Simulation::scene() const { return live().facts; }
-std::int64_t Simulation::step() const { return live().simulation.step(); }
+std::int64_t Simulation::step() const { return live().run.step(); }
 
 void Simulation::advance(std::int64_t n_steps) {
-    const std::int64_t left = live().scene.steps - step();
-    advance_to(n_steps > left ? live().scene.steps + 1 : step() + n_steps);
+    const std::int64_t left = live().facts.steps - step();
+    advance_to(n_steps > left ? live().facts.steps + 1 : step() + n_steps);
 }
 
 void Simulation::advance_to(std::int64_t step) {
-    meet(live().ranks, "Simulation::advance_to", static_cast<std::uint64_t>(step));
-    carrom::Simulation& simulation = live().simulation;
-    if (step < simulation.step() || step > live().scene.steps)
+    meet(live().run.ranks(), "Simulation::advance_to", static_cast<std::uint64_t>(step));
+    if (step < this->step() || step > live().facts.steps)
         throw InputError({{"advance_to", 0,
                            fmt::format("step {} is not from the present step {} to time.steps = {}",
-                                       step, simulation.step(), live().scene.steps)}});
-    while (simulation.step() < step) {
-        std::int64_t next = step;
-        if (live().sampler) next = std::min(next, live().sampler->next_due(simulation.step()));
-        simulation.advance_towards(next);
-        if (live().sampler) live().sampler->look();
-    }
+                                       step, this->step(), live().facts.steps)}});
+    live().run.advance_to(step);
 }
 
 std::vector<Disc> Simulation::discs() const {
-    const carrom::Simulation& simulation = live().simulation;
+    const carrom::Simulation& simulation = live().run.simulation();
     const double unit = simulation.velocity_unit(), clock = simulation.clock();
     const std::span<const double> spins = simulation.spins();
     std::vector<Disc> discs;
@@ -145,35 +126,61 @@ std::vector<Disc> Simulation::discs() const {
 }
 
 std::vector<Disc> Simulation::gathered_discs() const {
-    meet(live().ranks, "Simulation::gathered_discs");
-    return sample_sort(live().ranks, discs(), is_earlier, 1);
+    meet(live().run.ranks(), "Simulation::gathered_discs");
+    return sample_sort(live().run.ranks(), discs(), is_earlier, 1);
 }
 
 Totals Simulation::totals() const {
-    meet(live().ranks, "Simulation::totals");
-    return live().simulation.totals();
+    meet(live().run.ranks(), "Simulation::totals");
+    return live().run.simulation().totals();
 }
 Averages Simulation::averages() const {
-    meet(live().ranks, "Simulation::averages");
-    return live().simulation.averages();
+    meet(live().run.ranks(), "Simulation::averages");
+    return live().run.simulation().averages();
 }
 void Simulation::restart_averages() {
-    meet(live().ranks, "Simulation::restart_averages");
-    live().simulation.average_anew();
+    meet(live().run.ranks(), "Simulation::restart_averages");
+    live().run.simulation().average_anew();
 }
 
 std::vector<MeasuredTable> Simulation::measurements() const {
-    return live().sampler ? live().sampler->tables() : std::vector<MeasuredTable>{};
+    const Sampler* const sampler = live().run.sampler();
+    return sampler ? sampler->tables() : std::vector<MeasuredTable>{};
 }
 
 void Simulation::write_checkpoint(const std::string& path) const {
-    const State& now = live();
-    meet(now.ranks, "Simulation::write_checkpoint", hash_of_argument(path));
-    StoredSamples samples = now.sampler ? now.sampler->stored() : StoredSamples{};
-    samples.averages = now.simulation.stored_averages();
-    carrom::write_checkpoint(path, header_now(now.scene, now.simulation), now.simulation.discs(),
-                             now.ranks, {.n_threads = now.n_threads}, samples,
-                             now.simulation.side_columns());
+    meet(live().run.ranks(), "Simulation::write_checkpoint", hash_of_argument(path));
+    live().run.write_checkpoint(path);
+}
+
+void Simulation::keep_checkpoints(const CheckpointSchedule& schedule) {
+    meet(live().run.ranks(), "Simulation::keep_checkpoints", hash_of_argument(schedule.folder));
+    const Communicator& ranks = live().run.ranks();
+    std::vector<Problem> problems;
+    const auto refuse = [&problems](const char* key, const auto& number, const char* accepted) {
+        problems.push_back(
+            {"keep_checkpoints", 0, fmt::format("{} = {}; {}", key, number, accepted)});
+    };
+    if (live().checkpoints) problems.push_back({"keep_checkpoints", 0, "has been called before"});
+    if (schedule.folder.empty()) problems.push_back({"keep_checkpoints", 0, "names no folder"});
+    if (schedule.every_steps < 0) refuse("every_steps", schedule.every_steps, "0 or more steps");
+    if (!(schedule.every_minutes >= 0))
+        refuse("every_minutes", schedule.every_minutes, "0 or more minutes");
+    if (schedule.keep < 1) refuse("keep", schedule.keep, "1 or more checkpoints");
+    if (!problems.empty()) throw InputError(std::move(problems));
+    on_root(ranks, schedule.folder, ExitCode::output_failure, [&] {
+        std::error_code error;
+        std::filesystem::create_directories(schedule.folder, error);
+        if (error) throw FileError("cannot be made: " + error.message());
+    });
+    CheckpointOutput wanted;
+    wanted.folder = schedule.folder;
+    wanted.keep = schedule.keep;
+    wanted.at_end = schedule.at_end;
+    if (schedule.every_steps > 0) wanted.every_steps = schedule.every_steps;
+    if (schedule.every_minutes > 0) wanted.every_minutes = schedule.every_minutes;
+    live().checkpoints.emplace(live().run, std::move(wanted));
+    live().run.add(*live().checkpoints);
 }
 
 } // namespace carrom::api

@@ -3,33 +3,26 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include <carrom/simulation.hpp>
 
-#include "measure/sampler.hpp"
 #include "parallel/communicator.hpp"
+#include "run/checkpoints.hpp"
+#include "run/run.hpp"
 #include "scene/scene.hpp"
-#include "simulation/simulation.hpp"
 
 namespace carrom::api {
 
 struct Simulation::State {
-    /// Begins anew from `discs`. **Collective.**
-    State(const Communicator& all, carrom::Scene checked, std::vector<InputDisc> discs,
-          const Tuning& tuning);
-    /// Goes on from `stored`. **Collective.**
-    State(const Communicator& all, carrom::Scene checked, StoredState stored, StoredSamples samples,
-          const Tuning& tuning);
+    /// **Collective.**
+    State(carrom::Scene checked, RunStart start, const Communicator& ranks, const Tuning& tuning,
+          const Messages& messages);
     State(const State&) = delete;
     State& operator=(const State&) = delete;
 
-    Communicator ranks;
-    carrom::Scene scene;
+    Run run;
     SceneFacts facts;
-    int n_threads;
-    carrom::Simulation simulation;
-    std::optional<Sampler> sampler; ///< where the scene asks for measurements
+    std::optional<Checkpoints> checkpoints; ///< from keep_checkpoints on
 };
 
 } // namespace carrom::api

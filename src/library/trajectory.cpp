@@ -34,21 +34,21 @@ TrajectoryOutput wanted_of(const TrajectoryFields& fields, const carrom::Scene& 
 }
 
 /// What is behind the simulation, once all ranks have come to that call. **Collective.**
-const Simulation::State& met(const Simulation& simulation, const char* call,
-                             const std::string& path) {
-    const Simulation::State& state = simulation.state();
-    meet(state.ranks, call, hash_of_argument(path));
-    return state;
+const Run& met(const Simulation& simulation, const char* call, const std::string& path) {
+    const Run& run = simulation.state().run;
+    meet(run.ranks(), call, hash_of_argument(path));
+    return run;
 }
 
 } // namespace
 
 struct TrajectoryWriter::State {
-    State(const Simulation::State& run, const std::string& path, const TrajectoryFields& fields)
-        : of(run), file(path),
-          trajectory(path, layout_of(run.scene, wanted_of(fields, run.scene, path)), run.ranks) {}
+    State(const Run& of_run, const std::string& path, const TrajectoryFields& fields)
+        : run(of_run), file(path),
+          trajectory(path, layout_of(of_run.scene(), wanted_of(fields, of_run.scene(), path)),
+                     of_run.ranks()) {}
 
-    const Simulation::State& of;
+    const Run& run;
     std::string file;
     carrom::Trajectory trajectory;
     std::int64_t last_step = -1; ///< that has a frame; the same on all ranks
@@ -62,12 +62,12 @@ TrajectoryWriter::TrajectoryWriter(const Simulation& simulation, const std::stri
 
 TrajectoryWriter TrajectoryWriter::going_on(const Simulation& simulation, const std::string& path,
                                             const TrajectoryFields& fields) {
-    const Simulation::State& run = met(simulation, "TrajectoryWriter::going_on", path);
+    const Run& run = met(simulation, "TrajectoryWriter::going_on", path);
     auto state = std::make_unique<State>(run, path, fields);
-    state->last_step = state->trajectory.go_on(
-        run.simulation.step(),
-        [&run](const CheckpointHeader& there) { return first_difference(there, run.scene); });
-    run.ranks.broadcast(state->last_step); // rank 0 has read the file
+    state->last_step = state->trajectory.go_on(run.step(), [&run](const CheckpointHeader& there) {
+        return first_difference(there, run.scene());
+    });
+    run.ranks().broadcast(state->last_step); // rank 0 has read the file
     return TrajectoryWriter(std::move(state));
 }
 
@@ -77,8 +77,8 @@ TrajectoryWriter::~TrajectoryWriter() = default;
 
 void TrajectoryWriter::append() {
     State& state = live_part(state_, "TrajectoryWriter");
-    meet(state.of.ranks, "TrajectoryWriter::append");
-    const carrom::Simulation& simulation = state.of.simulation;
+    meet(state.run.ranks(), "TrajectoryWriter::append");
+    const carrom::Simulation& simulation = state.run.simulation();
     const std::int64_t step = simulation.step();
     if (step <= state.last_step)
         throw InputError({{state.file, 0, fmt::format("step {} has a frame already", step)}});

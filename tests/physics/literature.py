@@ -147,8 +147,9 @@ def correlations(program, packing, rate, window, n_windows, seed):
                  output__measurements__quantities='["diffusion"]',
                  output__measurements__every_steps=1, output__measurements__from_step=early,
                  output__measurements__correlation_steps=window)
-    frequency = 4 * (factor_of(4096, packing) - 1) * math.sqrt(report["kT"] / math.pi)
-    return report["measurements"], frequency, report["kT"]
+    kt = report["temperature"]["value"]
+    frequency = 4 * (factor_of(4096, packing) - 1) * math.sqrt(kt / math.pi)
+    return report["measurements"], frequency, kt
 
 
 def first_decay(table, up_to=10):

@@ -37,7 +37,9 @@ tail -n 20 "$test_folder/out" | cmp - "$test_folder/end" || complain 'other line
 
 # Averages go on too, with their errors: the report has those of the uninterrupted run.
 # (Lost collisions are those of the steps since the restart.)
-averages() { sed -n '/^  "averages"/,/^  }/p; /^  "kT"/,/^  "lost_collisions"/p' report.json; }
+averages() {
+    sed -n '/^  "averages"/,/^  }/p; /^  "temperature"/,/^  "lost_collisions"/p' report.json
+}
 run 2 run "$input" "${small[@]}" "${store[@]}" --set output.folder=long \
     --set output.checkpoint.keep=9 --report report.json
 has_hash 'with checkpoints'

@@ -9,7 +9,7 @@ shift
 small=("$@")
 [ -r "$input" ] || { complain "no input $input"; finish; }
 
-averages() { sed -n '/^  "averages"/,/^  }/p; /^  "kT"/,$p' report.json; }
+averages() { sed -n '/^  "averages"/,/^  }/p; /^  "temperature"/,$p' report.json; }
 
 # shape RANKS THREADS OPTION...: runs it and compares with the first run.
 shape() {

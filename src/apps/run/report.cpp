@@ -55,8 +55,6 @@ void add_thermodynamics(nlohmann::ordered_json& report, const Scene& scene,
     const auto estimate = [&averages](const Estimate& one) { return estimate_json(one, averages); };
     report["radius"] = scene.radius;
     report["box"] = {scene.box.x, scene.box.y};
-    report["eta"] = scene.packing();
-    report["kT"] = number_or_null(averages.temperature.value);
     report["temperature"] = estimate(averages.temperature);
     report["pressure"] = estimate(averages.pressure);
     report["compressibility"] = estimate(averages.compressibility);

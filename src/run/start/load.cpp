@@ -21,10 +21,9 @@
 #include "run/files/report_file.hpp"
 #include "run/files/run_folder.hpp"
 #include "run/start/restart.hpp"
-#include "scene/disc_reader.hpp"
+#include "run/start/scene_source.hpp"
 #include "scene/read_scene.hpp"
 #include "simulation/compression.hpp"
-#include "stored_scene/discs_from.hpp"
 
 namespace carrom {
 
@@ -81,56 +80,12 @@ void check_destinations(const RunOptions& options, PlaceProblems& found) {
     append(found.problems, shared);
 }
 
-/// What is wrong with the lines of discs of a run that will not begin, so that all is printed at
-/// once. They follow a header in `stream`, or have a file of their own.
-Problems problems_of_disc_lines(const Scene& scene, std::istream& stream) {
-    Problems problems;
-    collect(problems, [&] {
-        if (!scene.reads_disc_lines()) return;
-        if (scene.discs_file.empty()) {
-            if (scene.discs_follow) problems = disc_line_problems(stream, scene);
-        } else {
-            problems = disc_line_problems(*open(discs_path(scene)), scene);
-        }
-    });
-    return problems;
-}
-
 /// The files that are read: what is written must be others.
 std::vector<NamedFile> read_for(const RunOptions& options, const Scene& scene) {
     std::vector<NamedFile> sources = read_by(options);
     if (!scene.discs_file.empty() || !scene.discs_from.empty())
         sources.push_back({"the file of discs", discs_path(scene)});
     return sources;
-}
-
-/// The discs of `discs.from` become the lines that follow the scene's text. Returns the settings
-/// that say so, the same on every rank. **Collective.**
-std::vector<std::string> follow_with_discs_from(const Scene& scene,
-                                                std::unique_ptr<std::istream>& stream,
-                                                Problems& problems, const Communicator& ranks) {
-    const std::string path = discs_path(scene);
-    check_damage(path, ranks);
-    FileOfDiscs file;
-    if (ranks.is_root()) {
-        collect(problems, [&] {
-            SideColumnSet wanted = side_columns_of(scene.effects);
-            for (const SideColumn column : all_side_columns)
-                if (!info_of(column).is_of_dynamics) wanted.add(column);
-            file = read_discs_from(path, scene.discs_from_step, wanted);
-            if (scene.n_discs != 0 && scene.n_discs != file.n_discs)
-                throw InputError({{path, 0,
-                                   fmt::format("has {} discs, and the scene is of {}", file.n_discs,
-                                               scene.n_discs)}});
-        });
-        stream = std::make_unique<std::istringstream>(std::move(file.lines));
-    }
-    ranks.broadcast(file.n_discs);
-    ranks.broadcast(file.columns);
-    std::vector<std::string> settings;
-    if (file.n_discs > 0) settings.push_back(fmt::format("discs.count={}", file.n_discs));
-    if (!file.columns.empty()) settings.push_back("discs.columns=" + file.columns);
-    return settings;
 }
 
 /// A run writes into one folder; a wrong one has a problem already.
@@ -148,49 +103,31 @@ void check_folder(const Scene& scene, Problems& problems) {
                             "-o FOLDER sets it too"});
 }
 
-/// The scene; `stream`, on rank 0, is left at the first line of discs. **Collective.**
+/// The scene and what it is read from. **Collective.**
 Scene load_scene(const RunOptions& options, const Problems& problems_so_far,
-                 const Communicator& ranks, std::unique_ptr<std::istream>& stream) {
+                 const Communicator& ranks, SceneSource& source) {
     PlaceProblems found; // of all ranks together: each one is listed by one rank
     Problems& problems = found.problems;
-    SceneText text;
     bool is_readable = true;
     if (ranks.is_root()) {
         problems = problems_so_far;
         check_destinations(options, found);
         is_readable = !options.input.empty() && collect(problems, [&] {
-            stream = open(options.input);
-            text = read_scene_text(*stream,
-                                   options.input == "-" ? "standard input" : options.input);
+            source.stream = open(options.input);
+            source.text = read_scene_text(*source.stream,
+                                          options.input == "-" ? "standard input" : options.input);
         });
     }
     Scene scene;
     if (ranks.all(is_readable)) {
-        broadcast(text, ranks);
+        broadcast(source.text, ranks);
         Problems same_everywhere;
-        std::vector<std::string> overrides = options.overrides;
-        const auto read_again = [&] {
-            same_everywhere.clear();
-            scene = read_scene(text, overrides, same_everywhere);
-        };
-        read_again();
-        if (!scene.discs_from.empty()) {
-            const auto more = follow_with_discs_from(scene, stream, problems, ranks);
-            overrides.insert(overrides.end(), more.begin(), more.end());
-            text.discs_follow = true;
-            if (!more.empty()) read_again();
-        }
-        if (!scene.disc_columns.empty() &&
-            !(scene.discs_file.empty() && scene.discs_from.empty())) {
-            text.columns = load_columns(scene, stream.get(), ranks);
-            read_again();
-        }
+        scene = read_with_files(source, options.overrides, same_everywhere, problems, ranks);
         check_folder(scene, same_everywhere);
-        const bool are_lines_wrong = text.columns && !text.columns->is_whole;
         if (ranks.is_root()) append(problems, same_everywhere);
-        if (ranks.is_root() && (!problems.empty() || are_lines_wrong)) {
-            if (!goes_on(options) || are_lines_wrong)
-                append(problems, problems_of_disc_lines(scene, *stream));
+        if (ranks.is_root() && (!problems.empty() || are_columns_wrong(source))) {
+            if (!goes_on(options) || are_columns_wrong(source))
+                append(problems, disc_line_problems_of(scene, source.stream.get()));
             if (problems.empty())
                 problems.push_back({discs_path(scene), 0, "changes while it is being read"});
             append(problems, problems_of_outputs(options, scene, read_for(options, scene)));
@@ -254,16 +191,16 @@ RunOptions with_input_of_folder(RunOptions options, const Communicator& ranks) {
 
 Scene load_scene_alone(const RunOptions& options, const Problems& problems,
                        const Communicator& ranks) {
-    std::unique_ptr<std::istream> stream;
-    return load_scene(options, problems, ranks, stream);
+    SceneSource source;
+    return load_scene(options, problems, ranks, source);
 }
 
 Loaded load(const RunOptions& given, const Problems& problems, const Communicator& ranks) {
     const RunOptions options = with_input_of_folder(given, ranks);
-    std::unique_ptr<std::istream> stream;
+    SceneSource source;
     Loaded loaded;
     if (!goes_on(options) || !options.input.empty())
-        loaded.scene = load_scene(options, problems, ranks, stream);
+        loaded.scene = load_scene(options, problems, ranks, source);
     else
         check_without_scene(options, problems, ranks);
     std::vector<std::string> found;
@@ -290,13 +227,14 @@ Loaded load(const RunOptions& given, const Problems& problems, const Communicato
         Problems all;
         if (ranks.is_root()) all = error.problems();
         if (ranks.is_root() && !loaded.start.stored)
-            append(all, problems_of_disc_lines(scene, *stream));
+            append(all, disc_line_problems_of(scene, source.stream.get()));
         agree_on_problems(ranks, all);
     }
     Tuning tuning = options.tuning;
     tuning.threads = options.threads.value_or(default_threads(ranks));
     check_threads(tuning.threads, ranks);
-    if (!loaded.start.stored) loaded.start.discs = first_discs(scene, stream.get(), ranks, tuning);
+    if (!loaded.start.stored)
+        loaded.start.discs = first_discs(scene, source.stream.get(), ranks, tuning);
     prepare_outputs(scene, !loaded.start.stored, ranks);
     for (const std::string& warning : scene.warnings)
         options.messages.warn("{}: warning: {}\n", scene.name, warning);

@@ -3,6 +3,7 @@
 // the uninterrupted one, and files show the discs that the simulation had.
 #include "catch.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -64,6 +65,85 @@ TEST_CASE("going on from a checkpoint gives the bits of the uninterrupted run") 
         CHECK(hash_of(second) == hash_of(whole));
         CHECK(second.gathered_discs() == whole.gathered_discs());
     }
+}
+
+TEST_CASE("checkpoints are written on a schedule, and the newest of a folder is gone on from") {
+    const Session session;
+    const Folder folder(session);
+    const std::string place = folder.file("of_run/checkpoints");
+    const auto names = [&] {
+        std::vector<std::string> found;
+        for (const auto& entry : std::filesystem::directory_iterator(place))
+            found.push_back(entry.path().filename().string());
+        std::sort(found.begin(), found.end());
+        return found;
+    };
+    const auto name = [](int step) {
+        std::string digits = std::to_string(step);
+        return "checkpoint-" + std::string(12 - digits.size(), '0') + digits + ".h5";
+    };
+    Scene scene = gas("event-driven", 50);
+    Simulation whole(session, scene);
+    whole.keep_checkpoints({.folder = place, .every_steps = 12, .keep = 3});
+    whole.advance_to(11);
+    CHECK(names().empty());
+    whole.advance(30); // past steps 12, 24 and 36
+    MPI_Barrier(MPI_COMM_WORLD);
+    CHECK(names() == std::vector<std::string>{name(12), name(24), name(36)});
+    {
+        Simulation second = Simulation::from_checkpoint(session, place);
+        CHECK(second.step() == 36);
+        second.advance_to_end();
+        whole.advance_to_end();
+        CHECK(hash_of(second) == hash_of(whole));
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    const std::vector<std::string> last = names(); // older ones are removed beside the steps
+    CHECK(std::count(last.begin(), last.end(), name(48)) == 1);
+    CHECK(std::count(last.begin(), last.end(), name(50)) == 1);
+    CHECK(std::count(last.begin(), last.end(), name(12)) == 0);
+
+    CHECK(problems_of([&] { whole.keep_checkpoints({.folder = place}); }).find("before") !=
+          std::string::npos);
+    Simulation other(session, scene);
+    const std::string problems = problems_of(
+        [&] { other.keep_checkpoints({.folder = "", .every_steps = -1, .keep = 0}); });
+    for (const char* wrong : {"folder", "every_steps = -1", "keep = 0"})
+        CHECK(problems.find(wrong) != std::string::npos);
+    if (session.is_root()) std::ofstream(folder.file("plain")) << "a file";
+    MPI_Barrier(MPI_COMM_WORLD);
+    CHECK(code_of([&] { other.keep_checkpoints({.folder = folder.file("plain") + "/inside"}); }) ==
+          ExitCode::output_failure);
+}
+
+TEST_CASE("a scene begins with the discs of a checkpoint or of a frame") {
+    const Session session;
+    const Folder folder(session);
+    Simulation first(session, gas("event-driven", 25));
+    TrajectoryWriter writer(first, folder.file("frames.h5"), {.single_precision = false});
+    first.advance_to(20);
+    writer.append();
+    const std::vector<Disc> early = first.gathered_discs();
+    first.advance_to_end();
+    writer.append();
+    first.write_checkpoint(folder.file("state.h5"));
+    const auto begun_from = [&](const char* file, int step) {
+        Scene scene;
+        scene.set("box.size", 60).set("discs.radius", 0.75).set("time.steps", 10);
+        scene.set("discs.from", folder.file(file));
+        if (step > 0) scene.set("discs.from_step", step);
+        return Simulation(session, scene).gathered_discs();
+    };
+    const auto same_places = [](const std::vector<Disc>& a, const std::vector<Disc>& b) {
+        return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Disc& p, const Disc& q) {
+            return p.id == q.id && p.x == q.x && p.y == q.y && p.vx == q.vx && p.vy == q.vy;
+        });
+    };
+    CHECK(same_places(begun_from("state.h5", 0), first.gathered_discs()));
+    CHECK(same_places(begun_from("frames.h5", 20), early));
+    CHECK(problems_of([&] { begun_from("frames.h5", 21); }).find("no frame of step 21") !=
+          std::string::npos);
+    CHECK(code_of([&] { begun_from("nothing.h5", 0); }) == ExitCode::bad_input);
 }
 
 TEST_CASE("measurements go on from a checkpoint") {

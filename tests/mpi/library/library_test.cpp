@@ -3,6 +3,7 @@
 // the discs themselves, and on one rank against all ranks.
 #include "catch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -179,10 +180,30 @@ TEST_CASE("every rank gets every problem of a scene at once") {
     CHECK(problems_of([&] {
               Scene::from_file(session, "/nowhere/scene.toml");
           }).starts_with("/nowhere/scene.toml: cannot be opened"));
-    Scene undecided;
-    undecided.set("box.size", 60).set("discs.count", 300).set("discs.radius", 0.75);
-    undecided.set("time.steps", 5).set("time.accuracy", 0.01);
-    CHECK(problems_of([&] { Simulation(session, undecided); }).starts_with("time.accuracy: "));
+}
+
+TEST_CASE("a pilot chooses the setting of a scene with an accuracy") {
+    const Session session;
+    Scene scene;
+    scene.set("box.size", 60).set("discs.count", 300).set("discs.radius", 0.75);
+    scene.set("discs.speed", 0.5).set("discs.seed", 91).set("time.steps", 20);
+    scene.set("time.accuracy", 0.001); // less than a pilot can see, so the choice is known
+    std::vector<std::string> lines;
+    Options options;
+    options.messages = [&lines](const std::string& line) { lines.push_back(line); };
+    Simulation chosen(session, scene, options);
+    CHECK(chosen.scene().is_event_driven);
+    chosen.advance_to_end();
+    Simulation given(session, gas("event-driven", 20));
+    given.advance_to_end();
+    CHECK(hash_of(chosen) == hash_of(given));
+    const bool is_said = std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
+        return line.starts_with("accuracy 0.001: method = \"event-driven\"");
+    });
+    CHECK(is_said == session.is_root());
+    CHECK(problems_of([&] {
+              Simulation(session, scene.set("time.accuracy", -1));
+          }).starts_with("time.accuracy: "));
 }
 
 TEST_CASE("wrong discs and steps are errors that name them") {

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/start/scene_source.hpp"
+
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "initial_state/scene_input.hpp"
+#include "io/checkpoint.hpp"
+#include "parallel/agreement.hpp"
+#include "scene/disc_reader.hpp"
+#include "stored_scene/discs_from.hpp"
+
+namespace carrom {
+
+namespace {
+
+using Problems = std::vector<Problem>;
+
+/// The problems of the InputError that `read` throws, if it does. Rank 0 may find problems that the
+/// others do not know of yet, so they must not fly as an exception before all ranks have agreed.
+template <class Read> Problems problems_of(const Read& read) {
+    try {
+        read();
+    } catch (const InputError& error) {
+        return error.problems();
+    }
+    return {};
+}
+
+void append(Problems& problems, const Problems& more) {
+    problems.insert(problems.end(), more.begin(), more.end());
+}
+
+/// The discs of `discs.from` become the lines that follow the scene's text. Returns the settings
+/// that say so, the same on every rank. **Collective.**
+std::vector<std::string> follow_with_discs_from(const Scene& scene,
+                                                std::unique_ptr<std::istream>& stream,
+                                                Problems& of_root, const Communicator& ranks) {
+    const std::string path = discs_path(scene);
+    check_damage(path, ranks);
+    FileOfDiscs file;
+    if (ranks.is_root()) {
+        append(of_root, problems_of([&] {
+                   SideColumnSet wanted = side_columns_of(scene.effects);
+                   for (const SideColumn column : all_side_columns)
+                       if (!info_of(column).is_of_dynamics) wanted.add(column);
+                   file = read_discs_from(path, scene.discs_from_step, wanted);
+                   if (scene.n_discs != 0 && scene.n_discs != file.n_discs)
+                       throw InputError({{path, 0,
+                                          fmt::format("has {} discs, and the scene is of {}",
+                                                      file.n_discs, scene.n_discs)}});
+               }));
+        stream = std::make_unique<std::istringstream>(std::move(file.lines));
+    }
+    ranks.broadcast(file.n_discs);
+    ranks.broadcast(file.columns);
+    std::vector<std::string> settings;
+    if (file.n_discs > 0) settings.push_back(fmt::format("discs.count={}", file.n_discs));
+    if (!file.columns.empty()) settings.push_back("discs.columns=" + file.columns);
+    return settings;
+}
+
+} // namespace
+
+Scene read_with_files(SceneSource& source, std::vector<std::string> settings, Problems& problems,
+                      Problems& of_root, const Communicator& ranks) {
+    Problems found;
+    Scene scene;
+    const auto read_again = [&] {
+        found.clear();
+        scene = read_scene(source.text, settings, found);
+    };
+    read_again();
+    if (!scene.discs_from.empty()) {
+        const auto more = follow_with_discs_from(scene, source.stream, of_root, ranks);
+        settings.insert(settings.end(), more.begin(), more.end());
+        source.text.discs_follow = true;
+        if (!more.empty()) read_again();
+    }
+    const bool has_file = !scene.discs_file.empty() || !scene.discs_from.empty();
+    if (!scene.disc_columns.empty() && has_file) {
+        source.text.columns = load_columns(scene, source.stream.get(), ranks);
+        read_again();
+    }
+    append(problems, found);
+    return scene;
+}
+
+Scene read_with_files(SceneSource& source, const std::vector<std::string>& settings,
+                      const Communicator& ranks) {
+    Problems same_everywhere, problems;
+    Scene scene = read_with_files(source, settings, same_everywhere, problems, ranks);
+    if (ranks.is_root()) {
+        append(problems, same_everywhere);
+        if (are_columns_wrong(source)) {
+            append(problems, disc_line_problems_of(scene, source.stream.get()));
+            if (problems.empty())
+                problems.push_back({discs_path(scene), 0, "changes while it is being read"});
+        }
+    }
+    agree_on_problems(ranks, problems);
+    return scene;
+}
+
+bool are_columns_wrong(const SceneSource& source) {
+    return source.text.columns && !source.text.columns->is_whole;
+}
+
+Problems disc_line_problems_of(const Scene& scene, std::istream* stream) {
+    Problems problems;
+    append(problems, problems_of([&] {
+               if (!scene.reads_disc_lines()) return;
+               if (!scene.discs_file.empty()) {
+                   std::ifstream file = open_input(discs_path(scene));
+                   problems = disc_line_problems(file, scene);
+               } else if (stream && scene.discs_follow) {
+                   problems = disc_line_problems(*stream, scene);
+               }
+           }));
+    return problems;
+}
+
+} // namespace carrom
