@@ -60,7 +60,8 @@ def make_original(program: Program) -> str:
     words = [program.scene]
     for setting in (
         "discs.count=12",
-        "discs.packing=0.2",
+        "discs.packing=0.4",
+        "discs.speed=100",
         "output.text=none",
         "output.trajectory.every_steps=1",
         "output.collisions=true",
