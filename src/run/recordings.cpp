@@ -44,14 +44,14 @@ LoggedCollision logged(const Collision& collision, std::int64_t micro_steps) {
 
 Recordings::Recordings(Run& run, const Messages& messages)
     : run_(run), scene_(run.scene()), ranks_(run.ranks()), messages_(messages),
-      thermo_(run.scene(), run.ranks()) {
+      growing_(run.scene(), run.ranks()) {
     if (scene_.trajectory) open_trajectory();
     if (scene_.collisions) open_log();
     if (run_.images() && run_.is_restart() && !run_.has_earlier_images() && run_.step() > 0)
         messages_.warn("{}: image counts from step {}; the checkpoint has no counts\n",
                        scene_.trajectory->file, run_.step());
     if (run_.is_restart())
-        add_thermo();
+        add_rows();
     else
         act();
 }
@@ -96,7 +96,7 @@ bool Recordings::act() {
     const Simulation& simulation = run_.simulation();
     const std::int64_t step = simulation.step();
     if (log_) record_collisions(step);
-    add_thermo();
+    add_rows();
     ImageCounts* const counts = run_.images();
     if (counts) static_cast<void>(counts->counts()); // so that they need little memory
     if (trajectory_ && step % scene_.trajectory->every_steps == 0) {
@@ -111,8 +111,8 @@ bool Recordings::act() {
     return true;
 }
 
-void Recordings::add_thermo() {
-    if (run_.sampler()) thermo_.add_rows_of(*run_.sampler());
+void Recordings::add_rows() {
+    if (run_.sampler()) growing_.add_rows_of(*run_.sampler());
 }
 
 void Recordings::commit_now_and_then() {

@@ -21,9 +21,6 @@ inline bool has_growth(const Scene& s) { return s.effects.growth != 0; }
 inline bool is_periodic_all_round(const Scene& s) {
     return s.effects.is_periodic_x() && s.effects.is_periodic_y();
 }
-inline MeasurementOutput measured(const Scene& s) {
-    return s.measurements.value_or(MeasurementOutput{});
-}
 
 using RuleKeys = std::vector<std::string_view>;
 using IsBroken = bool (*)(const Scene&);

@@ -4,6 +4,7 @@
 
 #include "scene/disc_columns.hpp"
 #include "scene/effects/effect.hpp"
+#include "scene/quantity.hpp"
 #include "scene/rule_parts.hpp"
 
 namespace carrom {
@@ -114,35 +115,6 @@ std::vector<Rule> rules_of_outputs() {
              [](const Scene& s) {
                  return s.trajectory && s.trajectory->has_image && !s.effects.are_periodic();
              }),
-        rule("\"wall_pressure\"", "a box that is periodic all round", "it has no walls",
-             {quantities},
-             [](const Scene& s) { return measured(s).wall_pressure && is_periodic_all_round(s); }),
-        rule("\"diffusion\"", "\"displacement\"",
-             "a run keeps one first place of each disc; diffusion has displacements in its table",
-             {quantities},
-             [](const Scene& s) { return measured(s).diffusion && measured(s).displacement; }),
-        rule("\"structure_factor\"", "a side that is not periodic",
-             "wave vectors are those of a box that repeats itself; make all four sides periodic",
-             {quantities},
-             [](const Scene& s) {
-                 return measured(s).structure_factor && !is_periodic_all_round(s);
-             }),
-        rule("\"wall_pressure\", \"radial_distribution\", \"displacement\" and \"diffusion\"",
-             "an open side", "with open sides velocities and densities alone are measured",
-             {quantities},
-             [](const Scene& s) {
-                 const MeasurementOutput output = measured(s);
-                 return has_open(s) && (output.wall_pressure || output.radial_distribution ||
-                                        output.displacement || output.diffusion);
-             }),
-        rule("\"radial_distribution\" of several species", "a wall",
-             "centres of large discs have less room between walls; it needs a box that is periodic "
-             "all round",
-             {quantities},
-             [](const Scene& s) {
-                 return measured(s).radial_distribution && has_species(s) &&
-                        !is_periodic_all_round(s);
-             }),
         rule("spins in discs.columns", "discs that are not rough",
              "spins have no meaning without effects.contact.kind = \"rough\"", {"discs.columns"},
              [](const Scene& s) {
@@ -161,9 +133,9 @@ std::vector<Rule> rules_of_outputs() {
 const std::vector<Rule>& rules() {
     static const std::vector<Rule> all = [] {
         std::vector<Rule> list = rules_of_methods();
-        for (const auto& part :
-             {rules_of_effects(), rules_of_oscillations(), rules_of_starts(), rules_of_outputs(),
-              rules_of_columns(std::make_index_sequence<n_side_columns>())})
+        for (const auto& part : {rules_of_effects(), rules_of_oscillations(), rules_of_starts(),
+                                 rules_of_outputs(), rules_of_quantities(),
+                                 rules_of_columns(std::make_index_sequence<n_side_columns>())})
             list.insert(list.end(), part.begin(), part.end());
         for (const EffectDeclaration& effect : all_effects())
             list.insert(list.end(), effect.rules.begin(), effect.rules.end());

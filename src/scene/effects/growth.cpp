@@ -45,14 +45,6 @@ std::vector<Rule> rules_of_growth() {
                  return has_growth(s) && (has_moving(s) || has_oscillating(s) || has_open(s) ||
                                           has_boundary(s.effects, BoundaryKind::thermal));
              }),
-        rule("\"radial_distribution\" of growing discs", "a wall",
-             "centres have less and less room between walls; it needs a box that is periodic all "
-             "round",
-             {quantities},
-             [](const Scene& s) {
-                 return measured(s).radial_distribution && has_growth(s) &&
-                        !is_periodic_all_round(s);
-             }),
     };
 }
 

@@ -62,13 +62,6 @@ std::vector<Rule> rules_of_shear() {
              [](const Scene& s) {
                  return s.trajectory && s.trajectory->has_image && s.effects.are_sheared();
              }),
-        rule("sheared sides", "\"displacement\", \"diffusion\" or \"structure_factor\"",
-             "discs drift apart with the flow, and waves are bent by it", {quantities},
-             [](const Scene& s) {
-                 const MeasurementOutput output = measured(s);
-                 return s.effects.are_sheared() &&
-                        (output.displacement || output.diffusion || output.structure_factor);
-             }),
         rule("sheared sides", "a thermostat",
              "thermostats of this version act on velocities in the box, not about the flow",
              {"effects.thermostat.kind"},
