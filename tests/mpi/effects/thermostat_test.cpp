@@ -71,7 +71,7 @@ TEST_CASE("effects: thermostats give the same bits on every machine shape, and a
                 Scene whole = scene_of(scene);
                 whole.method = method;
                 Simulation shared = simulation_of(scene, method, world);
-                Simulation single(whole, scene.discs, alone);
+                Simulation single(whole, scene.discs, alone, Tuning{});
                 shared.check_every_step(whole);
                 CHECK_NOTHROW(advance_to(shared, scene.steps));
                 advance_to(single, scene.steps);
