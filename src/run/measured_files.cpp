@@ -3,9 +3,11 @@
 
 #include <cstring>
 #include <filesystem>
+#include <set>
 
 #include <fmt/format.h>
 
+#include "core/errors.hpp"
 #include "parallel/agreement.hpp"
 #include "run/files/csv_table.hpp"
 #include "run/files/report_file.hpp"
@@ -31,6 +33,8 @@ std::string lines_of(const std::vector<std::vector<double>>& rows) {
 } // namespace
 
 std::string csv_of(const MeasuredTable& table, const std::string& scene_name) {
+    const std::set<std::string> names(table.columns.begin(), table.columns.end());
+    ensure(names.size() == table.columns.size(), "two columns of a table have one name");
     std::string text = fmt::format("# {}: {}\n", plain_field(scene_name), table.name);
     for (const std::string& remark : table.remarks) text += fmt::format("# {}\n", remark);
     for (std::size_t k = 0; k < table.columns.size(); ++k)

@@ -33,6 +33,19 @@ tr -d ' \n' <all1/replicas.json |
     awk '{ printf "%.9g %.5g\n", $1, $2 }' >by_program
 cmp by_awk by_program || complain "other means: $(cat by_awk by_program)"
 
+# No two columns have one name. D_error is the error over replicas, D_run_error the mean of the errors
+# that runs claim.
+run 1 replicas "${scene[@]}" --count 3 -o flights --quiet --set box.left.kind=periodic \
+    --set box.right.kind=periodic --set 'output.measurements.quantities=["diffusion"]' \
+    --set output.measurements.correlation_steps=50
+expect_code 0 'replicas with errors of their own'
+[ "$(grep -v '^#' flights/diffusion.csv | head -n 1 | cut -d, -f1-3)" = 'D,D_error,D_run_error' ] ||
+    complain "columns $(grep -v '^#' flights/diffusion.csv | head -n 1)"
+for table in flights/*.csv; do
+    [ -z "$(grep -v '^#' "$table" | head -n 1 | tr , '\n' | sort | uniq -d)" ] ||
+        complain "two columns of $table have one name"
+done
+
 # What is done stays; what is missing is made again, and more may be asked for.
 before=$(stat -c %Y.%i all1/0001/report.json)
 rm -r all1/0002

@@ -90,7 +90,13 @@ std::string lines_of_replicas(const std::vector<Replica>& replicas,
     return text + '\n';
 }
 
-/// A table with a column `NAME_error` behind each column in which replicas differ.
+/// Whether a column has the errors of another one, as each run knows them by itself.
+bool is_error_of_run(const std::string& column, const Json& table) {
+    return column.ends_with("_error") && table.contains(column.substr(0, column.size() - 6));
+}
+
+/// A table with a column `NAME_error` behind each column in which replicas differ. Errors of single
+/// runs are averaged to `NAME_run_error`, so that no two columns have one name.
 class JoinedTable {
 public:
     JoinedTable(std::string name, const std::vector<Json>& reports) : name_(std::move(name)) {
@@ -123,6 +129,8 @@ private:
     void add_column(const std::string& column, std::size_t n_rows,
                     const std::vector<Json>& reports) {
         Column means{column, {}}, errors{column + "_error", {}};
+        const bool is_error = is_error_of_run(column, table_of(reports.front()));
+        if (is_error) means.name.insert(column.size() - 6, "_run");
         for (const Json& report : reports) {
             const bool has_it = report.contains("measurements") &&
                                 report["measurements"].contains(name_) &&
@@ -143,7 +151,7 @@ private:
             errors.numbers.push_back(mean.error);
         }
         columns_.push_back(std::move(means));
-        if (!are_alike) columns_.push_back(std::move(errors));
+        if (!are_alike && !is_error) columns_.push_back(std::move(errors));
     }
 
     std::string name_;
