@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/exact_sum.hpp"
+#include "core/errors.hpp"
+#include "dynamics/species.hpp"
+#include "measure/centred_flights.hpp"
 #include "parallel/pieces.hpp"
 
 namespace carrom {
@@ -48,10 +50,10 @@ std::array<double, 3> Flights::means(std::span<const Disc> discs, std::uint64_t 
     const double time = run_.simulation.clock(), unit = run_.simulation.velocity_unit();
     const std::span<const DiscImage> lengths = lengths_ ? lengths_->counts()
                                                         : std::span<const DiscImage>{};
-    const double n = static_cast<double>(n_discs),
-                 farthest = (follows_lengths() ? 0x1p22 : 4) * run_.scene.box.longest();
-    const double fastest = have_velocities_ ? fastest_of(discs) : 0;
-    ExactSum x(n * farthest * farthest), y = x, products(2 * n * fastest * fastest);
+    const FlightBounds bounds{(follows_lengths() ? 0x1p22 : 4) * run_.scene.box.longest(),
+                              have_velocities_ ? fastest_of(discs) : 0};
+    const SpeciesTable species(run_.scene.effects.species, run_.scene.radius);
+    std::vector<Flight> flights;
     PieceStream stream(run_.ranks, discs, n_discs, [](const Disc& disc) { return disc.id; });
     for (std::uint64_t round = 0; round < stream.pieces().n_rounds(); ++round) {
         for (const Disc& disc : stream.next()) {
@@ -61,23 +63,16 @@ std::array<double, 3> Flights::means(std::span<const Disc> discs, std::uint64_t 
             if (!lengths.empty())
                 dx += lengths[place].x * run_.scene.box.x,
                     dy += lengths[place].y * run_.scene.box.y;
-            ensure(std::fabs(dx) <= farthest && std::fabs(dy) <= farthest,
+            ensure(std::fabs(dx) <= bounds.way && std::fabs(dy) <= bounds.way,
                    "a disc has gone round a periodic box millions of times; measure "
                    "displacements over fewer steps");
-            x.add(dx * dx);
-            y.add(dy * dy);
+            flights.push_back({.way = {dx, dy}, .mass = species.of(disc.id).mass});
             if (first_velocities_.empty()) continue;
-            const auto& [vx, vy] = first_velocities_[place];
-            products.add(vx * (disc.vx * unit) + vy * (disc.vy * unit));
+            flights.back().first_velocity = first_velocities_[place];
+            flights.back().velocity = {disc.vx * unit, disc.vy * unit};
         }
     }
-    std::array<double, 3> means{};
-    ExactSum* const sums[] = {&x, &y, &products};
-    for (std::size_t k = 0; k < 3; ++k) {
-        run_.ranks.sum(*sums[k]);
-        means[k] = sums[k]->value() / n;
-    }
-    return means;
+    return mean_flights(flights, bounds, run_.scene, run_.ranks);
 }
 
 /// Brings each first place to the rank whose run of ids has it.
