@@ -222,7 +222,7 @@ Loaded load(const RunOptions& given, const Problems& problems, const Communicato
             loaded.start.stored.reset(); // its memory is needed
             load_restart(options, loaded, ranks);
         }
-        if (goes_on(options) && !loaded.stored) begin_anew(options, scene, ranks);
+        if (goes_on(options) && !loaded.start.stored) begin_anew(options, scene, ranks);
     } catch (const InputError& error) { // on every rank
         Problems all;
         if (ranks.is_root()) all = error.problems();
