@@ -56,6 +56,7 @@ public:
                                       const std::vector<std::string>& settings = {},
                                       const Options& options = {});
 
+    /// What has been moved from throws InputError in every call but assignment.
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
     ~Simulation();
@@ -102,9 +103,10 @@ public:
     void keep_checkpoints(const CheckpointSchedule& schedule);
 
     struct State; ///< the library's own
-    const State& state() const { return *state_; }
+    const State& state() const { return live(); }
 
 private:
+    State& live() const;
     explicit Simulation(std::unique_ptr<State> state);
 
     std::unique_ptr<State> state_;

@@ -13,6 +13,7 @@
 #include "engine/near_pairs.hpp"
 #include "parallel/exchange.hpp"
 #include "parallel/slabs.hpp"
+#include "scene/effects/effect.hpp"
 
 namespace carrom {
 
@@ -47,15 +48,19 @@ double beyond(double low, double place, double high) { return std::max(low - pla
 
 StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64_t micro_steps_done,
                        const Communicator& communicator, const Frame& frame, double time,
-                       std::span<const double> spins)
+                       std::span<const double> spins, double energy_given)
     : scene_(scene),
       effects_(per_micro_step(scene.effects, static_cast<double>(scene.micro_steps))),
       species_(scene.effects.species, scene.radius), communicator_(communicator),
       first_id_(slab_begin(communicator.rank(), scene.n_discs, communicator.size())),
       micro_steps_done_(micro_steps_done), micro_steps_before_(micro_steps_done),
       tolerance_(PlainDynamics(scene.box, scene.radius).tolerance()) {
-    may_lose_energy_ = may_lose_in_contacts() || effects_.obstacles.restitution < 1 ||
-                       (effects_.gravity.is_any() && effects_.drag != 0);
+    may_lose_energy_ = may_lose_in_contacts();
+    const CheckAllowance allowance = allowance_of(scene.effects);
+    may_lose_energy_ = may_lose_energy_ || allowance.collisions_take_energy;
+    walls_give_energy_ = allowance.walls_give_energy;
+    acts_at_syncs_ = allowance.acts_at_syncs;
+    energy_given_ = energy_given;
     wall_speed_ = largest_wall_speed(effects_);
     for (const Boundary& side : effects_.boundaries) {
         const double turning = 2 * std::numbers::pi / side.period;
@@ -89,14 +94,19 @@ StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64
 }
 
 void StateCheck::look(const LocalView& now, std::int64_t micro_steps_done, Log log,
-                      std::span<const double> spins, double work_of_images) {
+                      std::span<const double> spins, double work_of_images, double energy_given) {
     work_of_images_ = work_of_images;
+    energy_given_before_ = std::exchange(energy_given_, energy_given);
     before_ = known_;
     micro_steps_before_ = std::exchange(micro_steps_done_, micro_steps_done);
     const std::span<const Disc> own = now.population.discs.first(now.population.n_own);
     fail_if_found(first_not_finite(own, spins), log);
     fail_if_found(take_records(own, spins, now.frame, now.time), log);
     note_speeds();
+    if (were_rewritten()) { // from then on they flew straight
+        const std::int64_t sync = micro_steps_done_ / scene_.sync_every * scene_.sync_every;
+        for (Known& known : known_) known.free_from = std::max(known.free_from, sync);
+    }
     take_log(log);
     fail_if_found(first_out_of_place(now), log);
     fail_if_found(first_in_obstacle(now), log);

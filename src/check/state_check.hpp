@@ -44,13 +44,15 @@ public:
     /// default's. **Collective.** `spins`, per micro-step, run along the discs, of rough ones.
     StateCheck(const Scene& scene, std::span<const Disc> own, std::int64_t micro_steps_done,
                const Communicator& communicator, const Frame& frame = {}, double time = 0,
-               std::span<const double> spins = {});
+               std::span<const double> spins = {}, double energy_given = 0);
 
     /// Looks at the end of a step; `log` has this rank's share of the collisions since the last
     /// look. If an invariant is broken every rank throws the same CheckFailure. `work_of_images` is
-    /// what Engine::add_work_to has found since then on this rank. **Collective.**
+    /// what Engine::add_work_to has found since then on this rank, `energy_given` is
+    /// Engine::energy_given, then and now. **Collective.**
     void look(const LocalView& now, std::int64_t micro_steps_done, std::span<const Collision> log,
-              std::span<const double> spins = {}, double work_of_images = 0);
+              std::span<const double> spins = {}, double work_of_images = 0,
+              double energy_given = 0);
 
 private:
     struct Known {
@@ -110,6 +112,8 @@ private:
     double energy_left() const;
     double stretch() const { return static_cast<double>(micro_steps_done_ - micro_steps_before_); }
     double n_syncs_since(std::int64_t micro_step) const;
+    /// Whether effects at syncs have changed velocities since the last look.
+    bool were_rewritten() const { return acts_at_syncs_ && n_syncs_since(micro_steps_before_) > 0; }
     void note_speeds();
     bool may_have_met_seam(std::size_t i) const;
 
@@ -127,6 +131,8 @@ private:
     double work_of_images_ = 0;             ///< on this rank, since the last look
     double fastest_up_ = 0; ///< between sheared sides: along y, now or at the last look
     bool may_lose_energy_ = false, walls_give_energy_ = false;
+    bool acts_at_syncs_ = false;                        ///< an effect does: see CheckAllowance
+    double energy_given_ = 0, energy_given_before_ = 0; ///< on this rank, by effects at syncs
     Communicator communicator_;
     std::uint64_t first_id_ = 0;
     std::vector<Known> known_, before_; ///< of this rank's slab of ids: now, and at the last look

@@ -35,6 +35,7 @@ bool StateCheck::may_lose_in_contacts() const {
 }
 
 Finding StateCheck::first_other_motion() const {
+    if (were_rewritten()) return {};
     const bool is_free = !effects_.gravity.is_any() &&
                          effects_.drag == 0; // velocities are rewritten by nothing then
     const double left = slowing(),
@@ -119,7 +120,14 @@ Finding StateCheck::first_other_total(std::span<const Disc> own,
         if (effects_.are_sheared())
             for (const double work : communicator_.all_gather(work_of_images_))
                 expected += k * k * work;
-        scale = energy_ + total_mass_ * k * k * fall * scene_.box.longest();
+        if (were_rewritten()) {
+            double given = 0;
+            for (const double part : communicator_.all_gather(energy_given_ - energy_given_before_))
+                given += part;
+            expected += k * k * given;
+        }
+        scale = (were_rewritten() ? std::max(energy_, energy) : energy_) +
+                total_mass_ * k * k * fall * scene_.box.longest();
         allowed = bound * scale + n * k * k * communicator_.max(gain) + k * k * work_of_walls();
         energy_ = energy;
     }
@@ -142,7 +150,7 @@ SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     }
     if (obstacles_) energy.n_reflections = static_cast<double>(known.walls);
     if (effects_.drag != 0) energy.allowance += energy_bound * energy.before;
-    if ((walls_give_energy_ && known.walls > 0) || may_have_met_seam(i))
+    if ((walls_give_energy_ && known.walls > 0) || may_have_met_seam(i) || were_rewritten())
         energy.allowance = std::numeric_limits<double>::infinity();
     return energy;
 }

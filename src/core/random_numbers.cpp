@@ -35,6 +35,12 @@ Direction random_direction(DiscRandom& random) {
     }
 }
 
+NormalPair random_normals(DiscRandom& random) {
+    const double distance = std::sqrt(2 * random_exponential(random));
+    const Direction direction = random_direction(random);
+    return {distance * direction.x, distance * direction.y};
+}
+
 double random_exponential(DiscRandom& random) {
     // A first number x is followed by numbers that fall, x >= u2 >= u3 >= ..., until one rises.
     // That one has an even place with probability 1 - x + x^2/2! - ... = exp(-x). Each failure adds

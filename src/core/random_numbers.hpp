@@ -16,7 +16,13 @@ namespace carrom {
 
 /// What numbers are for. The values are part of the promise that a seed always gives the same
 /// discs.
-enum class Purpose : std::uint64_t { position = 1, shake = 2, velocity = 3, thermal_wall = 4 };
+enum class Purpose : std::uint64_t {
+    position = 1,
+    shake = 2,
+    velocity = 3,
+    thermal_wall = 4,
+    sync = 5
+};
 
 /// Four random words for this counter.
 std::array<std::uint64_t, 4> random_words(std::uint64_t seed, Purpose purpose, DiscId id,
@@ -55,5 +61,12 @@ Direction random_direction(DiscRandom& random);
 /// Neumann, Various techniques used in connection with random digits, 1951; G. E. Forsythe, Math.
 /// Comp. 26, 1972): no logarithm.
 double random_exponential(DiscRandom& random);
+
+/// Two independent numbers from the normal distribution of mean 0 and variance 1: half the square
+/// of their distance from 0 is exponential, and the direction is uniform.
+struct NormalPair {
+    double x = 0, y = 0;
+};
+NormalPair random_normals(DiscRandom& random);
 
 } // namespace carrom

@@ -49,17 +49,6 @@ std::string description(const Boundary& side, const char* name) {
     return {};
 }
 
-std::string description(const ObstacleList& obstacles) {
-    const auto counted = [](std::size_t n, const char* what) {
-        return n == 0 ? std::string() : fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-    };
-    const std::string discs = counted(obstacles.discs.size(), "fixed disc"),
-                      segments = counted(obstacles.segments.size(), "segment");
-    return discs + (discs.empty() || segments.empty() ? "" : " and ") + segments +
-           (obstacles.restitution < 1 ? fmt::format(" of restitution {:g}", obstacles.restitution)
-                                      : "");
-}
-
 std::string description(const std::vector<Species>& species) {
     constexpr std::size_t most_named = 4;
     if (species.size() > most_named) {
@@ -121,12 +110,6 @@ std::string description(const Effects& effects) {
     for (std::size_t k = 0; k < effects.boundaries.size(); ++k)
         if (!effects.boundaries[k].is_plain())
             add(description(effects.boundaries[k], boundary_names[k]));
-    if (effects.gravity.is_any())
-        add(fmt::format("gravity ({:g}, {:g})", effects.gravity.x, effects.gravity.y));
-    if (effects.drag != 0) add(fmt::format("drag {:g}", effects.drag));
-    if (effects.growth != 0) add(fmt::format("radii growing by {:g} a step", effects.growth));
-    if (effects.are_sheared()) add(fmt::format("shear at the rate {:g}", effects.shear));
-    if (effects.obstacles.are_any()) add(description(effects.obstacles));
     return text;
 }
 

@@ -92,6 +92,20 @@ struct ObstacleList {
     friend bool operator==(const ObstacleList&, const ObstacleList&) = default;
 };
 
+/// What keeps discs moving, at syncs (scene/effects/thermostat.cpp); per step.
+enum class ThermostatKind { none, kicks, andersen, langevin, rescale };
+
+struct Thermostat {
+    ThermostatKind kind = ThermostatKind::none;
+    double strength = 0;    ///< of kicks: xi^2
+    double rate = 0;        ///< of new velocities, or of friction
+    double temperature = 0; ///< kT, a velocity squared, for masses of 1
+    std::uint64_t seed = 3210;
+
+    bool is_any() const { return kind != ThermostatKind::none; }
+    friend bool operator==(const Thermostat&, const Thermostat&) = default;
+};
+
 /// Times in steps in a scene, in micro-steps in a dynamics.
 struct Effects {
     ContactEffect contact;
@@ -104,6 +118,7 @@ struct Effects {
         species{};     ///< in the order of ids; empty where all discs are of one radius and mass 1
     double growth = 0; ///< radii grow by this share of their first value per time
     double shear = 0;  ///< between sheared sides: the rate at which vx grows with y
+    Thermostat thermostat{};
 
     bool have_plain_boundaries() const;
     bool have_open_boundaries() const;
@@ -126,7 +141,7 @@ struct Effects {
     bool are_any() const {
         return contact.kind != ContactKind::elastic || !have_plain_boundaries() ||
                gravity.is_any() || drag != 0 || obstacles.are_any() || !species.empty() ||
-               growth != 0;
+               growth != 0 || thermostat.is_any();
     }
     friend bool operator==(const Effects&, const Effects&) = default;
 };

@@ -66,6 +66,8 @@ public:
     virtual double clock() const = 0;
     virtual Frame frame() const { return {}; } ///< of the own discs' coordinates, at `clock()`
     virtual std::uint64_t n_discs() const = 0; ///< over all ranks, departed ones too
+    /// See SyncAction::energy_given.
+    virtual double energy_given() const { return 0; }
     virtual PhaseSeconds phase_seconds() const = 0;
 
     /// See Simulation::log_to. Engines append what they carry out while `log_` is not null.

@@ -44,7 +44,8 @@ EngineBase<Dynamics>::EngineBase(const Scene& scene, StoredState state,
       micro_steps_(scene.micro_steps), sync_every_(scene.sync_every),
       discs_(communicator, scene.box, std::move(state.discs), scene.effects.periods(scene.box),
              stored_columns<Dynamics>(scene, state)),
-      n_micro_done_(state.micro_steps_done), last_micro_step_(scene.steps * scene.micro_steps) {
+      n_micro_done_(state.micro_steps_done), sync_action_(scene, communicator, tuning.threads),
+      last_micro_step_(scene.steps * scene.micro_steps) {
     dynamics_.begin_interval(last_sync());
     time_ = dynamics_.clock_at(static_cast<double>(n_micro_done_ % sync_every_));
     if constexpr (Dynamics::is_for_study) {
@@ -141,6 +142,7 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
         if (stress_) *stress_ += flights;
     }
     if (is_work_asked) *work_ += energy_of_own();
+    if (sync_action_.has_effects()) return sync_action_.act(discs_, n_micro_done_ / sync_every_);
     return std::sqrt(fastest);
 }
 

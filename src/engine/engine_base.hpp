@@ -14,6 +14,7 @@
 #include "dynamics/all_dynamics.hpp"
 #include "engine/engine.hpp"
 #include "engine/phase_clock.hpp"
+#include "engine/sync_action.hpp"
 #include "scene/scene.hpp"
 
 namespace carrom {
@@ -38,6 +39,7 @@ public:
     Frame frame() const final;
     FlightIntegral flight_integral() const final { return dynamics_.flight_integral_at(time_); }
     std::uint64_t n_discs() const final { return discs_.n_with_departed(); }
+    double energy_given() const final { return sync_action_.energy_given(); }
     PhaseSeconds phase_seconds() const final { return phases_.seconds(); }
 
 protected:
@@ -92,6 +94,7 @@ private:
     void wrap(Disc& disc);
     double energy_of_own() const;
 
+    SyncAction sync_action_;
     std::int64_t last_micro_step_, n_syncs_ = 0;
 };
 

@@ -2,6 +2,7 @@
 #include "io/checked_dataset.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "io/files.hpp"
@@ -11,6 +12,8 @@ namespace carrom::h5 {
 namespace {
 
 constexpr std::size_t longest_path = 4096;
+constexpr double largest_chunk = 256 << 20;
+constexpr double largest_ratio = 1100; ///< deflate makes 1032 bytes of one at most
 
 bool is_known_type(hid_t type) {
     const H5T_class_t kind = H5Tget_class(type);
@@ -46,7 +49,26 @@ void check_segments_of(const Dataset& dataset, hid_t creation, const std::string
         throw FileError(name + " has other parts than this program writes");
 }
 
+/// HDF5 takes memory for a whole chunk, whatever is read of it.
+void check_chunk_of(hid_t creation, const std::string& name, std::size_t bytes_per_number) {
+    std::array<hsize_t, H5S_MAX_RANK> sizes{};
+    const int rank = checked(H5Pget_chunk(creation, H5S_MAX_RANK, sizes.data()), name);
+    double bytes = static_cast<double>(bytes_per_number);
+    for (int k = 0; k < rank; ++k) bytes *= static_cast<double>(sizes[static_cast<std::size_t>(k)]);
+    if (bytes > largest_chunk) throw FileError(name + " has larger chunks than 256 MiB");
+}
+
 } // namespace
+
+void check_storage(const Dataset& dataset, const std::string& name) {
+    const Properties creation(checked(H5Dget_create_plist(dataset.id()), name));
+    if (H5Pget_layout(creation.id()) == H5D_VIRTUAL) return; // its parts have been checked
+    const Space whole(checked(H5Dget_space(dataset.id()), name));
+    const auto bytes = static_cast<double>(H5Sget_simple_extent_npoints(whole.id())) *
+                       static_cast<double>(H5Tget_size(stored_type(dataset.id()).id()));
+    if (bytes > largest_ratio * static_cast<double>(H5Dget_storage_size(dataset.id())))
+        throw FileError(name + " has fewer bytes than its size says");
+}
 
 Dataset open_checked(hid_t parent, const std::string& name, const std::optional<Shape>& shape) {
     Dataset dataset = open_dataset(parent, name);
@@ -56,6 +78,8 @@ Dataset open_checked(hid_t parent, const std::string& name, const std::optional<
         throw FileError(name + " is of another type than this program writes");
     if (H5Pget_layout(creation.id()) == H5D_VIRTUAL)
         check_segments_of(dataset, creation.id(), name, H5Tget_size(type.id()));
+    if (H5Pget_layout(creation.id()) == H5D_CHUNKED)
+        check_chunk_of(creation.id(), name, H5Tget_size(type.id()));
     const auto is_right = [](std::optional<hsize_t> wanted, hsize_t size) {
         return !wanted || *wanted == size;
     };

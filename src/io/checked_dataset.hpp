@@ -23,9 +23,14 @@ Dataset open_checked(hid_t parent, const std::string& name,
 /// How many of a column's ascending numbers are <= `last`.
 std::uint64_t count_up_to(hid_t file, const std::string& path, std::int64_t last);
 
+/// Throws FileError where the file cannot have as many bytes as the data set claims: memory is
+/// taken by that claim.
+void check_storage(const Dataset& dataset, const std::string& name);
+
 /// All of a column. Throws FileError.
 template <class Number> std::vector<Number> read_column(hid_t file, const std::string& path) {
     const Dataset dataset = open_checked(file, path, Shape{std::nullopt});
+    check_storage(dataset, path);
     std::vector<Number> numbers(n_rows_of(dataset.id()));
     if (!numbers.empty())
         read_rows(dataset.id(), {0, numbers.size()}, type_of(Number{}), numbers.data());

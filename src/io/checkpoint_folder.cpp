@@ -13,6 +13,8 @@
 
 #include <fmt/format.h>
 
+#include "io/files.hpp"
+
 namespace carrom {
 
 namespace {
@@ -39,12 +41,17 @@ std::string checkpoint_path(const std::string& folder, std::int64_t step) {
         .string();
 }
 
+bool is_named_as_checkpoint(const std::string& path) { return as_checkpoint(path).has_value(); }
+
 std::vector<FoundFile> find_checkpoints(const std::string& folder) {
     std::vector<FoundFile> found;
     std::error_code error;
-    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+    std::filesystem::directory_iterator entry(folder, error);
+    if (error == std::errc::no_such_file_or_directory) return found;
+    for (const std::filesystem::directory_iterator end; !error && entry != end;
          entry.increment(error))
         if (auto file = as_checkpoint(entry->path())) found.push_back(std::move(*file));
+    if (error) throw FileError("cannot be listed: " + error.message());
     std::sort(found.begin(), found.end(), [](const FoundFile& a, const FoundFile& b) {
         return a.step != b.step ? a.step > b.step : a.path < b.path;
     });

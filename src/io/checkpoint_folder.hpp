@@ -20,9 +20,12 @@ struct FoundFile {
     std::int64_t step = 0;
 };
 
-/// Files named like checkpoints, those of the latest step first. A folder that is not there has
-/// none.
+/// Files named like checkpoints, those of the latest step first. A folder that does not exist has
+/// none. Throws FileError if the folder cannot be listed, because then nobody knows what it has.
 std::vector<FoundFile> find_checkpoints(const std::string& folder);
+
+/// Whether the file's name is one that `checkpoint_path` gives.
+bool is_named_as_checkpoint(const std::string& path);
 
 /// Makes the folder where there is none. Returns what keeps files from being written there, if
 /// anything does.

@@ -256,6 +256,7 @@ void write_checkpoint(const std::string& path, CheckpointHeader header, std::spa
     const SideOfPieces side = in_pieces(discs, header.columns, columns, header.n_discs,
                                         communicator);
     const std::vector<DiscTarget> targets = disc_targets(header, samples, side);
+    on_root(communicator, path, ExitCode::output_failure, [&] { refuse_special(path); });
     const UnfinishedFile partial(path + std::string(unfinished_suffix), communicator.is_root());
     on_root(communicator, path, ExitCode::output_failure, [&] {
         std::uint64_t bytes = bytes_of_structure +

@@ -130,6 +130,19 @@ Checksums read_checksums(hid_t file) {
     return sums;
 }
 
+bool has_text_of_checksums(const std::string& path) {
+    const std::string wanted = std::string(blanks) + std::string(others_name) + '\n';
+    const Descriptor file(path, O_RDONLY);
+    std::string text(bytes_at_a_time, '\0');
+    std::uint64_t place = 0;
+    for (;;) {
+        const std::size_t n = file.read(std::as_writable_bytes(std::span(text)), place);
+        if (std::string_view(text).substr(0, n).find(wanted) != std::string_view::npos) return true;
+        if (n < text.size()) return false;
+        place += n - wanted.size(); // it may lie across the end of these bytes
+    }
+}
+
 StateHash checksum_of_others(const std::string& path, std::vector<ByteRange> left_out) {
     std::sort(left_out.begin(), left_out.end(),
               [](const ByteRange& a, const ByteRange& b) { return a.begin < b.begin; });

@@ -23,6 +23,12 @@ struct LoggedCollision {
     double impulse = 0;
 };
 
+/// The steps whose collisions a log has: up to `last`, but for its gaps.
+struct LoggedSteps {
+    std::int64_t last = 0;
+    std::vector<std::int64_t> gaps; ///< first and last step of each
+};
+
 class SegmentedFile;
 
 class CollisionLog {
@@ -32,16 +38,21 @@ public:
                  const Communicator& communicator);
     ~CollisionLog();
 
-    /// As for Trajectory. `go_on` returns, on every rank, whether there was a file. **Collective.**
+    /// As for Trajectory. `go_on` returns, on every rank, whether there was a file. Steps up to
+    /// `step` that are not in it become a gap, which the file names. **Collective.**
     void begin();
     bool go_on(std::int64_t step);
     void commit();
 
-    /// Adds the collisions of all ranks, those of rank 0 first. Later than all before.
+    /// The first and the last step of each gap, on rank 0.
+    const std::vector<std::int64_t>& gaps() const { return steps_.gaps; }
+
+    /// Adds the collisions of all ranks up to `step`, those of rank 0 first. Later than all before.
     /// **Collective.**
-    void append(std::span<const LoggedCollision> mine);
+    void append(std::span<const LoggedCollision> mine, std::int64_t step);
 
 private:
+    LoggedSteps steps_;
     std::unique_ptr<SegmentedFile> file_;
     const Communicator& communicator_;
 };

@@ -73,6 +73,8 @@ void compare_frames(const FrameFile& a, const FrameFile& b, Differences& differe
 
 FileDifference compare_files(const std::string& a, const std::string& b) {
     const FrameFile first(a), second(b);
+    first.check_numbers();
+    second.check_numbers();
     const FileSummary &one = first.summary(), &other = second.summary();
     if (one.kind != other.kind) throw InputError({{b, 0, "is a file of another kind than " + a}});
     Differences differences;

@@ -21,6 +21,19 @@ namespace {
 
 constexpr std::string_view partial_prefix = ".carrom-", checkpoint_prefix = "checkpoint-";
 
+/// "report.json.1234-0.partial", of reports and tables: the process and a number.
+bool is_text_beside(std::string_view name) {
+    if (!name.ends_with(unfinished_suffix)) return false;
+    name.remove_suffix(unfinished_suffix.size());
+    const std::size_t point = name.rfind('.');
+    if (point == std::string_view::npos) return false;
+    const std::string_view text = name.substr(0, point), numbers = name.substr(point + 1);
+    const std::size_t dash = numbers.find('-');
+    return (text.ends_with(".csv") || text.ends_with(".json")) && dash != 0 &&
+           dash != std::string_view::npos && dash + 1 < numbers.size() &&
+           numbers.find_first_not_of("0123456789-") == std::string_view::npos;
+}
+
 } // namespace
 
 void fail_with_errno(const std::string& what) {
@@ -96,6 +109,13 @@ void reserve(const std::string& path) {
         fail_with_errno("its room cannot be reserved");
 }
 
+void refuse_special(const std::string& path) {
+    if (path.empty() || path.find('\0') != std::string::npos) throw FileError("is no file's name");
+    struct stat status{};
+    if (::lstat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISLNK(status.st_mode))
+        throw FileError("is not a plain file");
+}
+
 void rename_durably(const std::string& from, const std::string& to) {
     if (std::rename(from.c_str(), to.c_str()) != 0) fail_with_errno("cannot be renamed");
     Descriptor(folder_of(to), O_RDONLY | O_DIRECTORY).sync();
@@ -129,7 +149,7 @@ void remove_unfinished(const std::string& folder) {
          entry.increment(error)) {
         const std::string name = entry->path().filename().string();
         const bool is_ours = name.starts_with(partial_prefix) ||
-                             name.starts_with(checkpoint_prefix);
+                             name.starts_with(checkpoint_prefix) || is_text_beside(name);
         if (is_ours && name.ends_with(unfinished_suffix)) ::unlink(entry->path().c_str());
     }
 }

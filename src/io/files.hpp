@@ -57,6 +57,9 @@ void check_room(const std::string& folder, std::uint64_t bytes);
 /// Takes the blocks of a file now, so that a full disk shows now; does nothing where that is not to
 /// be had.
 void reserve(const std::string& path);
+/// Throws where a rename to `path` would replace what is neither a plain file nor a link, such as a
+/// device, a pipe or a folder, and where the system would see another name, cut at a NUL.
+void refuse_special(const std::string& path);
 /// Renames and makes it last: the folder is synced too.
 void rename_durably(const std::string& from, const std::string& to);
 /// What the names of unfinished files end in.

@@ -2,10 +2,12 @@
 #include "io/frame_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "io/checked_dataset.hpp"
 #include "io/checkpoint_fields.hpp"
+#include "io/checksums.hpp"
 #include "io/child_process.hpp"
 #include "io/files.hpp"
 #include "io/h5md.hpp"
@@ -140,6 +142,9 @@ void FrameFile::open() {
     const hid_t file = state_->file.id();
     if (!index && h5::has(file, "/carrom/recording"))
         throw FileError("is damaged: it does not end with a checksum, as this program writes it");
+    summary_.has_checksums = index || h5::has(file, run_path);
+    if (!summary_.has_checksums && has_text_of_checksums(path_))
+        throw FileError("is damaged: it has the checksums of a checkpoint, and is none");
     if (h5::has(file, run_path)) {
         const CheckpointHeader& header = state_->header = read_header(file);
         summary_.columns = {"x", "y", "vx", "vy", "pair_collisions", "wall_collisions"};
@@ -151,6 +156,9 @@ void FrameFile::open() {
         summary_.state_hash = header.state_hash;
     } else if (h5::has(file, "/carrom/collisions")) {
         summary_.kind = FileKind::collisions;
+        if (h5::has(file, h5md::gaps_path))
+            summary_.gaps = h5::read_column<std::int64_t>(file, h5md::gaps_path);
+        if (summary_.gaps.size() % 2 != 0) throw FileError("its gaps are no pairs of steps");
         for (const ColumnSource& source : state_->sources = sources_of_logs())
             summary_.columns.push_back(source.column);
         summary_.n_rows = h5::n_rows_of(
@@ -161,6 +169,12 @@ void FrameFile::open() {
         throw FileError("holds nothing that carrom writes");
     }
     read_system(file, summary_.kind == FileKind::collisions ? 0 : summary_.n_rows, summary_);
+    const Box& box = summary_.box;
+    const bool has_box = summary_.kind != FileKind::collisions && !summary_.steps.empty();
+    if (!(std::isfinite(summary_.radius) && summary_.radius > 0) ||
+        (has_box && !(std::isfinite(box.longest()) && box.shortest() > 0)))
+        throw FileError("has a radius or a box that is no finite number above 0");
+    if (has_box && summary_.n_rows == 0) throw FileError("has no discs");
 }
 
 void FrameFile::open_trajectory() {

@@ -18,6 +18,8 @@ enum class FileKind { checkpoint, trajectory, collisions };
 /// Its box is that of the last frame.
 struct FileSummary : RecordedSystem {
     FileKind kind = FileKind::checkpoint;
+    /// Whether the file carries checksums of all its bytes, as all do that this program writes.
+    bool has_checksums = false;
     /// The numbers of a row that the file has, in the scene's units. Of discs: x, y, vx, vy,
     /// pair_collisions, wall_collisions, then the columns beside the states (side_columns.hpp).
     std::vector<std::string> columns;
@@ -25,6 +27,7 @@ struct FileSummary : RecordedSystem {
     std::size_t bytes_per_number = 8; ///< of a trajectory's positions and velocities
     std::vector<std::int64_t> steps;  ///< of the frames
     std::string state_hash;           ///< of a checkpoint
+    std::vector<std::int64_t> gaps;   ///< of a log: first and last step of each stretch it lacks
 
     /// The place of a column, or that of the end where there is none.
     std::size_t place_of(std::string_view column) const;

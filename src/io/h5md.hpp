@@ -12,7 +12,8 @@
 namespace carrom::h5md {
 
 inline constexpr const char *discs_path = "/particles/discs/",
-                            *collisions_path = "/carrom/collisions/"; ///< ours, not H5MD's
+                            *collisions_path = "/carrom/collisions/",   ///< ours, not H5MD's
+                                *gaps_path = "/carrom/collisions/gaps"; ///< first, last step; ...
 inline constexpr const char *step_path = "/particles/discs/box/edges/step",
                             *time_path = "/particles/discs/box/edges/time",
                             *edges_path = "/particles/discs/box/edges/value";

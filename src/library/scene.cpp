@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "library/checked_source.hpp"
 #include "library/session_state.hpp"
 #include "parallel/agreement.hpp"
+#include "parallel/meeting.hpp"
 #include "run/start/scene_source.hpp"
 #include "scene/read_scene.hpp"
 #include "simulation/compression.hpp"
@@ -30,6 +32,7 @@ SceneText text_of(const Scene::Source& source) {
 
 Scene Scene::from_file(const Session& session, const std::string& path) {
     const Communicator& ranks = ranks_of(session);
+    meet(ranks, "Scene::from_file", hash_of_argument(path));
     SceneText text;
     let_root(ranks, [&] {
         std::ifstream file = open_input(path);
@@ -106,7 +109,27 @@ SceneFacts facts_of(const carrom::Scene& scene) {
     return facts;
 }
 
+namespace {
+
+/// Scenes of ranks that differ would leave some of them waiting. **Collective.**
+void check_same_on_all(const Scene::Source& source, const Communicator& ranks) {
+    std::string all = source.name + '\0' + source.text;
+    for (const std::string& setting : source.settings) all += '\0' + setting;
+    std::uint64_t first = std::hash<std::string>{}(all);
+    const std::uint64_t mine = first;
+    ranks.broadcast(first);
+    std::vector<Problem> problems;
+    if (first != mine)
+        problems.push_back(
+            {source.name, 0,
+             fmt::format("rank {} has another scene or other settings than rank 0", ranks.rank())});
+    agree_on_problems(ranks, problems);
+}
+
+} // namespace
+
 FirstState first_state(const Scene& scene, const Communicator& ranks, const Tuning& tuning) {
+    check_same_on_all(scene.source(), ranks);
     SceneSource source{text_of(scene.source()), nullptr};
     let_root(ranks, [&] {
         if (!source.text.discs_follow) return;

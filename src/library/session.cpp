@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/start_io.hpp"
 #include "library/session_state.hpp"
+#include "parallel/meeting.hpp"
 
 namespace carrom::api {
 
@@ -36,13 +37,22 @@ Session::Session(int fortran_communicator) {
     state_.reset(new State{nullptr, Communicator::of_fortran(fortran_communicator)});
 }
 
-Session::~Session() = default;
+Session::~Session() {
+    if (!has_mpi_ended()) Departure(state_->ranks).leave(); // the program may have ended it
+}
 
 int Session::rank() const { return state_->ranks.rank(); }
 int Session::size() const { return state_->ranks.size(); }
 
 int Session::run(const std::function<int()>& body) const {
-    return run_on_all(state_->ranks, [&body](const Communicator&) { return body(); });
+    Departure departure(state_->ranks);
+    return run_on_all(state_->ranks, [&](const Communicator&) {
+        struct Leaving {
+            Departure& departure;
+            ~Leaving() { departure.leave(); }
+        } leaving{departure};
+        return body();
+    });
 }
 
 } // namespace carrom::api

@@ -9,9 +9,12 @@
 
 #include "io/files.hpp"
 #include "library/checked_source.hpp"
+#include "library/live_part.hpp"
 #include "library/session_state.hpp"
 #include "library/simulation_state.hpp"
 #include "machine/machine.hpp"
+#include "parallel/agreement.hpp"
+#include "parallel/meeting.hpp"
 #include "parallel/sample_sort.hpp"
 #include "run/start/load.hpp"
 #include "run/start/restart.hpp"
@@ -22,8 +25,10 @@ namespace {
 
 /// **Collective.**
 Tuning tuning_of(const Options& options, const Communicator& ranks) {
+    std::vector<Problem> problems; // of one rank alone, perhaps
     if (options.threads < 0)
-        throw InputError({{"Options", 0, fmt::format("{} threads", options.threads)}});
+        problems.push_back({"Options", 0, fmt::format("{} threads", options.threads)});
+    agree_on_problems(ranks, problems);
     Tuning tuning;
     const int usual = default_threads(ranks);
     tuning.threads = options.threads > 0 ? options.threads : usual;
@@ -38,6 +43,7 @@ Messages messages_of(const Options& options, const Communicator& ranks) {
 std::unique_ptr<Simulation::State> begun(const Session& session, const Scene& scene,
                                          const Options& options) {
     const Communicator& ranks = ranks_of(session);
+    meet(ranks, "Simulation");
     const Tuning tuning = tuning_of(options, ranks);
     FirstState first = first_state(scene, ranks, tuning);
     return std::make_unique<Simulation::State>(std::move(first.scene),
@@ -62,10 +68,15 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
+Simulation::State& Simulation::live() const { return live_part(state_, "Simulation"); }
+
 Simulation Simulation::from_checkpoint(const Session& session, const std::string& path,
                                        const std::vector<std::string>& settings,
                                        const Options& options) {
     const Communicator& ranks = ranks_of(session);
+    std::string all = path;
+    for (const std::string& setting : settings) all += '\n' + setting;
+    meet(ranks, "Simulation::from_checkpoint", hash_of_argument(all));
     RunOptions wanted;
     wanted.restart = path;
     wanted.overrides = settings;
@@ -76,24 +87,25 @@ Simulation Simulation::from_checkpoint(const Session& session, const std::string
                                               ranks, tuning_of(options, ranks), wanted.messages));
 }
 
-const SceneFacts& Simulation::scene() const { return state_->facts; }
-std::int64_t Simulation::step() const { return state_->run.step(); }
+const SceneFacts& Simulation::scene() const { return live().facts; }
+std::int64_t Simulation::step() const { return live().run.step(); }
 
 void Simulation::advance(std::int64_t n_steps) {
-    const std::int64_t left = state_->facts.steps - step();
-    advance_to(n_steps > left ? state_->facts.steps + 1 : step() + n_steps);
+    const std::int64_t left = live().facts.steps - step();
+    advance_to(n_steps > left ? live().facts.steps + 1 : step() + n_steps);
 }
 
 void Simulation::advance_to(std::int64_t step) {
-    if (step < this->step() || step > state_->facts.steps)
+    meet(live().run.ranks(), "Simulation::advance_to", static_cast<std::uint64_t>(step));
+    if (step < this->step() || step > live().facts.steps)
         throw InputError({{"advance_to", 0,
                            fmt::format("step {} is not from the present step {} to time.steps = {}",
-                                       step, this->step(), state_->facts.steps)}});
-    state_->run.advance_to(step);
+                                       step, this->step(), live().facts.steps)}});
+    live().run.advance_to(step);
 }
 
 std::vector<Disc> Simulation::discs() const {
-    const carrom::Simulation& simulation = state_->run.simulation();
+    const carrom::Simulation& simulation = live().run.simulation();
     const double unit = simulation.velocity_unit(), clock = simulation.clock();
     const std::span<const double> spins = simulation.spins();
     std::vector<Disc> discs;
@@ -114,30 +126,42 @@ std::vector<Disc> Simulation::discs() const {
 }
 
 std::vector<Disc> Simulation::gathered_discs() const {
-    return sample_sort(state_->run.ranks(), discs(), is_earlier, 1);
+    meet(live().run.ranks(), "Simulation::gathered_discs");
+    return sample_sort(live().run.ranks(), discs(), is_earlier, 1);
 }
 
-Totals Simulation::totals() const { return state_->run.simulation().totals(); }
-Averages Simulation::averages() const { return state_->run.simulation().averages(); }
-void Simulation::restart_averages() { state_->run.simulation().average_anew(); }
+Totals Simulation::totals() const {
+    meet(live().run.ranks(), "Simulation::totals");
+    return live().run.simulation().totals();
+}
+Averages Simulation::averages() const {
+    meet(live().run.ranks(), "Simulation::averages");
+    return live().run.simulation().averages();
+}
+void Simulation::restart_averages() {
+    meet(live().run.ranks(), "Simulation::restart_averages");
+    live().run.simulation().average_anew();
+}
 
 std::vector<MeasuredTable> Simulation::measurements() const {
-    const Sampler* const sampler = state_->run.sampler();
+    const Sampler* const sampler = live().run.sampler();
     return sampler ? sampler->tables() : std::vector<MeasuredTable>{};
 }
 
 void Simulation::write_checkpoint(const std::string& path) const {
-    state_->run.write_checkpoint(path);
+    meet(live().run.ranks(), "Simulation::write_checkpoint", hash_of_argument(path));
+    live().run.write_checkpoint(path);
 }
 
 void Simulation::keep_checkpoints(const CheckpointSchedule& schedule) {
-    const Communicator& ranks = state_->run.ranks();
+    meet(live().run.ranks(), "Simulation::keep_checkpoints", hash_of_argument(schedule.folder));
+    const Communicator& ranks = live().run.ranks();
     std::vector<Problem> problems;
     const auto refuse = [&problems](const char* key, const auto& number, const char* accepted) {
         problems.push_back(
             {"keep_checkpoints", 0, fmt::format("{} = {}; {}", key, number, accepted)});
     };
-    if (state_->checkpoints) problems.push_back({"keep_checkpoints", 0, "has been called before"});
+    if (live().checkpoints) problems.push_back({"keep_checkpoints", 0, "has been called before"});
     if (schedule.folder.empty()) problems.push_back({"keep_checkpoints", 0, "names no folder"});
     if (schedule.every_steps < 0) refuse("every_steps", schedule.every_steps, "0 or more steps");
     if (!(schedule.every_minutes >= 0))
@@ -155,8 +179,8 @@ void Simulation::keep_checkpoints(const CheckpointSchedule& schedule) {
     wanted.at_end = schedule.at_end;
     if (schedule.every_steps > 0) wanted.every_steps = schedule.every_steps;
     if (schedule.every_minutes > 0) wanted.every_minutes = schedule.every_minutes;
-    state_->checkpoints.emplace(state_->run, std::move(wanted));
-    state_->run.add(*state_->checkpoints);
+    live().checkpoints.emplace(live().run, std::move(wanted));
+    live().run.add(*live().checkpoints);
 }
 
 } // namespace carrom::api

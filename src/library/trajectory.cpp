@@ -6,9 +6,11 @@
 #include <fmt/format.h>
 
 #include "io/frame_file.hpp"
+#include "library/live_part.hpp"
 #include "library/session_state.hpp"
 #include "library/simulation_state.hpp"
 #include "parallel/agreement.hpp"
+#include "parallel/meeting.hpp"
 #include "stored_scene/stored_scene.hpp"
 
 namespace carrom::api {
@@ -31,6 +33,13 @@ TrajectoryOutput wanted_of(const TrajectoryFields& fields, const carrom::Scene& 
     return wanted;
 }
 
+/// What is behind the simulation, once all ranks have come to that call. **Collective.**
+const Run& met(const Simulation& simulation, const char* call, const std::string& path) {
+    const Run& run = simulation.state().run;
+    meet(run.ranks(), call, hash_of_argument(path));
+    return run;
+}
+
 } // namespace
 
 struct TrajectoryWriter::State {
@@ -47,13 +56,13 @@ struct TrajectoryWriter::State {
 
 TrajectoryWriter::TrajectoryWriter(const Simulation& simulation, const std::string& path,
                                    const TrajectoryFields& fields)
-    : state_(std::make_unique<State>(simulation.state().run, path, fields)) {
+    : state_(std::make_unique<State>(met(simulation, "TrajectoryWriter", path), path, fields)) {
     state_->trajectory.begin();
 }
 
 TrajectoryWriter TrajectoryWriter::going_on(const Simulation& simulation, const std::string& path,
                                             const TrajectoryFields& fields) {
-    const Run& run = simulation.state().run;
+    const Run& run = met(simulation, "TrajectoryWriter::going_on", path);
     auto state = std::make_unique<State>(run, path, fields);
     state->last_step = state->trajectory.go_on(run.step(), [&run](const CheckpointHeader& there) {
         return first_difference(there, run.scene());
@@ -67,17 +76,23 @@ TrajectoryWriter::TrajectoryWriter(TrajectoryWriter&&) noexcept = default;
 TrajectoryWriter::~TrajectoryWriter() = default;
 
 void TrajectoryWriter::append() {
-    const carrom::Simulation& simulation = state_->run.simulation();
+    State& state = live_part(state_, "TrajectoryWriter");
+    meet(state.run.ranks(), "TrajectoryWriter::append");
+    const carrom::Simulation& simulation = state.run.simulation();
     const std::int64_t step = simulation.step();
-    if (step <= state_->last_step)
-        throw InputError({{state_->file, 0, fmt::format("step {} has a frame already", step)}});
-    state_->trajectory.append(step, simulation.shown(), simulation.clock(),
-                              simulation.side_columns());
-    state_->trajectory.commit();
-    state_->last_step = step;
+    if (step <= state.last_step)
+        throw InputError({{state.file, 0, fmt::format("step {} has a frame already", step)}});
+    state.trajectory.append(step, simulation.shown(), simulation.clock(),
+                            simulation.side_columns());
+    state.trajectory.commit();
+    state.last_step = step;
 }
 
-void TrajectoryWriter::describe() { state_->trajectory.describe(); }
+void TrajectoryWriter::describe() {
+    State& state = live_part(state_, "TrajectoryWriter");
+    meet(state.of.ranks, "TrajectoryWriter::describe");
+    state.trajectory.describe();
+}
 
 struct FrameReader::State {
     std::string path;
@@ -86,6 +101,7 @@ struct FrameReader::State {
 
 FrameReader::FrameReader(const Session& session, const std::string& path) {
     const Communicator& ranks = ranks_of(session);
+    meet(ranks, "FrameReader", hash_of_argument(path));
     check_damage(path, ranks);
     std::string failure;
     try {
@@ -101,25 +117,31 @@ FrameReader::FrameReader(const Session& session, const std::string& path) {
 FrameReader::FrameReader(FrameReader&&) noexcept = default;
 FrameReader::~FrameReader() = default;
 
-const std::vector<std::int64_t>& FrameReader::steps() const { return state_->file.summary().steps; }
-std::uint64_t FrameReader::n_discs() const { return state_->file.summary().n_rows; }
-Box FrameReader::box() const { return state_->file.summary().box; }
-std::string FrameReader::state_hash() const { return state_->file.summary().state_hash; }
+const std::vector<std::int64_t>& FrameReader::steps() const {
+    return live_part(state_, "FrameReader").file.summary().steps;
+}
+std::uint64_t FrameReader::n_discs() const {
+    return live_part(state_, "FrameReader").file.summary().n_rows;
+}
+Box FrameReader::box() const { return live_part(state_, "FrameReader").file.summary().box; }
+std::string FrameReader::state_hash() const {
+    return live_part(state_, "FrameReader").file.summary().state_hash;
+}
 
 std::vector<Disc> FrameReader::read(std::size_t frame) const { return read(frame, 0, n_discs()); }
 
 std::vector<Disc> FrameReader::read(std::size_t frame, std::uint64_t begin,
                                     std::uint64_t end) const {
     if (frame >= steps().size() || begin > end || end > n_discs())
-        throw InputError({{state_->path, 0,
+        throw InputError({{live_part(state_, "FrameReader").path, 0,
                            fmt::format("has {} frames of {} discs; it has no discs {} to {} of "
                                        "frame {}",
                                        steps().size(), n_discs(), begin, end, frame)}});
     Rows rows;
-    state_->file.read(frame, begin, end, rows);
+    live_part(state_, "FrameReader").file.read(frame, begin, end, rows);
     std::vector<Disc> discs(end - begin);
     const auto take = [&](std::string_view column, auto field) {
-        const std::size_t place = state_->file.summary().place_of(column);
+        const std::size_t place = live_part(state_, "FrameReader").file.summary().place_of(column);
         for (std::size_t i = 0; place < rows.size() && i < discs.size(); ++i)
             discs[i].*
                 field = static_cast<std::remove_cvref_t<decltype(discs[i].*field)>>(rows[place][i]);

@@ -23,6 +23,7 @@ namespace carrom {
 namespace tag {
 inline constexpr int any_to_any = 1;
 inline constexpr int stream = 2;
+inline constexpr int departure = 3;
 inline constexpr int first_free = 16;
 inline constexpr int last = 32767; ///< what MPI promises at least
 } // namespace tag
@@ -64,6 +65,9 @@ void wait_for(Requests& requests);
 /// and aborts all ranks with `code`.
 void wait_or_abort(MPI_Request& request, const std::string& failure, double patience_seconds,
                    int code);
+
+/// Prints what the program that uses the library has done wrong, and aborts all ranks with 70.
+[[noreturn]] void abort_from_mistake(std::string_view text);
 
 /// From now on an error of MPI in `comm` prints rank and text and aborts all ranks.
 void abort_on_errors_of(MPI_Comm comm);

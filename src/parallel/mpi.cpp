@@ -130,6 +130,8 @@ void start_mpi(int* argc, char*** argv) {
 
 } // namespace
 
+void abort_from_mistake(std::string_view text) { abort_all("error", text); }
+
 void abort_on_errors_of(MPI_Comm comm) {
     MPI_Errhandler handler = MPI_ERRHANDLER_NULL;
     MPI_Comm_create_errhandler(on_mpi_error, &handler);
@@ -207,7 +209,7 @@ Mpi::Mpi(int& argc, char**& argv, Start start) {
 Mpi::Mpi() { start_mpi(nullptr, nullptr); }
 
 Mpi::~Mpi() {
-    if (is_mpi_running) MPI_Finalize();
+    if (is_mpi_running && !has_mpi_ended()) MPI_Finalize(); // the program may have ended it
     is_mpi_running = false;
 }
 

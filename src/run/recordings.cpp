@@ -44,14 +44,14 @@ LoggedCollision logged(const Collision& collision, std::int64_t micro_steps) {
 
 Recordings::Recordings(Run& run, const Messages& messages)
     : run_(run), scene_(run.scene()), ranks_(run.ranks()), messages_(messages),
-      thermo_(run.scene(), run.ranks()) {
+      growing_(run.scene(), run.ranks()) {
     if (scene_.trajectory) open_trajectory();
     if (scene_.collisions) open_log();
     if (run_.images() && run_.is_restart() && !run_.has_earlier_images() && run_.step() > 0)
         messages_.warn("{}: image counts from step {}; the checkpoint has no counts\n",
                        scene_.trajectory->file, run_.step());
     if (run_.is_restart())
-        add_thermo();
+        add_rows();
     else
         act();
 }
@@ -72,6 +72,9 @@ void Recordings::open_log() {
     else if (!log_->go_on(step) && step > 0)
         messages_.warn("{}: begins with step {}; of the steps before there is no log\n",
                        scene_.collisions->file, step + 1);
+    else if (const auto& gaps = log_->gaps(); !gaps.empty() && gaps.back() == step)
+        messages_.warn("{}: has no collisions of steps {} to {}, and goes on with step {}\n",
+                       scene_.collisions->file, gaps[gaps.size() - 2], step, step + 1);
     run_.simulation().log_to(&collisions_);
 }
 
@@ -92,8 +95,8 @@ std::int64_t Recordings::next_due(std::int64_t step) const {
 bool Recordings::act() {
     const Simulation& simulation = run_.simulation();
     const std::int64_t step = simulation.step();
-    if (log_) record_collisions();
-    add_thermo();
+    if (log_) record_collisions(step);
+    add_rows();
     ImageCounts* const counts = run_.images();
     if (counts) static_cast<void>(counts->counts()); // so that they need little memory
     if (trajectory_ && step % scene_.trajectory->every_steps == 0) {
@@ -108,8 +111,8 @@ bool Recordings::act() {
     return true;
 }
 
-void Recordings::add_thermo() {
-    if (run_.sampler()) thermo_.add_rows_of(*run_.sampler());
+void Recordings::add_rows() {
+    if (run_.sampler()) growing_.add_rows_of(*run_.sampler());
 }
 
 void Recordings::commit_now_and_then() {
@@ -122,14 +125,14 @@ void Recordings::commit_now_and_then() {
     commit_seconds_ = since_look_.lap();
 }
 
-void Recordings::record_collisions() {
+void Recordings::record_collisions(std::int64_t step) {
     const std::vector<Collision> sorted = sample_sort(ranks_, std::exchange(collisions_, {}),
                                                       comes_before, ranks_.size());
     std::vector<LoggedCollision> entries;
     entries.reserve(sorted.size());
     for (const Collision& collision : sorted)
         entries.push_back(logged(collision, scene_.micro_steps));
-    log_->append(entries);
+    log_->append(entries, step);
 }
 
 void Recordings::commit() {

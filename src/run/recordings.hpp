@@ -46,8 +46,8 @@ private:
     void open_trajectory();
     void open_log();
     void report_missing_frames(std::int64_t last, std::int64_t step) const;
-    void record_collisions();
-    void add_thermo();
+    void record_collisions(std::int64_t step);
+    void add_rows();
     void commit_now_and_then();
 
     Run& run_;
@@ -56,7 +56,7 @@ private:
     const Messages& messages_;
     std::optional<Trajectory> trajectory_;
     std::optional<CollisionLog> log_;
-    ThermoFile thermo_;
+    GrowingFiles growing_;
     Stopwatch since_look_;
     double seconds_uncommitted_ = 0, commit_seconds_ = 0; ///< on rank 0's clock
     std::vector<Collision> collisions_; ///< of this rank since they were last recorded

@@ -44,7 +44,7 @@ Run::Run(Scene scene, RunStart start, const Communicator& ranks, const Tuning& t
     }
     if (!scene_.measurements) return;
     sampler_.emplace(scene_, simulation_, ranks_);
-    if (is_restart_) sampler_->go_on(std::move(start.samples));
+    if (is_restart_) sampler_->go_on(start.samples);
     sampler_->look();
     add(sampling_);
 }

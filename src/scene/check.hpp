@@ -15,6 +15,9 @@
 
 namespace carrom {
 
+/// The key that rules and checks of measurements name.
+inline constexpr std::string_view quantities = "output.measurements.quantities";
+
 struct Check {
     Scene& scene;
     Settings& settings;
@@ -53,6 +56,10 @@ struct Check {
         });
     }
 };
+
+inline double steps_between_syncs(const Scene& scene) {
+    return static_cast<double>(scene.sync_every) / static_cast<double>(scene.micro_steps);
+}
 
 /// How many discs, how large, where they begin and how fast. False where box or discs are not
 /// known to be right; then both sizes are 0.

@@ -5,34 +5,22 @@
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/drag.hpp"
-#include "dynamics/gravity.hpp"
 #include "dynamics/oscillation.hpp"
 #include "scene/check.hpp"
 #include "scene/limits.hpp"
+#include "scene/quantity.hpp"
 
 namespace carrom {
 
 namespace {
 
-/// Rate times the time between syncs.
-constexpr double longest_drag = 4;
 /// Of a wall, in times between syncs: those are known to 2^-53 of themselves.
 constexpr double smallest_period = 1e-6;
-/// Of a fixed disc's radius and that of a disc, over the box: a disc touches the nearest images of
-/// a body at most.
-constexpr double largest_in_period = 0.99;
 /// Tables that grow with time are kept in memory and in checkpoints.
 constexpr std::int64_t most_samples_of_histories = 100000;
 
-constexpr std::string_view quantities = "output.measurements.quantities";
-
 std::string side_key(std::size_t side, const char* name) {
     return fmt::format("box.{}.{}", boundary_names[side], name);
-}
-
-double steps_between_syncs(const Scene& scene) {
-    return static_cast<double>(scene.sync_every) / static_cast<double>(scene.micro_steps);
 }
 
 /// What contact times may be, and why; in steps.
@@ -63,61 +51,6 @@ void check_contact_time(const Check& check) {
     if (time > longest)
         check.refuse({key}, fmt::format("'{}' must be at most {} steps, {}, not {}", key, longest,
                                         why, time));
-}
-
-/// The falling frame must not leave the box far behind: its coordinates would be coarser than the
-/// box's.
-void check_fall(const Check& check) {
-    const Scene& scene = check.scene;
-    const double time = steps_between_syncs(scene), drag = scene.effects.drag;
-    if (drag * time > longest_drag) return; // a problem already
-    const double fall = drag > 0 ? dragged_fall(drag, drag_clock(drag, time)) : 0.5 * time * time;
-    for (const auto& [key, g] : {std::pair("effects.gravity.x", scene.effects.gravity.x),
-                                 {"effects.gravity.y", scene.effects.gravity.y}}) {
-        if (std::fabs(g) * fall <= 0.5 * scene.box.longest()) continue;
-        const double longest = std::floor(std::sqrt(scene.box.longest() / std::fabs(g)) *
-                                          static_cast<double>(scene.micro_steps));
-        check.refuse({key},
-                     fmt::format("'{}' = {} makes discs fall further than half the box "
-                                 "from sync to sync; {}",
-                                 key, g,
-                                 longest >= 1
-                                     ? fmt::format("time.sync_every = {} or less will do", longest)
-                                     : "take more time.micro_steps"));
-    }
-}
-
-void check_obstacles(const Check& check) {
-    const Box box = check.scene.box;
-    const double size = box.longest(), radius = check.scene.radius;
-    const bool is_periodic = check.scene.effects.are_periodic();
-    const double period = check.scene.effects.periods(box).shortest();
-    const auto is_inside = [box](double x, double y) {
-        return x >= 0 && x <= box.x && y >= 0 && y <= box.y;
-    };
-    check.refuse_rows("effects.obstacles.discs", [&](const Numbers& n, std::size_t) -> std::string {
-        if (!is_inside(n[0], n[1]))
-            return fmt::format("the centre ({}, {}) is not in the box", n[0], n[1]);
-        if (!(n[2] >= 0 && n[2] <= size))
-            return fmt::format("the radius must be from 0 to {}, not {}", size, n[2]);
-        if (is_periodic && !(n[2] + radius <= largest_in_period * period))
-            return fmt::format("the radius must be at most {:g}, not {}: with a disc's it would "
-                               "reach through a periodic box and into itself",
-                               largest_in_period * period - radius, n[2]);
-        return {};
-    });
-    check.refuse_rows(
-        "effects.obstacles.segments", [&](const Numbers& n, std::size_t) -> std::string {
-            if (!is_inside(n[0], n[1]) || !is_inside(n[2], n[3]))
-                return fmt::format("the segment from ({}, {}) to ({}, {}) has an end outside the "
-                                   "box",
-                                   n[0], n[1], n[2], n[3]);
-            const double length = std::hypot(n[2] - n[0], n[3] - n[1]);
-            if (!(length > 0x1p-30 * size))
-                return fmt::format("a segment of length {}: a point is a fixed disc of radius 0",
-                                   length);
-            return {};
-        });
 }
 
 void check_periodic_box(const Check& check) {
@@ -210,26 +143,6 @@ void check_oscillating_walls(const Check& check) {
     }
 }
 
-/// Discs that grow must have room until the last step.
-void check_growth(const Check& check) {
-    const Scene& scene = check.scene;
-    if (scene.effects.growth == 0) return;
-    const double growth = scene.effects.growth_at(static_cast<double>(scene.steps));
-    const double densest = scene.effects.species.empty() ? largest_packing : 1;
-    const auto room = [&scene](double side, bool is_periodic) {
-        return side / ((is_periodic ? 4 * (1 + 1e-6) : 2) * scene.radius);
-    };
-    const double most = std::min({std::sqrt(densest / scene.packing()),
-                                  room(scene.box.x, scene.effects.is_periodic_x()),
-                                  room(scene.box.y, scene.effects.is_periodic_y())});
-    if (growth <= most || most < 1) return; // no room at the start is told elsewhere
-    check.refuse({"effects.growth.rate"},
-                 fmt::format("after {} steps discs of radius {:g} would cover {:.4g} of the box; "
-                             "there is room for them up to step {:.0f}",
-                             scene.steps, scene.radius * growth, scene.last_packing(),
-                             std::floor((most - 1) / scene.effects.growth)));
-}
-
 /// A last step of 0 shows the start, and measures nothing.
 void check_first_sample(const Check& check, std::string_view key, std::int64_t from) {
     const std::int64_t last = check.scene.steps;
@@ -245,89 +158,16 @@ void check_samples(const Check& check) {
     check_first_sample(check, "output.measurements.from_step", output.from_step);
     const std::int64_t steps = check.scene.steps - output.from_step;
     const std::int64_t n_samples = steps / output.every_steps;
-    const bool has_history = output.wall_pressure || output.displacement || output.pressure ||
-                             output.thermo || output.psi6 || output.diffusion;
+    const std::vector<Quantity>& all = declared_quantities();
+    const bool has_history = std::any_of(all.begin(), all.end(), [&output](const Quantity& one) {
+        return one.has_history && output.measures(one.name);
+    });
     if (!has_history || n_samples <= most_samples_of_histories) return;
-    check.refuse({"output.measurements.every_steps", quantities},
+    check.refuse({"output.measurements.every_steps", quantities_key},
                  fmt::format("{} samples of quantities that have a history are more than {}; take "
                              "output.measurements.every_steps = {}",
                              n_samples, most_samples_of_histories,
                              steps / most_samples_of_histories + 1));
-}
-
-/// How far g(r) and g6(r) may look: half the room of centres, in the smallest box there
-/// will be.
-void check_distance(const Check& check) {
-    Scene& scene = check.scene;
-    if (!scene.measurements) return;
-    if (!scene.measurements->radial_distribution && !scene.measurements->psi6) return;
-    const Extent end = extent_of_lines(scene.effects, scene.box, static_cast<double>(scene.steps),
-                                       1);
-    const double wide = std::min(scene.box.x, end.x_high - end.x_low);
-    const double high = std::min(scene.box.y, end.y_high - end.y_low);
-    const double margin = 2 * scene.radius;
-    const double largest = std::min(wide - (scene.effects.is_periodic_x() ? 0 : margin),
-                                    high - (scene.effects.is_periodic_y() ? 0 : margin)) /
-                           2;
-    double& distance = scene.measurements->largest_distance;
-    if (scene.measurements->is_distance_default) distance = std::min(10 * scene.radius, largest);
-    if (distance <= largest && distance > 0) return;
-    check.refuse({"output.measurements.largest_distance", quantities},
-                 fmt::format("distances of pairs cannot reach {:g}: half the width of the box "
-                             "that centres of discs have is {:g}",
-                             distance, largest));
-}
-
-/// A wave vector at least, and no more than a million: each is looked at with each disc.
-void check_wavenumber(const Check& check) {
-    constexpr double most_vectors = 1e6, most_by_default = 1e5;
-    Scene& scene = check.scene;
-    if (!scene.measurements || !scene.measurements->structure_factor) return;
-    const double lx = scene.box.x, ly = scene.box.y;
-    const auto reach = [=](double n_vectors) {
-        return std::sqrt(8 * std::numbers::pi * n_vectors / (lx * ly));
-    };
-    double& largest = scene.measurements->largest_wavenumber;
-    if (!check.settings.has("output.measurements.largest_wavenumber"))
-        largest = std::min(2 * std::numbers::pi / scene.radius, reach(most_by_default));
-    const double least = 2 * std::numbers::pi / std::max(lx, ly);
-    if (largest >= least && largest <= reach(most_vectors)) return;
-    check.refuse({"output.measurements.largest_wavenumber", quantities},
-                 fmt::format("'output.measurements.largest_wavenumber' must be from {:.6g}, the "
-                             "box's first, to {:.6g}, where a million are, not {:g}",
-                             least, reach(most_vectors), largest));
-}
-
-/// Without a whole window there is no coefficient of diffusion. A restart may come to its end, so
-/// that this is no error.
-void warn_of_short_run(Scene& scene) {
-    const MeasurementOutput& output = *scene.measurements;
-    const std::int64_t window = output.correlation_steps, steps = scene.steps - output.from_step;
-    if (scene.steps == 0 || steps < 0 || window <= steps) return;
-    const std::int64_t longest = steps / output.every_steps * output.every_steps;
-    const std::string remedy =
-        longest >= 2 * output.every_steps
-            ? fmt::format("correlation_steps = {} or less; an error takes four windows", longest)
-            : fmt::format("every_steps = {} or less", std::max(steps / 2, std::int64_t{1}));
-    scene.warnings.push_back(
-        fmt::format("no table of diffusion: its first window takes {} steps, and from step {} to "
-                    "the last one are {}; try: output.measurements.{}",
-                    window, output.from_step, steps, remedy));
-}
-
-void check_window(const Check& check) {
-    constexpr std::string_view key = "output.measurements.correlation_steps";
-    Scene& scene = check.scene;
-    if (!scene.measurements || !scene.measurements->diffusion) return;
-    const std::int64_t every = scene.measurements->every_steps;
-    std::int64_t& window = scene.measurements->correlation_steps;
-    if (!check.settings.has(key)) window = 64 * every;
-    if (check.settings.has(key) && !check.settings.is_right(key)) return;
-    if (window >= 2 * every && window % every == 0) return warn_of_short_run(scene);
-    check.refuse({key, quantities},
-                 fmt::format("'{}' must be a multiple of 'output.measurements.every_steps' = {}, "
-                             "from {} on, not {}",
-                             key, every, 2 * every, window));
 }
 
 } // namespace
@@ -348,28 +188,17 @@ void check_times(const Check& check) {
                      fmt::format("precision = \"single\" counts micro-steps up to {} between "
                                  "syncs; 'time.sync_every' is {}",
                                  longest_single_sync, scene.sync_every));
-    const double interval = steps_between_syncs(scene);
-    if (scene.effects.drag * interval > longest_drag)
-        check.refuse({"effects.drag.rate"},
-                     fmt::format("'effects.drag.rate' = {} leaves less than a fiftieth of a "
-                                 "velocity from sync to sync: {:g} at most, or a smaller "
-                                 "time.sync_every",
-                                 scene.effects.drag, longest_drag / interval));
     check_contact_time(check);
     check_samples(check);
-    check_window(check);
+    check_times_of_quantities(check);
 }
 
 void check_room(const Check& check) {
-    check_fall(check);
     check_periodic_box(check);
     check_thermal_walls(check);
     check_moving_walls(check);
     check_oscillating_walls(check);
-    check_growth(check);
-    check_obstacles(check);
-    check_distance(check);
-    check_wavenumber(check);
+    check_quantities(check);
 }
 
 } // namespace carrom

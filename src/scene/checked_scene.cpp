@@ -3,6 +3,7 @@
 
 #include "scene/check.hpp"
 #include "scene/checked_value.hpp"
+#include "scene/effects/effect.hpp"
 #include "scene/limits.hpp"
 
 namespace carrom {
@@ -42,9 +43,6 @@ void derive_defaults(const Check& check) {
             scene.first_numbers[column] = check.columns->numbers[column];
     if (scene.trajectory && !settings.has("output.trajectory.fields"))
         choose_fields(*scene.trajectory, scene);
-    if (scene.measurements)
-        scene.measurements->is_distance_default = !settings.has(
-            "output.measurements.largest_distance");
 }
 
 /// All that a run writes has its place in one folder; a run that has one stores checkpoints.
@@ -110,7 +108,13 @@ void fill_scene(Scene& scene, Settings& settings, Problems& problems, const Disc
     place_outputs(check);
     for (const Key& key : keys()) check_needs(check, key);
     check_times(check);
-    if (check_discs(check)) check_room(check);
+    for (const EffectDeclaration& effect : all_effects())
+        if (effect.check_times) effect.check_times(check);
+    if (check_discs(check)) {
+        check_room(check);
+        for (const EffectDeclaration& effect : all_effects())
+            if (effect.check_room) effect.check_room(check);
+    }
     check_rules(check);
 }
 

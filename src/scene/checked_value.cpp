@@ -131,6 +131,10 @@ private:
             if (old_word == *word)
                 return refuse(
                     fmt::format("'{}': \"{}\" is now \"{}\"", key_.name, old_word, new_word));
+        for (const auto& [other, here] : key_.advice)
+            if (other == *word)
+                return refuse(fmt::format("'{}' must be {}, not {}; try: {}", key_.name,
+                                          words_text(key_.words), in_quotes(*word), here));
         refuse(fmt::format("'{}' must be {}, not {}{}", key_.name, words_text(key_.words),
                            in_quotes(*word), guess(*word, key_.words, '"')));
     }

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/key.hpp"
 
+#include <algorithm>
+
+#include "scene/effects/effect.hpp"
+
 namespace carrom {
 
 namespace {
@@ -16,42 +20,51 @@ template <class T> const T* find(const std::vector<T>& all, std::string_view nam
 const std::vector<Key>& keys() {
     static const std::vector<Key> all = [] {
         std::vector<Key> list = keys_of_discs();
-        for (const auto& part : {keys_of_effects(), keys_of_output()})
+        const auto add = [&list](const std::vector<Key>& part) {
             list.insert(list.end(), part.begin(), part.end());
+        };
+        add(keys_of_effects());
+        for (const EffectDeclaration& effect : all_effects()) add(effect.keys);
+        add(keys_of_output());
         return list;
     }();
     return all;
 }
 
 const std::vector<Table>& tables() {
-    static const std::vector<Table> all = {
-        {"box", "The box that discs move in."},
-        {"discs", "How many discs there are, and how they begin."},
-        {"time", "How long, and by which method."},
-        {"box.left", "One side of the box; likewise `[box.right]`, `[box.bottom]`, `[box.top]`."},
-        {.name = "box.right", .is_like_another = true},
-        {.name = "box.bottom", .is_like_another = true},
-        {.name = "box.top", .is_like_another = true},
-        {"effects", ""},
-        {"effects.contact", "What two discs do that touch."},
-        {"effects.gravity", "Uniform gravity."},
-        {"effects.drag", "Air at rest that slows discs down."},
-        {"effects.growth", "Discs that grow."},
-        {"effects.shear", "A flow between sheared sides, whose images move."},
-        {"effects.thermal", "Thermal walls."},
-        {"effects.obstacles", "Bodies that stand fixed in the box."},
-        {"output", "What a run writes; no key of output changes a bit of the result."},
-        {"output.checkpoint", "When and where the state is stored.",
-         [](const Scene& s) { return s.checkpoint.has_value(); },
-         [](Scene& s) { s.checkpoint.emplace(); }},
-        {"output.trajectory", "Frames in one file.",
-         [](const Scene& s) { return s.trajectory.has_value(); },
-         [](Scene& s) { s.trajectory.emplace(); }},
-        {"output.units", "Units of the numbers in HDF5 files."},
-        {"output.measurements", "What is sampled as the run goes on.",
-         [](const Scene& s) { return s.measurements.has_value(); },
-         [](Scene& s) { s.measurements.emplace().is_distance_default = true; }},
-    };
+    static const std::vector<Table> all = [] {
+        std::vector<Table> list = {
+            {"box", "The box that discs move in."},
+            {"discs", "How many discs there are, and how they begin."},
+            {"time", "How long, and by which method."},
+            {"box.left",
+             "One side of the box; likewise `[box.right]`, `[box.bottom]`, `[box.top]`."},
+            {.name = "box.right", .is_like_another = true},
+            {.name = "box.bottom", .is_like_another = true},
+            {.name = "box.top", .is_like_another = true},
+            {"effects", ""},
+            {"effects.contact", "What two discs do that touch."},
+            {"effects.thermal", "Thermal walls."},
+            {"output", "What a run writes; no key of output changes a bit of the result."},
+            {"output.checkpoint", "When and where the state is stored.",
+             [](const Scene& s) { return s.checkpoint.has_value(); },
+             [](Scene& s) { s.checkpoint.emplace(); }},
+            {"output.trajectory", "Frames in one file.",
+             [](const Scene& s) { return s.trajectory.has_value(); },
+             [](Scene& s) { s.trajectory.emplace(); }},
+            {"output.units", "Units of the numbers in HDF5 files."},
+            {"output.measurements", "What is sampled as the run goes on.",
+             [](const Scene& s) { return s.measurements.has_value(); },
+             [](Scene& s) { s.measurements.emplace(); }},
+        };
+        const auto output = std::find_if(list.begin(), list.end(),
+                                         [](const Table& one) { return one.name == "output"; });
+        std::vector<Table> of_effects;
+        for (const EffectDeclaration& effect : all_effects())
+            of_effects.insert(of_effects.end(), effect.tables.begin(), effect.tables.end());
+        list.insert(output, of_effects.begin(), of_effects.end());
+        return list;
+    }();
     return all;
 }
 

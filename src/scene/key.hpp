@@ -63,10 +63,13 @@ struct Key {
     Range range = {};
     std::optional<Need> need = {};
     bool is_required = false;                      ///< wherever the need holds
+    bool is_seed = false;                          ///< replicas have different ones
     bool is_physical = true;                       ///< a restart cannot change it
     std::vector<std::string_view> instead_of = {}; ///< keys that it excludes
     std::vector<std::string_view> or_from = {};    ///< keys that save a required one
     std::string_view old_name = "";
+    /// Words of other programs, and what to write here.
+    std::vector<std::pair<std::string_view, std::string_view>> advice = {};
     std::vector<Field> fields = {};
 
     // Filled in from the member:
@@ -83,6 +86,10 @@ struct Key {
     Key&& needs(const Need& other) && { return need = other, std::move(*this); }
     Key&& required() && { return is_required = true, std::move(*this); }
     Key&& not_physical() && { return is_physical = false, std::move(*this); }
+    Key&& seed() && { return is_seed = true, std::move(*this); }
+    Key&& advises(const std::vector<std::pair<std::string_view, std::string_view>>& texts) && {
+        return advice = texts, std::move(*this);
+    }
     Key&& excludes(const Names& names) && { return instead_of = names, std::move(*this); }
     Key&& unless(const Names& names) && { return or_from = names, std::move(*this); }
     Key&& formerly(std::string_view old) && { return old_name = old, std::move(*this); }

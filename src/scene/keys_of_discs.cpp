@@ -303,7 +303,8 @@ std::vector<Key> keys_of_discs() {
         key("discs.seed", "1", "The same seed gives the same discs on any number of ranks.",
             [](auto& s) -> auto& { return s.seed; })
             .within({.low = 0})
-            .needs(generated),
+            .needs(generated)
+            .seed(),
         key("discs.streams", "length, length/step",
             "Adds a velocity to generated discs inside a region.",
             [](auto& s) -> auto& { return s.streams; })

@@ -14,13 +14,9 @@ const Need rough{"without effects.contact.kind = \"rough\"",
 const Need loss_or_gravity{"without discs, walls or obstacles of restitution, a wall that "
                            "oscillates, or gravity",
                            [](const Scene& s) { return lose_energy_or_fall(s.effects); }};
-const Need obstacles{"without 'effects.obstacles.discs' or 'effects.obstacles.segments'",
-                     [](const Scene& s) { return s.effects.obstacles.are_any(); }};
 const Need thermal{"without a side of kind = \"thermal\"",
                    [](const Scene& s) { return has_boundary(s.effects, BoundaryKind::thermal); }};
 
-const Need sheared{"without box.bottom.kind = \"sheared\" and box.top.kind = \"sheared\"",
-                   [](const Scene& s) { return s.effects.are_sheared(); }};
 
 constexpr Range shares{0, 1};
 
@@ -93,7 +89,11 @@ std::vector<Key> keys_of_contact() {
         key("effects.contact.kind", "",
             "None: discs pass through each other. Restitution: they lose energy. Rough: "
             "they turn and rub, too.",
-            [](auto& s) -> auto& { return s.effects.contact.kind; }),
+            [](auto& s) -> auto& { return s.effects.contact.kind; })
+            .advises({{"inelastic", "\"restitution\""},
+                      {"smooth", "\"elastic\" or \"restitution\""},
+                      {"frictional", "\"rough\""},
+                      {"ideal", "\"none\""}}),
         key("effects.contact.restitution", "1",
             "e, the share of the normal relative velocity that is left.",
             [](auto& s) -> auto& { return s.effects.contact.restitution; })
@@ -131,40 +131,11 @@ std::vector<Key> keys_of_effects() {
     for (std::size_t side = 0; side < boundary_names.size(); ++side) add_side(all, side);
     for (Key& one : keys_of_contact()) all.push_back(std::move(one));
     std::vector<Key> others = {
-        key("effects.gravity.x", "length/step^2", "Acceleration along x.",
-            [](auto& s) -> auto& { return s.effects.gravity.x; }),
-        key("effects.gravity.y", "length/step^2", "Acceleration along y.",
-            [](auto& s) -> auto& { return s.effects.gravity.y; }),
-        key("effects.drag.rate", "1/step",
-            "c of dv/dt = -c v, for all discs alike. At most 4 per time between syncs.",
-            [](auto& s) -> auto& { return s.effects.drag; })
-            .within({.low = 0}),
-        key("effects.growth.rate", "1/step",
-            "Radii grow by this share of their first value in each step.",
-            [](auto& s) -> auto& { return s.effects.growth; })
-            .within({.low = 0}),
-        key("effects.shear.rate", "1/step",
-            "Between sheared sides: discs flow along x with rate (y - Ly / 2) in the mean.",
-            [](auto& s) -> auto& { return s.effects.shear; })
-            .within({-1e6, 1e6})
-            .needs(sheared)
-            .required(),
         key("effects.thermal.seed", "1", "Seed of the random numbers of thermal walls.",
             [](auto& s) -> auto& { return s.effects.thermal_seed; })
             .within({.low = 0})
-            .needs(thermal),
-        key("effects.obstacles.discs", "length", "Fixed discs; a radius of 0 is a point.",
-            [](auto& s) -> auto& { return s.effects.obstacles.discs; })
-            .with_rows({{"", "[x, y, radius]", 3, 3}}),
-        key("effects.obstacles.segments", "length",
-            "Straight walls without thickness; discs meet both faces and both ends.",
-            [](auto& s) -> auto& { return s.effects.obstacles.segments; })
-            .with_rows({{"", "[x0, y0, x1, y1]", 4, 4}}),
-        key("effects.obstacles.restitution", "1",
-            "Share of the normal velocity that is left, of all obstacles.",
-            [](auto& s) -> auto& { return s.effects.obstacles.restitution; })
-            .within(shares)
-            .needs(obstacles),
+            .needs(thermal)
+            .seed(),
     };
     for (Key& one : others) all.push_back(std::move(one));
     return all;

@@ -27,6 +27,7 @@ inline constexpr double smallest_single_size = 0x1p-40,
                         largest_single_size = 0x1p+40; ///< their fourth powers are floats
 inline constexpr double largest_box_in_radii =
     1e6; ///< beyond, the wall band 1e-8 r drowns in the rounding of L
+inline constexpr double longest_drag = 4; ///< rate of drag times the time between syncs
 inline constexpr double most_crossings =
     0x1p40; ///< of the box in a micro-step; beyond, times of collisions are all the same number
 

@@ -11,6 +11,7 @@
 #include "engine/engine.hpp"
 #include "engine/state_sums.hpp"
 #include "event_driven/event_driven_engine.hpp"
+#include "scene/effects/effect.hpp"
 #include "statistics/block_averages.hpp"
 #include "statistics/hexatic_order.hpp"
 #include "statistics/pair_distances.hpp"
@@ -82,13 +83,9 @@ double usual_speed(const Scene& scene, std::span<const Disc> own, const Communic
     for (const Disc& disc : own)
         fastest = std::max({fastest, std::fabs(disc.vx), std::fabs(disc.vy)});
     fastest = ranks.max(fastest) * static_cast<double>(scene.micro_steps);
-    fastest = std::max(fastest, scene.radius * effects.growth);
-    const double pull = std::fabs(effects.gravity.x) + std::fabs(effects.gravity.y);
-    fastest = std::max(fastest, std::sqrt(2 * pull * scene.box.longest()));
     for (const Boundary& side : effects.boundaries)
         fastest = std::max({fastest, std::fabs(side.speed), std::sqrt(side.temperature)});
-    fastest = std::max(
-        {fastest, largest_wall_speed(effects), std::fabs(effects.shear) * scene.box.y});
+    fastest = std::max({fastest, largest_wall_speed(effects), usual_speed_of_effects(scene)});
     return (fastest > 0 ? fastest : scene.radius) / static_cast<double>(scene.micro_steps);
 }
 
@@ -185,7 +182,7 @@ Look Simulation::integrated_look() const {
 
 void Simulation::check_every_step(const Scene& scene) {
     check_ = std::make_unique<StateCheck>(scene, discs(), micro_steps_done(), communicator_,
-                                          frame(), clock(), spins());
+                                          frame(), clock(), spins(), engine_->energy_given());
 }
 
 void Simulation::advance_checked() {
@@ -198,7 +195,7 @@ void Simulation::advance_checked() {
     engine_->add_work_to(nullptr);
     const LocalView now = engine_->local_view();
     check_->look(now, micro_steps_done(), collisions, engine_->side_columns()[SideColumn::spin],
-                 work);
+                 work, engine_->energy_given());
     engine_->forget_images();
     if (log_) log_->insert(log_->end(), collisions.begin(), collisions.end());
 }

@@ -43,6 +43,7 @@ std::size_t frame_of(const std::string& path, const FileSummary& summary,
 FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t> step,
                             const SideColumnSet& wanted) {
     const FrameFile file(path);
+    file.check_numbers();
     const std::size_t frame = frame_of(path, file.summary(), step);
     FileOfDiscs discs;
     discs.n_discs = file.summary().n_rows;

@@ -209,7 +209,7 @@ int main(int argc, char** argv) {
         [&](const std::string& file) {
             CollisionLog log(file, sample_layout(false).system, world);
             log.go_on(3);
-            log.append(std::vector<LoggedCollision>(5));
+            log.append(std::vector<LoggedCollision>(5), 6);
             log.commit();
         });
     int n_bad = 0;

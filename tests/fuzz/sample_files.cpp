@@ -105,7 +105,7 @@ void write_sample_log(const std::string& path, const Communicator& world) {
             {1 + i / 4, 0.25 * static_cast<double>(i), i % 6, i % 3 == 0 ? -1 : 6 + i % 6, 0.5});
     CollisionLog log(path, sample_layout(false).system, world);
     log.begin();
-    log.append(rows);
+    log.append(rows, 5);
     log.commit();
 }
 

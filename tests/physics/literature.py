@@ -170,7 +170,6 @@ def enskog(program, is_short):
     Enskog's D = kT / (m nu) follows if it goes on so, as in a thin gas (Erpenbeck and Wood, Phys.
     Rev. A 26, 1648 (1982)). Here D is that from 10 to 20 free times; in two dimensions it grows.
     """
-    drift = 15 / 4096  # what the centre of mass adds to D between 10 and 20 free times, on average
     for packing in (0.02, 0.4) if is_short else (0.02, 0.1, 0.2, 0.3, 0.4, 0.5):
         decays, coefficients = [], []
         for seed in range(1, 9):
@@ -178,7 +177,7 @@ def enskog(program, is_short):
                                                seed)
             decays.append(first_decay(near["velocity_autocorrelation"]) / frequency)
             far, frequency, kt = correlations(program, packing, 1, 20, 4 if is_short else 20, seed)
-            coefficients.append(far["diffusion"]["D"][0] * frequency / kt - drift)
+            coefficients.append(far["diffusion"]["D"][0] * frequency / kt)
         decay, decay_error = mean(decays)
         diffusion, diffusion_error = mean(coefficients)
         row = {"packing": packing, "decay": decay, "decay_error": decay_error, "decay_known": 1.0,

@@ -3,10 +3,12 @@
 
 import json
 import os
+import resource
 import signal
 import socket
 import subprocess
 import sys
+import time
 import unittest
 import urllib.error
 from pathlib import Path
@@ -130,6 +132,24 @@ class ServerTest(unittest.TestCase):
             self.assertEqual((state["status"], state["step"]), ("finished", goal))
             self.assertEqual(state["steps"], list(stored("killed")[0]))
             page.frame(f"step={state['steps'][-1]}")
+
+    def test_idle_connections_do_not_shut_others_out(self):
+        run("idle")
+        before = resource.getrlimit(resource.RLIMIT_NOFILE)
+        resource.setrlimit(resource.RLIMIT_NOFILE, (700, before[1]))
+        with Page("idle") as page:
+            place = page.server.server_address
+            idle = [socket.create_connection(place, timeout=10) for _ in range(400)]
+            try:
+                page.get("state")
+                seconds = time.process_time()
+                time.sleep(1)
+                self.assertLess(time.process_time() - seconds, 0.5, "idle ones take a core")
+                page.get("state")
+            finally:
+                resource.setrlimit(resource.RLIMIT_NOFILE, before)
+                for connection in idle:
+                    connection.close()
 
     def test_requests_that_are_wrong(self):
         run("wrong", steps=10)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "troubled_bodies.hpp"
+#include "scene/effects/effect.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,7 +32,7 @@ public:
         decide_species();
         hand_to_reference(scene_.setting);
         scene_.name += ", with " +
-                       (description(effects()).empty() ? "no effect" : description(effects()));
+                       (summary_of(effects()).empty() ? "no effect" : summary_of(effects()));
         return std::move(scene_);
     }
 

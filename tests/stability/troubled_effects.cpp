@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "troubled_effects.hpp"
+#include "scene/effects/effect.hpp"
 
 #include <algorithm>
 #include <array>
@@ -84,7 +85,7 @@ TestScene with_effects(TestScene scene, Method method, std::uint64_t seed) {
         if (!effects.is_periodic_y()) effects.gravity.y = pull[random.index(2)];
     }
     hand_to_reference(setting);
-    scene.name += ", with " + (description(effects).empty() ? "no effect" : description(effects));
+    scene.name += ", with " + (summary_of(effects).empty() ? "no effect" : summary_of(effects));
     return scene;
 }
 

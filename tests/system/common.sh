@@ -14,12 +14,13 @@ rm -rf files out err
 mkdir files
 cd files
 
-n_failures=0
+n_failures=0 n_runs=0
 complain() {
     printf 'FAILED: %s\n' "$*"
     n_failures=$((n_failures + 1))
 }
 finish() {
+    printf '%s runs of the program\n' "$n_runs"
     [ "$n_failures" -eq 0 ] || { printf '%s failures\n' "$n_failures"; exit 1; }
     exit 0
 }
@@ -48,6 +49,7 @@ run() {
     local launch=("$CARROM_MPIEXEC" -n "$1" "${past_launcher[@]}")
     [ "$1" -gt 1 ] || launch=()
     shift
+    n_runs=$((n_runs + 1))
     : >"$test_folder/out"
     : >"$test_folder/err"
     timeout --kill-after=5 "$patience" "${launch[@]}" "$CARROM_PROGRAM" "$@" >>"$test_folder/out" \

@@ -79,8 +79,16 @@ expect_code 0 'the own output on 3 ranks'
 compare 1 own.out random_1.in
 generated=$CARROM_SOURCE_DIR/inputs/generated.in
 run 1 run "$generated" --steps 30 --digits 8 --output own.out --quiet
-compare 0 own.out "$generated" --set time.steps=30
-grep -q 'was not graded' "$test_folder/out" || complain 'a step that roundings decide was graded'
+compare 6 own.out "$generated" --set time.steps=30
+grep -q '^not graded to the end: ' "$test_folder/out" ||
+    complain 'a step that roundings decide was graded'
+# There, too, numbers must be possible.
+for wrong in 'nan nan nan nan' '1e300 0 0 0' '5 5 inf 0'; do
+    sed "s/^30 \([0-9]*\) .* \([0-9]*\) \([0-9]*\)\$/30 \1 $wrong \2 \3/" own.out >wrong.out
+    compare 1 wrong.out "$generated" --set time.steps=30
+    grep -q '^line .*: step 30, disc 0 is outside the box or not finite' "$test_folder/out" ||
+        complain "another verdict on $wrong: $(cat "$test_folder/out")"
+done
 run 1 run "$generated" --steps 30 --set output.text=every_step --digits 8 --output own.out --quiet
 compare 0 own.out "$generated" --set time.steps=30 --set output.text=every_step
 "$CARROM_PROGRAM" compare - ties.in <ties.out >"$test_folder/out" 2>&1 || complain 'standard input'

@@ -13,9 +13,10 @@ endless=1000000000 # no run is over before it is killed, on whatever machine
 
 # kill_once RANKS MILLISECONDS: starts or goes on, and kills one rank that time after there are any.
 kill_once() {
-    local launcher rank
+    local launcher how=(--restart latest)
+    [ "$(newest)" -gt 0 ] || how=(--overwrite) # it has recorded, and nothing to go on from
     "$CARROM_MPIEXEC" -n "$1" "$CARROM_PROGRAM" run "${scene[@]}" --steps "$endless" \
-        --restart latest \
+        "${how[@]}" \
         >"$test_folder/out" 2>"$test_folder/err" &
     launcher=$!
     while ! ranks_of "$launcher" >/dev/null && kill -0 "$launcher" 2>/dev/null; do sleep 0.05; done

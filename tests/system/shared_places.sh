@@ -25,7 +25,14 @@ kill -KILL "$program"
 wait "$program" 2>/dev/null
 [ -e kept/.carrom.lock ] || complain 'the lock of a killed run is not what this test thinks it is'
 
-# Killed before its first checkpoint, it begins anew from the copy of its scene, with what was set.
+# Killed before its first checkpoint, it begins anew from the copy of its scene, with what was set,
+# if nobody misses what it has recorded.
+if [ -e kept/trajectory/0001.h5 ]; then
+    run 2 run -o kept --resume --steps 5 --quiet
+    expect_code 2 'a run after a killed one that has recorded'
+    expect_told 'begin anew by --overwrite' 'a run after a killed one that has recorded'
+fi
+rm -r kept/trajectory*
 run 2 run -o kept --resume --steps 5 --quiet
 expect_code 0 'a run after a killed one'
 expect_told 'beginning at step 0' 'a run after a killed one'

@@ -10,6 +10,7 @@
 
 #include "apps/compare/compare_grader.hpp"
 #include "apps/compare/compare_runs.hpp"
+#include "apps/shell/codes_of_files.hpp"
 #include "apps/shell/number_words.hpp"
 #include "initial_state/scene_input.hpp"
 #include "parallel/agreement.hpp"
@@ -33,7 +34,8 @@ Examples:
   ./student < scene.in | carrom compare - scene.in
   carrom compare output.txt scene.in --set time.micro_steps=4
 
-Exit codes: 0 the same; 1 different; 2 wrong input. docs/classroom.md has the rules in full.)";
+Exit codes: 0 the same; 1 different; 2 wrong input; 6 no mistake, but not all steps could be
+graded. docs/classroom.md has the rules in full.)";
 
 struct CompareOptions {
     std::string output, scene;
@@ -117,7 +119,10 @@ ExitCode compare(const CompareOptions& options, const Communicator& ranks) {
                   options.output == "-" ? "standard input" : options.output);
     const bool is_same = grade(scene, runs, grader, ranks);
     if (ranks.is_root()) fmt::print("{}", grader.verdict());
-    return is_same ? ExitCode::success : ExitCode::difference;
+    int is_graded = grader.has_graded_all() ? 1 : 0; // rank 0 knows
+    ranks.broadcast(is_graded);
+    if (!is_same) return ExitCode::difference;
+    return is_graded == 1 ? ExitCode::success : incomplete;
 }
 
 } // namespace

@@ -44,7 +44,7 @@ bool Grader::grade(std::int64_t step, const ExpectedDiscs& expected) {
     n_steps_ += 1;
     if (has_left_runs_ && step - written_before_ > 1) {
         n_not_graded_ += 1;
-        return true;
+        return are_possible(step);
     }
     const Aim aim = has_left_runs_ ? aim_from_own_lines() : aim_at(expected);
     if (!hold_to(aim, step) || !hold_excused(aim, step) || !hold_counters(aim, step)) return false;
@@ -76,6 +76,21 @@ bool Grader::read(std::int64_t step) {
         if (wrong.empty()) continue;
         verdict_ = wrong + "\nrule: lines\n  each step that is written has all discs by id; the "
                            "last one has p_c and w_c too\n";
+        return false;
+    }
+    return true;
+}
+
+/// What holds of any step, whatever roundings decide: numbers are finite, and centres in the box.
+bool Grader::are_possible(std::int64_t step) {
+    const double slack = setting_.radius; // a disc may be beyond its wall to the micro-step's end
+    for (const StudentLine& line : lines_) {
+        const bool is_inside = line.x >= -slack && line.x <= setting_.box.x + slack &&
+                               line.y >= -slack && line.y <= setting_.box.y + slack;
+        if (is_inside && std::isfinite(line.vx) && std::isfinite(line.vy)) continue;
+        verdict_ = fmt::format("line {}: step {}, disc {} is outside the box or not finite\n"
+                               "rule: lines\n  each number is finite, and each centre in the box\n",
+                               line.number, step, line.id);
         return false;
     }
     return true;
@@ -269,8 +284,9 @@ std::string Grader::reason(const Aim& aim, DiscId id, std::int64_t step) const {
 
 std::string Grader::verdict() const {
     if (!verdict_.empty()) return verdict_;
-    std::string text = fmt::format("same: {} discs in {} written steps; numbers within {:.3g}, the "
+    std::string text = fmt::format("{}: {} discs in {} written steps; numbers within {:.3g}, the "
                                    "largest difference {:.3g}\n",
+                                   n_not_graded_ > 0 ? "not graded to the end" : "same",
                                    scene_.n_discs, n_steps_, tolerance_, largest_);
     if (first_drift_)
         text += fmt::format("from step {} on differences are only amplified roundings\n",

@@ -34,6 +34,8 @@ public:
     bool grade(std::int64_t step, const ExpectedDiscs& expected);
     /// Behind the last step there must be no more lines.
     bool grade_end();
+    /// Whether all written steps so far were held to the rule.
+    bool has_graded_all() const { return n_not_graded_ == 0; }
 
     /// What differs, or how the output is the same.
     std::string verdict() const;
@@ -48,6 +50,7 @@ private:
     };
 
     bool read(std::int64_t step);
+    bool are_possible(std::int64_t step);
     std::string misplaced(const StudentLine& line, std::int64_t step, DiscId id) const;
     double tolerance_of(const StudentLine& line) const;
     Aim aim_at(const ExpectedDiscs& expected) const;

@@ -196,6 +196,7 @@ std::string convert_alone(const std::string& path, Format format, const std::str
         problems = problems_with({{"--output", target, true}}, {{"the file to convert", path}});
     if (!problems.empty()) throw InputError(std::move(problems));
     const FrameFile file(path);
+    file.check_numbers();
     if (const std::string failure = reason_against(file.summary(), format); !failure.empty())
         throw InputError({{path, 0, failure}});
     DataOutput output(target);

@@ -15,6 +15,7 @@
 #include "io/frame_file.hpp"
 #include "parallel/agreement.hpp"
 #include "run/start/restart.hpp"
+#include "scene/effects/effect.hpp"
 #include "stored_scene/stored_scene.hpp"
 
 namespace carrom {
@@ -119,7 +120,7 @@ std::string header_text(const CheckpointHeader& header) {
     text += labelled_line("scene", header.scene_name);
     try {
         const Effects effects = scene_of(header, {}).effects;
-        if (effects.are_any()) text += labelled_line("effects", description(effects));
+        if (effects.are_any()) text += labelled_line("effects", summary_of(effects));
     } catch (const InputError&) { // another version's scene; the rest is good to know all the same
     }
     std::string overrides = header.scene_overrides;

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/shell/codes_of_files.hpp"
 #include "io/checkpoint.hpp"
 #include "io/frame_file.hpp"
 #include "parallel/agreement.hpp"
@@ -180,17 +181,37 @@ void verify_log(const FrameFile& file, const std::string& path) {
     }
 }
 
+std::string gaps_text(const std::vector<std::int64_t>& gaps) {
+    std::string text;
+    for (std::size_t k = 0; k + 1 < gaps.size(); k += 2)
+        text += fmt::format("{}{} to {}", k == 0 ? "" : ", ", gaps[k], gaps[k + 1]);
+    return text;
+}
+
 ExitCode verify(const std::string& path, const Communicator& ranks) {
     const bool is_checkpoint = check_damage(path, ranks).has_value();
+    int code = static_cast<int>(ExitCode::success);
+    std::string verdict = "whole";
     let_root(ranks, [&] {
         const FrameFile file(path);
+        const FileSummary& summary = file.summary();
         file.check_numbers();
-        if (file.summary().kind == FileKind::trajectory) verify_frames(file, path);
-        if (file.summary().kind == FileKind::collisions) verify_log(file, path);
+        if (summary.kind == FileKind::trajectory) verify_frames(file, path);
+        if (summary.kind == FileKind::collisions) verify_log(file, path);
+        if (!summary.has_checksums) {
+            code = static_cast<int>(no_checksums);
+            verdict = "no checksums, so nobody knows whether it is as it was written; its numbers "
+                      "are possible";
+        } else if (!summary.gaps.empty()) {
+            code = static_cast<int>(incomplete);
+            verdict = "as it was written, and without the collisions of steps " +
+                      gaps_text(summary.gaps);
+        }
     });
+    ranks.broadcast(code);
     if (is_checkpoint) verify_checkpoint(path, ranks);
-    if (ranks.is_root()) fmt::print("{}: whole\n", path);
-    return ExitCode::success;
+    if (ranks.is_root()) fmt::print("{}: {}\n", path, verdict);
+    return static_cast<ExitCode>(code);
 }
 
 } // namespace
@@ -204,7 +225,9 @@ Subcommand verify_subcommand() {
         return {[path](const Communicator& ranks) { return verify(*path, ranks); }};
     };
     return {"verify",
-            "Check a file: every byte, the state hash, the discs; exit code 2 if it is damaged",
+            "Check a file: every byte, the state hash, the discs; exit code 2 if it is damaged, 5 "
+            "if it "
+            "has no checksums, 6 if a log has a gap",
             examples,
             {{"FILE", "", help_of_file, path.get(), true}},
             action};

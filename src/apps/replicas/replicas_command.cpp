@@ -20,6 +20,7 @@
 #include "parallel/agreement.hpp"
 #include "run/files/run_folder.hpp"
 #include "run/start/load.hpp"
+#include "scene/key.hpp"
 
 namespace carrom {
 
@@ -47,18 +48,22 @@ struct ReplicasOptions {
     std::string folder;
 };
 
+/// The keys that make replicas differ.
+std::vector<const Key*> seeds_of(const Scene& scene) {
+    std::vector<const Key*> seeds;
+    for (const Key& key : keys())
+        if (key.is_seed && key.has_meaning(scene)) seeds.push_back(&key);
+    return seeds;
+}
+
 /// The options of one replica.
 RunOptions options_of(const ReplicasOptions& options, const Scene& scene, std::int64_t k) {
     RunOptions one = options.run;
     one.folder = (std::filesystem::path(options.folder) / fmt::format("{:04}", k)).string();
     one.quiet = true;
-    one.overrides.push_back(
-        fmt::format("discs.seed={}", scene.seed + static_cast<std::uint64_t>(k)));
-    const auto& sides = scene.effects.boundaries;
-    if (std::any_of(sides.begin(), sides.end(),
-                    [](const Boundary& side) { return side.kind == BoundaryKind::thermal; }))
-        one.overrides.push_back(fmt::format(
-            "effects.thermal.seed={}", scene.effects.thermal_seed + static_cast<std::uint64_t>(k)));
+    for (const Key* key : seeds_of(scene))
+        one.overrides.push_back(
+            fmt::format("{}={}", key->name, std::get<std::int64_t>(key->get(scene).data) + k));
     one.overrides.push_back("output.text=none");
     one.overrides.push_back("output.folder=" + one.folder);
     one.resume = !trace_of_run(one.folder).empty();
@@ -111,7 +116,7 @@ ExitCode run_replicas(const ReplicasOptions& options, const std::vector<Problem>
     RunOptions first = options.run;
     first.overrides.push_back("output.folder=" + options.folder);
     const Scene scene = load_scene_alone(first, problems, ranks);
-    if (scene.reads_disc_lines())
+    if (scene.reads_disc_lines() || seeds_of(scene).empty())
         throw InputError({{scene.name, 0,
                            "replicas differ by the seed of their discs, and this scene lists its "
                            "discs; let it generate them"}});

@@ -8,6 +8,7 @@
 
 #include "apps/shell/words.hpp"
 #include "machine/machine.hpp"
+#include "scene/effects/effect.hpp"
 
 namespace carrom {
 
@@ -137,7 +138,7 @@ std::string report_text(const Scene& scene, const RunResult& result) {
     if (scene.effects.gravity.is_any()) report["potential_energy"] = result.end.potential_energy;
     if (scene.effects.growth != 0) report["last_packing"] = scene.last_packing();
     if (scene.measurements) report["measurements"] = tables_json(result.tables);
-    if (scene.effects.are_any()) report["effects"] = description(scene.effects);
+    if (scene.effects.are_any()) report["effects"] = summary_of(scene.effects);
     // A scene's name is whatever bytes the file system allows; replaced where they are not UTF-8.
     return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }

@@ -9,6 +9,7 @@
 #include "apps/shell/words.hpp"
 #include "core/box_text.hpp"
 #include "machine/machine.hpp"
+#include "scene/effects/effect.hpp"
 
 namespace carrom {
 
@@ -151,7 +152,7 @@ std::string scene_lines(const Scene& scene) {
     text += labelled_line("method", fmt::format("{}, micro_steps = {}, sync_every = {}{}",
                                                 name_of(scene.method), scene.micro_steps,
                                                 scene.sync_every, arithmetic_text(scene)));
-    if (scene.effects.are_any()) text += labelled_line("effects", description(scene.effects));
+    if (scene.effects.are_any()) text += labelled_line("effects", summary_of(scene.effects));
     return text;
 }
 

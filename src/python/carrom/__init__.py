@@ -5,6 +5,7 @@ Lengths are in the scene's unit, times in steps, velocities in lengths per step 
 the scene's unit of mass. `docs/reference/python.md` lists all there is.
 """
 
+from carrom.checking import verify
 from carrom.checkpoints import Checkpoint
 from carrom.errors import (
     CarromError,
@@ -73,5 +74,6 @@ __all__ = [
     "sweep",
     "to_gsd",
     "to_toml",
+    "verify",
     "virial_equation",
 ]

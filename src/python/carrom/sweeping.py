@@ -13,7 +13,7 @@ from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
 
-from carrom.errors import CarromError
+from carrom.errors import CarromError, InputError
 from carrom.process import process_watch
 from carrom.program import find_launcher, find_program
 from carrom.progress import is_interactive
@@ -21,6 +21,9 @@ from carrom.running import resume, run
 from carrom.scene import SceneLike
 from carrom.slurm import submit
 from carrom.sweeps import Point, Quantity, Sweep, SweepError, grid_points
+
+_TAKEN = "another run is writing there"  # as the program says it
+_SECONDS_BETWEEN_LOOKS = 0.5
 
 
 def sweep(
@@ -127,12 +130,26 @@ def _completed(futures: Iterable[Future[None]]) -> Iterator[Future[None]]:
 
 
 def _run_point(point: Point, jobs: dict[str, Any], stop: threading.Event) -> None:
+    """Run a point, or wait for another sweep that runs it in the same folder."""
     with process_watch(stop):
-        if isinstance(point.scene, Path):
-            options = ["--resume"] if point.has_begun else []
-            words = jobs | {"options": options, "progress": False}
-            run(point.scene, folder=point.folder, **words, **point.overrides)
-        elif point.has_begun:
-            resume(point.folder, steps=point.steps, progress=False, **jobs)
-        else:
-            run(point.scene, folder=point.folder, progress=False, **jobs)
+        while point.run() is None:
+            had_begun = point.has_begun
+            try:
+                _run_once(point, jobs)
+            except InputError as error:
+                is_taken = _TAKEN in str(error) or point.has_begun != had_begun
+                if not is_taken or stop.wait(_SECONDS_BETWEEN_LOOKS):
+                    raise
+            else:
+                return
+
+
+def _run_once(point: Point, jobs: dict[str, Any]) -> None:
+    if isinstance(point.scene, Path):
+        options = ["--resume"] if point.has_begun else []
+        words = jobs | {"options": options, "progress": False}
+        run(point.scene, folder=point.folder, **words, **point.overrides)
+    elif point.has_begun:
+        resume(point.folder, steps=point.steps, progress=False, **jobs)
+    else:
+        run(point.scene, folder=point.folder, progress=False, **jobs)

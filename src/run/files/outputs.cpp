@@ -46,6 +46,10 @@ std::string problem_in_folder(const RunOptions& options, const Scene& scene) {
     if (trace.empty() || options.overwrite) {
         if (options.resume && trace.empty())
             return "no run has begun there; leave --resume out to begin one";
+        const std::string link = trace.empty() ? "" : link_of_run(folder);
+        if (!link.empty())
+            return link + " is a symbolic link, and --overwrite removes nothing behind one; remove "
+                          "the link first, or name another folder";
         return {};
     }
     if (!goes_on(options))

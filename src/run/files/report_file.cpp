@@ -26,6 +26,17 @@ int write_all(int file, const std::string& text) {
     return 0;
 }
 
+/// Without it a crash may take the new name back. Returns 0 or an errno.
+int sync_folder_of(const std::string& path) {
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    const int file = ::open(folder.empty() ? "." : folder.c_str(),
+                            O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (file < 0) return errno == EACCES ? 0 : errno; // to write there needs no right to read
+    const int error = ::fsync(file) != 0 && errno != EINVAL ? errno : 0;
+    ::close(file);
+    return error;
+}
+
 /// A new file beside the place of another one, removed unless it is renamed. Its name is no other
 /// file's, and no link is followed: `errno` says what is wrong where `number` is negative.
 class FileBeside {
@@ -55,7 +66,7 @@ public:
     int rename_to(const std::string& path) {
         if (std::rename(name_.c_str(), path.c_str()) != 0) return errno;
         is_there_ = false;
-        return 0;
+        return sync_folder_of(path);
     }
 
     int number = -1;

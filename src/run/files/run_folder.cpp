@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
+#include "io/checkpoint_folder.hpp"
 #include "io/files.hpp"
+#include "io/frame_file.hpp"
 #include "run/pilot/setting_choice.hpp"
 #include "scene/compare.hpp"
 #include "scene/read_scene.hpp"
@@ -32,6 +34,44 @@ std::string in(const std::string& folder, const std::string& name) {
 bool is_there(const std::string& path) {
     std::error_code error;
     return fs::symlink_status(path, error).type() != fs::file_type::not_found;
+}
+
+/// Whether a recording holds nothing after step 0, which the next run records again. One that
+/// cannot be read may hold anything.
+bool is_of_start(const std::string& path) {
+    try {
+        const FileSummary summary = FrameFile(path).summary();
+        return summary.kind == FileKind::collisions
+                   ? summary.n_rows == 0
+                   : summary.steps.empty() || summary.steps.back() == 0;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+/// The same of a table: one line of names and at most one row, of the first sample.
+bool has_rows_of_start(const fs::path& path) {
+    std::ifstream file(path);
+    std::size_t n_lines = 0;
+    for (std::string line; std::getline(file, line);) n_lines += line.starts_with('#') ? 0 : 1;
+    return file.eof() && path.stem() == "thermo" && n_lines <= 2;
+}
+
+/// Whether a run may have written a file, by its name and, of a table, by its first line, which
+/// names it.
+bool is_written_by_run(std::string_view folder, const fs::path& path) {
+    std::error_code error;
+    if (!fs::is_regular_file(fs::symlink_status(path, error))) return false;
+    if (folder == "checkpoints") return is_named_as_checkpoint(path.string());
+    const std::string stem = path.stem().string();
+    if (folder == "measurements") {
+        std::ifstream file(path);
+        std::string line;
+        std::getline(file, line);
+        return path.extension() == ".csv" && line.starts_with("# ") && line.ends_with(": " + stem);
+    }
+    return path.extension() == ".h5" && stem.size() >= 4 &&
+           stem.find_first_not_of("0123456789") == std::string::npos;
 }
 
 /// TOML that has been changed by `--set` says so in its first lines.
@@ -66,14 +106,29 @@ std::string trace_of_run(const std::string& folder) {
     for (const char* name : folders) {
         std::error_code error;
         const std::string path = in(folder, name);
-        if (is_there(path) && !(fs::is_directory(path) && fs::is_empty(path, error))) return name;
+        if (is_there(path) && !(fs::is_directory(path, error) && fs::is_empty(path, error)))
+            return name;
     }
     return {};
 }
 
+std::string recorded_beyond_start(const std::string& folder) {
+    if (folder.empty()) return {};
+    for (const char* name : {"report.json", "trajectory.h5", "collisions.h5"})
+        if (is_there(in(folder, name)) && !is_of_start(in(folder, name))) return name;
+    std::error_code error;
+    fs::directory_iterator entry(in(folder, folders[3]), error);
+    if (error == std::errc::no_such_file_or_directory) return {};
+    for (const fs::directory_iterator end; !error && entry != end; entry.increment(error))
+        if (entry->path().extension() == ".csv" && !has_rows_of_start(entry->path()))
+            return fmt::format("{}/{}", folders[3], entry->path().filename().string());
+    return error ? folders[3] : "";
+}
+
 std::string scene_copy_of(const std::string& folder) {
     for (const char* name : copies)
-        if (fs::is_regular_file(in(folder, name))) return in(folder, name);
+        if (std::error_code error; fs::is_regular_file(in(folder, name), error))
+            return in(folder, name);
     return {};
 }
 
@@ -113,14 +168,20 @@ void remove_run(const std::string& folder) {
     for (const std::string& path : files_of_run(folder))
         if (fs::is_regular_file(fs::symlink_status(path, error))) fs::remove(path, error);
     for (const char* name : folders) {
+        if (fs::is_symlink(fs::symlink_status(in(folder, name), error))) continue;
         std::vector<fs::path> ours;
         for (fs::directory_iterator entry(in(folder, name), error), end; !error && entry != end;
-             entry.increment(error)) {
-            const std::string kind = entry->path().extension().string();
-            if (kind == ".h5" || kind == ".csv") ours.push_back(entry->path());
-        }
+             entry.increment(error))
+            if (is_written_by_run(name, entry->path())) ours.push_back(entry->path());
         for (const fs::path& path : ours) fs::remove(path, error);
     }
+}
+
+std::string link_of_run(const std::string& folder) {
+    std::error_code error;
+    for (const char* name : folders)
+        if (fs::is_symlink(fs::symlink_status(in(folder, name), error))) return in(folder, name);
+    return {};
 }
 
 void prepare_folder(const Scene& scene) {

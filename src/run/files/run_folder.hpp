@@ -21,6 +21,10 @@ std::string checkpoints_of_run(const std::string& folder);
 /// The name of something that a run has written there; empty if there is nothing.
 std::string trace_of_run(const std::string& folder);
 
+/// The name of something that a run has recorded there after step 0; empty if there is nothing.
+/// What cannot be read counts.
+std::string recorded_beyond_start(const std::string& folder);
+
 /// The copy of the scene, if there is one; else empty.
 std::string scene_copy_of(const std::string& folder);
 
@@ -31,8 +35,12 @@ std::vector<std::string> overrides_of_copy(const std::string& path);
 /// folder has no scene that can be read.
 std::string difference_from_run(const std::string& folder, const Scene& scene);
 
-/// Removes what a run has written, the copy of its scene first. Leaves all other files.
+/// Removes what a run has written, the copy of its scene first. Leaves all other files, and all
+/// behind symbolic links.
 void remove_run(const std::string& folder);
+
+/// One of the run's inner folders that is a symbolic link; empty if none is.
+std::string link_of_run(const std::string& folder);
 
 /// Makes the folders and writes the copy of the scene. Throws FileError.
 void prepare_folder(const Scene& scene);

@@ -12,6 +12,7 @@
 
 #include "initial_state/scene_input.hpp"
 #include "io/checkpoint_folder.hpp"
+#include "io/files.hpp"
 #include "machine/machine.hpp"
 #include "parallel/agreement.hpp"
 #include "run/files/data_output.hpp"
@@ -169,12 +170,12 @@ void check_memory(const Scene& scene, const Communicator& ranks) {
 RunOptions with_input_of_folder(RunOptions options, const Communicator& ranks) {
     if (!options.resume || !options.input.empty() || options.folder.empty()) return options;
     std::string copy, overrides;
-    if (ranks.is_root()) {
+    on_root(ranks, options.folder, ExitCode::bad_input, [&] {
         if (find_checkpoints(checkpoints_of_run(options.folder)).empty())
             copy = scene_copy_of(options.folder);
         if (!copy.ends_with(".toml")) copy.clear(); // the lines of discs are not in it
         for (const std::string& override : overrides_of_copy(copy)) overrides += override + '\n';
-    }
+    });
     ranks.broadcast(copy);
     ranks.broadcast(overrides);
     options.input = copy;
@@ -221,6 +222,7 @@ Loaded load(const RunOptions& given, const Problems& problems, const Communicato
             loaded.start.stored.reset(); // its memory is needed
             load_restart(options, loaded, ranks);
         }
+        if (goes_on(options) && !loaded.start.stored) begin_anew(options, scene, ranks);
     } catch (const InputError& error) { // on every rank
         Problems all;
         if (ranks.is_root()) all = error.problems();

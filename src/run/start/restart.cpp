@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "io/checkpoint_folder.hpp"
+#include "io/files.hpp"
+#include "parallel/agreement.hpp"
 #include "run/files/run_folder.hpp"
 #include "run/pilot/setting_choice.hpp"
 #include "scene/compare.hpp"
@@ -55,10 +57,10 @@ std::vector<std::string> candidates_in(
     const std::string& folder, const Communicator& ranks,
     std::int64_t end = std::numeric_limits<std::int64_t>::max()) {
     std::string list;
-    if (ranks.is_root()) {
+    on_root(ranks, folder, ExitCode::bad_input, [&] {
         for (const FoundFile& found : find_checkpoints(folder))
             if (found.step < end) list += found.path + '\0';
-    }
+    });
     ranks.broadcast(list);
     std::vector<std::string> paths;
     std::istringstream stream(list);
@@ -141,6 +143,18 @@ std::vector<std::string> restart_candidates(const RunOptions& options, const Sce
     return folder.empty() ? std::vector<std::string>{} : candidates_in(folder, ranks);
 }
 
+void begin_anew(const RunOptions& options, const Scene& scene, const Communicator& ranks) {
+    let_root(ranks, [&] {
+        const std::string recorded = recorded_beyond_start(scene.folder);
+        if (!recorded.empty())
+            refuse(options, fmt::format("{} has {} of a run and no checkpoint to go on from; begin "
+                                        "anew by --overwrite, or name another folder",
+                                        scene.folder, recorded));
+    });
+    options.messages.warn("no checkpoint in {}: beginning at step 0\n",
+                          folder_to_search(options, scene, ranks));
+}
+
 void load_restart(const RunOptions& options, Loaded& loaded, const Communicator& ranks) {
     const std::string folder = folder_to_search(options, loaded.scene, ranks);
     std::optional<Checkpoint> checkpoint;
@@ -155,8 +169,6 @@ void load_restart(const RunOptions& options, Loaded& loaded, const Communicator&
             refuse(options, "there is no checkpoint; only `latest` and --resume may begin anew");
         if (!checkpoint && options.input.empty())
             refuse(options, folder + ": there is no checkpoint, and no scene to begin with");
-        if (!checkpoint)
-            options.messages.warn("no checkpoint in {}: beginning at step 0\n", folder);
     }
     if (!checkpoint) return;
     const CheckpointHeader& header = checkpoint->header;

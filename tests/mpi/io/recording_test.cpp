@@ -221,7 +221,7 @@ TEST_CASE("a log of collisions keeps the order of the ranks and is cut back") {
         const std::int64_t n = end - begin, p = world.size(), r = world.rank();
         for (std::int64_t k = begin + n * r / p; k < begin + n * (r + 1) / p; ++k)
             mine.push_back(collision(k));
-        log.append(mine);
+        log.append(mine, end == 0 ? 0 : collision(end - 1).step);
     };
     const auto holds_log = [&](std::int64_t n) {
         world.barrier();
@@ -253,7 +253,9 @@ TEST_CASE("a log of collisions keeps the order of the ranks and is cut back") {
     CollisionLog log(path, layout_of(100).system, world);
     log.go_on(100000);
     CHECK(holds_log(40000));
+    if (world.is_root()) CHECK(log.gaps() == std::vector<std::int64_t>{4001, 100000});
     log.go_on(1234);
+    if (world.is_root()) CHECK(log.gaps().empty());
     CHECK(holds_log(12340));
     append(log, 12340, 12350);
     log.commit();

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include <mpi.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "library_runs.hpp"
@@ -243,4 +244,29 @@ TEST_CASE("files that are wrong, and places that cannot be written to, have thei
     CHECK(code_of([&] { Simulation::from_checkpoint(session, path); }) == ExitCode::bad_input);
     CHECK(code_of([&] { FrameReader(session, path); }) == ExitCode::bad_input);
     CHECK(code_of([&] { FrameReader(session, folder.file("nothing.h5")); }) == ExitCode::bad_input);
+}
+
+TEST_CASE("a checkpoint does not replace what is no plain file") {
+    const Session session;
+    const Folder folder(session);
+    Simulation simulation(session, gas("event-driven", 1));
+    const std::string pipe = folder.file("pipe"), victim = folder.file("victim");
+    if (session.is_root()) {
+        CHECK(::mkfifo(pipe.c_str(), 0600) == 0);
+        std::ofstream(victim) << "mine";
+    }
+    const auto code_of = [&](const std::string& path) {
+        try {
+            simulation.write_checkpoint(path);
+        } catch (const CollectiveError& error) {
+            return static_cast<int>(error.code());
+        }
+        return 0;
+    };
+    CHECK(code_of(pipe) == 4);
+    CHECK(code_of(victim + '\0' + "more") == 4);
+    CHECK(code_of("") == 4);
+    if (!session.is_root()) return;
+    CHECK(std::filesystem::is_fifo(pipe));
+    CHECK(std::filesystem::file_size(victim) == 4);
 }

@@ -238,3 +238,42 @@ TEST_CASE("a body's errors become exit codes") {
           4);
     CHECK(session.run([]() -> int { throw InputError({{"a test", 0, "of exit codes"}}); }) == 2);
 }
+
+TEST_CASE("objects that were moved from say so") {
+    const Session session;
+    Simulation first(session, gas("event-driven", 5));
+    Simulation second = std::move(first);
+    const auto is_told = [](const auto& act) {
+        return problems_of(act).find("was moved from") != std::string::npos;
+    };
+    CHECK(is_told([&] { static_cast<void>(first.step()); }));
+    CHECK(is_told([&] { first.advance(1); }));
+    CHECK(is_told([&] { static_cast<void>(first.totals()); }));
+    first = std::move(second);
+    first.advance(1);
+    CHECK(first.step() == 1);
+}
+
+TEST_CASE("ranks that do different things all get an error") {
+    const Session session;
+    const bool is_odd = session.rank() == session.size() - 1 && session.size() > 1;
+    const bool is_alone = session.size() == 1;
+    const std::string other = problems_of(
+        [&] { Simulation(session, gas("event-driven", is_odd ? 6 : 5)); });
+    CHECK((is_alone || other.find("has another scene") != std::string::npos));
+    const std::string threads = problems_of(
+        [&] { Simulation(session, gas("event-driven", 5), {.threads = is_odd ? -1 : 1}); });
+    CHECK((is_alone || threads.find("-1 threads") != std::string::npos));
+    Simulation simulation(session, gas("event-driven", 5));
+    CHECK((is_alone || problems_of([&] {
+                           simulation.advance_to(is_odd ? 2 : 1);
+                       }).find("different calls") != std::string::npos));
+    CHECK((is_alone || problems_of([&] {
+                           if (is_odd)
+                               static_cast<void>(simulation.averages());
+                           else
+                               static_cast<void>(simulation.totals());
+                       }).find("different calls") != std::string::npos));
+    simulation.advance_to(3);
+    CHECK(simulation.step() == 3);
+}

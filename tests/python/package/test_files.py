@@ -339,3 +339,19 @@ def test_a_run_is_read_while_it_goes_on(program: Path, tmp_path: Path) -> None:
         child.kill()
         child.wait()
     assert len(carrom.open(tmp_path / "run").frames) >= len(frames)
+
+
+def test_verify_finds_each_damage(recorded: carrom.Run, tmp_path: Path) -> None:
+    whole = max((recorded.folder / "checkpoints").glob("*.h5"))
+    carrom.verify(whole)
+    data = bytearray(whole.read_bytes())
+    data[len(data) // 2] ^= 1
+    damaged = tmp_path / "damaged.h5"
+    damaged.write_bytes(data)
+    with pytest.raises(carrom.FileError, match="is damaged"):
+        carrom.verify(damaged)
+    shutil.copytree(recorded.folder, tmp_path / "copy")
+    with h5py.File(tmp_path / "copy" / "trajectory.h5", "a") as file:
+        del file["carrom/recording"]
+    with pytest.raises(carrom.FileError, match="no checksums|damaged"):
+        carrom.verify(tmp_path / "copy" / "trajectory.h5")

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import _thread
+import concurrent.futures
 import pickle
 import threading
 import time
@@ -64,6 +65,15 @@ def test_a_second_call_runs_what_is_missing(program: Path, tmp_path: Path) -> No
     assert sweep.runs[2].report["first_step"] == 10
     whole = carrom.run(scene, folder=tmp_path / "whole", discs__seed=3)
     assert sweep.runs[2].state_hash == whole.state_hash
+
+
+def test_two_sweeps_at_once_share_a_folder(program: Path, tmp_path: Path) -> None:
+    scene, grid = gas(steps=3000), {"discs.seed": [1, 2, 3]}
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        both = [pool.submit(carrom.sweep, scene, grid, folder=tmp_path) for _ in range(2)]
+    hashes = [[run.state_hash for run in one.result().runs] for one in both]
+    assert hashes[0] == hashes[1]
+    assert len(set(hashes[0])) == 3
 
 
 def test_another_scene_in_the_folder_is_an_error(program: Path, tmp_path: Path) -> None:

@@ -8,6 +8,7 @@
 
 #include "problems_of.hpp"
 #include "scene/compare.hpp"
+#include "scene/effects/effect.hpp"
 #include "scene/read_scene.hpp"
 
 using namespace carrom;
@@ -211,7 +212,7 @@ TEST_CASE("Classes of discs are read, by table and by list") {
     CHECK(scene.n_discs == 43);
     CHECK(scene.radius == 2);
     CHECK(scene.packing() == Approx(3.14159265358979 * (3 * 4 + 40 * 0.25) / 1e4));
-    CHECK(description(scene.effects) ==
+    CHECK(summary_of(scene.effects) ==
           "3 discs of radius 2 and mass 7, 40 discs of radius 0.5 and mass 1");
 
     const Scene listed = read_scene(box + "[discs]\nlist = [[10, 10, 0, 0, 2, 3], [20, 20, 1, 0, "

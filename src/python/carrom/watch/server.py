@@ -3,8 +3,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import json
+import socket
+import threading
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib import resources
 from typing import Any
@@ -22,6 +25,7 @@ _PAGES = {
     "/discs.js": ("discs.js", "text/javascript; charset=utf-8"),
     "/curves.js": ("curves.js", "text/javascript; charset=utf-8"),
 }
+_MOST_CONNECTIONS = 64
 _LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
 
 
@@ -34,7 +38,34 @@ class Server(ThreadingHTTPServer):
     def __init__(self, follower: Follower, port: int) -> None:
         """Bind the port of 127.0.0.1; 0 takes any free one."""
         self.follower = follower
+        self._guard = threading.Lock()
+        self._open: dict[Any, None] = {}  # connections, that of the oldest request first
         super().__init__(("127.0.0.1", port), _Handler)
+
+    def process_request(self, request: Any, client_address: Any) -> None:
+        """Answer in a thread. Too many connections would take all file descriptors of the process,
+        so the one that has been idle longest is closed."""
+        self.note_use(request)
+        with self._guard:
+            idle = next(iter(self._open)) if len(self._open) > _MOST_CONNECTIONS else None
+            if idle is not None:
+                del self._open[idle]
+        if idle is not None:
+            with contextlib.suppress(OSError):
+                idle.shutdown(socket.SHUT_RDWR)
+        super().process_request(request, client_address)
+
+    def note_use(self, connection: Any) -> None:
+        """Make a connection the youngest one."""
+        with self._guard:
+            self._open.pop(connection, None)
+            self._open[connection] = None
+
+    def shutdown_request(self, request: Any) -> None:
+        """Close a connection."""
+        with self._guard:
+            self._open.pop(request, None)
+        super().shutdown_request(request)
 
     @property
     def address(self) -> str:
@@ -66,9 +97,11 @@ class _Handler(BaseHTTPRequestHandler):
 
     server: Server
     protocol_version = "HTTP/1.1"
+    timeout = 60  # seconds without a byte; browsers connect again by themselves
 
     def do_GET(self) -> None:
         """Answer a request for the page, the state, curves or a frame."""
+        self.server.note_use(self.connection)
         host = self.headers.get("Host", "").rsplit(":", 1)[0]
         if host not in _LOOPBACK:  # a page of another site must not reach this one by its name
             self._answer(403, b"this page is for this machine only", "text/plain")

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An effect that acts at syncs: between them discs fly and collide as without it.
+//
+// At a sync all states are at one time and in the box's own coordinates. What an effect does to a
+// disc may depend on that disc's state, on exact sums over all discs, and on random numbers of
+// `at_sync`, which are functions of the seed, the disc and the count of syncs. Then every machine
+// shape gets the same bits, and a restart needs nothing but the count.
+//
+// The engine asks the list of effects once a sync, never for a pair. It is empty in scenes without
+// such an effect.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "core/disc.hpp"
+#include "core/exact_sum.hpp"
+#include "core/random_numbers.hpp"
+#include "dynamics/species.hpp"
+
+namespace carrom {
+
+/// The discs of a rank at a sync, with velocities and spins per micro-step.
+struct SyncDiscs {
+    std::span<Disc> discs;   ///< some may have departed: effects leave those alone
+    std::span<double> spins; ///< along the discs; empty unless discs are rough
+    std::int64_t n_syncs;    ///< since the scene's start, this one included
+
+    using Part = std::function<void(std::size_t begin, std::size_t end)>;
+    /// Calls `part` for pieces of the discs, on several threads at once. Nothing may throw there.
+    std::function<void(const Part& part)> in_parts;
+    /// In place, over all ranks. **Collective.**
+    std::function<void(std::span<ExactSum>)> add_over_ranks;
+    /// **Collective.**
+    std::function<double(double)> largest_over_ranks;
+
+    /// Adds up over all discs that are in the box: `term(i, parts)` adds those of disc i to a copy
+    /// of `sums`. **Collective.**
+    template <class Term> void add_up(std::vector<ExactSum>& sums, const Term& term) const;
+};
+
+template <class Term> void SyncDiscs::add_up(std::vector<ExactSum>& sums, const Term& term) const {
+    const std::vector<ExactSum> none = sums;
+    std::mutex lock;
+    in_parts([&](std::size_t begin, std::size_t end) {
+        std::vector<ExactSum> mine = none;
+        for (std::size_t i = begin; i < end; ++i)
+            if (!discs[i].has_departed()) term(i, mine);
+        const std::lock_guard guard(lock);
+        for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += mine[k];
+    });
+    add_over_ranks(sums);
+}
+
+class SyncEffect {
+public:
+    SyncEffect() = default;
+    virtual ~SyncEffect() = default;
+    SyncEffect(const SyncEffect&) = delete;
+    SyncEffect& operator=(const SyncEffect&) = delete;
+
+    /// Changes velocities and spins, and nothing else. **Collective.**
+    virtual void act(const SyncDiscs& at) const = 0;
+};
+
+using SyncEffects = std::vector<std::unique_ptr<SyncEffect>>;
+
+} // namespace carrom

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What stands behind a public object, unless it was moved from.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/errors.hpp"
+
+namespace carrom::api {
+
+/// Throws InputError where nothing is behind the object of that class.
+template <class State>
+State& live_part(const std::unique_ptr<State>& state, const std::string& name) {
+    if (!state)
+        throw InputError({{name, 0, "was moved from; use the object that it was moved to"}});
+    return *state;
+}
+
+} // namespace carrom::api

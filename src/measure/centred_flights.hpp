@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How far discs have come, and what is left of their velocities, as seen from the centre of mass.
+//
+// Along a periodic axis nothing stops the discs' common motion, so it would add V^2 t^2 to mean
+// square displacements and V^2 to mean products of velocities, for ever. It is no diffusion, and
+// depends on who watches. So it is subtracted from each disc there. A disc that is alone keeps it,
+// because it would be at rest, and so do discs among obstacles, which take the momentum.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "parallel/communicator.hpp"
+#include "scene/scene.hpp"
+
+namespace carrom {
+
+/// Of one disc: its displacement, its velocities at the beginning and now, and its mass.
+struct Flight {
+    std::array<double, 2> way{}, first_velocity{}, velocity{};
+    double mass = 1;
+};
+
+/// Bounds on a component's size, the same on all ranks.
+struct FlightBounds {
+    double way = 0, velocity = 0;
+};
+
+/// Mean squares of displacements along x and y, and the mean product of velocities, over all ranks'
+/// flights. The sums are exact. **Collective.**
+std::array<double, 3> mean_flights(std::vector<Flight>& flights, const FlightBounds& bounds,
+                                   const Scene& scene, const Communicator& ranks);
+
+} // namespace carrom

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where ranks meet before a call that all of them must make, so that one that calls something else,
+// or has left, is a message and not a hang. Price: one small reduction for each call.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "parallel/communicator.hpp"
+
+namespace carrom {
+
+/// What differs between ranks that should make the same call with the same argument: a hash.
+std::uint64_t hash_of_argument(std::string_view text);
+
+/// Returns once all ranks have come to the same call. Throws InputError on every rank where calls
+/// or arguments differ. Where a rank has departed, all are aborted with a message (code 70) after
+/// ten seconds. **Collective.**
+void meet(const Communicator& communicator, std::string_view call, std::uint64_t argument = 0);
+
+/// A rank that leaves the others tells them, and waits for them at the end.
+class Departure {
+public:
+    /// `communicator` must outlive this.
+    explicit Departure(const Communicator& communicator);
+    /// All ranks must have left, or be about to. **Collective.**
+    ~Departure();
+    Departure(const Departure&) = delete;
+    Departure& operator=(const Departure&) = delete;
+
+    /// From now on this rank makes no call that others could wait for. Not collective.
+    void leave();
+
+private:
+    struct Messages;
+    const Communicator& communicator_;
+    std::unique_ptr<Messages> messages_;
+};
+
+} // namespace carrom

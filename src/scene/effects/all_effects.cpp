@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <utility>
+
+#include "scene/effects/effect.hpp"
+
+namespace carrom {
+
+namespace effects {
+#define CARROM_DECLARE(effect) EffectDeclaration effect();
+CARROM_FOR_EACH_EFFECT(CARROM_DECLARE)
+#undef CARROM_DECLARE
+} // namespace effects
+
+const std::vector<EffectDeclaration>& all_effects() {
+    static const std::vector<EffectDeclaration> all = {
+#define CARROM_LIST(effect) effects::effect(),
+        CARROM_FOR_EACH_EFFECT(CARROM_LIST)
+#undef CARROM_LIST
+    };
+    return all;
+}
+
+std::string summary_of(const Effects& effects) {
+    std::string text = description(effects);
+    for (const EffectDeclaration& effect : all_effects()) {
+        const std::string more = effect.summary ? effect.summary(effects) : "";
+        if (!more.empty()) text += (text.empty() ? "" : "; ") + more;
+    }
+    return text;
+}
+
+CheckAllowance allowance_of(const Effects& effects) {
+    CheckAllowance all;
+    for (const EffectDeclaration& effect : all_effects()) {
+        if (!effect.allowance) continue;
+        const CheckAllowance one = effect.allowance(effects);
+        all.collisions_take_energy |= one.collisions_take_energy;
+        all.walls_give_energy |= one.walls_give_energy;
+        all.acts_at_syncs |= one.acts_at_syncs;
+    }
+    return all;
+}
+
+double usual_speed_of_effects(const Scene& scene) {
+    double speed = 0;
+    for (const EffectDeclaration& effect : all_effects())
+        if (effect.usual_speed) speed = std::max(speed, effect.usual_speed(scene));
+    return speed;
+}
+
+SyncEffects sync_effects_of(const Scene& scene) {
+    SyncEffects acting;
+    for (const EffectDeclaration& effect : all_effects())
+        if (effect.at_syncs)
+            if (auto one = effect.at_syncs(scene)) acting.push_back(std::move(one));
+    return acting;
+}
+
+} // namespace carrom

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What an effect says of itself, in one place.
+//
+// Each file of this folder declares one effect: its tables, keys (a key says by itself whether it
+// is a seed), rules, checks, line in the summary, allowance in the self-check, and what it does at
+// syncs. The reader of scenes, the pages, reports, restarts, replicas, the self-check and the
+// engines loop over `all_effects`, and name no effect. An effect stores nothing beside the discs'
+// states and columns, so checkpoints need no word for it.
+//
+// The folder belongs to the scene because keys and rules are functions of a Scene. It is above the
+// dynamics, where the templates of the hot paths are, and below the engines. So an effect that acts
+// at syncs has its physics in its own file here; one that acts in collisions or in flight has its
+// physics in src/dynamics, and its words here.
+//
+// To add an effect: a file in this folder and a line in CARROM_FOR_EACH_EFFECT.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dynamics/sync_effect.hpp"
+#include "scene/check.hpp"
+#include "scene/key.hpp"
+
+namespace carrom {
+
+/// What the self-check cannot hold against a run, because the effect does it.
+struct CheckAllowance {
+    bool collisions_take_energy = false;
+    bool walls_give_energy = false; ///< an amount that only the run knows
+    bool acts_at_syncs = false; ///< velocities change there, by an energy that the engine adds up
+};
+
+struct EffectDeclaration {
+    std::vector<Table> tables = {};
+    std::vector<Key> keys = {};
+    std::vector<Rule> rules = {};
+    /// Checks of more than one number: of times, and of what depends on a right box and discs.
+    void (*check_times)(const Check&) = nullptr;
+    void (*check_room)(const Check&) = nullptr;
+    /// Its part of the line about effects; empty in a scene without it.
+    std::string (*summary)(const Effects&) = nullptr;
+    CheckAllowance (*allowance)(const Effects&) = nullptr;
+    /// A speed per step that it is likely to give to discs.
+    double (*usual_speed)(const Scene&) = nullptr;
+    /// Nothing in a scene without it.
+    std::unique_ptr<SyncEffect> (*at_syncs)(const Scene&) = nullptr;
+};
+
+#define CARROM_FOR_EACH_EFFECT(effect)                                                             \
+    effect(gravity) effect(drag) effect(growth) effect(shear) effect(obstacles) effect(thermostat)
+
+/// In the order of the reference.
+const std::vector<EffectDeclaration>& all_effects();
+
+/// One line for a summary, as in "restitution 0.9 of pairs; gravity (0, -0.001)"; empty where there
+/// are none.
+std::string summary_of(const Effects& effects);
+CheckAllowance allowance_of(const Effects& effects);
+/// The largest of all effects'.
+double usual_speed_of_effects(const Scene& scene);
+/// In the order in which they act.
+SyncEffects sync_effects_of(const Scene& scene);
+
+} // namespace carrom

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Discs that grow (dynamics/growing_dynamics.hpp).
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "scene/effects/effect.hpp"
+#include "scene/key_members.hpp"
+#include "scene/rule_parts.hpp"
+
+namespace carrom {
+
+namespace {
+
+std::vector<Key> keys_of_growth() {
+    return {
+        key("effects.growth.rate", "1/step",
+            "Radii grow by this share of their first value in each step.",
+            [](auto& s) -> auto& { return s.effects.growth; })
+            .within({.low = 0}),
+    };
+}
+
+std::vector<Rule> rules_of_growth() {
+    return {
+        rule("growing discs", "time.method = \"time-stepped\"",
+             "radii stay there; take time.method = \"event-driven\"", {"effects.growth.rate"},
+             [](const Scene& s) { return has_growth(s) && is_time_stepped(s); }),
+        rule("growing discs", "rough discs, or effects.contact.kind = \"none\"",
+             "this version does not have both", {"effects.growth.rate"},
+             [](const Scene& s) {
+                 return has_growth(s) &&
+                        (is_rough(s) || s.effects.contact.kind == ContactKind::none);
+             }),
+        rule("growing discs", "gravity, drag or obstacles", "this version does not have both",
+             {"effects.growth.rate"},
+             [](const Scene& s) {
+                 return has_growth(s) &&
+                        (s.effects.gravity.is_any() || s.effects.drag != 0 || has_obstacles(s));
+             }),
+        rule("growing discs", "a thermal, a moving, an oscillating or an open side",
+             "this version does not have both", {"effects.growth.rate"},
+             [](const Scene& s) {
+                 return has_growth(s) && (has_moving(s) || has_oscillating(s) || has_open(s) ||
+                                          has_boundary(s.effects, BoundaryKind::thermal));
+             }),
+    };
+}
+
+/// Discs that grow must have room until the last step.
+void check_growth(const Check& check) {
+    const Scene& scene = check.scene;
+    if (scene.effects.growth == 0) return;
+    const double growth = scene.effects.growth_at(static_cast<double>(scene.steps));
+    const double densest = scene.effects.species.empty() ? largest_packing : 1;
+    const auto room = [&scene](double side, bool is_periodic) {
+        return side / ((is_periodic ? 4 * (1 + 1e-6) : 2) * scene.radius);
+    };
+    const double most = std::min({std::sqrt(densest / scene.packing()),
+                                  room(scene.box.x, scene.effects.is_periodic_x()),
+                                  room(scene.box.y, scene.effects.is_periodic_y())});
+    if (growth <= most || most < 1) return; // no room at the start is told elsewhere
+    check.refuse({"effects.growth.rate"},
+                 fmt::format("after {} steps discs of radius {:g} would cover {:.4g} of the box; "
+                             "there is room for them up to step {:.0f}",
+                             scene.steps, scene.radius * growth, scene.last_packing(),
+                             std::floor((most - 1) / scene.effects.growth)));
+}
+
+} // namespace
+
+namespace effects {
+
+EffectDeclaration growth() {
+    return {.tables = {{"effects.growth", "Discs that grow."}},
+            .keys = keys_of_growth(),
+            .rules = rules_of_growth(),
+            .check_room = check_growth,
+            .summary =
+                [](const Effects& e) {
+                    return e.growth != 0 ? fmt::format("radii growing by {:g} a step", e.growth)
+                                         : "";
+                },
+            .usual_speed = [](const Scene& s) { return s.radius * s.effects.growth; }};
+}
+
+} // namespace effects
+
+} // namespace carrom

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Uniform shear between sheared sides (dynamics/sheared_dynamics.hpp).
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "scene/effects/effect.hpp"
+#include "scene/key_members.hpp"
+#include "scene/rule_parts.hpp"
+
+namespace carrom {
+
+namespace {
+
+const Need sheared{"without box.bottom.kind = \"sheared\" and box.top.kind = \"sheared\"",
+                   [](const Scene& s) { return s.effects.are_sheared(); }};
+
+std::vector<Key> keys_of_shear() {
+    return {
+        key("effects.shear.rate", "1/step",
+            "Between sheared sides: discs flow along x with rate (y - Ly / 2) in the mean.",
+            [](auto& s) -> auto& { return s.effects.shear; })
+            .within({-1e6, 1e6})
+            .needs(sheared)
+            .required(),
+    };
+}
+
+std::vector<Rule> rules_of_shear() {
+    return {
+        rule("a sheared side", "another kind of side opposite",
+             "box.bottom.kind and box.top.kind must both be \"sheared\", or neither",
+             {"box.bottom.kind", "box.top.kind"},
+             [](const Scene& s) {
+                 const auto& sides = s.effects.boundaries;
+                 return (sides[2].kind == BoundaryKind::sheared) !=
+                        (sides[3].kind == BoundaryKind::sheared);
+             }),
+        rule("sheared sides left or right", "a flow along x",
+             "the flow is along x and grows with y; make bottom and top sheared",
+             {"box.left.kind", "box.right.kind"},
+             [](const Scene& s) {
+                 const auto& sides = s.effects.boundaries;
+                 return sides[0].kind == BoundaryKind::sheared ||
+                        sides[1].kind == BoundaryKind::sheared;
+             }),
+        rule("sheared sides", "walls or open sides left and right",
+             "the flow goes through them; make box.left.kind and box.right.kind \"periodic\"",
+             {"box.left.kind", "box.right.kind"},
+             [](const Scene& s) { return s.effects.are_sheared() && !s.effects.is_periodic_x(); }),
+        rule("sheared sides", "drag or obstacles",
+             "both stand still, and the flow has no place where it does",
+             {"effects.drag.rate", "effects.obstacles.discs", "effects.obstacles.segments"},
+             [](const Scene& s) {
+                 return s.effects.are_sheared() && (s.effects.drag != 0 || has_obstacles(s));
+             }),
+        rule("sheared sides", "growing discs", "this version does not have both",
+             {"effects.growth.rate"},
+             [](const Scene& s) { return s.effects.are_sheared() && has_growth(s); }),
+        rule("sheared sides", "\"image\"", "images move: whole numbers do not say where they are",
+             {"output.trajectory.fields"},
+             [](const Scene& s) {
+                 return s.trajectory && s.trajectory->has_image && s.effects.are_sheared();
+             }),
+        rule("sheared sides", "a thermostat",
+             "thermostats of this version act on velocities in the box, not about the flow",
+             {"effects.thermostat.kind"},
+             [](const Scene& s) {
+                 return s.effects.are_sheared() &&
+                        s.effects.thermostat.kind != ThermostatKind::none;
+             }),
+    };
+}
+
+} // namespace
+
+namespace effects {
+
+EffectDeclaration shear() {
+    return {.tables = {{"effects.shear", "A flow between sheared sides, whose images move."}},
+            .keys = keys_of_shear(),
+            .rules = rules_of_shear(),
+            .summary =
+                [](const Effects& e) {
+                    return e.are_sheared() ? fmt::format("shear at the rate {:g}", e.shear) : "";
+                },
+            .usual_speed = [](const Scene& s) { return std::fabs(s.effects.shear) * s.box.y; }};
+}
+
+} // namespace effects
+
+} // namespace carrom

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Thermostats: they act on velocities and spins at syncs, every `time.sync_every` micro-steps.
+//
+// After a time t between syncs, with independent normal numbers n of mean 0 and variance 1:
+//   kicks     v += xi sqrt(t) n, less the mean that keeps the total momentum. White noise of
+//             strength xi^2 in the limit of short t (van Noije and Ernst, Granular Matter 1, 57
+//             (1998)). All discs have the same xi, whatever their mass. Spins are left alone.
+//   andersen  with the probability 1 - exp(-rate t) a disc gets new velocities from Maxwell's
+//             distribution (Andersen, J. Chem. Phys. 72, 2384 (1980)).
+//   langevin  v = c v + sqrt((1 - c^2) kT / m) n with c = exp(-rate t): the exact solution of
+//             dv = -rate v dt + sqrt(2 rate kT / m) dW, the process of Ornstein and Uhlenbeck.
+//   rescale   velocities relative to the centre of mass, and spins, are multiplied by the factor
+//             that makes their energy kT for each disc, and kT / 2 more where discs have spins.
+// Spins count with the moment of inertia in place of the mass.
+//
+// The operations are + - * / and sqrt, so the bits are the same on every machine.
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "dynamics/drag.hpp"
+#include "scene/effects/effect.hpp"
+#include "scene/key_members.hpp"
+#include "scene/limits.hpp"
+
+namespace carrom {
+
+template <>
+inline constexpr std::array words_of<ThermostatKind>{
+    Word{"none", ThermostatKind::none}, Word{"kicks", ThermostatKind::kicks},
+    Word{"andersen", ThermostatKind::andersen}, Word{"langevin", ThermostatKind::langevin},
+    Word{"rescale", ThermostatKind::rescale}};
+
+namespace {
+
+/// The thermostat with a micro-step as the unit of time, and what all kinds need.
+class ThermostatEffect : public SyncEffect {
+public:
+    explicit ThermostatEffect(const Scene& scene)
+        : setting_(scene.effects.thermostat), species_(scene.effects.species, scene.radius),
+          inertia_(scene.effects.contact.inertia), interval_(static_cast<double>(scene.sync_every)),
+          n_discs_(static_cast<double>(scene.n_discs)) {
+        const auto k = static_cast<double>(scene.micro_steps);
+        setting_.strength /= k * k * k;
+        setting_.rate /= k;
+        setting_.temperature /= k * k;
+        heaviest_ = scene.effects.species.empty() ? 1 : 0;
+        for (const Species& one : scene.effects.species) heaviest_ = std::max(heaviest_, one.mass);
+    }
+
+protected:
+    DiscRandom random_of(const SyncDiscs& at, DiscId id) const {
+        return {setting_.seed, Purpose::sync, id, static_cast<std::uint64_t>(at.n_syncs)};
+    }
+    /// The root mean square of a velocity's component in equilibrium, and that of a spin.
+    double thermal_speed(DiscId id) const {
+        return std::sqrt(setting_.temperature / species_.of(id).mass);
+    }
+    double thermal_spin(DiscId id) const {
+        return thermal_speed(id) / (species_.of(id).radius * std::sqrt(inertia_));
+    }
+    /// Calls what(disc i, random numbers of it) for each disc in the box.
+    template <class What> void for_each(const SyncDiscs& at, const What& what) const {
+        at.in_parts([&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                if (!at.discs[i].has_departed()) what(i, random_of(at, at.discs[i].id));
+        });
+    }
+
+    Thermostat setting_;
+    SpeciesTable species_;
+    double inertia_, interval_, n_discs_, heaviest_ = 1;
+};
+
+class Kicks final : public ThermostatEffect {
+public:
+    using ThermostatEffect::ThermostatEffect;
+
+    void act(const SyncDiscs& at) const override {
+        const double size = std::sqrt(setting_.strength * interval_);
+        // Numbers beyond 2^10 do not occur: one in exp(2^19) is as large.
+        const double bound = n_discs_ * heaviest_ * size * 0x1p10;
+        std::vector<ExactSum> sums(2, ExactSum(bound));
+        sums.emplace_back(2 * n_discs_ * heaviest_);
+        const auto kick_of = [&](DiscId id) {
+            DiscRandom random = random_of(at, id);
+            const NormalPair n = random_normals(random);
+            return NormalPair{size * n.x, size * n.y};
+        };
+        at.add_up(sums, [&](std::size_t i, std::vector<ExactSum>& parts) {
+            const DiscId id = at.discs[i].id;
+            const NormalPair kick = kick_of(id);
+            const double mass = species_.of(id).mass;
+            parts[0].add(mass * kick.x);
+            parts[1].add(mass * kick.y);
+            parts[2].add(mass);
+        });
+        const double mass = sums[2].value();
+        if (!(mass > 0)) return;
+        const double mean_x = sums[0].value() / mass, mean_y = sums[1].value() / mass;
+        at.in_parts([&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                Disc& disc = at.discs[i];
+                if (disc.has_departed()) continue;
+                const NormalPair kick = kick_of(disc.id);
+                disc.vx += kick.x - mean_x;
+                disc.vy += kick.y - mean_y;
+            }
+        });
+    }
+};
+
+class Andersen final : public ThermostatEffect {
+public:
+    using ThermostatEffect::ThermostatEffect;
+
+    void act(const SyncDiscs& at) const override {
+        const double kept = drag_slowing(setting_.rate, interval_);
+        for_each(at, [&](std::size_t i, DiscRandom random) {
+            if (random.uniform() < kept) return;
+            Disc& disc = at.discs[i];
+            const double speed = thermal_speed(disc.id);
+            const NormalPair n = random_normals(random);
+            disc.vx = speed * n.x;
+            disc.vy = speed * n.y;
+            if (!at.spins.empty()) at.spins[i] = thermal_spin(disc.id) * random_normals(random).x;
+        });
+    }
+};
+
+class Langevin final : public ThermostatEffect {
+public:
+    using ThermostatEffect::ThermostatEffect;
+
+    void act(const SyncDiscs& at) const override {
+        const double kept = drag_slowing(setting_.rate, interval_);
+        const double noise = std::sqrt((1 - kept) * (1 + kept));
+        for_each(at, [&](std::size_t i, DiscRandom random) {
+            Disc& disc = at.discs[i];
+            const double speed = noise * thermal_speed(disc.id);
+            const NormalPair n = random_normals(random);
+            disc.vx = kept * disc.vx + speed * n.x;
+            disc.vy = kept * disc.vy + speed * n.y;
+            if (at.spins.empty()) return;
+            at.spins[i] = kept * at.spins[i] +
+                          noise * thermal_spin(disc.id) * random_normals(random).x;
+        });
+    }
+};
+
+class Rescale final : public ThermostatEffect {
+public:
+    using ThermostatEffect::ThermostatEffect;
+
+    void act(const SyncDiscs& at) const override {
+        double largest = 0; // of any velocity, that of a rough disc's surface as well
+        for (std::size_t i = 0; i < at.discs.size(); ++i) {
+            const Disc& disc = at.discs[i];
+            largest = std::max({largest, std::fabs(disc.vx), std::fabs(disc.vy)});
+            if (!at.spins.empty())
+                largest = std::max(largest, species_.of(disc.id).radius * std::fabs(at.spins[i]));
+        }
+        largest = at.largest_over_ranks(largest);
+        if (!(largest > 0)) return; // all are at rest
+        const double mass_bound = 2 * n_discs_ * heaviest_;
+        std::vector<ExactSum> sums(2, ExactSum(mass_bound * largest));
+        sums.emplace_back(mass_bound);
+        sums.emplace_back(2 * n_discs_);
+        at.add_up(sums, [&](std::size_t i, std::vector<ExactSum>& parts) {
+            const double mass = species_.of(at.discs[i].id).mass;
+            parts[0].add(mass * at.discs[i].vx);
+            parts[1].add(mass * at.discs[i].vy);
+            parts[2].add(mass);
+            parts[3].add(1);
+        });
+        if (!(sums[2].value() > 0)) return;
+        const double mean_x = sums[0].value() / sums[2].value(),
+                     mean_y = sums[1].value() / sums[2].value(), n = sums[3].value();
+        std::vector<ExactSum> energy(1, ExactSum(16 * mass_bound * largest * largest));
+        at.add_up(energy, [&](std::size_t i, std::vector<ExactSum>& parts) {
+            const Disc& disc = at.discs[i];
+            const SizeAndMass& body = species_.of(disc.id);
+            const double wx = disc.vx - mean_x, wy = disc.vy - mean_y;
+            const double turning = at.spins.empty() ? 0 : body.radius * at.spins[i];
+            parts[0].add(0.5 * body.mass * (wx * wx + wy * wy + inertia_ * (turning * turning)));
+        });
+        const double now = energy[0].value();
+        if (!(now > 0)) return;
+        const double wanted = n * setting_.temperature * (at.spins.empty() ? 1 : 1.5);
+        const double factor = std::sqrt(wanted / now);
+        at.in_parts([&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                Disc& disc = at.discs[i];
+                if (disc.has_departed()) continue;
+                disc.vx = mean_x + factor * (disc.vx - mean_x);
+                disc.vy = mean_y + factor * (disc.vy - mean_y);
+                if (!at.spins.empty()) at.spins[i] *= factor;
+            }
+        });
+    }
+};
+
+using Kinds = std::initializer_list<ThermostatKind>;
+
+Need kinds(std::string text, Kinds kinds) {
+    return {"without effects.thermostat.kind = " + std::move(text),
+            [all = std::vector(kinds)](const Scene& s) {
+                return std::find(all.begin(), all.end(), s.effects.thermostat.kind) != all.end();
+            }};
+}
+
+std::vector<Key> keys_of_thermostat() {
+    using Kind = ThermostatKind;
+    return {
+        key("effects.thermostat.kind", "",
+            "What is done to velocities at syncs. Kicks: white noise. Andersen: some discs get new "
+            "ones. Langevin: friction and noise. Rescale: all are multiplied.",
+            [](auto& s) -> auto& { return s.effects.thermostat.kind; })
+            .advises({{"nose-hoover", "\"langevin\" or \"andersen\", which have the same "
+                                      "equilibrium"},
+                      {"berendsen", "\"rescale\""},
+                      {"white-noise", "\"kicks\""},
+                      {"stochastic", "\"kicks\" or \"langevin\""},
+                      {"brownian", "\"langevin\""},
+                      {"velocity-rescaling", "\"rescale\""}}),
+        key("effects.thermostat.strength", "length^2/step^3",
+            "xi^2 of the noise: free discs gain xi^2 of the mean square of each component in a "
+            "step.",
+            [](auto& s) -> auto& { return s.effects.thermostat.strength; })
+            .within({1e-60, 1e60})
+            .needs(kinds("\"kicks\"", {Kind::kicks}))
+            .required(),
+        key("effects.thermostat.rate", "1/step",
+            "How often a disc gets a new velocity (Andersen), or the friction gamma (Langevin). At "
+            "most 4 per time between syncs.",
+            [](auto& s) -> auto& { return s.effects.thermostat.rate; })
+            .within({.low = 0, .excludes_low = true})
+            .needs(kinds("\"andersen\" or \"langevin\"", {Kind::andersen, Kind::langevin}))
+            .required(),
+        key("effects.thermostat.temperature", "length^2/step^2",
+            "kT, for discs of mass 1. Rescale: the mean energy of a disc, relative to the centre "
+            "of mass.",
+            [](auto& s) -> auto& { return s.effects.thermostat.temperature; })
+            .within({1e-60, 1e60})
+            .needs(kinds("\"andersen\", \"langevin\" or \"rescale\"",
+                         {Kind::andersen, Kind::langevin, Kind::rescale}))
+            .required(),
+        key("effects.thermostat.seed", "1", "Seed of the random numbers of the thermostat.",
+            [](auto& s) -> auto& { return s.effects.thermostat.seed; })
+            .within({.low = 0})
+            .needs(kinds("\"kicks\", \"andersen\" or \"langevin\"",
+                         {Kind::kicks, Kind::andersen, Kind::langevin}))
+            .seed(),
+    };
+}
+
+std::vector<Rule> rules_of_thermostat() {
+    return {{"a thermostat",
+             "drag",
+             "both slow discs down; kind = \"langevin\" has a friction of its own",
+             {"effects.thermostat.kind"},
+             {},
+             [](const Scene& s) { return s.effects.thermostat.is_any() && s.effects.drag != 0; }}};
+}
+
+/// A sync that follows long after another one would leave nothing of the velocities.
+void check_times_of_thermostat(const Check& check) {
+    constexpr double longest = 4;
+    const Scene& scene = check.scene;
+    const double interval = static_cast<double>(scene.sync_every) /
+                            static_cast<double>(scene.micro_steps);
+    const double rate = scene.effects.thermostat.rate;
+    if (!scene.effects.thermostat.is_any() || !(rate * interval > longest)) return;
+    check.refuse({"effects.thermostat.rate"},
+                 fmt::format("'effects.thermostat.rate' = {} acts more than {} times between two "
+                             "syncs: {:g} at most, or a smaller time.sync_every",
+                             rate, longest, longest / interval));
+}
+
+void check_room_of_thermostat(const Check& check) {
+    const double speed = std::sqrt(check.scene.effects.thermostat.temperature);
+    if (const std::string text = speed_problem(speed, check.scene); !text.empty())
+        check.refuse({"effects.thermostat.temperature"},
+                     "'effects.thermostat.temperature': " + text);
+}
+
+std::string summary_of_thermostat(const Effects& effects) {
+    const Thermostat& t = effects.thermostat;
+    switch (t.kind) {
+    case ThermostatKind::none: return {};
+    case ThermostatKind::kicks: return fmt::format("kicks of strength {:g}", t.strength);
+    case ThermostatKind::andersen:
+        return fmt::format("Andersen thermostat of rate {:g}, kT = {:g}", t.rate, t.temperature);
+    case ThermostatKind::langevin:
+        return fmt::format("Langevin thermostat of rate {:g}, kT = {:g}", t.rate, t.temperature);
+    case ThermostatKind::rescale:
+        return fmt::format("velocities rescaled to kT = {:g}", t.temperature);
+    }
+    return {};
+}
+
+/// Where noise heats discs that were at rest, they get as fast as it makes them in a flight of a
+/// radius.
+double usual_speed_of_thermostat(const Scene& scene) {
+    const Thermostat& t = scene.effects.thermostat;
+    return std::max(std::sqrt(t.temperature), std::cbrt(t.strength * scene.radius));
+}
+
+std::unique_ptr<SyncEffect> thermostat_at_syncs(const Scene& scene) {
+    switch (scene.effects.thermostat.kind) {
+    case ThermostatKind::none: break;
+    case ThermostatKind::kicks: return std::make_unique<Kicks>(scene);
+    case ThermostatKind::andersen: return std::make_unique<Andersen>(scene);
+    case ThermostatKind::langevin: return std::make_unique<Langevin>(scene);
+    case ThermostatKind::rescale: return std::make_unique<Rescale>(scene);
+    }
+    return nullptr;
+}
+
+} // namespace
+
+namespace effects {
+
+EffectDeclaration thermostat() {
+    return {
+        .tables = {{"effects.thermostat", "What keeps discs moving, or at a temperature."}},
+        .keys = keys_of_thermostat(),
+        .rules = rules_of_thermostat(),
+        .check_times = check_times_of_thermostat,
+        .check_room = check_room_of_thermostat,
+        .summary = summary_of_thermostat,
+        .allowance =
+            [](const Effects& e) { return CheckAllowance{.acts_at_syncs = e.thermostat.is_any()}; },
+        .usual_speed = usual_speed_of_thermostat,
+        .at_syncs = thermostat_at_syncs};
+}
+
+} // namespace effects
+
+} // namespace carrom

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What rules ask of a scene, and how one is written.
+#pragma once
+
+#include "scene/check.hpp"
+#include "scene/key.hpp"
+#include "scene/limits.hpp"
+
+namespace carrom {
+
+inline bool is_time_stepped(const Scene& s) { return s.method == Method::time_stepped; }
+inline bool is_rough(const Scene& s) { return s.effects.contact.kind == ContactKind::rough; }
+inline bool has_species(const Scene& s) { return !s.effects.species.empty(); }
+inline bool has_open(const Scene& s) { return s.effects.have_open_boundaries(); }
+inline bool has_moving(const Scene& s) { return has_boundary(s.effects, BoundaryKind::moving); }
+inline bool has_oscillating(const Scene& s) {
+    return has_boundary(s.effects, BoundaryKind::oscillating);
+}
+inline bool has_obstacles(const Scene& s) { return s.effects.obstacles.are_any(); }
+inline bool has_growth(const Scene& s) { return s.effects.growth != 0; }
+inline bool is_periodic_all_round(const Scene& s) {
+    return s.effects.is_periodic_x() && s.effects.is_periodic_y();
+}
+
+using RuleKeys = std::vector<std::string_view>;
+using IsBroken = bool (*)(const Scene&);
+
+inline Rule rule(std::string_view one, std::string_view other, std::string_view why,
+                 const RuleKeys& keys, IsBroken is_broken) {
+    return {one, other, why, keys, {}, is_broken};
+}
+inline Rule rule(std::string_view one, std::string_view other, std::string_view why,
+                 BoundaryKind side, IsBroken is_broken) {
+    return {one, other, why, {}, side, is_broken};
+}
+
+} // namespace carrom

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Thermostats: the same bits on every machine shape, what each keeps, and what the check knows.
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+
+#include "check/check_failure.hpp"
+#include "effect_runs.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+std::vector<Thermostat> thermostats() {
+    return {{ThermostatKind::kicks, 1e-4, 0, 0, 7},
+            {ThermostatKind::andersen, 0, 0.1, 0.02, 7},
+            {ThermostatKind::langevin, 0, 0.1, 0.02, 7},
+            {ThermostatKind::rescale, 0, 0, 0.02, 7}};
+}
+
+constexpr Boundary periodic{BoundaryKind::periodic, 1, 0, 0};
+
+/// Plain discs, rough ones, and those of two species, between walls or periodic sides; they lose
+/// energy in collisions.
+std::vector<TestScene> driven_scenes() {
+    std::vector<TestScene> scenes;
+    for (const bool is_periodic : {false, true}) {
+        for (const int kind : {0, 1, 2}) {
+            TestScene scene = gas(200, 0.2, 0.1, 640 + static_cast<std::uint64_t>(kind));
+            scene.name += std::string(is_periodic ? ", periodic, " : ", walls, ") +
+                          std::to_string(kind);
+            scene.setting.sync_every = 6;
+            scene.setting.micro_steps = 2;
+            scene.steps = 40;
+            Effects& effects = scene.setting.effects;
+            effects.contact = {ContactKind::restitution, 0.8, 0.001};
+            if (kind == 1) {
+                effects.contact.kind = ContactKind::rough;
+                effects.contact.tangential_restitution = 0.5;
+            }
+            if (kind == 2) effects.species = {{80, 1, 1}, {120, 0.7, 0.4}};
+            if (is_periodic) effects.boundaries.fill(periodic);
+            scenes.push_back(scene);
+        }
+    }
+    return scenes;
+}
+
+double mass_of(const TestScene& scene, DiscId id) {
+    for (const Species& one : scene.setting.effects.species) {
+        if (id < one.count) return one.mass;
+        id -= one.count;
+    }
+    return 1;
+}
+
+} // namespace
+
+TEST_CASE("effects: thermostats give the same bits on every machine shape, and are checked") {
+    const Communicator world = Communicator::world(), alone = Communicator::of_this_rank();
+    for (TestScene scene : driven_scenes()) {
+        for (const Thermostat& thermostat : thermostats()) {
+            scene.setting.effects.thermostat = thermostat;
+            for (const Method method : {Method::time_stepped, Method::event_driven}) {
+                INFO(scene.name << ", kind " << static_cast<int>(thermostat.kind) << ", method "
+                                << static_cast<int>(method));
+                Scene whole = scene_of(scene);
+                whole.method = method;
+                Simulation shared = simulation_of(scene, method, world);
+                Simulation single(whole, scene.discs, alone, Tuning{});
+                shared.check_every_step(whole);
+                CHECK_NOTHROW(advance_to(shared, scene.steps));
+                advance_to(single, scene.steps);
+                CHECK(shared.totals().hash == single.totals().hash);
+            }
+        }
+    }
+}
+
+TEST_CASE("effects: a check finds out what a thermostat has not given") {
+    const Communicator world = Communicator::world();
+    TestScene scene = gas(100, 0.2, 0.1, 645);
+    scene.setting.sync_every = 6;
+    scene.setting.effects.thermostat = thermostats()[1];
+    Scene other = scene_of(scene);
+    other.method = Method::event_driven;
+    other.effects.thermostat = {};
+    other.effects.contact.kind = ContactKind::restitution; // as there are effects at all
+    Simulation simulation = simulation_of(scene, Method::event_driven, world);
+    simulation.check_every_step(other);
+    CHECK_THROWS_AS(advance_to(simulation, 30), CheckFailure);
+}
+
+TEST_CASE("effects: rescaling fixes the energy, and kicks keep the momentum") {
+    const Communicator world = Communicator::world();
+    for (TestScene scene : driven_scenes()) {
+        if (!scene.setting.effects.are_periodic()) continue;
+        scene.setting.micro_steps = 1;
+        scene.setting.sync_every = 5;
+        const bool is_rough = scene.setting.effects.contact.kind == ContactKind::rough;
+        const double n = 200;
+        scene.setting.effects.thermostat = thermostats()[3];
+        Simulation rescaled = simulation_of(scene, Method::event_driven, world);
+        advance_to(rescaled, 20); // a multiple of 5
+        Totals totals = rescaled.totals();
+        double mass = 0, momentum_x = 0, momentum_y = 0;
+        for (const InputDisc& disc : scene.discs) {
+            const double one = mass_of(scene, disc.id);
+            mass += one;
+            momentum_x += one * disc.vx;
+            momentum_y += one * disc.vy;
+        }
+        const double of_centre = (momentum_x * momentum_x + momentum_y * momentum_y) / (2 * mass);
+        CHECK(totals.kinetic_energy + totals.rotational_energy - of_centre ==
+              Approx(n * 0.02 * (is_rough ? 1.5 : 1)).epsilon(1e-12));
+        scene.setting.effects.thermostat = thermostats()[0];
+        Simulation kicked = simulation_of(scene, Method::event_driven, world);
+        advance_to(kicked, 20);
+        totals = kicked.totals();
+        CHECK(totals.momentum_x == Approx(momentum_x).margin(1e-12));
+        CHECK(totals.momentum_y == Approx(momentum_y).margin(1e-12));
+    }
+}
+
+// Without collisions each disc is alone: after a time t the mean squares are known.
+TEST_CASE(
+    "effects: free discs between kicks, new velocities and Ornstein and Uhlenbeck's process") {
+    const Communicator world = Communicator::world();
+    TestScene scene = gas(4000, 0.2, 0.1, 646);
+    scene.setting.sync_every = 4;
+    scene.setting.effects.boundaries.fill(periodic);
+    scene.setting.effects.contact.kind = ContactKind::none;
+    const double n = 4000, start = [&] {
+        double sum = 0;
+        for (const InputDisc& disc : scene.discs) sum += disc.vx * disc.vx + disc.vy * disc.vy;
+        return sum / (2 * n);
+    }();
+    const double time = 20, noise = 4 / std::sqrt(n); // four standard errors of a mean square
+    for (const Method method : {Method::time_stepped, Method::event_driven}) {
+        const auto mean_square = [&](const Thermostat& thermostat) {
+            scene.setting.effects.thermostat = thermostat;
+            Simulation simulation = simulation_of(scene, method, world);
+            advance_to(simulation, static_cast<std::int64_t>(time));
+            return simulation.totals().kinetic_energy / n;
+        };
+        const double strength = 1e-4, rate = 0.05, kt = 0.02;
+        CHECK(mean_square({ThermostatKind::kicks, strength, 0, 0, 9}) ==
+              Approx(start + strength * time).epsilon(noise));
+        const double left = std::exp(-rate * time);
+        CHECK(mean_square({ThermostatKind::andersen, 0, rate, kt, 9}) ==
+              Approx(start * left + kt * (1 - left)).epsilon(noise));
+        CHECK(mean_square({ThermostatKind::langevin, 0, rate, kt, 9}) ==
+              Approx(start * left * left + kt * (1 - left * left)).epsilon(noise));
+    }
+}

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Discs with a thermostat against kinetic theory.
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "catch.hpp"
+#include <fmt/format.h>
+
+#include "gas_runs.hpp"
+
+using namespace carrom;
+using namespace carrom::test;
+
+namespace {
+
+TestScene periodic_gas(std::size_t n, double packing, std::uint64_t seed) {
+    TestScene scene = crystal(n, packing, seed);
+    for (Boundary& side : scene.setting.effects.boundaries) side.kind = BoundaryKind::periodic;
+    scene.setting.sync_every = 1; // thermostats act once a step
+    return scene;
+}
+
+/// Means over `n_looks` states, `apart` steps from each other: kT and <v^4> / (2 <v^2>^2) - 1,
+/// which is 0 for Maxwell's distribution.
+struct Speeds {
+    double temperature = 0, a2 = 0;
+};
+Speeds measured_speeds(Simulation& simulation, std::int64_t early, std::int64_t apart,
+                       int n_looks) {
+    const auto to = [&](std::int64_t step) {
+        while (simulation.step() < step) simulation.advance_towards(step);
+    };
+    to(early);
+    double square = 0, fourth = 0, n = 0;
+    for (int look = 0; look < n_looks; ++look) {
+        to(simulation.step() + apart);
+        for (const Disc& disc : simulation.discs()) {
+            const double v2 = squared_speed_of(disc);
+            square += v2;
+            fourth += v2 * v2;
+            n += 1;
+        }
+    }
+    square /= n;
+    fourth /= n;
+    return {square / 2, fourth / (2 * square * square) - 1};
+}
+
+} // namespace
+
+// A collision of pairs takes (1 - e^2) kT in the mean of a Maxwellian gas (m <g_n^2> / 4 with
+// <g_n^2> = 4 kT / m), and a disc has 2 sqrt(pi) n sigma g(sigma) sqrt(kT / m) of them in a time,
+// of which it has half a share each. With kicks d(kT)/dt = m xi^2 - (1 - e^2) n sigma g sqrt(pi /
+// m) (kT)^(3/2) (1 + 3 a2 / 16), which is 0 in the end. The fourth cumulant a2 is that of van Noije
+// and Ernst, Granular Matter 1, 57 (1998), for d = 2; it follows where kicks and collisions balance
+// in the fourth moment, too, to first order in a2.
+TEST_CASE("physics: a gas that kicks heat has the temperature and the cumulant of kinetic theory") {
+    const Communicator world = Communicator::world();
+    const std::size_t n = 3000;
+    const double packing = 0.02, radius = 1;
+    for (const double e : {0.7, 0.8, 0.9}) {
+        const double a2 = 16 * (1 - e) * (1 - 2 * e * e) / (185 - 153 * e + 30 * (1 - e) * e * e);
+        const double g = (1 - 7 * packing / 16) / ((1 - packing) * (1 - packing));
+        const double density = packing / (std::numbers::pi * radius * radius);
+        const double kt = 4; // what the strength is chosen for
+        const double loss = (1 - e * e) * density * 2 * radius * g * std::sqrt(std::numbers::pi);
+        const double strength = loss * std::pow(kt, 1.5) * (1 + 3 * a2 / 16);
+        TestScene scene = periodic_gas(n, packing, 31);
+        scene.setting.effects.contact = {ContactKind::restitution, e, 1e-6};
+        scene.setting.effects.thermostat = {ThermostatKind::kicks, strength, 0, 0, 17};
+        Simulation simulation = event_driven_simulation(scene, world);
+        const Speeds speeds = measured_speeds(simulation, 200, 30, 60);
+        fmt::print("e = {}: kT {:.4f} of {}, a2 {:.4f}, theory {:.4f}\n", e, speeds.temperature, kt,
+                   speeds.a2, a2);
+        // Looks come just after a kick; between two kicks the mean is half a kick less.
+        CHECK(speeds.temperature - strength / 2 == Approx(kt).epsilon(0.02));
+        CHECK(std::fabs(speeds.a2 - a2) < 0.006); // 2.5 standard errors of 180,000 speeds
+    }
+}
+
+TEST_CASE("physics: Andersen and Langevin thermostats bring discs to Maxwell's distribution") {
+    const Communicator world = Communicator::world();
+    for (const ThermostatKind kind : {ThermostatKind::andersen, ThermostatKind::langevin}) {
+        TestScene scene = periodic_gas(3000, 0.3, 32);
+        scene.setting.effects.thermostat = {kind, 0, 0.2, 4, 18};
+        Simulation simulation = event_driven_simulation(scene, world);
+        const Speeds speeds = measured_speeds(simulation, 40, 10, 30);
+        // Four standard errors of 90,000 speeds: 1 / sqrt(n) of both.
+        CHECK(speeds.temperature == Approx(4).epsilon(4 / 300.0));
+        CHECK(std::fabs(speeds.a2) < 4 / 300.0);
+    }
+}
+
+// Discs that do not meet: D = kT / (m gamma), but that the friction acts at syncs, a time t apart.
+// Velocities keep their share c = exp(-gamma t) from flight to flight, so the mean square
+// displacement grows by 4 D with D = kT t (1 + c) / (2 (1 - c)).
+TEST_CASE("physics: Langevin discs that are alone diffuse by kT / gamma") {
+    const Communicator world = Communicator::world();
+    const std::size_t n = 10000;
+    const double gamma = 0.2, kt = 0.01, time = 400;
+    TestScene scene = periodic_gas(n, 0.01, 33);
+    scene.setting.effects.contact.kind = ContactKind::none;
+    scene.setting.effects.thermostat = {ThermostatKind::langevin, 0, gamma, kt, 19};
+    Simulation simulation = event_driven_simulation(scene, world);
+    while (simulation.step() < 50) simulation.advance_towards(50);
+    std::vector<double> x(n), y(n);
+    const double size = scene.setting.box_size;
+    for (const Disc& disc : simulation.shown()) {
+        x[disc.id] = disc.x_at(simulation.clock());
+        y[disc.id] = disc.y_at(simulation.clock());
+    }
+    const std::int64_t last = 50 + static_cast<std::int64_t>(time);
+    while (simulation.step() < last) simulation.advance_towards(last);
+    double square = 0;
+    for (const Disc& disc : simulation.shown()) {
+        // They go some 30 at most, in a box of 1772.
+        const double dx = std::remainder(disc.x_at(simulation.clock()) - x[disc.id], size),
+                     dy = std::remainder(disc.y_at(simulation.clock()) - y[disc.id], size);
+        square += dx * dx + dy * dy;
+    }
+    const double c = std::exp(-gamma), d = kt * (1 + c) / (2 * (1 - c));
+    const double correction = 1 - (1 - std::exp(-gamma * time)) / (gamma * time);
+    CHECK(square / static_cast<double>(n) ==
+          Approx(4 * d * time * correction).epsilon(4 / std::sqrt(static_cast<double>(n))));
+    CHECK(d == Approx(kt / gamma).epsilon(0.01));
+}

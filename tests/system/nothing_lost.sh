@@ -1,0 +1,127 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# A run never begins anew over what another has recorded because a place cannot be read, and
+# --overwrite removes only what a run has written. Argument: a library that fails to list folders.
+source "$(dirname "$0")/common.sh"
+failing=$1
+scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=200 --set discs.packing=0.2 --quiet
+       --set output.trajectory.every_steps=2 --set output.collisions=true
+       --set output.checkpoint.every_steps=10 --set output.measurements.every_steps=5
+       --set 'output.measurements.quantities=["thermo"]')
+sums_of() { (cd "$1" && find . -type f ! -name '.carrom*' -exec md5sum {} + | sort); }
+
+run 1 run "${scene[@]}" -o kept --steps 20
+expect_code 0 'a run to lose'
+sums_of kept >before
+
+# still_there CASE: the run ended with code 2, and all of it is there.
+still_there() {
+    expect_code 2 "$1"
+    sums_of kept | cmp - before || complain "files have changed: $1"
+}
+for how in '--resume' '--restart latest'; do
+    for ranks in 1 3; do
+        # shellcheck disable=SC2086 # two words
+        CARROM_FAIL_LISTING=/checkpoints LD_PRELOAD=$failing run "$ranks" run "${scene[@]}" \
+            -o kept --steps 30 $how
+        still_there "a folder that cannot be listed, $how on $ranks ranks"
+        expect_told 'kept/checkpoints: cannot be listed: Input/output error' "$how"
+    done
+    mv kept/checkpoints aside
+    # shellcheck disable=SC2086
+    run 2 run "${scene[@]}" -o kept --steps 30 $how
+    mv aside kept/checkpoints
+    still_there "no folder of checkpoints, $how"
+    expect_told 'has report.json of a run and no checkpoint to go on from' "$how"
+    mv kept/checkpoints aside
+    ln -s checkpoints kept/checkpoints
+    # shellcheck disable=SC2086
+    run 1 run "${scene[@]}" -o kept --steps 30 $how
+    rm kept/checkpoints
+    mv aside kept/checkpoints
+    still_there "a folder that is a link to itself, $how"
+    expect_told 'cannot be listed: Too many levels of symbolic links' "$how"
+done
+CARROM_FAIL_LISTING=/checkpoints LD_PRELOAD=$failing run 1 run -o kept --resume --steps 30 --quiet
+still_there 'a folder that cannot be listed, without a scene'
+if [ "$(id -u)" -ne 0 ]; then # root may read everything
+    chmod 000 kept/checkpoints
+    run 1 run "${scene[@]}" -o kept --steps 30 --resume
+    chmod 755 kept/checkpoints
+    still_there 'a folder without rights'
+fi
+
+# Each kind of recording alone is enough, and a run of which only the start is there begins anew.
+for name in trajectory.h5 collisions.h5 measurements/thermo.csv; do
+    rm -rf part
+    mkdir -p part/measurements
+    cp kept/scene.toml part/
+    cp -r "kept/$name" "part/$name"
+    [ ! -d "kept/${name%.h5}" ] || cp -r "kept/${name%.h5}" part/
+    run 1 run "${scene[@]}" -o part --steps 30 --resume
+    expect_code 2 "$name and no checkpoint"
+    expect_told "has $name of a run" "$name and no checkpoint"
+    cmp "kept/$name" "part/$name" || complain "$name was replaced"
+done
+run 1 run "${scene[@]}" -o start --steps 0 --set output.checkpoint.at_end=false
+expect_code 0 'a start'
+rm start/report.json
+run 2 run "${scene[@]}" -o start --steps 10 --resume
+expect_code 0 'a run that recorded its start only'
+
+# --overwrite removes what the run has written, and nothing else, and nothing behind a link.
+cp -r kept mine
+foreign=(mine/measurements/lab.csv mine/measurements/thermo_old.csv mine/trajectory/notes.h5
+         mine/collisions/lab.csv mine/checkpoints/checkpoint-best.h5 mine/checkpoints/lab.h5)
+for file in "${foreign[@]}"; do echo mine >"$file"; done
+touch mine/trajectory/0009.h5
+run 2 run "${scene[@]}" -o mine --overwrite --steps 4
+expect_code 0 '--overwrite beside files of somebody'
+for file in "${foreign[@]}"; do [ -e "$file" ] || complain "$file was removed"; done
+[ ! -e mine/trajectory/0009.h5 ] || complain 'a segment of the run before is left'
+[ "$(ls mine/checkpoints/checkpoint-0*)" = mine/checkpoints/checkpoint-000000000004.h5 ] ||
+    complain "other checkpoints: $(ls mine/checkpoints)"
+mkdir far
+mv mine/checkpoints/* far/
+rmdir mine/checkpoints
+ln -s ../far mine/checkpoints
+(cd far && md5sum -- *) >before_far
+run 1 run "${scene[@]}" -o mine --overwrite --steps 6
+expect_code 2 '--overwrite through a link'
+expect_told 'mine/checkpoints is a symbolic link' '--overwrite through a link'
+(cd far && md5sum -- *) | cmp - before_far || complain 'files behind a link have changed'
+
+# Tables and reports that a killed run has left unfinished are removed, and nobody else's.
+rm mine/checkpoints
+touch mine/measurements/velocities.csv.123-0.partial mine/report.json.77-3.partial \
+    mine/measurements/lab.csv.partial
+run 1 run "${scene[@]}" -o mine --overwrite --steps 2
+expect_code 0 'after a killed run'
+[ -e mine/measurements/lab.csv.partial ] || complain 'a foreign .partial was removed'
+[ ! -e mine/measurements/velocities.csv.123-0.partial ] || complain 'a table is left unfinished'
+[ ! -e mine/report.json.77-3.partial ] || complain 'a report is left unfinished'
+
+# A gap in the log of collisions is told, now and later.
+run 1 run "${scene[@]}" -o gap --steps 10
+cp -r gap/collisions gap/collisions.h5 .
+run 1 run "${scene[@]}" -o gap --resume --steps 20
+rm -r gap/collisions gap/collisions.h5
+mv collisions collisions.h5 gap/
+run 2 run "${scene[@]}" -o gap --resume --steps 30
+expect_code 0 'an older log'
+expect_told 'has no collisions of steps 11 to 20, and goes on with step 21' 'an older log'
+run 1 verify gap/collisions.h5
+expect_code 6 'verify of a log with a gap'
+grep -q 'without the collisions of steps 11 to 20$' "$test_folder/out" || complain 'no gap is named'
+run 1 verify kept/collisions.h5
+expect_code 0 'verify of a log without a gap'
+
+run 1 replicas "${scene[@]}" --set output.collisions=false --count 2 -o many --steps 20
+expect_code 0 'replicas'
+(cd many && find . -type f -exec md5sum {} + | sort) >before_replicas
+CARROM_FAIL_LISTING=0001/checkpoints LD_PRELOAD=$failing run 2 replicas "${scene[@]}" \
+    --set output.collisions=false --count 2 -o many --steps 30
+expect_code 2 'replicas that cannot be listed'
+(cd many/0001 && find . -type f -exec md5sum {} + | sort) | cmp - <(sed -n 's, ./0001/, ./,p' \
+    before_replicas) || complain 'a replica has changed'
+finish
