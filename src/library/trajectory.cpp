@@ -90,7 +90,7 @@ void TrajectoryWriter::append() {
 
 void TrajectoryWriter::describe() {
     State& state = live_part(state_, "TrajectoryWriter");
-    meet(state.of.ranks, "TrajectoryWriter::describe");
+    meet(state.run.ranks(), "TrajectoryWriter::describe");
     state.trajectory.describe();
 }
 

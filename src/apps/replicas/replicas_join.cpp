@@ -39,11 +39,11 @@ double number_of_json(const Json& json) { return json.is_number() ? json.get<dou
 std::string field(double number) { return std::isfinite(number) ? fmt::format("{}", number) : ""; }
 
 /// One average of a report; `path` is a JSON pointer.
-struct Quantity {
+struct AveragedColumn {
     const char* name;
     const char* path;
 };
-constexpr Quantity quantities[] = {
+constexpr AveragedColumn quantities[] = {
     {"temperature", "/temperature/value"},
     {"pressure", "/pressure/value"},
     {"compressibility", "/compressibility/value"},
@@ -58,7 +58,7 @@ constexpr Quantity quantities[] = {
     {"kinetic_energy", "/kinetic_energy"},
 };
 
-double value_in(const Json& report, const Quantity& quantity) {
+double value_in(const Json& report, const AveragedColumn& quantity) {
     const Json::json_pointer path(quantity.path);
     return report.contains(path) ? number_of_json(report.at(path)) : NAN;
 }
@@ -80,11 +80,11 @@ void write(const std::string& folder, const std::string& name, const std::string
 std::string lines_of_replicas(const std::vector<Replica>& replicas,
                               const std::vector<Json>& reports) {
     std::string text = "replica,seed,state_hash";
-    for (const Quantity& quantity : quantities) text += fmt::format(",{}", quantity.name);
+    for (const AveragedColumn& quantity : quantities) text += fmt::format(",{}", quantity.name);
     for (std::size_t k = 0; k < reports.size(); ++k) {
         text += fmt::format("\n{},{},{}", k, replicas[k].seed,
                             reports[k].value("state_hash", std::string()));
-        for (const Quantity& quantity : quantities)
+        for (const AveragedColumn& quantity : quantities)
             text += ',' + field(value_in(reports[k], quantity));
     }
     return text + '\n';
@@ -175,7 +175,7 @@ std::string join_replicas(const std::vector<Replica>& replicas, const std::strin
     write(folder, "replicas.csv", lines_of_replicas(replicas, reports));
     std::string text = fmt::format("replicas           {}\n", replicas.size());
     Json joined = {{"replicas", replicas.size()}};
-    for (const Quantity& quantity : quantities) {
+    for (const AveragedColumn& quantity : quantities) {
         std::vector<double> values;
         for (const Json& report : reports) values.push_back(value_in(report, quantity));
         const Mean mean = mean_of(values);

@@ -31,10 +31,6 @@ namespace {
 
 using Problems = std::vector<Problem>;
 
-void append(Problems& problems, const Problems& more) {
-    problems.insert(problems.end(), more.begin(), more.end());
-}
-
 /// Runs `read` and adds the problems of an InputError to `problems`; true if there was none. One
 /// rank may find problems that the others do not know of yet, so they must not fly as an exception
 /// before all ranks have agreed.

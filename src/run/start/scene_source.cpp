@@ -30,10 +30,6 @@ template <class Read> Problems problems_of(const Read& read) {
     return {};
 }
 
-void append(Problems& problems, const Problems& more) {
-    problems.insert(problems.end(), more.begin(), more.end());
-}
-
 /// The discs of `discs.from` become the lines that follow the scene's text. Returns the settings
 /// that say so, the same on every rank. **Collective.**
 std::vector<std::string> follow_with_discs_from(const Scene& scene,

@@ -17,6 +17,10 @@
 
 namespace carrom {
 
+inline void append(std::vector<Problem>& problems, const std::vector<Problem>& more) {
+    problems.insert(problems.end(), more.begin(), more.end());
+}
+
 struct SceneSource {
     SceneText text; ///< the same on all ranks
     /// On rank 0: the input behind the text, at the first line of discs if there are any.

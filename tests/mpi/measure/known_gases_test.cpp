@@ -7,6 +7,7 @@
 #include "catch.hpp"
 
 #include "measured_runs.hpp"
+#include "statistics/pair_distances.hpp"
 
 using namespace carrom;
 using namespace carrom::test;

@@ -65,9 +65,9 @@ TEST_CASE("measurements: thermo has the run's energy, collisions and pressure at
                                totals.potential_energy);
             pairs.push_back(static_cast<double>(totals.pair_collisions));
             const std::size_t n_rows = energies.size();
-            REQUIRE(sampler.thermo_from(n_rows - 1));
-            CHECK(sampler.thermo_from(n_rows - 1)->rows.size() == 1);
-            CHECK(!sampler.thermo_from(n_rows));
+            REQUIRE(sampler.rows_from(n_rows - 1).size() == 1);
+            CHECK(sampler.rows_from(n_rows - 1).front().rows.size() == 1);
+            CHECK(sampler.rows_from(n_rows).empty());
         }
         const std::vector<MeasuredTable> tables = sampler.tables();
         CHECK(column_of(tables, "thermo", "energy") == energies);
@@ -117,9 +117,9 @@ TEST_CASE("measurements: thermo goes on from what was stored, to the same rows")
         Sampler sampler(scene, second, world);
         sampler.go_on(first_sampler.stored());
         advance_to(second, sampler, 60);
-        const MeasuredTable expected = *whole_sampler.thermo_from(1);
+        const MeasuredTable expected = whole_sampler.rows_from(1).at(0);
         CHECK(expected.rows.size() == 6);
-        CHECK(sampler.thermo_from(1)->rows == expected.rows);
-        CHECK(sampler.thermo_from(0)->remarks == expected.remarks);
+        CHECK(sampler.rows_from(1).at(0).rows == expected.rows);
+        CHECK(sampler.rows_from(0).at(0).remarks == expected.remarks);
     }
 }
