@@ -57,12 +57,13 @@ const std::vector<Table>& tables() {
              [](const Scene& s) { return s.measurements.has_value(); },
              [](Scene& s) { s.measurements.emplace(); }},
         };
-        const auto output = std::find_if(list.begin(), list.end(),
-                                         [](const Table& one) { return one.name == "output"; });
+        const auto next = std::find_if(list.begin(), list.end(), [](const Table& one) {
+            return one.name == "effects.thermal";
+        });
         std::vector<Table> of_effects;
         for (const EffectDeclaration& effect : all_effects())
             of_effects.insert(of_effects.end(), effect.tables.begin(), effect.tables.end());
-        list.insert(output, of_effects.begin(), of_effects.end());
+        list.insert(next, of_effects.begin(), of_effects.end());
         return list;
     }();
     return all;

@@ -247,6 +247,44 @@ std::vector<Key> keys_of_other_runs() {
     };
 }
 
+std::vector<Key> keys_of_speeds() {
+    return {
+        key("discs.speed", "length/step",
+            "Root mean square of the speeds at the start; the heavier count more, by their mass.",
+            [](auto& s) -> auto& { return s.speed; })
+            .within({smallest_size, 0x1p-8 * largest_size, false, true})
+            .needs(random_speeds),
+        key("discs.temperature", "mass length^2/step^2",
+            "kT at the start, in place of the speed: the kinetic energy over N.",
+            [](auto& s) -> auto& { return s.temperature; })
+            .by_default("from 'discs.speed'")
+            .within({.low = 0})
+            .needs(random_speeds)
+            .excludes({"discs.speed"}),
+        key("discs.velocities", "",
+            "Maxwell distribution, or isotropic with speeds uniform up to sqrt(3) times "
+            "their root mean square.",
+            [](auto& s) -> auto& { return s.velocities; })
+            .needs(random_speeds),
+    };
+}
+
+std::vector<Key> keys_of_generation() {
+    return {
+        growth_rate_key(),
+        key("discs.seed", "1", "The same seed gives the same discs on any number of ranks.",
+            [](auto& s) -> auto& { return s.seed; })
+            .within({.low = 0})
+            .needs(generated)
+            .seed(),
+        key("discs.streams", "length, length/step",
+            "Adds a velocity to generated discs inside a region.",
+            [](auto& s) -> auto& { return s.streams; })
+            .needs(generated)
+            .with_rows({{"region", "[x0, y0, x1, y1]", 4, 4}, {"velocity", "[vx, vy]", 2, 2}}),
+    };
+}
+
 std::vector<Key> keys_of_discs() {
     std::vector<Key> all = {
         key("box.size", "length",
@@ -282,35 +320,9 @@ std::vector<Key> keys_of_discs() {
             [](auto& s) -> auto& { return s.disc_columns; })
             .needs(listed)
             .excludes({"discs.list"}),
-        key("discs.speed", "length/step",
-            "Root mean square of the speeds at the start; the heavier count more, by their mass.",
-            [](auto& s) -> auto& { return s.speed; })
-            .within({smallest_size, 0x1p-8 * largest_size, false, true})
-            .needs(random_speeds),
-        key("discs.temperature", "mass length^2/step^2",
-            "kT at the start, in place of the speed: the kinetic energy over N.",
-            [](auto& s) -> auto& { return s.temperature; })
-            .by_default("from 'discs.speed'")
-            .within({.low = 0})
-            .needs(random_speeds)
-            .excludes({"discs.speed"}),
-        key("discs.velocities", "",
-            "Maxwell distribution, or isotropic with speeds uniform up to sqrt(3) times "
-            "their root mean square.",
-            [](auto& s) -> auto& { return s.velocities; })
-            .needs(random_speeds),
-        growth_rate_key(),
-        key("discs.seed", "1", "The same seed gives the same discs on any number of ranks.",
-            [](auto& s) -> auto& { return s.seed; })
-            .within({.low = 0})
-            .needs(generated)
-            .seed(),
-        key("discs.streams", "length, length/step",
-            "Adds a velocity to generated discs inside a region.",
-            [](auto& s) -> auto& { return s.streams; })
-            .needs(generated)
-            .with_rows({{"region", "[x0, y0, x1, y1]", 4, 4}, {"velocity", "[vx, vy]", 2, 2}}),
     };
+    for (Key& one : keys_of_speeds()) all.push_back(std::move(one));
+    for (Key& one : keys_of_generation()) all.push_back(std::move(one));
     for (Key& one : keys_of_other_runs()) all.push_back(std::move(one));
     for (Key& one : keys_of_time()) all.push_back(std::move(one));
     return all;

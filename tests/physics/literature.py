@@ -222,7 +222,7 @@ def haff(program, is_short):
 def melting(program, is_short):
     """From a crystal, with 120,000 collisions of each disc: 0.2 core-hours a density."""
     known = {0.68: LI[0.68], 0.73: ("", "")} if is_short else MELTING
-    discs, steps = (1024, 600) if is_short else (128 ** 2, 80_000)
+    discs, steps = (1024, 900) if is_short else (128 ** 2, 80_000)
     for packing, (pressure_known, known_error) in known.items():
         spacing = math.sqrt(math.pi / (2 * math.sqrt(3) * packing)) # of a lattice of diameter 1
         width = math.sqrt(discs) * spacing

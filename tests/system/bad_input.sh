@@ -138,7 +138,8 @@ refuse_toml 'a flood of unknown keys' "$(seq -f 'k%.0f = 1' 100000)"$'\n'"$good"
     'and 99980 more unknown keys'
 refuse 'discs too fast to follow' 'crosses the box more than 2^40 times' run good.toml \
     --set discs.speed=1e60 --set time.method=event-driven
-refuse_toml 'a speed and a temperature' "${good/radius = 1/radius = 1$'\n'speed = 1$'\n'temperature = 1}" \
+both=$'radius = 1\nspeed = 1\ntemperature = 1'
+refuse_toml 'a speed and a temperature' "${good/radius = 1/$both}" \
     "bad.toml:6: 'discs.speed' and 'discs.temperature' exclude each other"
 refuse_toml 'a negative temperature' "${good/radius = 1/radius = 1$'\n'temperature = -1}" \
     "bad.toml:6: 'discs.temperature' must be"

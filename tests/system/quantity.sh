@@ -81,7 +81,8 @@ for folder in two again; do
     cmp one/measurements/energies.csv $folder/measurements/energies.csv ||
         complain "$folder: another table"
 done
-PYTHONPATH=$CARROM_SOURCE_DIR/src/python "$python" - one <<'END' || complain 'another table in Python'
+export PYTHONPATH=$CARROM_SOURCE_DIR/src/python
+"$python" - one <<'END' || complain 'another table in Python'
 import json, sys, pathlib
 import carrom
 folder = pathlib.Path(sys.argv[1])

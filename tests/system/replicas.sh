@@ -33,7 +33,8 @@ tr -d ' \n' <all1/replicas.json |
     awk '{ printf "%.9g %.5g\n", $1, $2 }' >by_program
 cmp by_awk by_program || complain "other means: $(cat by_awk by_program)"
 
-# No two columns have one name. D_error is the error over replicas, D_run_error the mean of the errors
+# No two columns have one name. D_error is the error over replicas, D_run_error the mean of the
+# errors
 # that runs claim.
 run 1 replicas "${scene[@]}" --count 3 -o flights --quiet --set box.left.kind=periodic \
     --set box.right.kind=periodic --set 'output.measurements.quantities=["diffusion"]' \

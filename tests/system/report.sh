@@ -17,7 +17,7 @@ run 2 run "$expected/three_discs.in" --threads 2 --report report.json
 expect_code 0 'a run with a report'
 for key in version state_hash n_discs steps wall_collisions pair_collisions rejected_candidates \
     overlapping_pairs \
-    averages radius box eta kT temperature pressure compressibility pressure_tensor \
+    averages radius box packing temperature pressure compressibility pressure_tensor \
     lost_collisions kinetic_energy momentum \
     wall_seconds ns_per_disc_step ranks threads phase_seconds \
         phase_imbalance imbalance peak_bytes_per_disc; do
@@ -39,7 +39,7 @@ expect_told "$(json_value report.json state_hash)" 'the summary'
 
 run 1 run "$expected/three_discs.in" --steps 0 --quiet --report none.json
 expect_code 0 'a run of no steps'
-[ "$(json_value none.json kT)" = null ] || complain 'kT of no steps is not null'
+[ "$(json_value none.json temperature)" = null ] || complain 'temperature of no steps is not null'
 grep -q '"value": [^n]' none.json && complain 'an average of no steps is not null'
 rm none.json
 

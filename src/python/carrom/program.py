@@ -21,7 +21,8 @@ def find_program(program: str | os.PathLike[str] | None = None) -> Path:
     """Return the path of the program `carrom`.
 
     The first of these counts: the argument, the environment variable CARROM, the program of the
-    wheel that this package came with, `carrom` on PATH, `build/carrom` of the checkout that holds this package or the working folder.
+    wheel that this package came with, `carrom` on PATH, `build/carrom` of the checkout that holds
+    this package or the working folder.
 
     Raises:
         ProgramNotFoundError: none of them is a program; the message says where it looked

@@ -55,6 +55,7 @@ TrajectoryLayout layout_of(std::uint64_t n) {
     TrajectoryLayout layout;
     layout.system.program_version = "0.0.1";
     layout.system.n_discs = n;
+    layout.system.radius = 1;
     layout.system.box = 64;
     layout.velocity_unit = 4;
     layout.has_collisions = true;

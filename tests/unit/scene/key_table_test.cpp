@@ -138,6 +138,10 @@ Texts random_overrides(Draw& draw) {
                                    "output.folder=a", "output.measurements.every_steps=1",
                                    "output.measurements.quantities=[\"structure_factor\", "
                                    "\"diffusion\"]"});
+    if (draw.below(8) == 0) // both sides, and the flow goes through the others
+        texts.insert(texts.end(),
+                     {"box.left.kind=periodic", "box.right.kind=periodic",
+                      "box.bottom.kind=sheared", "box.top.kind=sheared", "effects.shear.rate=0.1"});
     for (const Key& key : keys()) {
         if (key.name == "box.size" || draw.below(8) != 0) continue;
         if (key.name == source[0] || key.name == source[1]) continue;
