@@ -2,6 +2,7 @@
 #include "io/checksums.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <sstream>
 #include <string_view>
@@ -130,16 +131,20 @@ Checksums read_checksums(hid_t file) {
     return sums;
 }
 
-bool has_text_of_checksums(const std::string& path) {
-    const std::string wanted = std::string(blanks) + std::string(others_name) + '\n';
+bool has_traces_of_checkpoint(const std::string& path) {
+    const std::array traces = {fmt::format("{}{}\n", blanks, others_name),
+                               std::string("micro_steps_done")}; // a name in /carrom/run
+    const std::size_t longest = std::max(traces[0].size(), traces[1].size());
     const Descriptor file(path, O_RDONLY);
     std::string text(bytes_at_a_time, '\0');
     std::uint64_t place = 0;
     for (;;) {
         const std::size_t n = file.read(std::as_writable_bytes(std::span(text)), place);
-        if (std::string_view(text).substr(0, n).find(wanted) != std::string_view::npos) return true;
+        const std::string_view found = std::string_view(text).substr(0, n);
+        for (const std::string& trace : traces)
+            if (found.find(trace) != std::string_view::npos) return true;
         if (n < text.size()) return false;
-        place += n - wanted.size(); // it may lie across the end of these bytes
+        place += n - longest; // one may lie across the end of these bytes
     }
 }
 

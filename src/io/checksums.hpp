@@ -79,10 +79,10 @@ struct Checksums {
 /// where the text is none of ours.
 Checksums read_checksums(hid_t file);
 
-/// Whether the file's bytes hold a text of checksums, wherever its structure leads: damage of one
-/// link hides all that a checkpoint is known by. Reads the whole file. Of one rank; throws
-/// FileError.
-bool has_text_of_checksums(const std::string& path);
+/// Whether the file's bytes hold what only checkpoints have, the text of checksums or a name in
+/// /carrom/run, wherever its structure leads: damage of one link hides all that a checkpoint is
+/// known by. The two lie in different pages. Reads the whole file. Of one rank; throws FileError.
+bool has_traces_of_checkpoint(const std::string& path);
 
 /// The checksum of a file without these bytes. Of one rank; throws FileError.
 StateHash checksum_of_others(const std::string& path, std::vector<ByteRange> left_out);

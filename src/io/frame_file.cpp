@@ -143,8 +143,8 @@ void FrameFile::open() {
     if (!index && h5::has(file, "/carrom/recording"))
         throw FileError("is damaged: it does not end with a checksum, as this program writes it");
     summary_.has_checksums = index || h5::has(file, run_path);
-    if (!summary_.has_checksums && has_text_of_checksums(path_))
-        throw FileError("is damaged: it has the checksums of a checkpoint, and is none");
+    if (!summary_.has_checksums && has_traces_of_checkpoint(path_))
+        throw FileError("is damaged: it has traces of a checkpoint, and is none");
     if (h5::has(file, run_path)) {
         const CheckpointHeader& header = state_->header = read_header(file);
         summary_.columns = {"x", "y", "vx", "vy", "pair_collisions", "wall_collisions"};
