@@ -6,22 +6,18 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
-import sys
 from pathlib import Path
-from typing import NoReturn
 
 from carrom.errors import ProgramNotFoundError
 
-# Wheels hold the program; a package that was installed from the source does not.
-_BUNDLED = Path(__file__).parent / "bin" / "carrom"
 _ADVICE = "build it (see docs/start/install.md), put it on PATH, or set CARROM to its path"
 
 
 def find_program(program: str | os.PathLike[str] | None = None) -> Path:
     """Return the path of the program `carrom`.
 
-    The first of these counts: the argument, the environment variable CARROM, the program of the
-    wheel that this package came with, `carrom` on PATH, `build/carrom` of the checkout that holds this package or the working folder.
+    The first of these counts: the argument, the environment variable CARROM, `carrom` on PATH,
+    `build/carrom` of the checkout that holds this package or the working folder.
 
     Raises:
         ProgramNotFoundError: none of them is a program; the message says where it looked
@@ -33,8 +29,6 @@ def find_program(program: str | os.PathLike[str] | None = None) -> Path:
             source = "the argument `program`" if program is not None else "CARROM"
             raise ProgramNotFoundError(f"{source} names no program: {named}; {_ADVICE}")
         return Path(found).absolute()
-    if _BUNDLED.is_file():
-        return _BUNDLED
     if (found := shutil.which("carrom")) is not None:
         return Path(found).absolute()
     looked = [folder / "build" / "carrom" for folder in _checkouts()]
@@ -53,17 +47,9 @@ def _checkouts() -> list[Path]:
 
 
 def find_launcher(launcher: str | os.PathLike[str] | None = None) -> str:
-    """Return the MPI launcher.
-
-    The first of these counts: the argument, the environment variable CARROM_MPIEXEC, `mpiexec` of
-    this Python environment if the wheel brought the program, `mpiexec` or `mpirun` on PATH.
-
-    Raises:
-        ProgramNotFoundError: none of them is there
-    """
+    """Return the MPI launcher: the argument, CARROM_MPIEXEC, `mpiexec` or `mpirun` on PATH."""
     named = os.fspath(launcher) if launcher is not None else os.environ.get("CARROM_MPIEXEC", "")
-    own = [str(Path(sys.prefix) / "bin" / "mpiexec")] if _BUNDLED.is_file() else []
-    for name in [named] if named else [*own, "mpiexec", "mpirun"]:
+    for name in [named] if named else ["mpiexec", "mpirun"]:
         if (found := shutil.which(name)) is not None:
             return found
     what = named or "mpiexec or mpirun"
@@ -83,8 +69,3 @@ def program_version(program: str | os.PathLike[str] | None = None) -> str:
         raise ProgramNotFoundError(f"{command[0]}: prints no version: {error}") from None
     words = done.stdout.split()
     return next((word for word in words if word[:1].isdigit()), " ".join(words))
-
-
-def main() -> NoReturn:
-    """Become the program: what the command `carrom` of a wheel does."""
-    os.execv(find_program(), ["carrom", *sys.argv[1:]])

@@ -8,7 +8,7 @@ import itertools
 import json
 import os
 import re
-import sys
+import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,11 +17,6 @@ from typing import Any
 import numpy as np
 
 from carrom.errors import FileError
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 SceneLike = Mapping[str, Any] | str | os.PathLike[str]
 """A scene: a dictionary, the path of a file, or TOML text (any string with a line break)."""
