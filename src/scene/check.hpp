@@ -68,6 +68,9 @@ bool check_discs(const Check& check);
 /// What numbers of steps, rates and times ask of each other.
 void check_times(const Check& check);
 
+/// Of heaps that rest between walls.
+void check_rows(const Check& check);
+
 /// What effects and measurements ask of a box and discs that are right.
 void check_room(const Check& check);
 

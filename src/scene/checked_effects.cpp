@@ -199,6 +199,7 @@ void check_room(const Check& check) {
     check_moving_walls(check);
     check_oscillating_walls(check);
     check_quantities(check);
+    check_rows(check);
 }
 
 } // namespace carrom
