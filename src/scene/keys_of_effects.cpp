@@ -17,7 +17,6 @@ const Need loss_or_gravity{"without discs, walls or obstacles of restitution, a 
 const Need thermal{"without a side of kind = \"thermal\"",
                    [](const Scene& s) { return has_boundary(s.effects, BoundaryKind::thermal); }};
 
-
 constexpr Range shares{0, 1};
 
 Need side_needs(std::size_t side, BoundaryKind kind, const char* word) {
