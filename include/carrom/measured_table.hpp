@@ -14,6 +14,7 @@ struct MeasuredTable {
     std::vector<std::string> remarks; ///< what it shows, and units
     std::vector<std::string> columns;
     std::vector<std::vector<double>> rows;
+    bool grows = false; ///< by a row at each sample; its file is written as the run goes on
 };
 
 } // namespace carrom

@@ -58,7 +58,7 @@ Simulation::State::State(const Communicator& all, carrom::Scene checked, StoredS
     simulation.go_on_averaging(samples.averages);
     if (!scene.measurements) return;
     sampler.emplace(scene, simulation, ranks);
-    sampler->go_on(std::move(samples));
+    sampler->go_on(samples);
     sampler->look();
 }
 

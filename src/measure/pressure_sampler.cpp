@@ -38,14 +38,14 @@ PressureSampler::PressureSampler(Simulation& simulation, const Communicator& ran
     : simulation_(&simulation), ranks_(&ranks), last_sums_(simulation.stress_sums()) {}
 
 PressureSampler::PressureSampler(Simulation& simulation, const Communicator& ranks,
-                                 SampleSums& sums)
+                                 PressureSums& sums)
     : PressureSampler(simulation, ranks) {
     sums.virial_bound = simulation.stress_bound();
     begin_interval(simulation.look());
 }
 
 PressureSampler PressureSampler::going_on(Simulation& simulation, const Communicator& ranks,
-                                          SampleSums& sums) {
+                                          PressureSums& sums) {
     simulation.begin_stress_sums(sums.virial_bound);
     PressureSampler sampler(simulation, ranks);
     if (sums.pending_virial.size() != n_words || sums.last_motion.size() != n_numbers)
@@ -81,7 +81,7 @@ StressSums PressureSampler::since_last() const {
     return since;
 }
 
-void PressureSampler::sample(SampleSums& sums, double steps) {
+void PressureSampler::sample(PressureSums& sums, double steps) {
     Look now = simulation_->look();
     simulation_->integrate(since_last(), now);
     const MotionIntegrals mean = integrals_between(simulation_->averaged_system(), last_, now,
@@ -97,7 +97,7 @@ double PressureSampler::temperature() const {
     return temperature_at(simulation_->averaged_system(), last_);
 }
 
-void PressureSampler::store(SampleSums& sums) const {
+void PressureSampler::store(PressureSums& sums) const {
     StressSums since = since_last();
     for (ExactSum* part : since.parts()) {
         ranks_->sum(*part);
@@ -105,6 +105,16 @@ void PressureSampler::store(SampleSums& sums) const {
         sums.pending_virial.push_back(part->high_word());
     }
     sums.last_motion = numbers_of(last_);
+}
+
+void keep_pressure(KeptNumbers& kept, PressureSums& sums, std::optional<PressureSampler>& sampler,
+                   Simulation& simulation, const Communicator& ranks) {
+    PressureSums all = sums;
+    if (!kept.is_restored()) sampler->store(all);
+    kept(all.virial_bound), kept(all.pressures), kept(all.pending_virial), kept(all.last_motion);
+    if (!kept.is_restored()) return;
+    sums = std::move(all);
+    sampler = PressureSampler::going_on(simulation, ranks, sums);
 }
 
 } // namespace carrom

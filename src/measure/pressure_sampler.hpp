@@ -7,28 +7,36 @@
 #include <vector>
 
 #include "engine/stress_sums.hpp"
-#include "measure/sample_sums.hpp"
+#include "measure/kept_numbers.hpp"
 #include "parallel/communicator.hpp"
 #include "simulation/simulation.hpp"
 #include "statistics/block_averages.hpp"
 
 namespace carrom {
 
+/// What a checkpoint keeps.
+struct PressureSums {
+    double virial_bound = 0;                   ///< the unit of the virial
+    std::vector<double> pressures;             ///< of each interval: xx, xy, yy, kT and N kT / A
+    std::vector<std::uint64_t> pending_virial; ///< since the last sample
+    std::vector<double> last_motion;           ///< at the last sample
+};
+
 class PressureSampler {
 public:
     /// Begins at the present step. **Collective.**
-    PressureSampler(Simulation& simulation, const Communicator& ranks, SampleSums& sums);
+    PressureSampler(Simulation& simulation, const Communicator& ranks, PressureSums& sums);
     /// Goes on with what `sums` have of a checkpoint, before any step. **Collective.**
     static PressureSampler going_on(Simulation& simulation, const Communicator& ranks,
-                                    SampleSums& sums);
+                                    PressureSums& sums);
 
     /// Adds an interval, of so many steps, to `sums`. **Collective.**
-    void sample(SampleSums& sums, double steps);
+    void sample(PressureSums& sums, double steps);
     /// Of the last sample. Speeds and counts are unknown where sampling goes on from a checkpoint.
     const Look& last() const { return last_; }
     double temperature() const; ///< at the last sample
     /// Fills in what has happened since the last sample. **Collective.**
-    void store(SampleSums& sums) const;
+    void store(PressureSums& sums) const;
 
 private:
     PressureSampler(Simulation& simulation, const Communicator& ranks);
@@ -41,5 +49,9 @@ private:
     StressSums last_sums_; ///< of this rank, at the last sample
     Look last_;            ///< then; its integrals are those of flights since the sync before
 };
+
+/// Stores the sums with what `sampler` knows, or restores both. **Collective.**
+void keep_pressure(KeptNumbers& kept, PressureSums& sums, std::optional<PressureSampler>& sampler,
+                   Simulation& simulation, const Communicator& ranks);
 
 } // namespace carrom

@@ -43,26 +43,28 @@ void write_tables(const Scene& scene, const std::vector<MeasuredTable>& tables,
     std::string failure;
     if (ranks.is_root()) {
         for (const MeasuredTable& table : tables) {
-            if (failure.empty() && table.name != "thermo")
+            if (failure.empty() && !table.grows)
                 failure = write_whole_file(path_of(scene, table), csv_of(table, scene.name));
         }
     }
     agree(ranks, failure.empty(), failure, ExitCode::output_failure);
 }
 
-void ThermoFile::add_rows_of(const Sampler& sampler) {
-    const std::optional<MeasuredTable> rows = sampler.thermo_from(n_written_);
-    if (!rows) return;
+void GrowingFiles::add_rows_of(const Sampler& sampler) {
+    std::size_t n_new = 0;
     std::string failure;
-    if (ranks_.is_root()) {
-        const std::string path = path_of(scene_, *rows);
+    for (const MeasuredTable& rows : sampler.rows_from(n_written_)) {
+        n_new = rows.rows.size();
+        if (!ranks_.is_root() || !failure.empty()) continue;
+        const std::string path = path_of(scene_, rows);
         if (n_written_ == 0)
-            failure = write_whole_file(path, csv_of(*rows, scene_.name));
-        else if (const int error = append_whole(path, lines_of(rows->rows)); error != 0)
+            failure = write_whole_file(path, csv_of(rows, scene_.name));
+        else if (const int error = append_whole(path, lines_of(rows.rows)); error != 0)
             failure = "cannot write " + path + ": " + std::strerror(error);
     }
+    if (n_new == 0) return;
     agree(ranks_, failure.empty(), failure, ExitCode::output_failure);
-    n_written_ += rows->rows.size();
+    n_written_ += n_new;
 }
 
 } // namespace carrom

@@ -14,16 +14,16 @@ namespace carrom {
 
 std::string csv_of(const MeasuredTable& table, const std::string& scene_name);
 
-/// Writes each table but "thermo" as a whole file in the scene's folder for measurements, by rank
-/// 0. If one cannot be written every rank throws CollectiveError, code 4. **Collective.**
+/// Writes each table that does not grow as a whole file in the scene's folder for measurements, by
+/// rank 0. If one cannot be written every rank throws CollectiveError, code 4. **Collective.**
 void write_tables(const Scene& scene, const std::vector<MeasuredTable>& tables,
                   const Communicator& ranks);
 
-/// The file of the table "thermo". It grows by a line at each sample, in the file by the end of
-/// that step. Ends with whole lines, unless the machine goes down.
-class ThermoFile {
+/// The files of tables that grow by a line at each sample; the line is in the file by the end of
+/// that step. They end with whole lines, unless the machine goes down.
+class GrowingFiles {
 public:
-    ThermoFile(const Scene& scene, const Communicator& ranks) : scene_(scene), ranks_(ranks) {}
+    GrowingFiles(const Scene& scene, const Communicator& ranks) : scene_(scene), ranks_(ranks) {}
 
     /// Writes the rows that are not there yet, by rank 0; the first time, a whole new file. Throws
     /// as `write_tables` does. **Collective.**

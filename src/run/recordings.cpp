@@ -44,7 +44,7 @@ LoggedCollision logged(const Collision& collision, std::int64_t micro_steps) {
 
 Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_restart,
                        StoredSamples samples, const Communicator& ranks, const Messages& messages)
-    : scene_(scene), ranks_(ranks), messages_(messages), thermo_(scene, ranks) {
+    : scene_(scene), ranks_(ranks), messages_(messages), growing_(scene, ranks) {
     const std::int64_t step = simulation.step();
     if (scene_.trajectory) {
         trajectory_.emplace(scene_.trajectory->file, layout_of(scene_, *scene_.trajectory), ranks_);
@@ -72,7 +72,7 @@ Recordings::Recordings(const Scene& scene, Simulation& simulation, bool is_resta
     }
     if (scene_.measurements) {
         sampler_.emplace(scene_, simulation, ranks_);
-        if (is_restart) sampler_->go_on(std::move(samples));
+        if (is_restart) sampler_->go_on(samples);
         sample();
     }
     if (!is_restart) record(simulation);
@@ -113,7 +113,7 @@ void Recordings::record(const Simulation& simulation) {
 
 void Recordings::sample() {
     sampler_->look();
-    thermo_.add_rows_of(*sampler_);
+    growing_.add_rows_of(*sampler_);
 }
 
 void Recordings::commit_now_and_then() {

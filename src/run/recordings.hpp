@@ -66,7 +66,7 @@ private:
     std::optional<Trajectory> trajectory_;
     std::optional<CollisionLog> log_;
     std::optional<Sampler> sampler_;
-    ThermoFile thermo_;
+    GrowingFiles growing_;
     std::optional<ImageCounts> images_;
     Stopwatch since_look_;
     double seconds_uncommitted_ = 0, commit_seconds_ = 0; ///< on rank 0's clock

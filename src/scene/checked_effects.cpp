@@ -10,6 +10,7 @@
 #include "dynamics/oscillation.hpp"
 #include "scene/check.hpp"
 #include "scene/limits.hpp"
+#include "scene/quantity.hpp"
 
 namespace carrom {
 
@@ -24,8 +25,6 @@ constexpr double smallest_period = 1e-6;
 constexpr double largest_in_period = 0.99;
 /// Tables that grow with time are kept in memory and in checkpoints.
 constexpr std::int64_t most_samples_of_histories = 100000;
-
-constexpr std::string_view quantities = "output.measurements.quantities";
 
 std::string side_key(std::size_t side, const char* name) {
     return fmt::format("box.{}.{}", boundary_names[side], name);
@@ -245,89 +244,16 @@ void check_samples(const Check& check) {
     check_first_sample(check, "output.measurements.from_step", output.from_step);
     const std::int64_t steps = check.scene.steps - output.from_step;
     const std::int64_t n_samples = steps / output.every_steps;
-    const bool has_history = output.wall_pressure || output.displacement || output.pressure ||
-                             output.thermo || output.psi6 || output.diffusion;
+    const std::vector<Quantity>& all = declared_quantities();
+    const bool has_history = std::any_of(all.begin(), all.end(), [&output](const Quantity& one) {
+        return one.has_history && output.measures(one.name);
+    });
     if (!has_history || n_samples <= most_samples_of_histories) return;
-    check.refuse({"output.measurements.every_steps", quantities},
+    check.refuse({"output.measurements.every_steps", quantities_key},
                  fmt::format("{} samples of quantities that have a history are more than {}; take "
                              "output.measurements.every_steps = {}",
                              n_samples, most_samples_of_histories,
                              steps / most_samples_of_histories + 1));
-}
-
-/// How far g(r) and g6(r) may look: half the room of centres, in the smallest box there
-/// will be.
-void check_distance(const Check& check) {
-    Scene& scene = check.scene;
-    if (!scene.measurements) return;
-    if (!scene.measurements->radial_distribution && !scene.measurements->psi6) return;
-    const Extent end = extent_of_lines(scene.effects, scene.box, static_cast<double>(scene.steps),
-                                       1);
-    const double wide = std::min(scene.box.x, end.x_high - end.x_low);
-    const double high = std::min(scene.box.y, end.y_high - end.y_low);
-    const double margin = 2 * scene.radius;
-    const double largest = std::min(wide - (scene.effects.is_periodic_x() ? 0 : margin),
-                                    high - (scene.effects.is_periodic_y() ? 0 : margin)) /
-                           2;
-    double& distance = scene.measurements->largest_distance;
-    if (scene.measurements->is_distance_default) distance = std::min(10 * scene.radius, largest);
-    if (distance <= largest && distance > 0) return;
-    check.refuse({"output.measurements.largest_distance", quantities},
-                 fmt::format("distances of pairs cannot reach {:g}: half the width of the box "
-                             "that centres of discs have is {:g}",
-                             distance, largest));
-}
-
-/// A wave vector at least, and no more than a million: each is looked at with each disc.
-void check_wavenumber(const Check& check) {
-    constexpr double most_vectors = 1e6, most_by_default = 1e5;
-    Scene& scene = check.scene;
-    if (!scene.measurements || !scene.measurements->structure_factor) return;
-    const double lx = scene.box.x, ly = scene.box.y;
-    const auto reach = [=](double n_vectors) {
-        return std::sqrt(8 * std::numbers::pi * n_vectors / (lx * ly));
-    };
-    double& largest = scene.measurements->largest_wavenumber;
-    if (!check.settings.has("output.measurements.largest_wavenumber"))
-        largest = std::min(2 * std::numbers::pi / scene.radius, reach(most_by_default));
-    const double least = 2 * std::numbers::pi / std::max(lx, ly);
-    if (largest >= least && largest <= reach(most_vectors)) return;
-    check.refuse({"output.measurements.largest_wavenumber", quantities},
-                 fmt::format("'output.measurements.largest_wavenumber' must be from {:.6g}, the "
-                             "box's first, to {:.6g}, where a million are, not {:g}",
-                             least, reach(most_vectors), largest));
-}
-
-/// Without a whole window there is no coefficient of diffusion. A restart may come to its end, so
-/// that this is no error.
-void warn_of_short_run(Scene& scene) {
-    const MeasurementOutput& output = *scene.measurements;
-    const std::int64_t window = output.correlation_steps, steps = scene.steps - output.from_step;
-    if (scene.steps == 0 || steps < 0 || window <= steps) return;
-    const std::int64_t longest = steps / output.every_steps * output.every_steps;
-    const std::string remedy =
-        longest >= 2 * output.every_steps
-            ? fmt::format("correlation_steps = {} or less; an error takes four windows", longest)
-            : fmt::format("every_steps = {} or less", std::max(steps / 2, std::int64_t{1}));
-    scene.warnings.push_back(
-        fmt::format("no table of diffusion: its first window takes {} steps, and from step {} to "
-                    "the last one are {}; try: output.measurements.{}",
-                    window, output.from_step, steps, remedy));
-}
-
-void check_window(const Check& check) {
-    constexpr std::string_view key = "output.measurements.correlation_steps";
-    Scene& scene = check.scene;
-    if (!scene.measurements || !scene.measurements->diffusion) return;
-    const std::int64_t every = scene.measurements->every_steps;
-    std::int64_t& window = scene.measurements->correlation_steps;
-    if (!check.settings.has(key)) window = 64 * every;
-    if (check.settings.has(key) && !check.settings.is_right(key)) return;
-    if (window >= 2 * every && window % every == 0) return warn_of_short_run(scene);
-    check.refuse({key, quantities},
-                 fmt::format("'{}' must be a multiple of 'output.measurements.every_steps' = {}, "
-                             "from {} on, not {}",
-                             key, every, 2 * every, window));
 }
 
 } // namespace
@@ -357,7 +283,7 @@ void check_times(const Check& check) {
                                  scene.effects.drag, longest_drag / interval));
     check_contact_time(check);
     check_samples(check);
-    check_window(check);
+    check_times_of_quantities(check);
 }
 
 void check_room(const Check& check) {
@@ -368,8 +294,7 @@ void check_room(const Check& check) {
     check_oscillating_walls(check);
     check_growth(check);
     check_obstacles(check);
-    check_distance(check);
-    check_wavenumber(check);
+    check_quantities(check);
 }
 
 } // namespace carrom

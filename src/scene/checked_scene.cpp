@@ -42,9 +42,6 @@ void derive_defaults(const Check& check) {
             scene.first_numbers[column] = check.columns->numbers[column];
     if (scene.trajectory && !settings.has("output.trajectory.fields"))
         choose_fields(*scene.trajectory, scene);
-    if (scene.measurements)
-        scene.measurements->is_distance_default = !settings.has(
-            "output.measurements.largest_distance");
 }
 
 /// All that a run writes has its place in one folder; a run that has one stores checkpoints.

@@ -50,7 +50,7 @@ const std::vector<Table>& tables() {
         {"output.units", "Units of the numbers in HDF5 files."},
         {"output.measurements", "What is sampled as the run goes on.",
          [](const Scene& s) { return s.measurements.has_value(); },
-         [](Scene& s) { s.measurements.emplace().is_distance_default = true; }},
+         [](Scene& s) { s.measurements.emplace(); }},
     };
     return all;
 }

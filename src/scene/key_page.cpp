@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "scene/checked_value.hpp"
+#include "scene/quantity.hpp"
 #include "scene/toml_text.hpp"
 
 namespace carrom {
@@ -91,6 +92,16 @@ std::string key_page() {
         text += fmt::format("\n## [{}]\n\n{}\n\n| key | type and range | unit | default | meaning "
                             "| condition |\n|---|---|---|---|---|---|\n{}",
                             table.name, table.help, rows);
+    }
+    text += "\n## Quantities\n\nWords of `output.measurements.quantities`.\n\n| quantity | what it "
+            "is | "
+            "settings |\n|---|---|---|\n";
+    for (const Quantity& quantity : declared_quantities()) {
+        std::string settings;
+        for (const Key& key : quantity.keys)
+            settings += (settings.empty() ? "" : ", ") +
+                        code(key.name.substr(key.name.rfind('.') + 1));
+        text += fmt::format("| {} | {} | {} |\n", code(quantity.name), quantity.help, settings);
     }
     return text;
 }

@@ -2,6 +2,7 @@
 // The keys of [output]. None of them changes a bit of the result.
 #include "scene/key_members.hpp"
 #include "scene/limits.hpp"
+#include "scene/quantity.hpp"
 
 namespace carrom {
 
@@ -9,11 +10,6 @@ namespace {
 
 constexpr Range every{1, largest_steps};
 constexpr Range at_least_one{.low = 1}; ///< word
-
-Need quantity(std::string text, bool (*holds)(const MeasurementOutput&)) {
-    return {"without " + std::move(text) + " among 'output.measurements.quantities'",
-            [holds](const Scene& s) { return s.measurements && holds(*s.measurements); }};
-}
 
 /// A word for what the scene has no enumeration for. An empty one is not to be written.
 Key choice(std::string name, std::string_view help, std::vector<std::string_view> words,
@@ -114,42 +110,27 @@ std::vector<Key> keys_of_recordings() {
     };
 }
 
-/// The distance is worked out where it is not named.
-Key largest_distance() {
-    Key distance = key("output.measurements.largest_distance", "length",
-                       "Reach of g(r) and of g6(r); at most half the box of centres.",
-                       [](auto& s) -> auto& { return s.measurements->largest_distance; })
-                       .by_default("5 diameters")
-                       .within({.low = 0, .excludes_low = true})
-                       .needs(quantity("\"radial_distribution\" or \"psi6\"", [](const auto& m) {
-                           return m.radial_distribution || m.psi6;
-                       }));
-    distance.get = [](const Scene& s) {
-        const MeasurementOutput& output = *s.measurements;
-        return output.is_distance_default ? Value{} : value_of(output.largest_distance);
+Key measured_quantities() {
+    Key key = named_key(std::string(quantities_key), "", "What is measured.");
+    key.kind = Kind::words;
+    for (const Quantity& quantity : declared_quantities()) key.words.push_back(quantity.name);
+    key.get = [](const Scene& s) {
+        Values words;
+        for (const std::string& quantity : s.measurements->quantities) words.push_back({quantity});
+        return Value{std::move(words)};
     };
-    return distance;
+    key.set = [](Scene& s, const Value& value) {
+        s.measurements->quantities.clear();
+        for (const Value& word : std::get<Values>(value.data))
+            if (!word.is_nothing())
+                s.measurements->quantities.push_back(std::get<std::string>(word.data));
+    };
+    return std::move(key).within(at_least_one).required();
 }
 
 std::vector<Key> keys_of_measurements() {
-    using Output = MeasurementOutput;
-    const std::vector<Flag<Output>> quantities = {
-        {"wall_pressure", &Output::wall_pressure},
-        {"radial_distribution", &Output::radial_distribution},
-        {"velocities", &Output::velocities},
-        {"density", &Output::density},
-        {"displacement", &Output::displacement},
-        {"pressure", &Output::pressure},
-        {"thermo", &Output::thermo},
-        {"psi6", &Output::psi6},
-        {"structure_factor", &Output::structure_factor},
-        {"diffusion", &Output::diffusion}};
-    return {
-        flags_key(
-            "output.measurements.quantities", "", "What is measured.",
-            [](auto& s) -> auto& { return *s.measurements; }, quantities)
-            .within(at_least_one)
-            .required(),
+    std::vector<Key> all = {
+        measured_quantities(),
         key("output.measurements.every_steps", "steps", "Time from sample to sample.",
             [](auto& s) -> auto& { return s.measurements->every_steps; })
             .within(every),
@@ -157,37 +138,10 @@ std::vector<Key> keys_of_measurements() {
             "Step of the first sample: leave out the time of equilibration.",
             [](auto& s) -> auto& { return s.measurements->from_step; })
             .within({0, largest_steps}),
-        key("output.measurements.bins", "1",
-            "Bins of each table of distances, velocities or places.",
-            [](auto& s) -> auto& { return s.measurements->bins; })
-            .within({1, 10000})
-            .needs(quantity("\"radial_distribution\", \"velocities\", \"density\", \"psi6\" or "
-                            "\"structure_factor\"",
-                            [](const Output& m) {
-                                return m.radial_distribution || m.velocities || m.density ||
-                                       m.psi6 || m.structure_factor;
-                            })),
-        largest_distance(),
-        key("output.measurements.largest_wavenumber", "1/length",
-            "Reach of the structure factor; at most a million wave vectors.",
-            [](auto& s) -> auto& { return s.measurements->largest_wavenumber; })
-            .by_default("4 pi over the diameter, or 100,000 vectors")
-            .within({.low = 0, .excludes_low = true})
-            .needs(
-                quantity("\"structure_factor\"", [](const auto& m) { return m.structure_factor; })),
-        key("output.measurements.correlation_steps", "steps",
-            "Longest time of diffusion and velocity autocorrelation; then they begin anew.",
-            [](auto& s) -> auto& { return s.measurements->correlation_steps; })
-            .by_default("64 samples")
-            .within(every)
-            .needs(quantity("\"diffusion\"", [](const auto& m) { return m.diffusion; })),
-        key("output.measurements.largest_velocity", "length/step",
-            "Largest component in the table of velocities.",
-            [](auto& s) -> auto& { return s.measurements->largest_velocity; })
-            .by_default("5 standard deviations")
-            .within({.low = 0, .excludes_low = true})
-            .needs(quantity("\"velocities\"", [](const auto& m) { return m.velocities; })),
     };
+    const std::vector<Key> of_quantities = keys_of_quantities();
+    all.insert(all.end(), of_quantities.begin(), of_quantities.end());
+    return all;
 }
 
 } // namespace

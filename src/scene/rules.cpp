@@ -5,6 +5,7 @@
 #include "scene/disc_columns.hpp"
 #include "scene/key.hpp"
 #include "scene/limits.hpp"
+#include "scene/quantity.hpp"
 
 namespace carrom {
 
@@ -21,7 +22,6 @@ bool has_growth(const Scene& s) { return s.effects.growth != 0; }
 bool is_periodic_all_round(const Scene& s) {
     return s.effects.is_periodic_x() && s.effects.is_periodic_y();
 }
-MeasurementOutput measured(const Scene& s) { return s.measurements.value_or(MeasurementOutput{}); }
 
 using Keys = std::vector<std::string_view>;
 using Predicate = bool (*)(const Scene&);
@@ -34,8 +34,6 @@ Rule rule(std::string_view one, std::string_view other, std::string_view why, Bo
           Predicate is_broken) {
     return {one, other, why, {}, side, is_broken};
 }
-
-constexpr std::string_view quantities = "output.measurements.quantities";
 
 std::vector<Rule> rules_of_methods() {
     return {
@@ -167,13 +165,6 @@ std::vector<Rule> rules_of_shear() {
              [](const Scene& s) {
                  return s.trajectory && s.trajectory->has_image && s.effects.are_sheared();
              }),
-        rule("sheared sides", "\"displacement\", \"diffusion\" or \"structure_factor\"",
-             "discs drift apart with the flow, and waves are bent by it", {quantities},
-             [](const Scene& s) {
-                 const MeasurementOutput output = measured(s);
-                 return s.effects.are_sheared() &&
-                        (output.displacement || output.diffusion || output.structure_factor);
-             }),
     };
 }
 
@@ -226,14 +217,6 @@ std::vector<Rule> rules_of_growth() {
                  return has_growth(s) && (has_moving(s) || has_oscillating(s) || has_open(s) ||
                                           has_boundary(s.effects, BoundaryKind::thermal));
              }),
-        rule("\"radial_distribution\" of growing discs", "a wall",
-             "centres have less and less room between walls; it needs a box that is periodic all "
-             "round",
-             {quantities},
-             [](const Scene& s) {
-                 return measured(s).radial_distribution && has_growth(s) &&
-                        !is_periodic_all_round(s);
-             }),
     };
 }
 
@@ -256,35 +239,6 @@ std::vector<Rule> rules_of_outputs() {
              [](const Scene& s) {
                  return s.trajectory && s.trajectory->has_image && !s.effects.are_periodic();
              }),
-        rule("\"wall_pressure\"", "a box that is periodic all round", "it has no walls",
-             {quantities},
-             [](const Scene& s) { return measured(s).wall_pressure && is_periodic_all_round(s); }),
-        rule("\"diffusion\"", "\"displacement\"",
-             "a run keeps one first place of each disc; diffusion has displacements in its table",
-             {quantities},
-             [](const Scene& s) { return measured(s).diffusion && measured(s).displacement; }),
-        rule("\"structure_factor\"", "a side that is not periodic",
-             "wave vectors are those of a box that repeats itself; make all four sides periodic",
-             {quantities},
-             [](const Scene& s) {
-                 return measured(s).structure_factor && !is_periodic_all_round(s);
-             }),
-        rule("\"wall_pressure\", \"radial_distribution\", \"displacement\" and \"diffusion\"",
-             "an open side", "with open sides velocities and densities alone are measured",
-             {quantities},
-             [](const Scene& s) {
-                 const MeasurementOutput output = measured(s);
-                 return has_open(s) && (output.wall_pressure || output.radial_distribution ||
-                                        output.displacement || output.diffusion);
-             }),
-        rule("\"radial_distribution\" of several species", "a wall",
-             "centres of large discs have less room between walls; it needs a box that is periodic "
-             "all round",
-             {quantities},
-             [](const Scene& s) {
-                 return measured(s).radial_distribution && has_species(s) &&
-                        !is_periodic_all_round(s);
-             }),
         rule("spins in discs.columns", "discs that are not rough",
              "spins have no meaning without effects.contact.kind = \"rough\"", {"discs.columns"},
              [](const Scene& s) {
@@ -305,6 +259,7 @@ const std::vector<Rule>& rules() {
         std::vector<Rule> list = rules_of_methods();
         for (const auto& part : {rules_of_effects(), rules_of_shear(), rules_of_oscillations(),
                                  rules_of_growth(), rules_of_starts(), rules_of_outputs(),
+                                 rules_of_quantities(),
                                  rules_of_columns(std::make_index_sequence<n_side_columns>())})
             list.insert(list.end(), part.begin(), part.end());
         return list;

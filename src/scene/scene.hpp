@@ -6,9 +6,13 @@
 // takes over.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <carrom/box.hpp>
@@ -99,22 +103,28 @@ struct CollisionOutput {
     std::string file;
 };
 
-/// `[output.measurements]`: what is sampled as the run goes on, and where the tables go.
+/// `[output.measurements]`: what is sampled as the run goes on, and where the tables go. Quantities
+/// and their settings have the names that they are declared with (scene/quantity.hpp).
 struct MeasurementOutput {
+    struct Number {
+        double value = 0;
+        bool is_given = false; ///< by the scene; otherwise a check has worked it out
+    };
+
     std::string folder; ///< in the run's folder
     std::int64_t every_steps = 10, from_step = 0;
-    bool wall_pressure = false, radial_distribution = false, velocities = false, density = false,
-         displacement = false, pressure = false, thermo = false, psi6 = false,
-         structure_factor = false, diffusion = false;
-    std::size_t bins = 100;
-    std::int64_t correlation_steps = 0; ///< of a window of "diffusion"
-    double largest_wavenumber =
-        0;                       ///< of the structure factor; 0: by diameter and number of vectors
-    double largest_distance = 0; ///< of the radial distribution and of psi6's correlation
-    bool is_distance_default =
-        false; ///< not named: as far as a box allows whose walls come in until the last step
-    std::optional<double> largest_velocity; ///< of a component, per step; else five times its root
-                                            ///< mean square when sampling begins
+    std::vector<std::string> quantities;                 ///< in the order of the scene
+    std::map<std::string, Number, std::less<>> settings; ///< of quantities
+
+    bool measures(std::string_view quantity) const {
+        return std::find(quantities.begin(), quantities.end(), quantity) != quantities.end();
+    }
+    bool is_given(std::string_view setting) const {
+        const auto found = settings.find(setting);
+        return found != settings.end() && found->second.is_given;
+    }
+    void give(const std::string& setting, double value) { settings[setting] = {value, true}; }
+    void derive(const std::string& setting, double value) { settings[setting] = {value, false}; }
 };
 
 struct Scene {

@@ -38,10 +38,8 @@ std::vector<Case> cases() {
 Scene with_diffusion(const TestScene& test, Method method) {
     Scene scene = measured(test, method, 4, 5);
     MeasurementOutput& output = *scene.measurements;
-    output.wall_pressure = output.velocities = output.density = output.displacement = false;
-    output.radial_distribution = false;
-    output.diffusion = true;
-    output.correlation_steps = 12;
+    output.quantities = {"diffusion"};
+    output.give("correlation_steps", 12);
     return scene;
 }
 
@@ -186,7 +184,7 @@ TEST_CASE("measurements: a gas diffuses as Enskog's theory says") {
     Scene scene = with_diffusion(test, Method::event_driven);
     scene.measurements->every_steps = 2;
     scene.measurements->from_step = 100;
-    scene.measurements->correlation_steps = 400;
+    scene.measurements->give("correlation_steps", 400);
     Simulation simulation = simulation_of(scene, test, world);
     Sampler sampler(scene, simulation, world);
     advance_to(simulation, sampler, 6100);

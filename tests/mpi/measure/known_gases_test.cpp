@@ -72,7 +72,7 @@ TEST_CASE("measurements: a gas has Maxwell's velocities, one pressure on all sid
     TestScene test = gas(1000, eta, 0.2, 82);
     test.steps = 3000;
     Scene scene = measured(test, Method::event_driven, 250, 500);
-    scene.measurements->bins = 120;
+    scene.measurements->give("bins", 120);
     Simulation simulation = simulation_of(scene, test, world);
     Sampler sampler(scene, simulation, world);
     advance_to(simulation, sampler, 3000);
@@ -119,7 +119,7 @@ TEST_CASE("measurements: the density over a thermal floor falls as the barometri
     test.setting.sync_every = 16;
     test.steps = 100000;
     Scene scene = measured(test, Method::event_driven, 100000, 6000);
-    scene.measurements->bins = 200;
+    scene.measurements->give("bins", 200);
     Simulation simulation = simulation_of(scene, test, world);
     Sampler sampler(scene, simulation, world);
     advance_to(simulation, sampler, 6000);

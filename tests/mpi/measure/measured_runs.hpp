@@ -14,7 +14,7 @@
 
 namespace carrom::test {
 
-/// Asks for every quantity.
+/// Asks for the quantities that every box between walls has.
 inline Scene measured(const TestScene& test, Method method, std::int64_t every_steps,
                       std::int64_t from_step = 0) {
     Scene scene = scene_of(test);
@@ -22,10 +22,10 @@ inline Scene measured(const TestScene& test, Method method, std::int64_t every_s
     MeasurementOutput& output = scene.measurements.emplace();
     output.every_steps = every_steps;
     output.from_step = from_step;
-    output.wall_pressure = output.radial_distribution = output.velocities = output.density =
-        output.displacement = true;
-    output.bins = 20;
-    output.largest_distance = 6 * scene.radius;
+    output.quantities = {"wall_pressure", "radial_distribution", "velocities", "density",
+                         "displacement"};
+    output.give("bins", 20);
+    output.give("largest_distance", 6 * scene.radius);
     return scene;
 }
 
@@ -50,6 +50,10 @@ inline void advance_to(Simulation& simulation, Sampler& sampler, std::int64_t st
         simulation.advance_towards(std::min(step, sampler.next_due(simulation.step())));
         sampler.look();
     }
+}
+
+inline void leave_out(Scene& scene, const std::string& quantity) {
+    std::erase(scene.measurements->quantities, quantity);
 }
 
 inline const MeasuredTable& table_of(const std::vector<MeasuredTable>& tables,

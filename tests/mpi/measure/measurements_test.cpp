@@ -104,7 +104,7 @@ TEST_CASE("measurements: tables are what all discs and pairs give") {
         test.setting.sync_every = 24;
         test.steps = 60;
         Scene scene = measured(test, each.method, 9, 5);
-        scene.measurements->largest_velocity = 1;
+        scene.measurements->give("largest_velocity", 1);
         Simulation simulation = simulation_of(scene, test, world);
         Sampler sampler(scene, simulation, world);
         ByHand expected;
@@ -112,7 +112,7 @@ TEST_CASE("measurements: tables are what all discs and pairs give") {
             advance_to(simulation, sampler, step);
             expected.look(all_of(simulation, world),
                           extent_at(scene.effects, scene.box, static_cast<double>(step)),
-                          scene.measurements->largest_distance, 1);
+                          scene.measurements->settings.at("largest_distance").value, 1);
         }
         const std::vector<MeasuredTable> tables = sampler.tables();
         CHECK(column_of(tables, "radial_distribution", "pairs") == expected.pairs);
@@ -136,9 +136,8 @@ TEST_CASE("measurements: with open sides, velocities and places of discs that ar
             BoundaryKind::open, 1, 0, 0};
         test.steps = 60;
         Scene scene = measured(test, method, 9, 5);
-        scene.measurements->largest_velocity = 1;
-        scene.measurements->radial_distribution = scene.measurements->displacement =
-            scene.measurements->wall_pressure = false;
+        scene.measurements->give("largest_velocity", 1);
+        scene.measurements->quantities = {"velocities", "density"};
         Simulation simulation = simulation_of(scene, test, world);
         Sampler sampler(scene, simulation, world);
         ByHand expected;
@@ -233,7 +232,7 @@ TEST_CASE("measurements: a run that stores them and goes on has the same tables"
         Tuning tuning;
         Simulation second(scene, std::move(state), world, tuning);
         Sampler sampler(scene, second, world);
-        sampler.go_on(std::move(samples));
+        sampler.go_on(samples);
         advance_to(second, sampler, 50);
         const std::vector<MeasuredTable> expected = whole_sampler.tables(),
                                          tables = sampler.tables();

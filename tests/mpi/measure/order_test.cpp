@@ -59,9 +59,9 @@ TestScene test_of(const Case& each) {
 Scene with_psi6(const TestScene& test, Method method) {
     Scene scene = measured(test, method, 9, 5);
     MeasurementOutput& output = *scene.measurements;
-    output.wall_pressure = output.velocities = output.density = output.displacement = false;
-    output.psi6 = output.thermo = true;
-    output.largest_distance = std::min({output.largest_distance, scene.box.x / 2, scene.box.y / 2});
+    output.quantities = {"radial_distribution", "psi6", "thermo"};
+    output.give("largest_distance", std::min({output.settings["largest_distance"].value,
+                                              scene.box.x / 2, scene.box.y / 2}));
     return scene;
 }
 
@@ -155,7 +155,7 @@ struct ByHand {
                 const auto nearest = [](double d, double length, bool is_periodic) {
                     return is_periodic ? std::remainder(d, length) : d;
                 };
-                const double bin = 20 / scene.measurements->largest_distance *
+                const double bin = 20 / scene.measurements->settings.at("largest_distance").value *
                                    std::hypot(nearest(points[i].x - points[j].x, scene.box.x, x),
                                               nearest(points[i].y - points[j].y, scene.box.y, y));
                 if (!(bin < 20)) continue;
@@ -210,11 +210,11 @@ TEST_CASE("measurements: the structure factor is that of sums over all discs") {
     const Case each = cases().back();
     const TestScene test = test_of(each);
     Scene scene = with_psi6(test, each.method);
-    scene.measurements->psi6 = false;
-    scene.measurements->structure_factor = true;
+    leave_out(scene, "psi6");
+    scene.measurements->quantities.push_back("structure_factor");
     const double kx = 2 * std::numbers::pi / scene.box.x, ky = 2 * std::numbers::pi / scene.box.y,
                  largest = 8.7 * kx, n_discs = static_cast<double>(each.n_discs);
-    scene.measurements->largest_wavenumber = largest;
+    scene.measurements->give("largest_wavenumber", largest);
     Simulation simulation = simulation_of(scene, test, world);
     Sampler sampler(scene, simulation, world);
     std::vector<double> sums(20, 0), counts(20, 0);

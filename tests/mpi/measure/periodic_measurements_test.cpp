@@ -62,7 +62,7 @@ TestScene fast_gas(const Effects& effects) {
 Scene measured_around(const TestScene& test, Method method, std::int64_t every_steps,
                       std::int64_t from_step) {
     Scene scene = measured(test, method, every_steps, from_step);
-    scene.measurements->wall_pressure = !scene.effects.is_periodic_y();
+    if (scene.effects.is_periodic_y()) leave_out(scene, "wall_pressure");
     return scene;
 }
 
@@ -136,7 +136,7 @@ void check_g(const Scene& scene, const std::vector<MeasuredTable>& tables,
     const auto count_of = [](char name) { return name == '1' ? 40.0 : name == '2' ? 60.0 : 50.0; };
     const double n_a = count_of(species[0]), n_b = count_of(species[2]),
                  n_pairs = species[0] == species[2] ? n_a * (n_a - 1) / 2 : n_a * n_b,
-                 width = scene.measurements->largest_distance / 20,
+                 width = scene.measurements->settings.at("largest_distance").value / 20,
                  area = scene.box.x * scene.box.x;
     const std::vector<double> g = column_of(tables, "radial_distribution", "g_" + species);
     for (std::size_t k = 0; k < 20; ++k) {
@@ -158,7 +158,8 @@ TEST_CASE("measurements: in periodic boxes, distances of nearest images and disp
         const TestScene test = fast_gas(each.effects);
         const Scene scene = measured_around(test, each.method, 9, 5);
         const double period_y = scene.effects.is_periodic_y() ? scene.box.x : 0;
-        ByHand by_hand{scene.box.x, period_y, scene.measurements->largest_distance};
+        ByHand by_hand{scene.box.x, period_y,
+                       scene.measurements->settings.at("largest_distance").value};
         Simulation simulation = simulation_of(scene, test, world);
         Sampler sampler(scene, simulation, world);
         for (std::int64_t step = 5; step <= 64; ++step) {
@@ -181,7 +182,7 @@ TEST_CASE("measurements: in periodic boxes, distances of nearest images and disp
         REQUIRE(displacement.size() == squares.size());
         for (std::size_t k = 0; k < squares.size(); ++k)
             CHECK(displacement[k] == Approx(squares[k]).epsilon(1e-11));
-        if (scene.measurements->wall_pressure) {
+        if (scene.measurements->measures("wall_pressure")) {
             CHECK(std::isnan(column_of(tables, "wall_pressure", "left")[0]));
             CHECK(column_of(tables, "wall_pressure", "top")[0] > 0);
             CHECK(column_of(tables, "wall_pressure", "right_collisions")[0] == 0);
@@ -258,8 +259,9 @@ TEST_CASE("measurements: in a periodic box, g at contact is that of the bulk's p
         if (!has_contacts) test.setting.effects.contact.kind = ContactKind::none;
         test.steps = 1600;
         Scene scene = measured_around(test, Method::event_driven, 4, 100);
-        scene.measurements->bins = 60;
-        scene.measurements->largest_distance = 2.4; // diameters of 2: bins 50 to 54 are 2 to 2.2
+        scene.measurements->give("bins", 60);
+        scene.measurements->give("largest_distance",
+                                 2.4); // diameters of 2: bins 50 to 54 are 2 to 2.2
         Simulation simulation = simulation_of(scene, test, world);
         Sampler sampler(scene, simulation, world);
         advance_to(simulation, sampler, 1600);

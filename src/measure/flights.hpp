@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How far discs have come since a first sample, on through periodic sides, and how much of their
+// velocities is left. First places are kept by id, on any rank (pieces.hpp). Price: 16 bytes a
+// disc, 32 with velocities, and in periodic boxes 16 more; at a sample each disc is sent once.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "measure/image_counts.hpp"
+#include "measure/measurement.hpp"
+
+namespace carrom {
+
+class Flights {
+public:
+    Flights(MeasuredRun& run, bool have_velocities)
+        : run_(run), have_velocities_(have_velocities) {}
+
+    /// Before the first step that is followed, or at a restart. **Collective.**
+    void follow();
+    /// Discs where they would be had no periodic side brought them back since the last sync.
+    std::span<const Disc> flown(std::span<const Disc> shown);
+    /// From now on flights are those from here. **Collective.**
+    void begin(std::span<const Disc> flown);
+    /// Mean squares of displacements along x and y since then, and the mean product of velocities.
+    /// **Collective.**
+    std::array<double, 3> means(std::span<const Disc> flown, std::uint64_t n_discs);
+
+    void store(StoredSamples& stored);         ///< **Collective.**
+    void restore(const StoredSamples& stored); ///< **Collective.**
+
+private:
+    bool follows_lengths() const { return run_.scene.effects.are_periodic(); }
+    double fastest_of(std::span<const Disc> discs) const;
+    void place_first(std::span<const FirstPlace> places);
+
+    MeasuredRun& run_;
+    bool have_velocities_;
+    std::uint64_t first_id_ = 0;
+    std::vector<std::array<double, 2>> first_places_; ///< of this rank's run of ids
+    std::vector<std::array<double, 2>> first_velocities_;
+    std::optional<ImageCounts> lengths_; ///< since then, of a periodic box
+    std::vector<Disc> flown_;
+};
+
+} // namespace carrom

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a measurement keeps in a checkpoint: words of 64 bits in one order. One function of the
+// measurement names its numbers, for storing as for restoring, so that both orders are the same.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace carrom {
+
+class KeptNumbers {
+public:
+    /// To store.
+    KeptNumbers() = default;
+    /// To restore. The words must outlive this.
+    explicit KeptNumbers(std::span<const std::int64_t> words)
+        : is_restored_(true), stored_(words) {}
+
+    bool is_restored() const { return is_restored_; }
+
+    /// Stores a number, a vector or an array of them, or a text; or takes it from what is stored.
+    template <class T> void operator()(T& value) {
+        if constexpr (requires { value.resize(1); }) {
+            std::int64_t size = static_cast<std::int64_t>(value.size());
+            word(size);
+            if (is_restored_) {
+                if (size < 0 || static_cast<std::uint64_t>(size) > stored_.size() - next_)
+                    size = fail();
+                value.resize(static_cast<std::size_t>(size));
+            }
+            for (auto& item : value) (*this)(item);
+        } else if constexpr (requires { value.begin(); }) {
+            for (auto& item : value) (*this)(item);
+        } else if constexpr (sizeof(T) == 8) {
+            std::int64_t bits = std::bit_cast<std::int64_t>(value);
+            word(bits);
+            value = std::bit_cast<T>(bits);
+        } else {
+            static_assert(std::is_integral_v<T>);
+            std::int64_t bits = value;
+            word(bits);
+            value = static_cast<T>(bits);
+        }
+    }
+    /// A setting: one that is stored otherwise makes the sums useless.
+    template <class T> void same(const T& value) {
+        T found = value;
+        (*this)(found);
+        if (found != value) is_other_ = true;
+    }
+
+    /// False where stored words are too few or of other settings.
+    bool is_right() const { return !is_other_; }
+    bool is_at_end() const { return next_ == stored_.size(); }
+    void refuse() { is_other_ = true; }
+
+    std::vector<std::int64_t> take_words() { return std::move(words_); }
+
+private:
+    std::int64_t fail() {
+        is_other_ = true;
+        next_ = stored_.size();
+        return 0;
+    }
+    void word(std::int64_t& value) {
+        if (!is_restored_)
+            words_.push_back(value);
+        else if (next_ < stored_.size())
+            value = stored_[next_++];
+        else
+            value = fail();
+    }
+
+    bool is_restored_ = false, is_other_ = false;
+    std::vector<std::int64_t> words_;
+    std::span<const std::int64_t> stored_;
+    std::size_t next_ = 0;
+};
+
+} // namespace carrom

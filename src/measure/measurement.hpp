@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The interface of a measurement. A quantity is one file in src/measure/quantities: its declaration
+// for scenes and pages (scene/quantity.hpp), and the class that samples it.
+//
+// Everything is a count, or a sum in fixed point (exact_sum.hpp). So the tables have the same bits
+// on every number of ranks and threads, and a restart goes on with them.
+//
+// To add one: copy the file that is most like it, and add its name to the list in
+// src/measure/CMakeLists.txt.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <carrom/measured_table.hpp>
+
+#include "core/disc.hpp"
+#include "core/stored_samples.hpp"
+#include "measure/kept_numbers.hpp"
+#include "parallel/communicator.hpp"
+#include "scene/quantity.hpp"
+#include "scene/scene.hpp"
+#include "simulation/simulation.hpp"
+
+namespace carrom {
+
+/// The samples so far, the same on every rank.
+struct SampleCounts {
+    std::int64_t first_step = 0, last_step = -1;
+    std::uint64_t n_samples = 0;
+    std::uint64_t n_discs = 0; ///< over all samples, inside the box
+    double area = 0;           ///< of the box, over all samples
+};
+
+/// What is measured; outlives the measurements.
+struct MeasuredRun {
+    const Scene& scene;
+    const MeasurementOutput& output;
+    Simulation& simulation;
+    const Communicator& ranks;
+    SampleCounts counts = {};
+
+    /// Of a sample, counted from 0.
+    double step_of(std::size_t sample) const {
+        return static_cast<double>(counts.first_step +
+                                   static_cast<std::int64_t>(sample) * output.every_steps);
+    }
+    bool is_periodic_all_round() const {
+        return scene.effects.is_periodic_x() && scene.effects.is_periodic_y();
+    }
+};
+
+/// The state at a sample. The discs are those of this rank, for `Measurement::sample` alone.
+struct SampledState {
+    std::span<const Disc> shown;  ///< as the box sees them
+    std::span<const Disc> inside; ///< those of them that are in the box
+    std::uint64_t n_discs = 0;    ///< of `shown`, on all ranks
+    Extent box;
+    bool is_first = false; ///< there is no interval before it
+};
+
+/// A number at each sample that the table "thermo" shows as its last columns.
+struct ThermoColumn {
+    std::string name, remark;
+    std::function<double(std::size_t)> at_sample;
+};
+
+/// All functions but `tables` and what follows it are **collective**.
+class Measurement {
+public:
+    explicit Measurement(MeasuredRun& run) : run_(run) {}
+    virtual ~Measurement() = default;
+    Measurement(const Measurement&) = delete;
+    Measurement& operator=(const Measurement&) = delete;
+
+    /// Before the first sample, at its step; not at a restart that goes on with sums.
+    virtual void begin() {}
+    virtual void sample(const SampledState& state) = 0;
+    /// True where a sample moves discs in memory: it then comes after all others.
+    virtual bool moves_discs() const { return false; }
+
+    /// Names all numbers that a checkpoint keeps, and takes them at a restart.
+    virtual void keep(KeptNumbers& kept) = 0;
+    /// Numbers of each disc; most measurements have none.
+    virtual void store_discs(StoredSamples& /*stored*/) {}
+    virtual void restore_discs(const StoredSamples& /*stored*/) {}
+
+    /// Of what has been sampled, after one sample at least. The same on every rank.
+    virtual std::vector<MeasuredTable> tables() const = 0;
+    /// A table that grows by a row at each sample, from a row on. Its file grows as the run goes
+    /// on, so its bytes never change.
+    virtual std::optional<MeasuredTable> rows_from(std::size_t /*first*/) const {
+        return std::nullopt;
+    }
+    virtual std::optional<ThermoColumn> thermo_column() const { return std::nullopt; }
+
+protected:
+    MeasuredRun& run_;
+};
+
+using Measurements = std::vector<std::unique_ptr<Measurement>>;
+
+/// A quantity as src/measure knows it.
+struct MeasuredQuantity {
+    Quantity declared;
+    std::unique_ptr<Measurement> (*make)(MeasuredRun&, const Measurements& others);
+};
+
+template <class M>
+std::unique_ptr<Measurement> make_measurement(MeasuredRun& run, const Measurements& /*others*/) {
+    return std::make_unique<M>(run);
+}
+
+/// All of them, in the order of the list in CMakeLists.txt.
+const std::vector<MeasuredQuantity>& measured_quantities();
+
+/// Parts that tables share.
+void add_over(const Communicator& ranks, std::vector<std::uint64_t>&& mine,
+              std::vector<std::uint64_t>& sums);
+/// Counts a place among bins of width 1; what lies beyond is not counted.
+void count(std::vector<std::uint64_t>& counts, double place);
+
+} // namespace carrom

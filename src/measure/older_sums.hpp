@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Checkpoints of versions up to 0.2 keep all sums of all quantities in one list of fields.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace carrom {
+
+/// The words of a checkpoint as Sampler keeps them now, whether they are older or not; words that
+/// are of neither form stay as they are, so that they are refused.
+std::vector<std::int64_t> in_present_form(const std::vector<std::int64_t>& words);
+
+} // namespace carrom

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "measure/measurement.hpp"
+#include "measure/speeds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/state_sums.hpp"
+
+namespace carrom {
+
+void count(std::vector<std::uint64_t>& counts, double place) {
+    if (place >= 0 && place < static_cast<double>(counts.size()))
+        ++counts[static_cast<std::size_t>(place)];
+}
+
+void add_over(const Communicator& ranks, std::vector<std::uint64_t>&& mine,
+              std::vector<std::uint64_t>& sums) {
+    ranks.sum(std::span(mine));
+    for (std::size_t k = 0; k < mine.size(); ++k) sums[k] += mine[k];
+}
+
+namespace {
+
+/// A component's root mean square, as the discs and the thermal walls have it; 0 where all is at
+/// rest.
+double thermal_speed(const Scene& scene, const Totals& totals) {
+    double temperature = totals.kinetic_energy / static_cast<double>(totals.n_discs);
+    for (const Boundary& side : scene.effects.boundaries)
+        temperature = std::max(temperature, side.temperature);
+    double lightest = 1;
+    for (const Species& each : scene.effects.species) lightest = std::min(lightest, each.mass);
+    return std::sqrt(temperature / lightest);
+}
+
+} // namespace
+
+double driven_speed(const Scene& scene) {
+    double speed = std::sqrt(
+        2 * (std::fabs(scene.effects.gravity.x) + std::fabs(scene.effects.gravity.y)) *
+        scene.box.longest());
+    for (const Boundary& side : scene.effects.boundaries)
+        speed = std::max(speed, std::fabs(side.speed));
+    speed = std::max(speed, 2 * largest_wall_speed(scene.effects));
+    return speed;
+}
+
+double usual_speed(const MeasuredRun& run) {
+    const double thermal = thermal_speed(run.scene, run.simulation.totals()),
+                 driven = driven_speed(run.scene);
+    return thermal > 0 ? thermal : driven > 0 ? driven : 1;
+}
+
+} // namespace carrom

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// "psi6": how discs are ordered, from the neighbours that Voronoi cells say.
+#include <cmath>
+#include <numeric>
+
+#include "measure/pair_reach.hpp"
+#include "measure/table_parts.hpp"
+#include "statistics/block_averages.hpp"
+#include "statistics/hexatic_order.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr std::size_t per_sample = 7; ///< numbers of `psi6_`
+
+/// Of the history's columns but step and parts.
+MeasuredTable means_of(const MeasuredTable& history) {
+    MeasuredTable table{"psi6",
+                        {"means of the history with one standard error (from joined samples; nan "
+                         "where there are too few)"},
+                        {},
+                        {{}}};
+    for (const std::size_t column : {1u, 4u, 5u, 6u, 7u}) {
+        std::vector<double> terms;
+        for (const std::vector<double>& row : history.rows) terms.push_back(row[column]);
+        const double sum = std::accumulate(terms.begin(), terms.end(), 0.0);
+        table.columns.push_back(history.columns[column]);
+        table.rows[0].push_back(sum / static_cast<double>(terms.size()));
+        table.columns.push_back(history.columns[column] + "_error");
+        table.rows[0].push_back(standard_error(std::move(terms)));
+    }
+    return table;
+}
+
+class Psi6 : public Measurement {
+public:
+    explicit Psi6(MeasuredRun& run)
+        : Measurement(run), largest_distance_(largest_distance_setting.of(run.output)),
+          neighbours_(HexaticSums::most_neighbours + 1, 0), moduli_(n_bins_of(run), 0),
+          pairs_(moduli_), products_(moduli_.size(), 0) {}
+
+    bool moves_discs() const override { return true; }
+
+    void sample(const SampledState& /*state*/) override {
+        const HexaticSums now = run_.simulation.hexatic_order(largest_distance_, n_bins_of(run_));
+        const auto cells_of = [&now](std::size_t n) {
+            return static_cast<double>(now.neighbours[n]);
+        };
+        double n_cells = 0;
+        for (std::size_t n = 0; n < now.neighbours.size(); ++n) n_cells += cells_of(n);
+        psi6_.insert(psi6_.end(), {now.real.value(), now.imaginary.value(), now.modulus.value(),
+                                   cells_of(5), cells_of(6), cells_of(7), n_cells});
+        for (std::size_t n = 0; n < now.neighbours.size(); ++n) neighbours_[n] += now.neighbours[n];
+        for (std::size_t k = 0; k < n_bins_of(run_); ++k) {
+            moduli_[k] += now.moduli[k];
+            pairs_[k] += now.pairs[k];
+            products_[k] += now.products[k].value();
+        }
+    }
+
+    void keep(KeptNumbers& kept) override {
+        keep_largest_distance(kept, run_, largest_distance_);
+        kept.same(moduli_.size());
+        kept(psi6_), kept(neighbours_), kept(moduli_), kept(pairs_), kept(products_);
+    }
+
+    std::vector<MeasuredTable> tables() const override {
+        MeasuredTable over_time = history();
+        MeasuredTable means = means_of(over_time);
+        return {std::move(means), std::move(over_time), distribution(), correlation(),
+                neighbours()};
+    }
+
+    std::optional<ThermoColumn> thermo_column() const override {
+        return ThermoColumn{"psi6", "psi6: of all discs together",
+                            [this](std::size_t sample) { return psi6_at(sample); }};
+    }
+
+private:
+    /// |psi6| of all discs together.
+    double psi6_at(std::size_t sample) const {
+        const double* const now = psi6_.data() + per_sample * sample;
+        return std::sqrt(now[0] * now[0] + now[1] * now[1]) / now[per_sample - 1];
+    }
+
+    MeasuredTable history() const {
+        MeasuredTable table{
+            "psi6_history",
+            {"psi6: modulus of its mean over all discs, also by parts; local: mean of "
+             "the discs' moduli; times in steps",
+             "fivefold, sixfold, sevenfold: shares of discs with so many Voronoi "
+             "neighbours"},
+            {"step", "psi6", "real", "imaginary", "local", "fivefold", "sixfold", "sevenfold"},
+            {}};
+        for (std::size_t k = 0; k < psi6_.size() / per_sample; ++k) {
+            const double* const now = psi6_.data() + per_sample * k;
+            std::vector<double> row = {run_.step_of(k), psi6_at(k)};
+            for (std::size_t part = 0; part + 1 < per_sample; ++part)
+                row.push_back(now[part] / now[per_sample - 1]);
+            table.rows.push_back(std::move(row));
+        }
+        return table;
+    }
+
+    MeasuredTable distribution() const {
+        const std::size_t n = moduli_.size();
+        MeasuredTable table{"psi6_distribution",
+                            {"density: of probability, of the modulus of a disc's psi6"},
+                            {"from", "to", "count", "density"},
+                            {}};
+        for (std::size_t k = 0; k < n; ++k)
+            table.rows.push_back({edge(0, 1, k, n), edge(0, 1, k + 1, n),
+                                  static_cast<double>(moduli_[k]),
+                                  share(moduli_[k], total(moduli_), 1 / static_cast<double>(n))});
+        return table;
+    }
+
+    MeasuredTable correlation() const {
+        const std::size_t n = pairs_.size();
+        MeasuredTable table{"psi6_correlation",
+                            {"g6: mean over pairs of the real part of psi6* psi6, 0 without pairs",
+                             "distances in the scene's unit of length; pairs: of all samples"},
+                            {"from", "to", "pairs", "g6"},
+                            {}};
+        for (std::size_t k = 0; k < n; ++k) {
+            const double pairs = static_cast<double>(pairs_[k]);
+            table.rows.push_back({edge(0, largest_distance_, k, n),
+                                  edge(0, largest_distance_, k + 1, n), pairs,
+                                  pairs > 0 ? products_[k] / pairs : 0});
+        }
+        return table;
+    }
+
+    MeasuredTable neighbours() const {
+        MeasuredTable table{
+            "neighbours",
+            {"count: discs with so many Voronoi neighbours, of all samples; the last "
+             "row is of more, too"},
+            {"neighbours", "count", "share"},
+            {}};
+        for (std::size_t k = 0; k < neighbours_.size(); ++k)
+            table.rows.push_back({static_cast<double>(k), static_cast<double>(neighbours_[k]),
+                                  share(neighbours_[k], total(neighbours_), 1)});
+        return table;
+    }
+
+    double largest_distance_;
+    std::vector<double> psi6_; ///< of each sample: sums of real and imaginary part and modulus,
+                               ///< discs of 5, 6, 7 neighbours, discs
+    std::vector<std::uint64_t> neighbours_, moduli_, pairs_; ///< as HexaticSums has them
+    std::vector<double> products_;                           ///< as HexaticSums has them
+};
+
+} // namespace
+
+MeasuredQuantity psi6_quantity() {
+    return {{.name = "psi6",
+             .help = "Hexatic order, its correlation g6(r), and numbers of neighbours.",
+             .keys = {bins_key(), largest_distance_key()},
+             .has_history = true,
+             .check = check_largest_distance},
+            make_measurement<Psi6>};
+}
+
+} // namespace carrom

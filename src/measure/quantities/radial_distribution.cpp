@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// "radial_distribution": g(r), from the distances of all pairs at each sample.
+#include <fmt/format.h>
+
+#include "measure/pair_reach.hpp"
+#include "measure/table_parts.hpp"
+#include "statistics/pair_distances.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// The species whose pairs are counted apart: the scene's, or one of all discs where they are alike
+/// or of more than eight species.
+std::vector<Species> species_apart(const Scene& scene) {
+    constexpr std::size_t most = 8;
+    const std::vector<Species>& species = scene.effects.species;
+    if (species.empty() || species.size() > most) return {{scene.n_discs, scene.radius, 1}};
+    return species;
+}
+
+class RadialDistribution : public Measurement {
+public:
+    explicit RadialDistribution(MeasuredRun& run)
+        : Measurement(run), largest_distance_(largest_distance_setting.of(run.output)),
+          pairs_(n_bins_of(run) * n_pair_kinds(species_apart(run.scene).size()), 0),
+          ideal_pairs_(pairs_.size(), 0) {}
+
+    bool moves_discs() const override { return true; }
+
+    void sample(const SampledState& state) override {
+        const Extent& box = state.box;
+        const std::size_t n = n_bins_of(run_);
+        const double width = largest_distance_ / static_cast<double>(n);
+        std::vector<std::uint64_t> pairs(pairs_.size(), 0);
+        const std::vector<Species> species = species_apart(run_.scene);
+        std::vector<DiscId> species_ends;
+        for (const Species& one : species)
+            species_ends.push_back((species_ends.empty() ? 0 : species_ends.back()) + one.count);
+        run_.simulation.count_pair_distances(width, species_ends, pairs);
+        add_over(run_.ranks, std::move(pairs), pairs_);
+        const double a = box.x_high - box.x_low - 2 * run_.scene.radius,
+                     b = box.y_high - box.y_low - 2 * run_.scene.radius;
+        const bool goes_round_x = run_.scene.effects.is_periodic_x(),
+                   goes_round_y = run_.scene.effects.is_periodic_y();
+        const auto share = [&](double distance) {
+            if (goes_round_x && goes_round_y)
+                return share_of_ideal_pairs_around(run_.scene.box.area(), distance);
+            if (goes_round_x || goes_round_y)
+                return share_of_ideal_pairs_around_x(goes_round_x ? run_.scene.box.x
+                                                                  : run_.scene.box.y,
+                                                     goes_round_x ? b : a, distance);
+            return share_of_ideal_pairs(a, b, distance);
+        };
+        for (std::size_t second = 0; second < species.size(); ++second) {
+            for (std::size_t first = 0; first <= second; ++first) {
+                const auto n_first = static_cast<double>(species[first].count),
+                           n_second = static_cast<double>(species[second].count);
+                const double all = first == second ? 0.5 * n_first * (n_first - 1)
+                                                   : n_first * n_second;
+                for (std::size_t k = 0; k < n; ++k) {
+                    const double inner = static_cast<double>(k) * width,
+                                 outer = static_cast<double>(k + 1) * width;
+                    ideal_pairs_[pair_kind(first, second) * n + k] += all *
+                                                                      (share(outer) - share(inner));
+                }
+            }
+        }
+    }
+
+    void keep(KeptNumbers& kept) override {
+        keep_largest_distance(kept, run_, largest_distance_);
+        kept.same(pairs_.size());
+        kept(pairs_), kept(ideal_pairs_);
+    }
+
+    std::vector<MeasuredTable> tables() const override {
+        MeasuredTable table{"radial_distribution",
+                            {"g: pairs at a distance from `from` to `to`, over those that as many "
+                             "discs without size would have, anywhere in the box that centres have",
+                             "distances in the scene's unit of length; pairs: of all samples"},
+                            {"from", "to", "pairs", "g"},
+                            {}};
+        const std::size_t n_species = species_apart(run_.scene).size(),
+                          n_kinds = n_pair_kinds(n_species), n = pairs_.size() / n_kinds;
+        if (n_kinds > 1)
+            table.remarks.push_back(
+                "pairs_a_b, g_a_b: of a disc of species a and one of species b, "
+                "species counted from 1 in the order of ids");
+        for (std::size_t b = 1; b <= n_species && n_kinds > 1; ++b)
+            for (std::size_t a = 1; a <= b; ++a)
+                for (const char* what : {"pairs", "g"})
+                    table.columns.push_back(fmt::format("{}_{}_{}", what, a, b));
+        for (std::size_t k = 0; k < n; ++k) {
+            std::vector<double> row = {edge(0, largest_distance_, k, n),
+                                       edge(0, largest_distance_, k + 1, n), 0, 0};
+            std::uint64_t all = 0;
+            double ideal = 0;
+            const auto g = [](std::uint64_t pairs, double ideal_pairs) {
+                return ideal_pairs > 0 ? static_cast<double>(pairs) / ideal_pairs : 0;
+            };
+            for (std::size_t place = k; place < pairs_.size(); place += n) {
+                all += pairs_[place];
+                ideal += ideal_pairs_[place];
+                if (n_kinds > 1)
+                    row.insert(row.end(), {static_cast<double>(pairs_[place]),
+                                           g(pairs_[place], ideal_pairs_[place])});
+            }
+            row[2] = static_cast<double>(all);
+            row[3] = g(all, ideal);
+            table.rows.push_back(std::move(row));
+        }
+        return {std::move(table)};
+    }
+
+private:
+    double largest_distance_;
+    std::vector<std::uint64_t> pairs_; ///< all bins of the first kind (pair_distances.hpp), then of
+                                       ///< the second ...
+    std::vector<double> ideal_pairs_;  ///< those that discs without size would have
+};
+
+} // namespace
+
+MeasuredQuantity radial_distribution_quantity() {
+    return {{.name = "radial_distribution",
+             .help = "g(r): how many pairs of discs there are at each distance; by species, too.",
+             .keys = {bins_key(), largest_distance_key()},
+             .rules = {{.one = "\"radial_distribution\" of growing discs",
+                        .other = "a wall",
+                        .why = "centres have less and less room between walls; it needs a box that "
+                               "is periodic all round",
+                        .keys = {quantities_key},
+                        .is_broken =
+                            [](const Scene& s) {
+                                return measures(s, "radial_distribution") &&
+                                       s.effects.growth != 0 &&
+                                       !(s.effects.is_periodic_x() && s.effects.is_periodic_y());
+                            }},
+                       {.one = "\"radial_distribution\"",
+                        .other = "an open side",
+                        .why = "with open sides velocities and densities alone are measured",
+                        .keys = {quantities_key},
+                        .is_broken =
+                            [](const Scene& s) {
+                                return measures(s, "radial_distribution") &&
+                                       s.effects.have_open_boundaries();
+                            }},
+                       {.one = "\"radial_distribution\" of several species",
+                        .other = "a wall",
+                        .why = "centres of large discs have less room between walls; it needs a "
+                               "box that is periodic all round",
+                        .keys = {quantities_key},
+                        .is_broken =
+                            [](const Scene& s) {
+                                return measures(s, "radial_distribution") &&
+                                       !s.effects.species.empty() &&
+                                       !(s.effects.is_periodic_x() && s.effects.is_periodic_y());
+                            }}},
+             .check = check_largest_distance},
+            make_measurement<RadialDistribution>};
+}
+
+} // namespace carrom

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// "structure_factor": S(k) over the wave vectors of a periodic box.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "measure/pair_reach.hpp"
+#include "measure/table_parts.hpp"
+#include "statistics/structure_factor.hpp"
+
+namespace carrom {
+
+namespace {
+
+constexpr QuantitySetting largest_wavenumber{"largest_wavenumber"};
+
+/// A wave vector at least, and no more than a million: each is looked at with each disc.
+void check_wavenumber(const Check& check) {
+    constexpr double most_vectors = 1e6, most_by_default = 1e5;
+    Scene& scene = check.scene;
+    const double lx = scene.box.x, ly = scene.box.y;
+    const auto reach = [=](double n_vectors) {
+        return std::sqrt(8 * std::numbers::pi * n_vectors / (lx * ly));
+    };
+    const std::string name(largest_wavenumber.name);
+    if (!scene.measurements->is_given(name))
+        scene.measurements->derive(
+            name, std::min(2 * std::numbers::pi / scene.radius, reach(most_by_default)));
+    const double largest = largest_wavenumber.of(*scene.measurements);
+    const double least = 2 * std::numbers::pi / std::max(lx, ly);
+    if (largest >= least && largest <= reach(most_vectors)) return;
+    check.refuse({largest_wavenumber.key_name(), quantities_key},
+                 fmt::format("'output.measurements.largest_wavenumber' must be from {:.6g}, the "
+                             "box's first, to {:.6g}, where a million are, not {:g}",
+                             least, reach(most_vectors), largest));
+}
+
+class StructureFactor : public Measurement {
+public:
+    explicit StructureFactor(MeasuredRun& run)
+        : Measurement(run), largest_(largest_wavenumber.of(run.output)),
+          sums_(wave_vectors().size(), 0) {}
+
+    void sample(const SampledState& state) override {
+        const Extent& box = state.box;
+        const std::vector<WaveVector> vectors = wave_vectors();
+        DensityModes modes = density_modes(state.shown, run_.simulation.clock(), run_.scene.n_discs,
+                                           box.x_high - box.x_low, box.y_high - box.y_low, vectors,
+                                           run_.simulation.n_threads());
+        run_.ranks.sum(std::span(modes.real));
+        run_.ranks.sum(std::span(modes.imaginary));
+        for (std::size_t k = 0; k < vectors.size(); ++k)
+            sums_[k] += modes.squared_modulus(k) / static_cast<double>(run_.scene.n_discs);
+    }
+
+    void keep(KeptNumbers& kept) override {
+        kept.same(largest_);
+        kept.same(sums_.size());
+        kept(sums_);
+    }
+
+    std::vector<MeasuredTable> tables() const override {
+        const double lx = run_.scene.box.x, ly = run_.scene.box.y,
+                     n_samples = static_cast<double>(run_.counts.n_samples);
+        const std::vector<WaveVector> vectors = wave_vectors();
+        const std::size_t n = n_bins_of(run_);
+        std::vector<MeasuredTable> tables;
+        std::vector<double> sums(n, 0), counts(n, 0);
+        std::size_t highest = 0;
+        for (std::size_t k = 0; k < vectors.size(); ++k) {
+            const double place = wavenumber(vectors[k], lx, ly) / largest_ * static_cast<double>(n);
+            const std::size_t bin = std::min(static_cast<std::size_t>(place), n - 1);
+            sums[bin] += sums_[k];
+            counts[bin] += 1;
+            if (sums_[k] > sums_[highest]) highest = k;
+        }
+        MeasuredTable table{
+            "structure_factor",
+            {"S: mean square of the sum of exp(i k r) over discs, per disc, over the "
+             "box's wave vectors of lengths from `from` to `to`; nan without any",
+             "of each two opposite vectors one counts; wavenumbers in radians per "
+             "length"},
+            {"from", "to", "count", "S"},
+            {}};
+        for (std::size_t bin = 0; bin < n; ++bin)
+            table.rows.push_back(
+                {edge(0, largest_, bin, n), edge(0, largest_, bin + 1, n), counts[bin],
+                 counts[bin] > 0 ? sums[bin] / (counts[bin] * n_samples) : std::nan("")});
+        tables.push_back(std::move(table));
+        const WaveVector& peak = vectors[highest];
+        tables.push_back({"structure_factor_peak",
+                          {"the wave vector of the largest mean S of all"},
+                          {"kx", "ky", "k", "S"},
+                          {{2 * std::numbers::pi * peak.n / lx, 2 * std::numbers::pi * peak.m / ly,
+                            wavenumber(peak, lx, ly), sums_[highest] / n_samples}}});
+        return tables;
+    }
+
+private:
+    std::vector<WaveVector> wave_vectors() const {
+        return carrom::wave_vectors(run_.scene.box.x, run_.scene.box.y, largest_);
+    }
+
+    double largest_;
+    std::vector<double> sums_; ///< of each wave vector, over all samples
+};
+
+} // namespace
+
+MeasuredQuantity structure_factor_quantity() {
+    return {{.name = "structure_factor",
+             .help = "S(k), and the wave vector where it is largest.",
+             .keys = {bins_key(),
+                      largest_wavenumber
+                          .number("1/length",
+                                  "Reach of the structure factor; at most a million wave vectors.",
+                                  "4 pi over the diameter, or 100,000 vectors")
+                          .within({.low = 0, .excludes_low = true})},
+             .rules = {{.one = "sheared sides", .other = "\"structure_factor\"", .why = "the flow bends waves", .keys = {quantities_key}, .is_broken = [](const Scene& s) { return measures(s, "structure_factor") && s.effects.are_sheared(); }}, {.one = "\"structure_factor\"",
+                        .other = "a side that is not periodic",
+                        .why = "wave vectors are those of a box that repeats itself; make all four "
+                               "sides periodic",
+                        .keys = {quantities_key},
+                        .is_broken =
+                            [](const Scene& s) {
+                                return measures(s, "structure_factor") &&
+                                       !(s.effects.is_periodic_x() && s.effects.is_periodic_y());
+                            }}},
+             .check = check_wavenumber},
+            make_measurement<StructureFactor>};
+}
+
+} // namespace carrom

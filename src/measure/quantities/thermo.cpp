@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// "thermo": the usual quantities over time, a row at each sample. Its file grows as the run goes
+// on.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "measure/measurement.hpp"
+#include "measure/pressure_sampler.hpp"
+
+namespace carrom {
+
+namespace {
+
+class Thermo : public Measurement {
+public:
+    Thermo(MeasuredRun& run, const Measurements& others) : Measurement(run), others_(others) {}
+
+    void begin() override { sampler_.emplace(run_.simulation, run_.ranks, sums_); }
+
+    void sample(const SampledState& state) override {
+        if (!state.is_first) sampler_->sample(sums_, static_cast<double>(run_.output.every_steps));
+        const Totals totals = run_.simulation.energies();
+        const Look& now = sampler_->last();
+        rows_.insert(rows_.end(),
+                     {totals.kinetic_energy + totals.rotational_energy + totals.potential_energy,
+                      sampler_->temperature(), now.n_discs,
+                      static_cast<double>(now.pair_collisions)});
+    }
+
+    void keep(KeptNumbers& kept) override {
+        kept(rows_);
+        keep_pressure(kept, sums_, sampler_, run_.simulation, run_.ranks);
+    }
+
+    std::vector<MeasuredTable> tables() const override { return {}; }
+
+    std::optional<MeasuredTable> rows_from(std::size_t first) const override {
+        const std::int64_t every_steps = run_.output.every_steps;
+        MeasuredTable table{
+            "thermo",
+            {fmt::format("one row every {} steps from step {}", every_steps,
+                         run_.counts.first_step),
+             "energy: of motion, spin and height; temperature: kT; collision_rate: collisions with "
+             "other discs per disc and step",
+             "xx, xy, yy (pressure tensor), collision_rate: since the row before; times in steps"},
+            {"step", "time", "energy", "temperature", "xx", "xy", "yy", "collision_rate"},
+            {},
+            true};
+        std::vector<ThermoColumn> columns;
+        for (const auto& other : others_)
+            if (std::optional<ThermoColumn> column = other->thermo_column())
+                columns.push_back(std::move(*column));
+        for (const ThermoColumn& column : columns) {
+            table.columns.push_back(column.name);
+            table.remarks.push_back(column.remark);
+        }
+        for (std::size_t k = first; k < rows_.size() / 4; ++k) {
+            const double* const now = rows_.data() + 4 * k;
+            const double step = run_.step_of(k);
+            std::vector<double> row = {step, step, now[0], now[1]};
+            if (k == 0) {
+                row.resize(row.size() + 4, std::nan(""));
+            } else {
+                const double* const before = now - 4;
+                const double* const p = sums_.pressures.data() + 5 * (k - 1);
+                const double steps = static_cast<double>(every_steps),
+                             n_discs = (before[2] + now[2]) / 2;
+                row.insert(row.end(),
+                           {p[0], p[1], p[2], 2 * (now[3] - before[3]) / (n_discs * steps)});
+            }
+            for (const ThermoColumn& column : columns) row.push_back(column.at_sample(k));
+            table.rows.push_back(std::move(row));
+        }
+        return table;
+    }
+
+private:
+    const Measurements& others_;
+    std::vector<double> rows_; ///< of each sample: energy, kT, discs, collisions of pairs
+    PressureSums sums_;
+    std::optional<PressureSampler> sampler_;
+};
+
+} // namespace
+
+MeasuredQuantity thermo_quantity() {
+    return {{.name = "thermo",
+             .help = "Energy, kT, pressure tensor and rate of collisions over time.",
+             .has_history = true},
+            [](MeasuredRun& run, const Measurements& others) -> std::unique_ptr<Measurement> {
+                return std::make_unique<Thermo>(run, others);
+            }};
+}
+
+} // namespace carrom

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// "wall_pressure": what discs hand over to each side of the box, collision by collision.
+#include <cmath>
+
+#include "engine/wall_impulses.hpp"
+#include "measure/measurement.hpp"
+#include "measure/speeds.hpp"
+#include "statistics/block_averages.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// The length of a side, at a step; of one between oscillating walls in the mean.
+double length_of(const Scene& scene, std::size_t side, double step) {
+    const Extent box = extent_of_lines(scene.effects, scene.box, step);
+    return side < 2 ? box.y_high - box.y_low : box.x_high - box.x_low;
+}
+
+class WallPressure : public Measurement {
+public:
+    using Measurement::Measurement;
+    ~WallPressure() override { run_.simulation.add_impulses_to(nullptr); }
+
+    void begin() override {
+        speed_scale_ = std::max(usual_speed(run_), driven_speed(run_.scene));
+        follow();
+    }
+
+    void sample(const SampledState& state) override {
+        if (state.is_first) return;
+        std::array<std::uint64_t, 4> counts = since_last_->counts;
+        run_.ranks.sum(std::span<std::uint64_t>(counts));
+        for (std::size_t side = 0; side < 4; ++side) {
+            ExactSum sum = since_last_->normal[side];
+            run_.ranks.sum(sum);
+            impulses_.push_back(sum.value());
+            collisions_[side] += counts[side];
+        }
+        *since_last_ = WallImpulses(bound());
+    }
+
+    void keep(KeptNumbers& kept) override {
+        kept(speed_scale_), kept(collisions_), kept(impulses_);
+        std::vector<std::uint64_t> pending; ///< sums of all ranks since the last sample
+        if (!kept.is_restored()) {
+            std::array<std::uint64_t, 4> counts = since_last_->counts;
+            run_.ranks.sum(std::span<std::uint64_t>(counts));
+            for (std::size_t side = 0; side < 4; ++side) {
+                ExactSum sum = since_last_->normal[side];
+                run_.ranks.sum(sum);
+                pending.insert(pending.end(), {sum.low_word(), sum.high_word(), counts[side]});
+            }
+        }
+        kept(pending);
+        if (!kept.is_restored()) return;
+        follow();
+        if (pending.size() != 12) return kept.refuse();
+        if (!run_.ranks.is_root()) return;
+        for (std::size_t side = 0; side < 4; ++side) {
+            since_last_->normal[side].add_words(pending[3 * side], pending[3 * side + 1]);
+            since_last_->counts[side] = pending[3 * side + 2];
+        }
+    }
+
+    std::vector<MeasuredTable> tables() const override {
+        if (impulses_.empty()) return {};
+        MeasuredTable over_time = history();
+        MeasuredTable means = means_of(over_time);
+        return {std::move(means), std::move(over_time)};
+    }
+
+private:
+    /// More than a run comes to, and 2^-63 of a speed is seen.
+    double bound() const { return speed_scale_ * 0x1p62; }
+    void follow() {
+        since_last_.emplace(bound());
+        run_.simulation.add_impulses_to(&*since_last_);
+    }
+
+    MeasuredTable history() const {
+        MeasuredTable table{
+            "wall_pressure_history",
+            {"impulse that each side was given between two steps, over its length and "
+             "that time (nan: a periodic side); masses of 1, times in steps"},
+            {"from_step", "to_step", "left", "right", "bottom", "top"},
+            {}};
+        const Scene& scene = run_.scene;
+        for (std::size_t k = 0; k < impulses_.size() / 4; ++k) {
+            const double from = run_.step_of(k);
+            const double to = from + static_cast<double>(run_.output.every_steps);
+            std::vector<double> row = {from, to};
+            for (std::size_t side = 0; side < 4;
+                 ++side) // walls move evenly: their mean length is that in the middle
+                row.push_back(scene.effects.boundaries[side].is_periodic()
+                                  ? std::nan("")
+                                  : impulses_[4 * k + side] /
+                                        (length_of(scene, side, (from + to) / 2) * (to - from)));
+            table.rows.push_back(std::move(row));
+        }
+        return table;
+    }
+
+    MeasuredTable means_of(const MeasuredTable& history) const {
+        MeasuredTable table{
+            "wall_pressure",
+            {"mean pressure on each side with one standard error (from joined intervals of the "
+             "history; nan where there are too few), and collisions with it"},
+            {"left", "right", "bottom", "top", "left_error", "right_error", "bottom_error",
+             "top_error", "left_collisions", "right_collisions", "bottom_collisions",
+             "top_collisions"},
+            {}};
+        std::vector<double> means, errors, counts;
+        for (std::size_t side = 0; side < 4; ++side) {
+            std::vector<double> terms;
+            double sum = 0;
+            for (const std::vector<double>& row : history.rows) {
+                terms.push_back(row[2 + side]);
+                sum += terms.back();
+            }
+            means.push_back(sum / static_cast<double>(terms.size()));
+            errors.push_back(standard_error(terms));
+            counts.push_back(static_cast<double>(collisions_[side]));
+        }
+        table.rows.emplace_back();
+        for (const auto* part : {&means, &errors, &counts})
+            table.rows[0].insert(table.rows[0].end(), part->begin(), part->end());
+        return table;
+    }
+
+    double speed_scale_ = 0; ///< that the unit of impulses is chosen by
+    std::array<std::uint64_t, 4> collisions_{};
+    std::vector<double> impulses_;           ///< of each interval: of the four sides
+    std::optional<WallImpulses> since_last_; ///< of this rank since the last sample
+};
+
+} // namespace
+
+MeasuredQuantity wall_pressure_quantity() {
+    return {{.name = "wall_pressure",
+             .help = "Pressure on each side of the box, from all collisions with it.",
+             .has_history = true,
+             .rules = {{.one = "\"wall_pressure\"",
+                        .other = "a box that is periodic all round",
+                        .why = "it has no walls",
+                        .keys = {quantities_key},
+                        .is_broken =
+                            [](const Scene& s) {
+                                return measures(s, "wall_pressure") && s.effects.is_periodic_x() &&
+                                       s.effects.is_periodic_y();
+                            }},
+                       {.one = "\"wall_pressure\"",
+                        .other = "an open side",
+                        .why = "with open sides velocities and densities alone are measured",
+                        .keys = {quantities_key},
+                        .is_broken =
+                            [](const Scene& s) {
+                                return measures(s, "wall_pressure") &&
+                                       s.effects.have_open_boundaries();
+                            }}}},
+            make_measurement<WallPressure>};
+}
+
+} // namespace carrom

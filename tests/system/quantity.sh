@@ -1,0 +1,95 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# docs/examples/quantity.patch adds a quantity by one new file and one line.
+#
+#   quantity.sh                          does the patch still apply?
+#   quantity.sh PYTHON CMAKE OPTION...   builds a copy of the tree with it, and measures
+#
+# PYTHON is a folder for a Python environment with numpy, CMAKE OPTION... configure the copy.
+. "$CARROM_SOURCE_DIR/tests/system/common.sh"
+change=$CARROM_SOURCE_DIR/docs/examples/quantity.patch
+
+[ "$(grep -c '^+++ ' "$change")" -eq 2 ] || complain 'it touches other than two files'
+[ "$(grep -c '^--- /dev/null' "$change")" -eq 1 ] || complain 'one of the two is no new file'
+[ "$(sed -n '/^+++ .*CMakeLists/,/^---/p' "$change" | grep -c '^[-+] ')" -eq 1 ] ||
+    complain 'it changes other than one line of the list'
+patch --dry-run --batch --fuzz=0 -p1 -d "$CARROM_SOURCE_DIR" -i "$change" ||
+    complain 'the patch does not apply: make it anew'
+[ $# -gt 0 ] || finish
+[ "$n_failures" -eq 0 ] || finish
+
+python=$1/bin/python
+{ [ -x "$python" ] || python3 -m venv "$1"; } >"$test_folder/err" 2>&1 &&
+    { "$python" -c 'import numpy' 2>/dev/null ||
+        timeout 200 "$python" -m pip install --quiet --disable-pip-version-check \
+            --only-binary :all: --retries 1 --timeout 10 numpy >>"$test_folder/err" 2>&1; } || {
+    printf 'skipped: no numpy: %s\n' "$(tail -n 1 "$test_folder/err")"
+    exit 77
+}
+shift
+
+copy=$test_folder/copy
+rm -rf "$copy" && mkdir "$copy"
+for entry in "$CARROM_SOURCE_DIR"/*; do
+    [ -e "$entry/CMakeCache.txt" ] || cp -r "$entry" "$copy/"
+done
+patch --batch --fuzz=0 -p1 -d "$copy" -i "$change" >"$test_folder/out"
+cmake=$1
+{ "$@" -S "$copy" -B "$copy/build" -DCARROM_TESTS=OFF &&
+    "$cmake" --build "$copy/build" --target carrom --parallel "${JOBS:-1}"; } \
+    >"$test_folder/out" 2>"$test_folder/err" || {
+    tail -n 20 "$test_folder/out" "$test_folder/err"
+    complain 'it does not build'
+    finish
+}
+CARROM_PROGRAM=$copy/build/carrom
+
+"$CARROM_PROGRAM" keys >keys.md
+for word in '^| `energies` | Distribution of kinetic energies. | bins, largest_energy |' \
+    '^| `output.measurements.largest_energy` |.*without "energies" among' \
+    '^| `output.measurements.bins` |.*"energies"'; do
+    grep -q "$word" keys.md || complain "keys.md has no $word"
+done
+
+cat >gas.toml <<'END'
+[box]
+size = 40
+[discs]
+count = 300
+radius = 0.5
+speed = 1
+[time]
+steps = 60
+[output]
+checkpoint.every_steps = 25
+[output.measurements]
+quantities = ["energies"]
+every_steps = 7
+END
+run 1 run gas.toml --set output.measurements.largest_energy=-1 -o wrong
+expect_code 2 'a negative energy'
+run 1 run gas.toml --quiet -o one
+expect_code 0 'on one rank'
+run 2 run gas.toml --quiet -o two
+expect_code 0 'on two ranks'
+run 2 run --restart one/checkpoints/checkpoint-000000000050.h5 --quiet -o again
+expect_code 0 'on two ranks, from a checkpoint of one'
+run 1 run --restart one/checkpoints/checkpoint-000000000050.h5 --quiet -o other \
+    --set output.measurements.largest_energy=3
+expect_code 2 'sums of another largest energy'
+for folder in two again; do
+    cmp one/measurements/energies.csv $folder/measurements/energies.csv ||
+        complain "$folder: another table"
+done
+PYTHONPATH=$CARROM_SOURCE_DIR/src/python "$python" - one <<'END' || complain 'another table in Python'
+import json, sys, pathlib
+import carrom
+folder = pathlib.Path(sys.argv[1])
+table = carrom.open(folder).tables["energies"]
+report = json.loads((folder / "report.json").read_text())["measurements"]["energies"]
+assert sum(table["count"]) == 9 * 300, sum(table["count"])
+assert list(table["count"]) == report["count"], "the report has other counts"
+mean = sum(table["count"] * (table["from"] + table["to"]) / 2) / sum(table["count"])
+assert abs(mean - 0.5) < 0.06, mean  # half the mean square of speeds, which is 1; bins of 0.1
+END
+finish
