@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "core/errors.hpp"
+#include "measure/measurement.hpp"
 #include "scene/read_scene.hpp"
 
 namespace {
@@ -20,6 +21,7 @@ void demand(bool claim) {
 }
 
 void check(const carrom::Scene& scene) {
+    demand(!carrom::measured_quantities().empty()); // scenes know them
     demand(scene.n_discs > 0 && scene.steps >= 0 && scene.micro_steps > 0 && scene.sync_every > 0);
     demand(std::isfinite(scene.box.x) && scene.radius > 0 && scene.box.x >= 2 * scene.radius);
     for (const carrom::InputDisc& disc : scene.listed_discs) {
