@@ -257,10 +257,10 @@ std::vector<Rule> rules_of_outputs() {
 const std::vector<Rule>& rules() {
     static const std::vector<Rule> all = [] {
         std::vector<Rule> list = rules_of_methods();
-        for (const auto& part : {rules_of_effects(), rules_of_shear(), rules_of_oscillations(),
-                                 rules_of_growth(), rules_of_starts(), rules_of_outputs(),
-                                 rules_of_quantities(),
-                                 rules_of_columns(std::make_index_sequence<n_side_columns>())})
+        for (const auto& part :
+             {rules_of_effects(), rules_of_shear(), rules_of_oscillations(), rules_of_growth(),
+              rules_of_starts(), rules_of_outputs(), rules_of_quantities(),
+              rules_of_columns(std::make_index_sequence<n_side_columns>())})
             list.insert(list.end(), part.begin(), part.end());
         return list;
     }();

@@ -189,7 +189,15 @@ MeasuredQuantity diffusion_quantity() {
                                    "64 samples")
                           .within({1, largest_steps})},
              .has_history = true,
-             .rules = {{.one = "sheared sides", .other = "\"diffusion\"", .why = "discs drift apart with the flow", .keys = {quantities_key}, .is_broken = [](const Scene& s) { return measures(s, "diffusion") && s.effects.are_sheared(); }}, {.one = "\"diffusion\"",
+             .rules = {{.one = "sheared sides",
+                        .other = "\"diffusion\"",
+                        .why = "discs drift apart with the flow",
+                        .keys = {quantities_key},
+                        .is_broken =
+                            [](const Scene& s) {
+                                return measures(s, "diffusion") && s.effects.are_sheared();
+                            }},
+                       {.one = "\"diffusion\"",
                         .other = "\"displacement\"",
                         .why = "a run keeps one first place of each disc; diffusion has "
                                "displacements in its table",

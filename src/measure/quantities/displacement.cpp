@@ -50,7 +50,15 @@ MeasuredQuantity displacement_quantity() {
     return {{.name = "displacement",
              .help = "Mean square displacement since the first sample.",
              .has_history = true,
-             .rules = {{.one = "sheared sides", .other = "\"displacement\"", .why = "discs drift apart with the flow", .keys = {quantities_key}, .is_broken = [](const Scene& s) { return measures(s, "displacement") && s.effects.are_sheared(); }}, {.one = "\"displacement\"",
+             .rules = {{.one = "sheared sides",
+                        .other = "\"displacement\"",
+                        .why = "discs drift apart with the flow",
+                        .keys = {quantities_key},
+                        .is_broken =
+                            [](const Scene& s) {
+                                return measures(s, "displacement") && s.effects.are_sheared();
+                            }},
+                       {.one = "\"displacement\"",
                         .other = "an open side",
                         .why = "with open sides velocities and densities alone are measured",
                         .keys = {quantities_key},

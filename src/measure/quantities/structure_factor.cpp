@@ -116,7 +116,15 @@ MeasuredQuantity structure_factor_quantity() {
                                   "Reach of the structure factor; at most a million wave vectors.",
                                   "4 pi over the diameter, or 100,000 vectors")
                           .within({.low = 0, .excludes_low = true})},
-             .rules = {{.one = "sheared sides", .other = "\"structure_factor\"", .why = "the flow bends waves", .keys = {quantities_key}, .is_broken = [](const Scene& s) { return measures(s, "structure_factor") && s.effects.are_sheared(); }}, {.one = "\"structure_factor\"",
+             .rules = {{.one = "sheared sides",
+                        .other = "\"structure_factor\"",
+                        .why = "the flow bends waves",
+                        .keys = {quantities_key},
+                        .is_broken =
+                            [](const Scene& s) {
+                                return measures(s, "structure_factor") && s.effects.are_sheared();
+                            }},
+                       {.one = "\"structure_factor\"",
                         .other = "a side that is not periodic",
                         .why = "wave vectors are those of a box that repeats itself; make all four "
                                "sides periodic",
