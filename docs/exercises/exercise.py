@@ -62,9 +62,9 @@ def lines(text):
     return steps
 
 
-def lost_collisions(is_short):
+def lost_collisions(_):
     """1: the share of collisions that the time-stepped method loses, against the step."""
-    gas, steps = SCENES / "gas.toml", ("--steps", 100 if is_short else 400)
+    gas, steps = SCENES / "gas.toml", ("--steps", 400)
     exact = report(gas, *steps, "--set", "time.method=event-driven")["averages"][
         "collision_frequency"
     ]["value"]

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
-#include <type_traits>
 #include <utility>
 
 #include "cell_list/disc_sorter_passes.hpp"
@@ -40,13 +39,27 @@ int cells_along(double length, double width) {
 struct StoredPlaces {
     static double x_of(const Disc& disc, double time) { return disc.x_at(time); }
     static double y_of(const Disc& disc, double time) { return disc.y_at(time); }
+    static double vx_of(const Disc& disc) { return disc.vx; }
 };
 
-/// How an image flies along x where boxes move, in cells per window. Apart, so that boxes at rest
-/// pay for the question alone.
-[[gnu::noinline, gnu::cold]] float lane_of_image(const Periods& periods, const Disc& disc,
-                                                 double cells_per_speed) {
-    return static_cast<float>(periods.vx_of(disc) * cells_per_speed);
+/// Where images are whose boxes are at rest. A kind of its own, so that they do not pay for boxes
+/// that move.
+struct PlacesAtRest {
+    const Periods& periods;
+
+    double x_of(const Disc& disc, double time) const { return periods.x_at_rest(disc, time); }
+    double y_of(const Disc& disc, double time) const { return periods.y_of(disc, time); }
+    static double vx_of(const Disc& disc) { return disc.vx; }
+};
+
+/// Calls `work` with what knows where discs are in a box that repeats itself like this.
+template <class Work> void with_places(const Periods& periods, Work work) {
+    if (periods.are_moving())
+        work(periods);
+    else if (periods.are_any())
+        work(PlacesAtRest{periods});
+    else
+        work(StoredPlaces{});
 }
 
 } // namespace
@@ -95,16 +108,11 @@ void CellGrid::place(const Places& places, float* flight, std::size_t length,
                      const Disc& disc) const {
     const double cells = geometry_.cells_per_length();
     const auto [x, y] = turned(geometry_.axis, places.x_of(disc, time_), places.y_of(disc, time_));
-    const auto [vx, vy] = turned(geometry_.axis, disc.vx, disc.vy);
+    const auto [vx, vy] = turned(geometry_.axis, places.vx_of(disc), disc.vy);
     flight[0] = static_cast<float>((x - geometry_.low) * cells);
     flight[length] = static_cast<float>((y - geometry_.across_low) * cells);
     flight[2 * length] = static_cast<float>(vx * duration_ * cells);
     flight[3 * length] = static_cast<float>(vy * duration_ * cells);
-    if constexpr (std::is_same_v<Places, Periods>) {
-        if (places.are_moving()) [[unlikely]]
-            flight[geometry_.axis == Axis::x ? 2 * length : 3 * length] = lane_of_image(
-                places, disc, duration_ * cells);
-    }
 }
 
 void CellGrid::sort(std::span<Disc> own, const GridGeometry& geometry, double anchor, double time,
@@ -144,10 +152,7 @@ void CellGrid::sort(std::span<Disc> own, int n_threads, const Companions& compan
     lane_length_ = n_own_ + filter_padding;
     resize_close(lanes_, (has_flights_ ? 4 : 2) * lane_length_);
     resize_close(cell_start_, static_cast<std::size_t>(geometry_.n_columns) * rows() + 1);
-    if (periods_.are_any())
-        sort(periods_, own, n_threads, companions);
-    else
-        sort(StoredPlaces{}, own, n_threads, companions);
+    with_places(periods_, [&](const auto& places) { sort(places, own, n_threads, companions); });
 }
 
 void CellGrid::sort_columns(SideColumns& columns, Lent order) const {
@@ -188,10 +193,7 @@ void CellGrid::sort(const Places& places, std::span<Disc> own, int n_threads,
 }
 
 void CellGrid::add_halo(std::span<const Disc> halo) {
-    if (periods_.are_any())
-        add_halo(periods_, halo);
-    else
-        add_halo(StoredPlaces{}, halo);
+    with_places(periods_, [&](const auto& places) { add_halo(places, halo); });
 }
 
 /// A counting sort over the cells of those columns that hold any of them.
@@ -242,7 +244,7 @@ void CellGrid::update_flight(LocalIndex index, const Disc& disc) {
 }
 
 void CellGrid::update_flight_of_image(LocalIndex index, const Disc& disc) {
-    update(periods_, index, disc);
+    with_places(periods_, [&](const auto& places) { update(places, index, disc); });
 }
 
 void CellGrid::set_apart(double speed) {

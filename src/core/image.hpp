@@ -136,6 +136,10 @@ struct Periods {
         const double at_rest = shifted_x(disc, time);
         return are_moving() ? moved(at_rest, disc, time) : at_rest;
     }
+    /// Where boxes are at rest.
+    [[gnu::always_inline]] double x_at_rest(const Disc& disc, double time) const {
+        return is_unshifted(disc) ? disc.x_at(time) : shifted_x(disc, time);
+    }
     [[gnu::always_inline]] double y_of(const Disc& disc, double time) const {
         return is_unshifted(disc) ? disc.y_at(time) : shifted_y(disc, time);
     }
