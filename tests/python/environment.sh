@@ -14,11 +14,12 @@ package=$CARROM_SOURCE_DIR/src/python
 # said: the last line of what a command has said
 said() { tail -n "${1:-1}" "$test_folder/err"; }
 
-# copy_package FOLDER: pip writes beside the sources, so it gets a copy
+# copy_package FOLDER: pip writes beside the sources, so it gets a copy, with a LICENSE of its own
+# in the place of the link
 copy_package() {
     rm -rf "$1"
     mkdir -p "$1"
-    tar -C "$package" --exclude=__pycache__ --exclude=build --exclude='*.egg-info' -cf - . |
+    tar -C "$package" -h --exclude=__pycache__ --exclude=build --exclude='*.egg-info' -cf - . |
         tar -C "$1" -xf -
 }
 
@@ -31,8 +32,8 @@ use_environment() {
     [ -x "$python" ] && "$python" -m pip --version >/dev/null 2>&1 ||
         python3 -m venv --clear "$1" >"$test_folder/err" 2>&1 ||
         skip_test "no Python environment can be made: $(said)"
-    "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' ||
-        skip_test 'the package needs Python 3.11'
+    "$python" -c 'import sys; sys.exit(sys.version_info < (3, 9))' ||
+        skip_test 'the package needs Python 3.9'
 }
 release_environment() { flock -u 9; }
 

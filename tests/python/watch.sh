@@ -8,7 +8,7 @@ skip() {
     printf 'skipped: %s\n' "$*"
     exit 77
 }
-has_all() { "$1" -c 'import sys, numpy, h5py; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; }
+has_all() { PYTHONPATH=$CARROM_SOURCE_DIR/src/python "$1" -B -c 'import carrom' 2>/dev/null; }
 
 python=python3
 command -v python3 >/dev/null || skip 'there is no python3'
@@ -18,9 +18,9 @@ if ! has_all python3; then
         skip "no Python environment: $(tail -n 1 "$test_folder/err")"
     has_all "$python" || timeout 200 "$python" -m pip install \
         --quiet --disable-pip-version-check --only-binary :all: \
-        numpy h5py >"$test_folder/err" 2>&1 ||
+        numpy h5py tomli >"$test_folder/err" 2>&1 ||
             skip "numpy and h5py are not to be had: $(tail -n 1 "$test_folder/err")"
-    has_all "$python" || skip 'Python is older than 3.11'
+    has_all "$python" || skip 'Python is older than 3.9'
 fi
 export PYTHONPATH=$CARROM_SOURCE_DIR/src/python PYTHONDONTWRITEBYTECODE=1
 for test in watch_test watch_browser_test; do

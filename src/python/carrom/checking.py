@@ -10,7 +10,6 @@ from carrom.errors import FileError
 from carrom.program import find_program
 
 
-
 def verify(path: str | os.PathLike[str], program: str | os.PathLike[str] | None = None) -> None:
     """Check every byte of a checkpoint, a trajectory or a log, and that its discs are possible.
 

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import itertools
 import os
 from fractions import Fraction
 from functools import cached_property
@@ -99,9 +98,7 @@ class Checkpoint(Frame):
 
     @cached_property
     def x(self) -> Array:
-        places = [
-            self._place(axis, period) for axis, period in zip("xy", self._periods, strict=True)
-        ]
+        places = [self._place(axis, period) for axis, period in zip("xy", self._periods)]
         return np.stack(places, axis=1)
 
     def _place(self, axis: str, period: float) -> Array:
@@ -153,7 +150,7 @@ class Checkpoint(Frame):
         rows = self._stored_species() or self._scene_species()
         if not rows:
             return np.full(n, self._largest_radius), np.ones(n), np.zeros(n, dtype=np.int64)
-        counts, radii, masses = (np.array(column) for column in zip(*rows, strict=True))
+        counts, radii, masses = (np.array(column) for column in zip(*rows))
         return (
             np.repeat(radii.astype(float), counts),
             np.repeat(masses.astype(float), counts),
@@ -165,7 +162,7 @@ class Checkpoint(Frame):
             if "carrom/species" not in file:
                 return []
             columns = [file[f"carrom/species/{name}"][()] for name in ("count", "radius", "mass")]
-        return [(int(n), float(r), float(m)) for n, r, m in zip(*columns, strict=True)]
+        return [(int(n), float(r), float(m)) for n, r, m in zip(*columns)]
 
     def _scene_species(self) -> list[tuple[int, float, float]]:
         discs = self.scene.get("discs", {})
@@ -178,7 +175,7 @@ class Checkpoint(Frame):
 def _numbered(rows: list[tuple[int, float, float]]) -> Array:
     """Number species in the order of ids; neighbours that are alike are one."""
     numbers = [0]
-    for before, now in itertools.pairwise(rows):
+    for before, now in zip(rows, rows[1:]):
         numbers.append(numbers[-1] + (before[1:] != now[1:]))
     return np.array(numbers, dtype=np.int64)
 

@@ -7,12 +7,13 @@ import contextlib
 import operator
 import os
 import signal
+import sys
 import tempfile
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, Union
 
 from carrom.errors import (
     ERROR_OF_CODE,
@@ -28,7 +29,7 @@ from carrom.progress import progress_display
 from carrom.runs import SCENE_FILES, Run
 from carrom.scene import SceneLike, flattened, read_scene, scene_file, set_words
 
-ProgressLike = bool | Callable[[int, int], None] | None
+ProgressLike = Union[bool, Callable[[int, int], None], None]
 
 
 class CarromWarning(UserWarning):
@@ -91,7 +92,7 @@ def run(
         try:
             return _execute(place, words, lines, ranks, program, launcher, progress)
         except InputError as error:
-            if file.text is not None:
+            if file.text is not None and sys.version_info >= (3, 11):
                 numbered = enumerate(file.text.splitlines(), 1)
                 text = "\n".join(f"{n:4} {line}" for n, line in numbered)
                 error.add_note(f"{file.path}:\n{text}")
@@ -148,7 +149,7 @@ def _place(
     if named is None:
         with contextlib.suppress(CarromError, TypeError):  # the program reports a wrong scene
             named = flattened(read_scene(scene)).get("output.folder")
-    if isinstance(named, str | os.PathLike) and os.fspath(named):
+    if isinstance(named, (str, os.PathLike)) and os.fspath(named):
         return Path(named), not Path(named).exists()
     return Path(tempfile.mkdtemp(prefix="carrom-run-")), True
 

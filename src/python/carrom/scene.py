@@ -12,7 +12,7 @@ import sys
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Union
 
 import numpy as np
 
@@ -23,7 +23,7 @@ if sys.version_info >= (3, 11):
 else:
     import tomli as tomllib
 
-SceneLike = Mapping[str, Any] | str | os.PathLike[str]
+SceneLike = Union[Mapping[str, Any], str, "os.PathLike[str]"]
 """A scene: a dictionary, the path of a file, or TOML text (any string with a line break)."""
 
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
@@ -42,14 +42,14 @@ def toml_value(value: Any) -> str:
         value = value.item()
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, int | float):
+    if isinstance(value, (int, float)):
         return repr(value)
-    if isinstance(value, str | os.PathLike):
+    if isinstance(value, (str, os.PathLike)):
         return _quoted(os.fspath(value))
     if isinstance(value, Mapping):
         words = [f"{_key(key)} = {toml_value(item)}" for key, item in value.items()]
         return "{" + ", ".join(words) + "}"
-    if isinstance(value, list | tuple | range):
+    if isinstance(value, (list, tuple, range)):
         return "[" + ", ".join(toml_value(item) for item in value) + "]"
     raise TypeError(f"a scene cannot have {value!r}: TOML has no {type(value).__name__}")
 
@@ -205,7 +205,7 @@ def scene_file(scene: SceneLike, overrides: Mapping[str, Any], folder: Path) -> 
     A file of that name stays; the scene's is then `input-2.toml`.
     """
     words = set_words(overrides)
-    if not isinstance(scene, Mapping | str | os.PathLike):
+    if not isinstance(scene, (Mapping, str, os.PathLike)):
         raise TypeError(f"a scene is a dictionary, a path or TOML text, not {scene!r}")
     if not isinstance(scene, Mapping) and not is_text(scene):
         yield SceneFile(Path(scene), words)
@@ -248,7 +248,7 @@ def set_words(overrides: Mapping[str, Any]) -> list[str]:
 def with_absolute_files(scene: dict[str, Any], beside: Path = Path()) -> dict[str, Any]:
     """Name `discs.file` in full: the program looks beside the scene that it is given."""
     discs = scene.get("discs")
-    if isinstance(discs, dict) and isinstance(discs.get("file"), str | os.PathLike):
+    if isinstance(discs, dict) and isinstance(discs.get("file"), (str, os.PathLike)):
         discs["file"] = str((beside / discs["file"]).absolute())
     return scene
 

@@ -11,7 +11,7 @@ import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, NoReturn, Union
 
 import numpy as np
 
@@ -29,7 +29,7 @@ from carrom.scene import (
 )
 from carrom.tables import Table
 
-Quantity = Callable[[Run], float | tuple[float, float]]
+Quantity = Callable[[Run], Union[float, tuple[float, float]]]
 
 AVERAGES = (
     "collision_frequency",
@@ -240,7 +240,7 @@ def _average(pairs: Sequence[tuple[float, float]]) -> tuple[float, float]:
 
 
 def _column(values: list[Any]) -> Any:
-    if all(isinstance(value, bool | int | float | np.generic) for value in values):
+    if all(isinstance(value, (bool, int, float, np.generic)) for value in values):
         return np.array(values)
     words = [value if isinstance(value, str) else toml_value(value) for value in values]
     return np.array(words, dtype=np.str_)
@@ -263,7 +263,7 @@ def grid_points(
     beside = Path() if isinstance(scene, Mapping) or is_text(scene) else Path(scene).parent
     base = {} if is_legacy else with_absolute_files(read_scene(scene), beside)
     for combination in itertools.product(*keys.values()):
-        values = dict(zip(keys, combination, strict=True))
+        values = dict(zip(keys, combination))
         all_set = flattened(overrides) | values
         known = flattened(base) | all_set
         first = int(known.get("discs.seed", _DEFAULT_SEED)) if repeats > 1 else 0
@@ -292,7 +292,7 @@ def _grid_values(
     keys: dict[str, list[Any]] = {}
     for name, values in grid.items():
         key = str(name).replace("__", ".")
-        if isinstance(values, str | Mapping) or not isinstance(values, Iterable):
+        if isinstance(values, (str, Mapping)) or not isinstance(values, Iterable):
             raise TypeError(f"a sweep needs several values of {key}: [{values!r}], not {values!r}")
         if key in keys or key in flattened(overrides):
             raise ValueError(f"{key} is given twice: once in the grid is enough")
@@ -311,7 +311,7 @@ def _plain(key: str, value: Any) -> Any:
         toml_value(value)
     except TypeError as error:
         raise TypeError(f"{key}: {error}") from None
-    return value.tolist() if isinstance(value, np.ndarray | np.generic) else value
+    return value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
 
 
 def _is_legacy(scene: SceneLike) -> bool:

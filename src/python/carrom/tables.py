@@ -91,7 +91,7 @@ def read_csv(path: str | os.PathLike[str]) -> Table:
     try:
         values = [
             tuple(int(word) if kind is np.int64 else float(word) for (_, kind), word in zipped)
-            for zipped in (zip(dtype, row, strict=True) for row in rows[1:])
+            for zipped in (zip(dtype, row) for row in rows[1:])
         ]
     except ValueError as error:
         raise FileError(f"{path}: is no table of numbers: {error}") from None

@@ -51,7 +51,7 @@ def test_mdanalysis_has_the_frames(mixture: carrom.Run) -> None:
     universe = frames.to_mdanalysis()
     assert universe.trajectory.dt == 5
     assert [moment.time for moment in universe.trajectory] == [0, 5, 10, 15, 20]
-    for moment, frame in zip(universe.trajectory, frames, strict=True):
+    for moment, frame in zip(universe.trajectory, frames):
         assert np.array_equal(moment.positions[:, :2], frame.x)
         assert np.array_equal(moment.velocities[:, :2], frame.v)
         assert moment.dimensions.tolist() == [20, 20, 1, 90, 90, 90]
@@ -101,7 +101,7 @@ def test_gsd_has_the_frames(mixture: carrom.Run, tmp_path: Path) -> None:
     path = carrom.to_gsd(mixture, tmp_path / "t.gsd")
     with hoomd.open(path) as file:
         assert [moment.configuration.step for moment in file] == [0, 5, 10, 15, 20]
-        for moment, frame in zip(file, mixture.frames, strict=True):
+        for moment, frame in zip(file, mixture.frames):
             centred = (frame.x - frame.box / 2).astype(np.float32)
             assert np.array_equal(moment.particles.position[:, :2], centred)
             assert np.array_equal(moment.particles.velocity[:, :2], frame.v)

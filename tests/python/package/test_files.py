@@ -108,7 +108,7 @@ def test_bodies_are_those_of_the_scene(recorded: carrom.Run) -> None:
         discs = file["particles/discs"]
         stored = [discs[name][:] for name in ("radius", "mass", "species")]
     for frame in (recorded.frames[0], recorded.checkpoints[-1]):
-        for ours, theirs in zip((frame.radius, frame.mass, frame.species), stored, strict=True):
+        for ours, theirs in zip((frame.radius, frame.mass, frame.species), stored):
             assert np.array_equal(ours, theirs)
         if "species" in str(recorded.folder):
             assert frame.radius.tolist() == [1.0] * 5 + [0.5] * 20
@@ -164,7 +164,7 @@ def test_collisions_are_those_of_the_table(run: carrom.Run, program: Path, tmp_p
     table = run.collisions
     assert table.columns == rows[0]
     kinds = (int, float, int, int, float)
-    wanted = [tuple(k(w) for k, w in zip(kinds, row, strict=True)) for row in rows[1:]]
+    wanted = [tuple(k(w) for k, w in zip(kinds, row)) for row in rows[1:]]
     assert table.tolist() == wanted
     pairs = np.count_nonzero(table["q"] >= 0)
     assert (pairs, len(table) - pairs) == (
@@ -353,5 +353,5 @@ def test_verify_finds_each_damage(recorded: carrom.Run, tmp_path: Path) -> None:
     shutil.copytree(recorded.folder, tmp_path / "copy")
     with h5py.File(tmp_path / "copy" / "trajectory.h5", "a") as file:
         del file["carrom/recording"]
-    with pytest.raises(carrom.FileError, match="no checksums|damaged"):
+    with pytest.raises(carrom.FileError, match=r"no checksums|damaged"):
         carrom.verify(tmp_path / "copy" / "trajectory.h5")

@@ -24,7 +24,7 @@ def test_a_grid_becomes_one_table(program: Path, tmp_path: Path) -> None:
     assert table["discs.packing"].tolist() == [0.1, 0.1, 0.2, 0.2]
     assert table["time.micro_steps"].tolist() == [1, 4, 1, 4]
     assert table["runs"].tolist() == [1] * 4
-    for run, row in zip(sweep.runs, table, strict=True):
+    for run, row in zip(sweep.runs, table):
         averages = run.report["averages"]
         assert row["virial_pressure"] == averages["virial_pressure"]["value"]
         error = averages["collision_frequency"]["error"]

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import struct
 import sys
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -28,7 +29,12 @@ def main(words: Sequence[str] | None = None) -> int:
     except (CarromError, ValueError, OSError) as error:
         print(f"carrom-plot: {error}", file=sys.stderr)
         return 2
-    except (ArithmeticError, MemoryError, RuntimeError) as error:  # of matplotlib and pillow
+    except (
+        ArithmeticError,
+        MemoryError,
+        RuntimeError,
+        struct.error,
+    ) as error:  # of matplotlib and pillow
         print(f"carrom-plot: cannot draw: {error}; try: another --dpi or --rate", file=sys.stderr)
         return 2
     except ImportError as error:

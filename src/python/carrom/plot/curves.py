@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable
+from typing import Union
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -18,7 +19,7 @@ from carrom.runs import Run
 from carrom.sweeps import Sweep
 from carrom.tables import Table
 
-RunLike = Run | str | os.PathLike[str]
+RunLike = Union[Run, str, "os.PathLike[str]"]
 
 
 def _new_axes(ax: Axes | None) -> Axes:
@@ -29,7 +30,7 @@ def _new_axes(ax: Axes | None) -> Axes:
 
 
 def _items(source: RunLike | Iterable[RunLike]) -> list[RunLike]:
-    return [source] if isinstance(source, Run | str | os.PathLike) else list(source)
+    return [source] if isinstance(source, (Run, str, os.PathLike)) else list(source)
 
 
 def history(source: RunLike) -> list[Axes]:
@@ -56,7 +57,7 @@ def history(source: RunLike) -> list[Axes]:
         layout="constrained",
     )
     axes: list[Axes] = list(grid[:, 0])
-    for draw, ax in zip(parts, axes, strict=True):
+    for draw, ax in zip(parts, axes):
         draw(ax, run)
     axes[-1].set_xlabel("step")
     return axes
@@ -143,7 +144,7 @@ def equation_of_state(
         raise NoDataError("an equation of state needs a finished run")
     ax = _new_axes(ax)
     points = sorted((float(run.report["packing"]), *compressibility(run)) for run in runs)
-    packings, values, errors = (np.array(column) for column in zip(*points, strict=True))
+    packings, values, errors = (np.array(column) for column in zip(*points))
     if theory:
         line = np.linspace(0, max(packings.max(), 0.05), 200)
         ax.plot(line, henderson(line), color="0.6", label="Henderson (1975)")
@@ -172,7 +173,7 @@ def measurements(source: RunLike) -> list[Axes]:
     axes: list[Axes] = list(grid.flat)
     for ax in axes[len(panels) :]:
         ax.remove()
-    for ax, draw in zip(axes, panels, strict=False):
+    for ax, draw in zip(axes, panels):
         draw(ax, run)
     return axes[: len(panels)]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Union
 
 from carrom.errors import CarromError, NoDataError
 from carrom.frame import Frame
@@ -14,7 +14,7 @@ from carrom.runs import Run, open_run
 COLOURS = ("speed", "vx", "vy", "spin", "strip", "species")
 """What discs can be coloured by."""
 
-Drawable = Run | Frame | Sequence[Frame] | str | os.PathLike[str]
+Drawable = Union[Run, Frame, Sequence[Frame], str, "os.PathLike[str]"]
 """A run, frames, a frame, or the path of a run's folder, a trajectory or a checkpoint."""
 
 
@@ -59,7 +59,7 @@ def scene_of(source: Drawable) -> dict[str, Any]:
     try:
         if isinstance(source, Run):
             return source.scene
-        if isinstance(source, str | os.PathLike):
+        if isinstance(source, (str, os.PathLike)):
             return open_run(source).scene
     except CarromError:
         return {}

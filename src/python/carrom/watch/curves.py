@@ -84,7 +84,7 @@ class Curves:
         known = sorted((step, e) for step, (e, _) in self._of_frames.items() if e == e)
         if not known:
             return _curve((), (), "no frames with velocities yet")
-        steps, energies = zip(*known, strict=True)
+        steps, energies = zip(*known)
         return _curve(steps, energies, "kinetic energy of frames")
 
     def _read_log(self, run: Run, until: float) -> None:
@@ -104,7 +104,7 @@ class Curves:
                 is_pair = h5.read(columns["q"], part) >= 0
                 steps, places = np.unique(h5.read(columns["step"], part), return_inverse=True)
                 pairs = np.bincount(places, weights=is_pair)
-                for step, count in zip(steps, pairs, strict=True):
+                for step, count in zip(steps, pairs):
                     known = self._log_counts.get(int(step), 0)
                     self._log_counts[int(step)] = known + int(count)
                 self._log_rows = part.stop
@@ -128,7 +128,7 @@ class Curves:
                 (),
                 "needs output.collisions, or frames or checkpoints with counters of collisions",
             )
-        steps, means = (np.array(column) for column in zip(*known, strict=True))
+        steps, means = (np.array(column) for column in zip(*known))
         rates = np.diff(means) / np.diff(steps)
         return _curve((steps[1:] + steps[:-1]) / 2, rates, "counters of frames or checkpoints")
 

@@ -44,7 +44,8 @@ class Server(ThreadingHTTPServer):
 
     def process_request(self, request: Any, client_address: Any) -> None:
         """Answer in a thread. Too many connections would take all file descriptors of the process,
-        so the one that has been idle longest is closed."""
+        so the one that has been idle longest is closed.
+        """
         self.note_use(request)
         with self._guard:
             idle = next(iter(self._open)) if len(self._open) > _MOST_CONNECTIONS else None
