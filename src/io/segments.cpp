@@ -140,6 +140,10 @@ std::optional<Index> read_checked_index(const std::string& path, bool are_rows_w
     for (const FileSegment& segment : index.segments) {
         try {
             const std::string part = segment_path(path, segment.name);
+            if (!std::filesystem::exists(part))
+                throw FileError(fmt::format("is not there; copy the folder {}/ together with {}",
+                                            folder_of(segment.name),
+                                            std::filesystem::path(path).filename().string()));
             if (hash_of_structure(part, segment, index.row_bytes) != segment.structure)
                 throw FileError("its structure is damaged");
             if (are_rows_wanted &&

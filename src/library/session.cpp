@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <exception>
+
 #include "io/start_io.hpp"
 #include "library/session_state.hpp"
 #include "parallel/meeting.hpp"
@@ -46,12 +48,15 @@ int Session::size() const { return state_->ranks.size(); }
 
 int Session::run(const std::function<int()>& body) const {
     Departure departure(state_->ranks);
-    return run_on_all(state_->ranks, [&](const Communicator&) {
-        struct Leaving {
-            Departure& departure;
-            ~Leaving() { departure.leave(); }
-        } leaving{departure};
-        return body();
+    return run_on_all(state_->ends, [&](const Communicator&) {
+        try {
+            const int code = body();
+            departure.leave();
+            return code;
+        } catch (const std::exception& error) { // the others may wait for this rank
+            departure.leave(error.what());
+            throw;
+        }
     });
 }
 

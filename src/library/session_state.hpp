@@ -7,6 +7,7 @@
 #include <carrom/session.hpp>
 
 #include "parallel/communicator.hpp"
+#include "parallel/meeting.hpp"
 #include "parallel/mpi.hpp"
 
 namespace carrom::api {
@@ -14,6 +15,7 @@ namespace carrom::api {
 struct Session::State {
     std::unique_ptr<Mpi> mpi; ///< where the session has started it; ends last
     Communicator ranks;
+    Communicator ends = duplicate_of(ranks); ///< where ranks agree on the end of Session::run
 };
 
 inline const Communicator& ranks_of(const Session& session) { return session.state().ranks; }

@@ -5,6 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
 #include "measure/kept_numbers.hpp"
 
 namespace carrom {
@@ -76,8 +79,6 @@ const std::vector<OlderQuantity>& older_quantities() {
         {"velocities", 4, {"velocity", "#vx", "vx", "vy", "speeds"}},
         {"density", 8, {"#x", "x", "y"}},
         {"displacement", 16, {"displacements"}},
-        {"pressure", 32, {"virial_bound", "pressures", "pending_virial", "last_motion"}},
-        {"thermo", 64, {"thermo", "virial_bound", "pressures", "pending_virial", "last_motion"}},
         {"psi6",
          128,
          {"distance", "#moduli", "psi6", "neighbours", "moduli", "psi6_pairs", "psi6_products"}},
@@ -102,14 +103,26 @@ std::map<std::string_view, Words> older_values(const Words& words) {
     return next == words.size() ? values : std::map<std::string_view, Words>{};
 }
 
+/// Stress is integrated over time now; sums of version 0.2 lack what that takes.
+void refuse_stress(std::int64_t quantities, std::int64_t step) {
+    constexpr std::int64_t pressure = 32, thermo = 64;
+    if ((quantities & (pressure | thermo)) == 0) return;
+    throw InputError(
+        {{"[output.measurements]", 0,
+          fmt::format("the checkpoint is of carrom 0.2, and its sums of \"{}\" are of another "
+                      "kind: begin anew with output.measurements.from_step = {}",
+                      (quantities & pressure) != 0 ? "pressure" : "thermo", step)}});
+}
+
 } // namespace
 
-Words in_present_form(const Words& words) {
+Words in_present_form(const Words& words, std::int64_t step) {
     constexpr std::int64_t older = 2, present = 3;
     if (words.empty() || words[0] != older) return words;
     const std::map<std::string_view, Words> values = older_values(words);
     if (values.empty()) return words;
     const std::int64_t measured = values.at("quantities")[0];
+    refuse_stress(measured, step);
     std::vector<std::string> names;
     for (const OlderQuantity& quantity : older_quantities())
         if (measured & quantity.bit) names.emplace_back(quantity.name);

@@ -8,7 +8,9 @@
 namespace carrom {
 
 /// The words of a checkpoint as Sampler keeps them now, whether they are older or not; words that
-/// are of neither form stay as they are, so that they are refused.
-std::vector<std::int64_t> in_present_form(const std::vector<std::int64_t>& words);
+/// are of neither form stay as they are, so that they are refused. Throws InputError for sums of
+/// version 0.2 that cannot go on at that step.
+std::vector<std::int64_t> in_present_form(const std::vector<std::int64_t>& words,
+                                          std::int64_t step);
 
 } // namespace carrom

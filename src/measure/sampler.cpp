@@ -43,7 +43,7 @@ void Sampler::keep_counts(KeptNumbers& kept) const {
 void Sampler::go_on(const StoredSamples& stored) {
     const std::int64_t step = run_.simulation.step();
     if (stored.sums.empty() || step <= run_.output.from_step) return;
-    const std::vector<std::int64_t> words = in_present_form(stored.sums);
+    const std::vector<std::int64_t> words = in_present_form(stored.sums, step);
     KeptNumbers kept(words);
     keep_settings(kept);
     StoredSamples asked; // the flags of what these measurements have of each disc

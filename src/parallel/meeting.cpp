@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "core/errors.hpp"
+#include "core/printable.hpp"
 #include "parallel/handle.hpp"
 #include "parallel/mpi.hpp"
 
@@ -17,6 +18,7 @@ namespace {
 
 /// A rank that has met the others and left at once may be ahead of their messages.
 constexpr std::chrono::seconds grace(10);
+constexpr std::size_t longest_reason = 2000;
 
 /// The rank that has departed, if one has said so; -1 else.
 int departed_rank(MPI_Comm comm) {
@@ -24,6 +26,25 @@ int departed_rank(MPI_Comm comm) {
     MPI_Status status;
     MPI_Iprobe(MPI_ANY_SOURCE, tag::departure, comm, &is_there, &status);
     return is_there != 0 ? status.MPI_SOURCE : -1;
+}
+
+/// Why that rank has departed.
+std::string reason_of(int rank, MPI_Comm comm) {
+    MPI_Status status;
+    MPI_Probe(rank, tag::departure, comm, &status);
+    int length = 0;
+    MPI_Get_count(&status, MPI_BYTE, &length);
+    std::string reason(static_cast<std::size_t>(length), ' ');
+    MPI_Recv(reason.data(), length, MPI_BYTE, rank, tag::departure, comm, MPI_STATUS_IGNORE);
+    return reason;
+}
+
+[[noreturn]] void report_missing(int rank, MPI_Comm comm, std::string_view call) {
+    const std::string reason = reason_of(rank, comm);
+    abort_from_mistake("rank " + std::to_string(rank) +
+                       " has left, and this one waits for it in " + std::string(call) +
+                       ", which all ranks must call" +
+                       (reason.empty() ? "" : "; the error there: " + printable(reason, true)));
 }
 
 void wait_unless_departed(MPI_Request& request, MPI_Comm comm, std::string_view call) {
@@ -36,9 +57,7 @@ void wait_unless_departed(MPI_Request& request, MPI_Comm comm, std::string_view 
             departed = departed_rank(comm);
             noticed = Clock::now();
         } else if (Clock::now() - noticed > grace) {
-            abort_from_mistake("rank " + std::to_string(departed) +
-                               " has left, and this one waits for it in " + std::string(call) +
-                               ", which all ranks must call");
+            report_missing(departed, comm, call);
         }
         std::this_thread::sleep_for(pause);
         pause = std::min(2 * pause, std::chrono::microseconds(2000));
@@ -67,18 +86,21 @@ void meet(const Communicator& communicator, std::string_view call, std::uint64_t
 }
 
 struct Departure::Messages {
+    std::string reason;
     std::vector<MPI_Request> requests;
 };
 
 Departure::Departure(const Communicator& communicator)
     : communicator_(communicator), messages_(std::make_unique<Messages>()) {}
 
-void Departure::leave() {
+void Departure::leave(const std::string& reason) {
     Communicator::Handle& handle = communicator_.handle();
     if (handle.is_alone() || !messages_->requests.empty()) return;
+    messages_->reason = reason.substr(0, longest_reason);
+    const int length = static_cast<int>(messages_->reason.size());
     for (int rank = 0; rank < handle.size; ++rank) {
         if (rank == handle.rank) continue;
-        MPI_Isend(nullptr, 0, MPI_BYTE, rank, tag::departure, handle.comm,
+        MPI_Isend(messages_->reason.data(), length, MPI_BYTE, rank, tag::departure, handle.comm,
                   &messages_->requests.emplace_back(MPI_REQUEST_NULL));
     }
 }
@@ -89,10 +111,14 @@ Departure::~Departure() {
     Communicator::Handle& handle = communicator_.handle();
     if (handle.is_alone()) return;
     for (int rank = 0; rank < handle.size; ++rank)
-        if (rank != handle.rank)
-            MPI_Recv(nullptr, 0, MPI_BYTE, rank, tag::departure, handle.comm, MPI_STATUS_IGNORE);
+        if (rank != handle.rank) static_cast<void>(reason_of(rank, handle.comm));
     MPI_Waitall(static_cast<int>(messages_->requests.size()), messages_->requests.data(),
                 MPI_STATUSES_IGNORE);
+}
+
+Communicator duplicate_of(const Communicator& communicator) {
+    if (communicator.handle().is_alone()) return communicator;
+    return Communicator::of_fortran(static_cast<int>(MPI_Comm_c2f(communicator.handle().comm)));
 }
 
 } // namespace carrom

@@ -31,13 +31,18 @@ public:
     Departure(const Departure&) = delete;
     Departure& operator=(const Departure&) = delete;
 
-    /// From now on this rank makes no call that others could wait for. Not collective.
-    void leave();
+    /// From now on this rank makes no call that others could wait for. They print `reason` if they
+    /// wait for it all the same. Not collective.
+    void leave(const std::string& reason = {});
 
 private:
     struct Messages;
     const Communicator& communicator_;
     std::unique_ptr<Messages> messages_;
 };
+
+/// The same ranks with messages of their own. Ranks that have left agree on their end there,
+/// because the others may still be in a call on the first communicator. **Collective.**
+Communicator duplicate_of(const Communicator& communicator);
 
 } // namespace carrom

@@ -13,6 +13,7 @@ import h5py
 import numpy as np
 
 from carrom import h5
+from carrom.checking import check as check_file
 from carrom.checkpoints import Checkpoint
 from carrom.errors import FileError, NoDataError
 from carrom.frames import Frames
@@ -40,13 +41,18 @@ class Run:
         trajectory: str | os.PathLike[str] | None = None,
         collisions: str | os.PathLike[str] | None = None,
         checkpoint: str | os.PathLike[str] | None = None,
+        check: bool = False,
     ) -> None:
-        """Look at a folder, or at one file. `carrom.open` finds out which it is."""
+        """Look at a folder, or at one file. `carrom.open` finds out which it is.
+
+        With `check` the checksums of each file are compared when it is first read.
+        """
         self.folder = None if folder is None else Path(folder)
         self.log: list[str] = []
         self._files = {"trajectory": trajectory, "collisions": collisions}
         self._checkpoint = checkpoint
         self._frames: tuple[object, Frames] | None = None
+        self._checked: set[Path] | None = set() if check else None
 
     @property
     def name(self) -> str:
@@ -57,7 +63,10 @@ class Run:
     def _file(self, kind: str) -> Path | None:
         """Return the path of a recording, if it is there."""
         path = self.folder / f"{kind}.h5" if self.folder is not None else self._files[kind]
-        return Path(path) if path is not None and Path(path).exists() else None
+        if path is None or not Path(path).exists():
+            return None
+        check_once(Path(path), self._checked)
+        return Path(path)
 
     @property
     def scene(self) -> dict[str, Any]:
@@ -71,7 +80,7 @@ class Run:
 
     def _scene_of_file(self) -> dict[str, Any]:
         if self._checkpoint is not None:
-            return Checkpoint(self._checkpoint).scene
+            return self.checkpoints[0].scene
         path = self._file("trajectory") or self._file("collisions")
         with h5.open_file(path or "") as file:
             if "carrom/scene" not in file:
@@ -150,10 +159,10 @@ class Run:
     def checkpoints(self) -> Checkpoints:
         """The checkpoints that are there, oldest first. The program keeps the newest few."""
         if self._checkpoint is not None:
-            return Checkpoints([Path(self._checkpoint)], self.name)
+            return Checkpoints([Path(self._checkpoint)], self.name, self._checked)
         folder = None if self.folder is None else self.folder / "checkpoints"
         paths = [] if folder is None else sorted(folder.glob("checkpoint-*.h5"))
-        return Checkpoints(paths, self.name)
+        return Checkpoints(paths, self.name, self._checked)
 
     @property
     def collisions(self) -> Table:
@@ -204,10 +213,13 @@ class Run:
 class Checkpoints(Sequence[Checkpoint]):
     """The checkpoints of a run, oldest first."""
 
-    def __init__(self, paths: Sequence[Path], owner: str) -> None:
-        """Stand for files, which are opened when asked for."""
+    def __init__(
+        self, paths: Sequence[Path], owner: str, checked: set[Path] | None = None
+    ) -> None:
+        """Stand for files, which are opened when asked for, and checked if they are to be."""
         self.paths = list(paths)
         self._owner = owner
+        self._checked = checked
 
     def __len__(self) -> int:
         return len(self.paths)
@@ -219,13 +231,14 @@ class Checkpoints(Sequence[Checkpoint]):
     def __getitem__(self, index: int | slice) -> Checkpoint | Checkpoints:
         """Return a checkpoint, or those of a slice."""
         if isinstance(index, slice):
-            return Checkpoints(self.paths[index], self._owner)
+            return Checkpoints(self.paths[index], self._owner, self._checked)
         if not self.paths:
             raise IndexError(f"{self._owner}: has no checkpoints")
+        check_once(self.paths[index], self._checked)
         return Checkpoint(self.paths[index])
 
     def __iter__(self) -> Iterator[Checkpoint]:
-        return (Checkpoint(path) for path in self.paths)
+        return (self[place] for place in range(len(self)))
 
     def __repr__(self) -> str:
         return f"<{len(self)} checkpoints of {self._owner}>"
@@ -252,9 +265,22 @@ def read_lines(
 _SIGNS_OF_A_RUN = (*SCENE_FILES, "report.json", "checkpoints", "trajectory.h5")
 
 
-def open_run(path: str | os.PathLike[str]) -> Run:
+def check_once(path: Path, checked: set[Path] | None) -> None:
+    """Compare the checksums of a file unless that has been done, or is not wanted (None)."""
+    if checked is None or path in checked:
+        return
+    check_file(path)
+    checked.add(path)
+
+
+def open_run(path: str | os.PathLike[str], *, check: bool = True) -> Run:
     """Open a run's folder, a trajectory, a checkpoint or a log of collisions; also of a run
     that goes on.
+
+    Args:
+        path: the folder or the file
+        check: compare the checksums of each file when it is first read, by `carrom verify`. That
+            reads the whole file once. A recording that grows is not checked again.
 
     Raises:
         FileError: it is not there, or nothing that the program writes
@@ -265,12 +291,15 @@ def open_run(path: str | os.PathLike[str]) -> Run:
             raise FileError(
                 f"{path}: is no run of carrom: has none of {', '.join(_SIGNS_OF_A_RUN)}"
             )
-        return Run(path)
+        return Run(path, check=check)
+    checked: set[Path] | None = set() if check else None
+    check_once(path, checked)
     with h5.open_file(path) as file:
         kind = _kind(file)
     if kind is None:
         raise FileError(f"{path}: holds nothing that carrom writes")
     run = Run(None, **{kind: path})
+    run._checked = checked
     if kind == "trajectory":
         run.frames.steps  # noqa: B018 - says now whether it can be read
     return run

@@ -279,7 +279,7 @@ def test_what_is_no_run_is_an_error(run: carrom.Run, tmp_path: Path) -> None:
     with pytest.raises(carrom.FileError, match="there is no such file"):
         carrom.open(tmp_path / "nowhere.h5")
     (tmp_path / "text.h5").write_text("text")
-    with pytest.raises(carrom.FileError, match="is no HDF5 file, or is damaged"):
+    with pytest.raises(carrom.FileError, match="is no HDF5 file"):
         carrom.open(tmp_path / "text.h5")
     with h5py.File(tmp_path / "other.h5", "w") as file:
         file["x"] = 1
@@ -355,3 +355,51 @@ def test_verify_finds_each_damage(recorded: carrom.Run, tmp_path: Path) -> None:
         del file["carrom/recording"]
     with pytest.raises(carrom.FileError, match=r"no checksums|damaged"):
         carrom.verify(tmp_path / "copy" / "trajectory.h5")
+
+
+def test_open_compares_checksums(run: carrom.Run, tmp_path: Path) -> None:
+    """A changed number is seen by no reader of HDF5, and a file without checksums is a warning."""
+    whole = Path(str(run.folder))
+    shutil.copytree(whole, tmp_path / "copy")
+    files = {
+        "frames": Path("trajectory/0001.h5"),
+        "collisions": Path("collisions/0001.h5"),
+        "checkpoints": run.checkpoints[-1].path.relative_to(whole),
+    }
+    numbers = {
+        "frames": "particles/discs/position/value",
+        "collisions": "carrom/collisions/time",
+        "checkpoints": "carrom/discs/x",
+    }
+    readers = {
+        "frames": lambda opened: opened.frames[-1].x,
+        "collisions": lambda opened: opened.collisions,
+        "checkpoints": lambda opened: opened.checkpoints[-1].x,
+    }
+    for name, file in files.items():
+        with h5py.File(whole / file) as stored:
+            place = stored[numbers[name]].id.get_offset()
+        data = bytearray((whole / file).read_bytes())
+        data[place + 1] ^= 1
+        (tmp_path / "copy" / file).write_bytes(data)
+        with pytest.raises(carrom.FileError, match="damaged"):
+            readers[name](carrom.open(tmp_path / "copy"))
+        readers[name](carrom.open(tmp_path / "copy", check=False))
+        readers[name](carrom.open(whole))
+        top = file if name == "checkpoints" else Path(f"{file.parent}.h5")
+        with pytest.raises(carrom.FileError, match="damaged"):
+            carrom.open(tmp_path / "copy" / top)
+    rewritten = tmp_path / "copy/rewritten.h5"  # beside its segments
+    with h5py.File(whole / "trajectory.h5") as old, h5py.File(rewritten, "w") as new:
+        for part in ("h5md", "parameters", "particles"):
+            old.copy(part, new, expand_external=True)
+    with pytest.warns(UserWarning, match="no checksums"):
+        assert len(carrom.open(rewritten).frames) == 5
+
+
+def test_open_without_the_program_warns(
+    run: carrom.Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("CARROM", "/nowhere/carrom")
+    with pytest.warns(UserWarning, match="without comparing checksums"):
+        assert len(carrom.open(str(run.folder)).frames) == 5

@@ -51,7 +51,7 @@ class Follower:
             child for child in self.path.iterdir() if not child.name.startswith(".")
         )
         if self.path.exists() and not is_empty and not may_wait:
-            open_run(self.path)
+            open_run(self.path, check=False)
 
     def state(self, n_known: int, last_known: int) -> dict[str, Any]:
         """Say how far the run is, with the steps of frames that the page does not know yet.
@@ -103,7 +103,8 @@ class Follower:
         self._identity, self._run, self._rate = identity, None, Rate()
         self._curves.clear()
         try:
-            self._run = open_run(self.path)
+            # The page shows a run at once, and looks again each second.
+            self._run = open_run(self.path, check=False)
         except FileError:
             if self.path.exists() and not self.path.is_dir():
                 raise
