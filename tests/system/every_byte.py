@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Damage each page and each bit of a run's files, and ask everything that reads them.
 
-`every_byte.py PROGRAM SCENE (sample|all) [TABLE.csv]`, in an empty folder. Damage must be found: no
-reader may call a damaged file whole, go on from it with other numbers, or crash. `sample` zeroes
-all pages, and flips bits beside the names of links and in the headers of groups; `all` flips every
-bit that is not one of a long run of zeros. TABLE.csv gets one line for each kind of damage.
+`every_byte.py PROGRAM ASK_OFTEN SCENE (sample|all) TABLE.csv`, in an empty folder. Damage must be
+found: no reader may call a damaged file whole, go on from it with other numbers, or crash. `sample`
+zeroes all pages, and flips bits beside the names of links and in the headers of groups; `all` flips
+every bit that is not one of a long run of zeros. `verify` judges every trial (ASK_OFTEN asks it
+about bits), the others judge all pages and some of the bits. Python's readers are among them where
+the package `carrom` and h5py can be imported. TABLE.csv gets one line for each kind of damage.
 """
 
 from __future__ import annotations
@@ -19,6 +21,11 @@ import sys
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
+
+try:
+    import carrom
+except ImportError:
+    carrom = None
 
 PAGE = 4096
 LONGEST_RUN = 64  # zeros beyond these are room that no structure uses
@@ -110,26 +117,46 @@ def sampled(data: bytes) -> list[int]:
     return sorted(places & set(used(data)))
 
 
-def bits(data: bytes, places: list[int], step: int) -> Iterator[tuple[str, bytes]]:
-    for count, place in enumerate(places):
-        for bit in range(count % step, 8, step):
-            damaged = bytearray(data)
-            damaged[place] ^= 1 << bit
-            yield f"bit {bit} of byte {place}", bytes(damaged)
+def bits(places: list[int]) -> list[tuple[int, int]]:
+    """Each bit of bytes: the byte and the bit."""
+    return [(place, bit) for place in places for bit in range(8)]
 
 
-def readers(program: Program, kind: str, wanted: str) -> dict[str, tuple[tuple[int, ...], str]]:
-    """What each reader ended with: its allowed codes, and what is wrong, if anything is."""
-    top = FILES[kind]
-    if "segment" in kind:
-        top = top.split("/", maxsplit=1)[0] + ".h5"
-    path = str(WORK / top)
-    found: dict[str, tuple[tuple[int, ...], str]] = {}
+def flipped(data: bytes, place: int, bit: int) -> bytes:
+    damaged = bytearray(data)
+    damaged[place] ^= 1 << bit
+    return bytes(damaged)
+
+
+def joining(name: str) -> str:
+    """The file that readers open for a segment; other files as they are."""
+    folder = name.split("/", maxsplit=1)[0]
+    return name if folder in (name, "checkpoints") else f"{folder}.h5"
+
+
+def read_by_python(path: Path) -> str:
+    """Read all that Python can. Returns what is wrong: damage must be a FileError."""
+    try:
+        run = carrom.open(path)
+        _ = [run.frames.x, *(point.x for point in run.checkpoints)]
+        _ = run.collisions
+    except carrom.FileError:
+        return ""
+    except carrom.NoDataError:
+        return "python has read it"
+    except Exception as error:
+        return f"python ended with {error!r}"
+    return "python has read it"
+
+
+def readers(program: Program, kind: str, wanted: str) -> dict[str, str]:
+    """What is wrong with how each reader ended, in words; empty where nothing is."""
+    path = str(WORK / joining(FILES[kind]))
+    found: dict[str, str] = {}
 
     def note(name: str, allowed: tuple[int, ...], words: tuple[str, ...]) -> int:
         code, text = program.ask(*words)
-        wrong = "" if code in allowed else f"{name} ended with {code}: {text[-300:]}"
-        found[name] = (allowed, wrong)
+        found[name] = "" if code in allowed else f"{name} ended with {code}: {text[-300:]}"
         return code
 
     note("verify", (2,), ("verify", path))
@@ -146,44 +173,63 @@ def readers(program: Program, kind: str, wanted: str) -> dict[str, tuple[tuple[i
             encoding="ascii",
         )
         note("discs.from", (2,), ("run", str(scene), "--set", "output.text=none", *quiet))
+    if carrom is not None:
+        found["python"] = read_by_python(Path(path))
     code = note("--resume", (0, 2), ("run", "-o", str(WORK), "--resume", "--steps", "6", *quiet))
     if code == 0 and hash_of(str(WORK)) != wanted:
-        found["--resume"] = ((0, 2), "--resume went on with other discs")
+        found["--resume"] = "--resume went on with other discs"
     shutil.rmtree("other", ignore_errors=True)
     return found
 
 
 def main() -> int:
-    program = Program(sys.argv[1], sys.argv[2])
-    is_all = sys.argv[3] == "all"
+    program, ask_often = Program(sys.argv[1], sys.argv[3]), sys.argv[2]
+    is_all = sys.argv[4] == "all"
     wanted = make_original(program)
     counts: Counter[tuple[str, str, str]] = Counter()
     failures: list[str] = []
+
+    def take(kind: str, damage: str, what: str, answers: dict[str, str]) -> None:
+        for reader, wrong in answers.items():
+            counts[kind, damage, reader] += 1
+            if wrong:
+                failures.append(f"{kind}, {what}: {wrong}")
+                print(f"FAILED: {failures[-1]}", flush=True)
+
+    def damage_and_read(kind: str, damaged: bytes) -> dict[str, str]:
+        shutil.rmtree(WORK, ignore_errors=True)
+        shutil.copytree(ORIGINAL, WORK)
+        (WORK / FILES[kind]).write_bytes(damaged)
+        return readers(program, kind, wanted)
+
     for kind, name in FILES.items():
         data = (ORIGINAL / name).read_bytes()
-        flips = bits(data, used(data), 1) if is_all else bits(data, sampled(data), 8)
-        for number, (what, damaged) in enumerate(itertools.chain(pages(data), flips)):
-            shutil.rmtree(WORK, ignore_errors=True)
-            shutil.copytree(ORIGINAL, WORK)
-            (WORK / name).write_bytes(damaged)
-            is_page = what.startswith("page")
-            if is_page or number % 50 == 0 or (not is_all and number % 4 == 0):
-                answers = readers(program, kind, wanted)
-            else:
-                top = name.split("/", maxsplit=1)[0] + ".h5" if "segment" in kind else name
-                code, text = program.ask("verify", str(WORK / top))
-                answers = {"verify": ((2,), "" if code == 2 else f"verify: {code}: {text}")}
-            for reader, (_, wrong) in answers.items():
-                damage = "page of zeros" if is_page else "bit flipped"
-                counts[kind, damage, reader] += 1
-                if wrong:
-                    failures.append(f"{kind}, {what}: {wrong}")
-                    print(f"FAILED: {failures[-1]}", flush=True)
-    if len(sys.argv) > 4:
-        with open(sys.argv[4], "w", encoding="ascii", newline="") as file:
-            table = csv.writer(file, lineterminator="\n")
-            table.writerow(["file", "damage", "reader", "trials"])
-            table.writerows([*key, count] for key, count in sorted(counts.items()))
+        for what, damaged in pages(data):
+            take(kind, "page of zeros", what, damage_and_read(kind, damaged))
+        flips = bits(used(data) if is_all else sampled(data))
+        for place, bit in flips[:: 499 if is_all else 31]:
+            found = damage_and_read(kind, flipped(data, place, bit))
+            del found["verify"]  # it judges all of them below
+            take(kind, "bit flipped", f"bit {bit} of byte {place}", found)
+        shutil.rmtree(WORK, ignore_errors=True)
+        shutil.copytree(ORIGINAL, WORK)
+        codes = subprocess.run(
+            [ask_often, str(WORK / name), "verify", str(WORK / joining(name))],
+            input="".join(f"{place} {bit}\n" for place, bit in flips),
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout.split()
+        assert len(codes) == len(flips) and (WORK / name).read_bytes() == data
+        for (place, bit), code in zip(flips, codes, strict=True):
+            wrong = "" if code == "2" else f"verify ended with {code}"
+            take(kind, "bit flipped", f"bit {bit} of byte {place}", {"verify": wrong})
+        print(f"{kind}: {len(flips)} bits", flush=True)
+    with open(sys.argv[5], "w", encoding="ascii", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["file", "damage", "reader", "trials"])
+        table.writerows([*key, count] for key, count in sorted(counts.items()))
+    print("Python's readers were asked" if carrom else "Python's readers were not asked: no h5py")
     print(f"{sum(counts.values())} answers, {len(failures)} wrong")
     return 1 if failures else 0
 

@@ -1,7 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Each page and each bit of a run's files damaged (every_byte.py). Argument: sample or all.
+# Each page and each bit of a run's files damaged (every_byte.py). Arguments: the tool that asks
+# often, the folder of Python environments, sample or all. The Python package reads too where a test
+# of it has made its environment.
 source "$(dirname "$0")/common.sh"
-python3 "$(dirname "$0")/every_byte.py" "$CARROM_PROGRAM" "$CARROM_SOURCE_DIR/inputs/gas.toml" \
-    "$1" "$test_folder/trials.csv" || complain 'damage was not found'
+python=$2/package/bin/python
+"$python" -c 'import h5py, numpy' 2>/dev/null || python=python3
+CARROM=$CARROM_PROGRAM PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$CARROM_SOURCE_DIR/src/python \
+    "$python" "$(dirname "$0")/every_byte.py" "$CARROM_PROGRAM" "$1" \
+    "$CARROM_SOURCE_DIR/inputs/gas.toml" "$3" "$test_folder/trials.csv" ||
+    complain 'damage was not found'
 finish

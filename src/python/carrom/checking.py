@@ -65,9 +65,7 @@ def _version(path: str | os.PathLike[str]) -> object:
     return status.st_ino, status.st_mtime_ns, status.st_size
 
 
-def _judge(
-    path: str | os.PathLike[str], program: str | os.PathLike[str] | None
-) -> tuple[int, str]:
+def _judge(path: str | os.PathLike[str], program: str | os.PathLike[str] | None) -> tuple[int, str]:
     """Return the exit code of `carrom verify`, and what it printed."""
     command = [os.fspath(find_program(program)), "verify", os.fspath(path)]
     # The program would take a rank of this process's launcher for its own.

@@ -213,9 +213,7 @@ class Run:
 class Checkpoints(Sequence[Checkpoint]):
     """The checkpoints of a run, oldest first."""
 
-    def __init__(
-        self, paths: Sequence[Path], owner: str, checked: set[Path] | None = None
-    ) -> None:
+    def __init__(self, paths: Sequence[Path], owner: str, checked: set[Path] | None = None) -> None:
         """Stand for files, which are opened when asked for, and checked if they are to be."""
         self.paths = list(paths)
         self._owner = owner

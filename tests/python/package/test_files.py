@@ -397,9 +397,7 @@ def test_open_compares_checksums(run: carrom.Run, tmp_path: Path) -> None:
         assert len(carrom.open(rewritten).frames) == 5
 
 
-def test_open_without_the_program_warns(
-    run: carrom.Run, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_open_without_the_program_warns(run: carrom.Run, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("CARROM", "/nowhere/carrom")
     with pytest.warns(UserWarning, match="without comparing checksums"):
         assert len(carrom.open(str(run.folder)).frames) == 5
