@@ -41,9 +41,8 @@ std::string reason_of(int rank, MPI_Comm comm) {
 
 [[noreturn]] void report_missing(int rank, MPI_Comm comm, std::string_view call) {
     const std::string reason = reason_of(rank, comm);
-    abort_from_mistake("rank " + std::to_string(rank) +
-                       " has left, and this one waits for it in " + std::string(call) +
-                       ", which all ranks must call" +
+    abort_from_mistake("rank " + std::to_string(rank) + " has left, and this one waits for it in " +
+                       std::string(call) + ", which all ranks must call" +
                        (reason.empty() ? "" : "; the error there: " + printable(reason, true)));
 }
 

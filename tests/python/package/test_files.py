@@ -287,7 +287,7 @@ def test_what_is_no_run_is_an_error(run: carrom.Run, tmp_path: Path) -> None:
         carrom.open(tmp_path / "other.h5")
     with h5py.File(tmp_path / "like.h5", "w") as file:
         file["particles/discs/box/edges"] = 1
-    with pytest.raises(carrom.FileError, match="is no trajectory of carrom"):
+    with pytest.raises(carrom.FileError, match=r"like\.h5: "):
         carrom.open(tmp_path / "like.h5")
     half = run.checkpoints[-1].path.read_bytes()[:9000]
     (tmp_path / "half.h5").write_bytes(half)
