@@ -66,7 +66,7 @@ void run_once(const Check& check, void (*Quantity::*of)(const Check&)) {
 
 } // namespace
 
-void declare_quantities(std::vector<Quantity> quantities) { list() = std::move(quantities); }
+void declare_quantities(std::vector<Quantity> all) { list() = std::move(all); }
 
 const std::vector<Quantity>& declared_quantities() { return list(); }
 
