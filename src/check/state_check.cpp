@@ -65,9 +65,6 @@ StateCheck::StateCheck(const Scene& scene, std::span<const Disc> own, std::int64
     for (const Boundary& side : effects_.boundaries) {
         const double turning = 2 * std::numbers::pi / side.period;
         wall_pull_ = std::max(wall_pull_, side.amplitude * turning * turning);
-        may_lose_energy_ = may_lose_energy_ || side.restitution < 1;
-        walls_give_energy_ = walls_give_energy_ || side.kind == BoundaryKind::thermal ||
-                             side.speed != 0;
     }
     if (effects_.obstacles.are_any()) obstacles_.emplace(scene.box, scene.radius, effects_);
     known_.resize(slab_of_rank(communicator.rank(), scene.n_discs, communicator.size()).size());

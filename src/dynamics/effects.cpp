@@ -29,26 +29,6 @@ std::string description(const ContactEffect& contact) {
     return {};
 }
 
-std::string description(const Boundary& side, const char* name) {
-    const std::string loss = side.restitution < 1
-                                 ? fmt::format(" of restitution {:g}", side.restitution)
-                                 : "";
-    switch (side.kind) {
-    case BoundaryKind::fixed: return fmt::format("{} wall{}", name, loss);
-    case BoundaryKind::thermal:
-        return fmt::format("{} wall of temperature {:g}", name, side.temperature);
-    case BoundaryKind::moving:
-        return fmt::format("{} wall{} moving at {:g}", name, loss, side.speed);
-    case BoundaryKind::oscillating:
-        return fmt::format("{} wall{} oscillating by {:g} in {:g}", name, loss, side.amplitude,
-                           side.period);
-    case BoundaryKind::open: return fmt::format("{} side open", name);
-    case BoundaryKind::periodic: return fmt::format("{} side periodic", name);
-    case BoundaryKind::sheared: return fmt::format("{} side sheared", name);
-    }
-    return {};
-}
-
 std::string description(const std::vector<Species>& species) {
     constexpr std::size_t most_named = 4;
     if (species.size() > most_named) {
@@ -103,13 +83,7 @@ SideColumnSet side_columns_of(const Effects& effects) {
 
 std::string description(const Effects& effects) {
     std::string text = description(effects.contact);
-    const auto add = [&text](const std::string& more) {
-        text += (text.empty() ? "" : "; ") + more;
-    };
-    if (!effects.species.empty()) add(description(effects.species));
-    for (std::size_t k = 0; k < effects.boundaries.size(); ++k)
-        if (!effects.boundaries[k].is_plain())
-            add(description(effects.boundaries[k], boundary_names[k]));
+    if (!effects.species.empty()) text += (text.empty() ? "" : "; ") + description(effects.species);
     return text;
 }
 

@@ -38,11 +38,18 @@ struct ContactEffect {
     friend bool operator==(const ContactEffect&, const ContactEffect&) = default;
 };
 
-/// What a side of the box is.
-enum class BoundaryKind { fixed, thermal, moving, oscillating, open, periodic, sheared };
+/// What a side of the box can be: scenes have the same words (scene/boundaries/boundary.hpp).
+#define CARROM_FOR_EACH_BOUNDARY(kind)                                                             \
+    kind(wall) kind(thermal) kind(moving) kind(oscillating) kind(open) kind(periodic) kind(sheared)
+
+enum class BoundaryKind {
+#define CARROM_NAME(kind) kind,
+    CARROM_FOR_EACH_BOUNDARY(CARROM_NAME)
+#undef CARROM_NAME
+};
 
 struct Boundary {
-    BoundaryKind kind = BoundaryKind::fixed;
+    BoundaryKind kind = BoundaryKind::wall;
     double restitution = 1; ///< of walls, moving ones as well
     double temperature = 0; ///< of thermal ones: kT, a velocity squared, for masses of 1
     double speed = 0;       ///< of moving ones, along +x or +y
@@ -51,7 +58,7 @@ struct Boundary {
     double period = 1;
     double phase = 0; ///< at the start, as an angle
 
-    bool is_plain() const { return kind == BoundaryKind::fixed && restitution == 1; }
+    bool is_plain() const { return kind == BoundaryKind::wall && restitution == 1; }
     /// Whether the box repeats itself beyond it.
     bool is_periodic() const {
         return kind == BoundaryKind::periodic || kind == BoundaryKind::sheared;
@@ -152,8 +159,8 @@ Effects per_micro_step(const Effects& effects, double micro_steps);
 /// What discs have beside their states under these effects.
 SideColumnSet side_columns_of(const Effects& effects);
 
-/// One line for a summary, as in "restitution 0.9 of pairs; gravity (0, -0.001)"; empty where there
-/// are none.
+/// The part about pairs and species of a line for a summary, such as "restitution 0.9 of pairs";
+/// `summary_of` (scene/effects/effect.hpp) writes the whole line.
 std::string description(const Effects& effects);
 
 /// Where the walls are at `time` since the scene's start, in a box that was `box` then.

@@ -68,7 +68,8 @@ bool check_discs(const Check& check);
 /// What numbers of steps, rates and times ask of each other.
 void check_times(const Check& check);
 
-/// What effects and measurements ask of a box and discs that are right.
-void check_room(const Check& check);
+/// A contact time that the scene does not set becomes `longest` steps at most; a longer one is a
+/// problem, with `why` as the reason.
+void limit_contact_time(const Check& check, double longest, std::string_view why);
 
 } // namespace carrom

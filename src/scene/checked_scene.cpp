@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/checked_scene.hpp"
 
+#include "scene/boundaries/boundary.hpp"
 #include "scene/check.hpp"
 #include "scene/checked_value.hpp"
-#include "scene/effects/effect.hpp"
 #include "scene/limits.hpp"
+#include "scene/quantity.hpp"
 
 namespace carrom {
 
@@ -108,10 +109,14 @@ void fill_scene(Scene& scene, Settings& settings, Problems& problems, const Disc
     place_outputs(check);
     for (const Key& key : keys()) check_needs(check, key);
     check_times(check);
+    for (const BoundaryDeclaration& kind : all_boundaries())
+        if (kind.check_times) kind.check_times(check);
     for (const EffectDeclaration& effect : all_effects())
         if (effect.check_times) effect.check_times(check);
     if (check_discs(check)) {
-        check_room(check);
+        for (const BoundaryDeclaration& kind : all_boundaries())
+            if (kind.check_room) kind.check_room(check);
+        check_quantities(check);
         for (const EffectDeclaration& effect : all_effects())
             if (effect.check_room) effect.check_room(check);
     }

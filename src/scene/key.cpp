@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "scene/effects/effect.hpp"
+#include "scene/boundaries/boundary.hpp"
 
 namespace carrom {
 
@@ -24,7 +24,6 @@ const std::vector<Key>& keys() {
             list.insert(list.end(), part.begin(), part.end());
         };
         add(keys_of_effects());
-        for (const EffectDeclaration& effect : all_effects()) add(effect.keys);
         add(keys_of_output());
         return list;
     }();
@@ -44,7 +43,6 @@ const std::vector<Table>& tables() {
             {.name = "box.top", .is_like_another = true},
             {"effects", ""},
             {"effects.contact", "What two discs do that touch."},
-            {"effects.thermal", "Thermal walls."},
             {"output", "What a run writes; no key of output changes a bit of the result."},
             {"output.checkpoint", "When and where the state is stored.",
              [](const Scene& s) { return s.checkpoint.has_value(); },
@@ -57,12 +55,13 @@ const std::vector<Table>& tables() {
              [](const Scene& s) { return s.measurements.has_value(); },
              [](Scene& s) { s.measurements.emplace(); }},
         };
-        const auto next = std::find_if(list.begin(), list.end(), [](const Table& one) {
-            return one.name == "effects.thermal";
-        });
+        const auto next = std::find_if(list.begin(), list.end(),
+                                       [](const Table& one) { return one.name == "output"; });
         std::vector<Table> of_effects;
         for (const EffectDeclaration& effect : all_effects())
             of_effects.insert(of_effects.end(), effect.tables.begin(), effect.tables.end());
+        for (const BoundaryDeclaration& kind : all_boundaries())
+            of_effects.insert(of_effects.end(), kind.tables.begin(), kind.tables.end());
         list.insert(next, of_effects.begin(), of_effects.end());
         return list;
     }();

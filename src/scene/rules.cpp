@@ -2,8 +2,8 @@
 // Which features do not go together. The check and the reference's table both come from here.
 #include <utility>
 
+#include "scene/boundaries/boundary.hpp"
 #include "scene/disc_columns.hpp"
-#include "scene/effects/effect.hpp"
 #include "scene/quantity.hpp"
 #include "scene/rule_parts.hpp"
 
@@ -13,13 +13,6 @@ namespace {
 
 std::vector<Rule> rules_of_methods() {
     return {
-        rule("a moving wall", "time.method = \"time-stepped\"",
-             "walls are at rest there; take time.method = \"event-driven\"", BoundaryKind::moving,
-             [](const Scene& s) { return has_moving(s) && is_time_stepped(s); }),
-        rule("an oscillating wall", "time.method = \"time-stepped\"",
-             "walls are at rest there; take time.method = \"event-driven\"",
-             BoundaryKind::oscillating,
-             [](const Scene& s) { return has_oscillating(s) && is_time_stepped(s); }),
         rule(
             "time.precision = \"single\"", "effects", "it is there for the accuracy study alone",
             {"time.precision"},
@@ -34,44 +27,8 @@ std::vector<Rule> rules_of_methods() {
     };
 }
 
-std::vector<Rule> rules_of_oscillations() {
+std::vector<Rule> rules_of_species() {
     return {
-        rule("an oscillating wall", "obstacles", "this version does not have both",
-             BoundaryKind::oscillating,
-             [](const Scene& s) { return has_oscillating(s) && has_obstacles(s); }),
-        rule("an oscillating wall", "drag", "contacts are found on straight lines and parabolas",
-             BoundaryKind::oscillating,
-             [](const Scene& s) { return has_oscillating(s) && s.effects.drag != 0; }),
-        rule("an open side", "an oscillating wall", "this version does not have both",
-             BoundaryKind::open, [](const Scene& s) { return has_oscillating(s) && has_open(s); }),
-    };
-}
-
-std::vector<Rule> rules_of_effects() {
-    return {
-        rule("a moving wall", "obstacles", "this version does not have both", BoundaryKind::moving,
-             [](const Scene& s) { return has_moving(s) && has_obstacles(s); }),
-        rule("an open side", "a moving wall", "this version does not have both", BoundaryKind::open,
-             [](const Scene& s) { return has_moving(s) && has_open(s); }),
-        rule("a periodic side", "an open side", "this version does not have both",
-             BoundaryKind::periodic,
-             [](const Scene& s) { return s.effects.are_periodic() && has_open(s); }),
-        rule("a periodic side", "walls or an open side opposite (left, right)",
-             "box.left.kind and box.right.kind must both be \"periodic\", or neither",
-             {"box.left.kind", "box.right.kind"},
-             [](const Scene& s) {
-                 const auto& sides = s.effects.boundaries;
-                 return (sides[0].kind == BoundaryKind::periodic) !=
-                        (sides[1].kind == BoundaryKind::periodic);
-             }),
-        rule("a periodic side", "walls or an open side opposite (bottom, top)",
-             "box.bottom.kind and box.top.kind must both be \"periodic\", or neither",
-             {"box.bottom.kind", "box.top.kind"},
-             [](const Scene& s) {
-                 const auto& sides = s.effects.boundaries;
-                 return (sides[2].kind == BoundaryKind::periodic) !=
-                        (sides[3].kind == BoundaryKind::periodic);
-             }),
         rule("several species", "effects.contact.kind = \"none\"",
              "this version does not have both", {"effects.contact.kind"},
              [](const Scene& s) {
@@ -80,7 +37,6 @@ std::vector<Rule> rules_of_effects() {
     };
 }
 
-/// Sides whose images move.
 std::vector<Rule> rules_of_starts() {
     return {
         rule("discs.generator = \"legacy\"", "box.size = [Lx, Ly]",
@@ -134,9 +90,11 @@ const std::vector<Rule>& rules() {
     static const std::vector<Rule> all = [] {
         std::vector<Rule> list = rules_of_methods();
         for (const auto& part :
-             {rules_of_effects(), rules_of_oscillations(), rules_of_starts(), rules_of_outputs(),
-              rules_of_quantities(), rules_of_columns(std::make_index_sequence<n_side_columns>())})
+             {rules_of_species(), rules_of_starts(), rules_of_outputs(), rules_of_quantities(),
+              rules_of_columns(std::make_index_sequence<n_side_columns>())})
             list.insert(list.end(), part.begin(), part.end());
+        for (const BoundaryDeclaration& kind : all_boundaries())
+            list.insert(list.end(), kind.rules.begin(), kind.rules.end());
         for (const EffectDeclaration& effect : all_effects())
             list.insert(list.end(), effect.rules.begin(), effect.rules.end());
         return list;

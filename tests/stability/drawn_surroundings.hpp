@@ -272,7 +272,7 @@ protected:
         if (has_open && one_in(2)) return {BoundaryKind::open, 1, 0, 0};
         const bool may_move = is_all_ && !has_open && !effects().obstacles.are_any();
         switch (random_.index(6)) {
-        case 0: return {BoundaryKind::fixed, of({0, 0.5, 0.9}), 0, 0};
+        case 0: return {BoundaryKind::wall, of({0, 0.5, 0.9}), 0, 0};
         case 1:
             return {BoundaryKind::thermal, 1, largest_ * largest_ * lightest(),
                     0}; // a light disc must not fly through the box hundreds of times

@@ -29,7 +29,7 @@ ContactEffect troubled_contact(Random& random) {
 Boundary troubled_wall(std::size_t number, bool may_move, Random& random) {
     const double inwards = number % 2 == 0 ? 1 : -1;
     switch (random.index(5)) {
-    case 0: return {BoundaryKind::fixed, std::array{0.0, 0.5, 0.9}[random.index(3)], 0, 0};
+    case 0: return {BoundaryKind::wall, std::array{0.0, 0.5, 0.9}[random.index(3)], 0, 0};
     case 1: return {BoundaryKind::thermal, 1, 0.25, 0};
     case 2:
         if (may_move)

@@ -74,3 +74,30 @@ gas_scene() {
 
 # json_value FILE KEY: the value of a key that stands on a line of its own.
 json_value() { sed -n "s/^ *\"$2\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}\$/\1/p" "$1"; }
+
+# check_patch PATCH: fails unless the patch applies to the sources without fuzz.
+check_patch() {
+    patch --dry-run --batch --fuzz=0 -p1 -d "$CARROM_SOURCE_DIR" -i "$1" ||
+        complain 'the patch does not apply: make it anew'
+}
+
+# build_copy_with PATCH CMAKE OPTION...: builds the program of a copy of the sources with the patch;
+# CARROM_PROGRAM is that program afterwards. The copy is in $copy, without any builds.
+build_copy_with() {
+    local change=$1 cmake=$2
+    shift
+    copy=$test_folder/copy
+    rm -rf "$copy" && mkdir "$copy"
+    for entry in "$CARROM_SOURCE_DIR"/*; do
+        [ -e "$entry/CMakeCache.txt" ] || cp -r "$entry" "$copy/"
+    done
+    patch --batch --fuzz=0 -p1 -d "$copy" -i "$change" >"$test_folder/out"
+    { "$@" -S "$copy" -B "$copy/build" -DCARROM_TESTS=OFF &&
+        "$cmake" --build "$copy/build" --target carrom --parallel "${JOBS:-1}"; } \
+        >"$test_folder/out" 2>&1 || {
+        complain 'the copy does not build'
+        tail -n 30 "$test_folder/out"
+        finish
+    }
+    CARROM_PROGRAM=$copy/build/carrom
+}

@@ -13,8 +13,7 @@ printed=(keys conflicts) # pages of the reference that the program prints
 
 n_files=$(($(grep -c '^+++ ' "$change") + ${#printed[@]}))
 [ "$n_files" -le 6 ] || complain "it touches $n_files files, not six at most"
-patch --dry-run --batch --fuzz=0 -p1 -d "$CARROM_SOURCE_DIR" -i "$change" ||
-    complain 'the patch does not apply: make it anew'
+check_patch "$change"
 [ $# -gt 0 ] || finish
 [ "$n_failures" -eq 0 ] || finish
 
@@ -28,22 +27,10 @@ python=$1/bin/python
 }
 shift
 
-# A copy without builds. The plain program stays: discs must fly there as here.
-copy=$test_folder/copy
-rm -rf "$copy" && mkdir "$copy"
-for entry in "$CARROM_SOURCE_DIR"/*; do
-    [ -e "$entry/CMakeCache.txt" ] || cp -r "$entry" "$copy/"
-done
-patch --batch --fuzz=0 -p1 -d "$copy" -i "$change" >"$test_folder/out"
-cmake=$1
-{ "$@" -S "$copy" -B "$copy/build" -DCARROM_TESTS=OFF &&
-    "$cmake" --build "$copy/build" --target carrom --parallel "${JOBS:-1}"; } \
-    >"$test_folder/out" 2>&1 || {
-    complain 'the copy does not build'
-    tail -n 30 "$test_folder/out"
-    finish
-}
-plain=$CARROM_PROGRAM charged=$copy/build/carrom
+# The plain program stays: discs must fly there as here.
+plain=$CARROM_PROGRAM
+build_copy_with "$change" "$@"
+charged=$CARROM_PROGRAM
 for page in "${printed[@]}"; do
     words=(keys)
     [ "$page" = keys ] || words+=("--$page")

@@ -13,8 +13,7 @@ change=$CARROM_SOURCE_DIR/docs/examples/quantity.patch
 [ "$(grep -c '^--- /dev/null' "$change")" -eq 1 ] || complain 'one of the two is no new file'
 [ "$(sed -n '/^+++ .*CMakeLists/,/^---/p' "$change" | grep -c '^[-+] ')" -eq 1 ] ||
     complain 'it changes other than one line of the list'
-patch --dry-run --batch --fuzz=0 -p1 -d "$CARROM_SOURCE_DIR" -i "$change" ||
-    complain 'the patch does not apply: make it anew'
+check_patch "$change"
 [ $# -gt 0 ] || finish
 [ "$n_failures" -eq 0 ] || finish
 
@@ -28,21 +27,7 @@ python=$1/bin/python
 }
 shift
 
-copy=$test_folder/copy
-rm -rf "$copy" && mkdir "$copy"
-for entry in "$CARROM_SOURCE_DIR"/*; do
-    [ -e "$entry/CMakeCache.txt" ] || cp -r "$entry" "$copy/"
-done
-patch --batch --fuzz=0 -p1 -d "$copy" -i "$change" >"$test_folder/out"
-cmake=$1
-{ "$@" -S "$copy" -B "$copy/build" -DCARROM_TESTS=OFF &&
-    "$cmake" --build "$copy/build" --target carrom --parallel "${JOBS:-1}"; } \
-    >"$test_folder/out" 2>"$test_folder/err" || {
-    tail -n 20 "$test_folder/out" "$test_folder/err"
-    complain 'it does not build'
-    finish
-}
-CARROM_PROGRAM=$copy/build/carrom
+build_copy_with "$change" "$@"
 
 "$CARROM_PROGRAM" keys >keys.md
 for word in '^| `energies` | Distribution of kinetic energies. | bins, largest_energy |' \

@@ -9,26 +9,12 @@ change=$CARROM_SOURCE_DIR/docs/examples/sync_effect.patch
 
 n_files=$(grep -c '^+++ ' "$change")
 [ "$n_files" -le 4 ] || complain "it touches $n_files files, not four at most"
-patch --dry-run --batch --fuzz=0 -p1 -d "$CARROM_SOURCE_DIR" -i "$change" ||
-    complain 'the patch does not apply: make it anew'
+check_patch "$change"
 [ $# -gt 0 ] || finish
 [ "$n_failures" -eq 0 ] || finish
 
-copy=$test_folder/copy
-rm -rf "$copy" && mkdir "$copy"
-for entry in "$CARROM_SOURCE_DIR"/*; do
-    [ -e "$entry/CMakeCache.txt" ] || cp -r "$entry" "$copy/"
-done
-patch --batch --fuzz=0 -p1 -d "$copy" -i "$change" >"$test_folder/out"
-cmake=$1
-{ "$@" -S "$copy" -B "$copy/build" -DCARROM_TESTS=OFF &&
-    "$cmake" --build "$copy/build" --target carrom --parallel "${JOBS:-1}"; } \
-    >"$test_folder/out" 2>&1 || {
-    complain 'the copy does not build'
-    tail -n 30 "$test_folder/out"
-    finish
-}
-plain=$CARROM_PROGRAM CARROM_PROGRAM=$copy/build/carrom
+plain=$CARROM_PROGRAM
+build_copy_with "$change" "$@"
 "$CARROM_PROGRAM" keys | diff <("$plain" keys) - >keys.diff
 [ "$(grep -c '^> .*effects.wind' keys.diff)" -ge 3 ] || complain 'the page of keys has no wind'
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "scene/effects/effect.hpp"
+#include "scene/boundaries/boundary.hpp"
 
 namespace carrom {
 
@@ -23,15 +23,17 @@ const std::vector<EffectDeclaration>& all_effects() {
 
 std::string summary_of(const Effects& effects) {
     std::string text = description(effects);
-    for (const EffectDeclaration& effect : all_effects()) {
-        const std::string more = effect.summary ? effect.summary(effects) : "";
+    const auto add = [&text](const std::string& more) {
         if (!more.empty()) text += (text.empty() ? "" : "; ") + more;
-    }
+    };
+    add(summary_of_boundaries(effects));
+    for (const EffectDeclaration& effect : all_effects())
+        if (effect.summary) add(effect.summary(effects));
     return text;
 }
 
 CheckAllowance allowance_of(const Effects& effects) {
-    CheckAllowance all;
+    CheckAllowance all = allowance_of_boundaries(effects);
     for (const EffectDeclaration& effect : all_effects()) {
         if (!effect.allowance) continue;
         const CheckAllowance one = effect.allowance(effects);

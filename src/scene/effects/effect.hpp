@@ -57,6 +57,7 @@ const std::vector<EffectDeclaration>& all_effects();
 /// One line for a summary, as in "restitution 0.9 of pairs; gravity (0, -0.001)"; empty where there
 /// are none.
 std::string summary_of(const Effects& effects);
+/// What the self-check cannot hold against a run with these effects and sides of the box.
 CheckAllowance allowance_of(const Effects& effects);
 /// The largest of all effects'.
 double usual_speed_of_effects(const Scene& scene);

@@ -84,7 +84,7 @@ TEST_CASE("check: runs in periodic boxes break no invariant, and have their bits
                 61); // flies through the box once between syncs, some discs more often
             test.setting.effects.boundaries = {periodic, periodic, periodic, periodic};
             if (is_along_x) {
-                test.setting.effects.boundaries[2] = {BoundaryKind::fixed, 0.9, 0, 0};
+                test.setting.effects.boundaries[2] = {BoundaryKind::wall, 0.9, 0, 0};
                 test.setting.effects.boundaries[3] = {BoundaryKind::thermal, 1, 0.5, 0};
                 test.setting.effects.contact = {ContactKind::restitution, 0.95, 0.001};
                 if (method == Method::event_driven) test.setting.effects.gravity = {0, -0.01};

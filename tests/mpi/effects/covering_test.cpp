@@ -46,7 +46,7 @@ Choice side_choice(std::size_t number, const char* kind, const Boundary& side) {
 Row sides_of(std::size_t number) {
     const double inwards = number % 2 == 0 ? 0.02 : -0.02;
     Row row{side_choice(number, "wall", {}),
-            side_choice(number, "lossy", {BoundaryKind::fixed, 0.7, 0, 0}),
+            side_choice(number, "lossy", {BoundaryKind::wall, 0.7, 0, 0}),
             side_choice(number, "thermal", {BoundaryKind::thermal, 1, 0.2, 0}),
             side_choice(number, "moving", {BoundaryKind::moving, 0.9, 0, inwards})};
     if (number == 1 || number == 2) // of each axis one, low and high

@@ -66,7 +66,7 @@ TEST_CASE(
 
 // Every pair of contact, sides and gravity is met in some scene.
 TEST_CASE("effects: sides and gravity have the references' bits, alone and together") {
-    const Boundary lossy{BoundaryKind::fixed, 0.7, 0, 0}, piston{BoundaryKind::moving, 1, 0, -0.03},
+    const Boundary lossy{BoundaryKind::wall, 0.7, 0, 0}, piston{BoundaryKind::moving, 1, 0, -0.03},
         rising{BoundaryKind::moving, 0.9, 0, 0.02};
     const ContactEffect elastic, none{ContactKind::none, 1, 0.001},
         inelastic{ContactKind::restitution, 0.85, 0.002};
@@ -156,7 +156,7 @@ TEST_CASE("effects: thermal walls have the references' bits") {
         for (const Method method : {Method::time_stepped, Method::event_driven})
             check_bits(scene, method);
         effects.boundaries = {Boundary{}, Boundary{}, warm,
-                              Boundary{BoundaryKind::fixed, 0.5, 0, 0}};
+                              Boundary{BoundaryKind::wall, 0.5, 0, 0}};
         effects.contact = {ContactKind::restitution, 0.9, 0.002};
         check_bits(scene, Method::time_stepped);
         effects.gravity = {0.01, -0.02};

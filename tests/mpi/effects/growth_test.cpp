@@ -80,7 +80,7 @@ TEST_CASE("growth: discs of two masses that fly towards each other, and a disc a
 }
 
 TEST_CASE("growth: discs have the reference's bits, with restitution, species and periodic sides") {
-    const Boundary lossy{BoundaryKind::fixed, 0.7, 0, 0};
+    const Boundary lossy{BoundaryKind::wall, 0.7, 0, 0};
     for (TestScene scene : base_scenes()) {
         Effects& effects = scene.setting.effects;
         effects.growth = 0.008;

@@ -27,7 +27,7 @@ ObstacleList bodies_in(const Box& box) {
 }
 
 void add_walled(std::vector<Case>& all, const TestScene& base) {
-    const Boundary lossy{BoundaryKind::fixed, 0.7, 0, 0}, open{BoundaryKind::open, 1, 0, 0},
+    const Boundary lossy{BoundaryKind::wall, 0.7, 0, 0}, open{BoundaryKind::open, 1, 0, 0},
         piston{BoundaryKind::moving, 1, 0, -0.03}, warm{BoundaryKind::thermal, 1, 0.3, 0},
         cold{BoundaryKind::thermal, 1, 0.1, 0};
     const ContactEffect inelastic{ContactKind::restitution, 0.85, 0.002};

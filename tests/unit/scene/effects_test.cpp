@@ -75,7 +75,7 @@ TEST_CASE("Sides are read, and contradictions explained") {
     CHECK(scene.effects.boundaries[0] == Boundary{BoundaryKind::thermal, 1, 2, 0});
     CHECK(scene.effects.boundaries[1] == Boundary{BoundaryKind::moving, 1, 0, -0.5});
     CHECK(scene.effects.boundaries[2] == Boundary{});
-    CHECK(scene.effects.boundaries[3] == Boundary{BoundaryKind::fixed, 0.5, 0, 0});
+    CHECK(scene.effects.boundaries[3] == Boundary{BoundaryKind::wall, 0.5, 0, 0});
     CHECK(scene.effects.thermal_seed == 7);
     CHECK(has(problems_with({"box.left.temperature=2"}),
               "no meaning without box.left.kind = \"thermal\""));

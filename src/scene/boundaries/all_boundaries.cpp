@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/boundaries/boundary.hpp"
+
+#include <algorithm>
+
+#include "scene/key_members.hpp"
+#include "scene/limits.hpp"
+
+namespace carrom {
+
+namespace boundaries {
+#define CARROM_DECLARE(kind) BoundaryDeclaration kind();
+CARROM_FOR_EACH_BOUNDARY(CARROM_DECLARE)
+#undef CARROM_DECLARE
+} // namespace boundaries
+
+namespace {
+
+const BoundaryDeclaration& declaration_of(BoundaryKind kind) {
+    return all_boundaries()[static_cast<std::size_t>(kind)];
+}
+
+std::string_view word_of(BoundaryKind kind) {
+    return words_of<BoundaryKind>[static_cast<std::size_t>(kind)].name;
+}
+
+/// Keys hold views of their texts.
+const std::string& help_of_kinds() {
+    static const std::string text = [] {
+        std::string all;
+        for (const BoundaryDeclaration& one : all_boundaries())
+            all += fmt::format("{}{}: {}", all.empty() ? "" : "; ", word_of(one.kind), one.help);
+        return all + '.';
+    }();
+    return text;
+}
+
+Need reflecting(std::size_t side) {
+    std::string words;
+    for (const BoundaryDeclaration& one : all_boundaries())
+        if (one.has_restitution)
+            words += fmt::format("{}\"{}\"", words.empty() ? "" : ", ", word_of(one.kind));
+    if (const auto last = words.rfind(", "); last != std::string::npos)
+        words.replace(last, 2, " or ");
+    return {fmt::format("without {} = {}", side_key(side, "kind"), words), [side](const Scene& s) {
+                return declaration_of(s.effects.boundaries[side].kind).has_restitution;
+            }};
+}
+
+} // namespace
+
+const std::vector<BoundaryDeclaration>& all_boundaries() {
+    static const std::vector<BoundaryDeclaration> all = {
+#define CARROM_LIST(kind) boundaries::kind(),
+        CARROM_FOR_EACH_BOUNDARY(CARROM_LIST)
+#undef CARROM_LIST
+    };
+    return all;
+}
+
+std::vector<Key> keys_of_boundaries() {
+    std::vector<Key> all;
+    for (std::size_t side = 0; side < boundary_names.size(); ++side) {
+        all.push_back(key(side_key(side, "kind"), "", help_of_kinds(),
+                          [side](auto& s) -> auto& { return s.effects.boundaries[side].kind; }));
+        all.push_back(
+            key(side_key(side, "restitution"), "1",
+                "Share of the normal velocity that is left after a collision.",
+                [side](auto& s) -> auto& { return s.effects.boundaries[side].restitution; })
+                .within({0, 1})
+                .needs(reflecting(side)));
+        for (const BoundaryDeclaration& one : all_boundaries())
+            if (one.keys_of_side)
+                for (Key& more : one.keys_of_side(side)) all.push_back(std::move(more));
+    }
+    return all;
+}
+
+std::string summary_of_boundaries(const Effects& effects) {
+    std::string text;
+    for (std::size_t k = 0; k < boundary_names.size(); ++k) {
+        const Boundary& side = effects.boundaries[k];
+        if (side.is_plain()) continue;
+        text += (text.empty() ? "" : "; ") +
+                declaration_of(side.kind).summary(side, boundary_names[k]);
+    }
+    return text;
+}
+
+CheckAllowance allowance_of_boundaries(const Effects& effects) {
+    CheckAllowance all;
+    for (const Boundary& side : effects.boundaries) {
+        all.collisions_take_energy |= side.restitution < 1;
+        if (const auto allowance = declaration_of(side.kind).allowance)
+            all.walls_give_energy |= allowance(side).walls_give_energy;
+    }
+    return all;
+}
+
+std::string side_key(std::size_t side, std::string_view name) {
+    return fmt::format("box.{}.{}", boundary_names[side], name);
+}
+
+Need side_needs(std::size_t side, BoundaryKind kind) {
+    return {fmt::format("without {} = \"{}\"", side_key(side, "kind"), word_of(kind)),
+            [side, kind](const Scene& s) { return s.effects.boundaries[side].kind == kind; }};
+}
+
+std::string loss_text(const Boundary& side) {
+    return side.restitution < 1 ? fmt::format(" of restitution {:g}", side.restitution) : "";
+}
+
+bool has_room(const Scene& scene, double width, double height) {
+    const double covered = scene.packing() * scene.box.x * scene.box.y;
+    const bool is_full = scene.effects.contact.kind != ContactKind::none &&
+                         covered > largest_packing * width * height;
+    return std::min(width, height) >= 2 * scene.radius * (1 + 1e-6) && !is_full;
+}
+
+} // namespace carrom

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a kind of side of the box says of itself, in one place.
+//
+// Each kind is declared by one file of this folder: its keys, rules, checks, line in the summary
+// and allowance in the self-check. The reader of scenes, the pages, reports and the self-check loop
+// over `all_boundaries`, and name no kind. How discs meet a side is physics, and stands in
+// dynamics/boundaries.hpp for both methods.
+//
+// To add a kind: a word in CARROM_FOR_EACH_BOUNDARY (dynamics/effects.hpp), a file in this folder,
+// and what `Boundaries::rebound` does there.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/check.hpp"
+#include "scene/effects/effect.hpp"
+#include "scene/key.hpp"
+
+namespace carrom {
+
+struct BoundaryDeclaration {
+    BoundaryKind kind;
+    std::string_view help; ///< what a side of this kind is, for the page of keys
+    /// Whether discs bounce off it, so that `restitution` has a meaning.
+    bool has_restitution = false;
+    /// Keys of one side, such as box.left.speed.
+    std::vector<Key> (*keys_of_side)(std::size_t side) = nullptr;
+    /// Tables and keys that all sides of this kind share.
+    std::vector<Table> tables = {};
+    std::vector<Key> keys = {};
+    std::vector<Rule> rules = {};
+    /// Checks of more than one number: of times, and of what depends on a right box and discs.
+    void (*check_times)(const Check&) = nullptr;
+    void (*check_room)(const Check&) = nullptr;
+    /// Its part of the line about effects, for the side of that name.
+    std::string (*summary)(const Boundary&, std::string_view name) = nullptr;
+    CheckAllowance (*allowance)(const Boundary&) = nullptr;
+};
+
+/// In the order of BoundaryKind.
+const std::vector<BoundaryDeclaration>& all_boundaries();
+
+/// The keys of all four sides, side by side.
+std::vector<Key> keys_of_boundaries();
+/// "left wall of restitution 0.9; top side open"; empty if all sides are elastic walls.
+std::string summary_of_boundaries(const Effects& effects);
+CheckAllowance allowance_of_boundaries(const Effects& effects);
+
+/// "box.left.speed" for side 0 and "speed".
+std::string side_key(std::size_t side, std::string_view name);
+/// The condition of a key that has a meaning for one kind of side only.
+Need side_needs(std::size_t side, BoundaryKind kind);
+/// " of restitution 0.9" for summaries; empty if the wall is elastic.
+std::string loss_text(const Boundary& side);
+/// Whether the discs may fit into a box of this width and height.
+bool has_room(const Scene& scene, double width, double height);
+
+} // namespace carrom

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A wall that oscillates about its line: a shaker (dynamics/oscillation.hpp). The self-check knows
+// the largest work of such a wall from its speed, so it needs no allowance.
+#include <algorithm>
+
+#include "dynamics/oscillation.hpp"
+#include "scene/boundaries/boundary.hpp"
+#include "scene/key_members.hpp"
+#include "scene/rule_parts.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// In times between syncs, because phases at syncs are known to 2^-53 of the time since the start.
+constexpr double smallest_period = 1e-6;
+
+std::vector<Key> keys_of_oscillating_side(std::size_t side) {
+    const Need oscillating = side_needs(side, BoundaryKind::oscillating);
+    return {key(side_key(side, "amplitude"), "length",
+                "A: the wall is A sin(2 pi t / period + phase) from its line, along +x or +y.",
+                [side](auto& s) -> auto& { return s.effects.boundaries[side].amplitude; })
+                .within({.low = 0})
+                .needs(oscillating)
+                .required(),
+            key(side_key(side, "period"), "steps", "Period of an oscillating wall.",
+                [side](auto& s) -> auto& { return s.effects.boundaries[side].period; })
+                .within({.low = 0, .excludes_low = true})
+                .needs(oscillating)
+                .required(),
+            key(side_key(side, "phase"), "radians", "Phase of an oscillating wall at step 0.",
+                [side](auto& s) -> auto& { return s.effects.boundaries[side].phase; })
+                .within({-100, 100})
+                .needs(oscillating)};
+}
+
+std::vector<Rule> rules_of_oscillating_sides() {
+    return {
+        rule("an oscillating wall", "time.method = \"time-stepped\"",
+             "walls are at rest there; take time.method = \"event-driven\"",
+             BoundaryKind::oscillating,
+             [](const Scene& s) { return has_oscillating(s) && is_time_stepped(s); }),
+        rule("an oscillating wall", "obstacles", "this version does not have both",
+             BoundaryKind::oscillating,
+             [](const Scene& s) { return has_oscillating(s) && has_obstacles(s); }),
+        rule("an oscillating wall", "drag", "contacts are found on straight lines and parabolas",
+             BoundaryKind::oscillating,
+             [](const Scene& s) { return has_oscillating(s) && s.effects.drag != 0; }),
+        rule("an open side", "an oscillating wall", "this version does not have both",
+             BoundaryKind::open, [](const Scene& s) { return has_oscillating(s) && has_open(s); }),
+    };
+}
+
+/// The pull at the wall changes little in a contact time.
+void check_contact_at_oscillating_walls(const Check& check) {
+    for (const Boundary& side : check.scene.effects.boundaries)
+        if (side.kind == BoundaryKind::oscillating)
+            limit_contact_time(check, side.period / 8, "an eighth of a wall's period");
+}
+
+/// Discs that are generated lie between the lines of the walls.
+bool begins_before_its_line(const Scene& scene, std::size_t side) {
+    if (scene.generator == Generator::file) return false;
+    const double place = oscillation_at(scene.effects.boundaries[side], 0).place;
+    return (side % 2 == 0 ? place : -place) > 0x1p-52 * scene.box.longest();
+}
+
+void check_oscillating_wall(const Check& check, std::size_t side) {
+    const Scene& scene = check.scene;
+    const Boundary& wall = scene.effects.boundaries[side];
+    const double least = smallest_period * steps_between_syncs(scene);
+    const std::string amplitude = side_key(side, "amplitude"), phase = side_key(side, "phase");
+    if (wall.period < least)
+        check.refuse({side_key(side, "period")},
+                     fmt::format("'{}' must be at least {:g} steps, a millionth of the time "
+                                 "between syncs ('time.sync_every'), not {}",
+                                 side_key(side, "period"), least, wall.period));
+    for (const double time : {0.0, static_cast<double>(scene.steps)}) {
+        const Extent room = extent_of_lines(scene.effects, scene.box, time, 1);
+        const double width = room.x_high - room.x_low, height = room.y_high - room.y_low;
+        if (has_room(scene, width, height)) continue;
+        check.refuse({amplitude}, fmt::format("'{}' = {} leaves a box of {} by {}: too small for "
+                                              "its discs",
+                                              amplitude, wall.amplitude, width, height));
+        break;
+    }
+    if (const std::string text = speed_problem(largest_wall_speed(scene.effects), scene);
+        !text.empty())
+        check.refuse({amplitude}, fmt::format("'{}': {}", amplitude, text));
+    if (begins_before_its_line(scene, side))
+        check.refuse({phase, amplitude},
+                     fmt::format("the {} wall begins inside the box, where generated discs may be; "
+                                 "take another '{}', or list the discs",
+                                 boundary_names[side], phase));
+}
+
+void check_oscillating_walls(const Check& check) {
+    for (std::size_t side = 0; side < boundary_names.size(); ++side)
+        if (check.scene.effects.boundaries[side].kind == BoundaryKind::oscillating)
+            check_oscillating_wall(check, side);
+}
+
+} // namespace
+
+namespace boundaries {
+
+BoundaryDeclaration oscillating() {
+    return {.kind = BoundaryKind::oscillating,
+            .help = "a shaker",
+            .has_restitution = true,
+            .keys_of_side = keys_of_oscillating_side,
+            .rules = rules_of_oscillating_sides(),
+            .check_times = check_contact_at_oscillating_walls,
+            .check_room = check_oscillating_walls,
+            .summary = [](const Boundary& side, std::string_view name) {
+                return fmt::format("{} wall{} oscillating by {:g} in {:g}", name, loss_text(side),
+                                   side.amplitude, side.period);
+            }};
+}
+
+} // namespace boundaries
+
+} // namespace carrom

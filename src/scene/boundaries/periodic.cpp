@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A side beyond which the box repeats itself; always two opposite ones.
+#include "scene/boundaries/boundary.hpp"
+#include "scene/rule_parts.hpp"
+
+namespace carrom {
+
+namespace {
+
+/// Whether one of two opposite sides is periodic without the other.
+bool is_half_periodic(const Scene& s, std::size_t low) {
+    const auto& sides = s.effects.boundaries;
+    return (sides[low].kind == BoundaryKind::periodic) !=
+           (sides[low + 1].kind == BoundaryKind::periodic);
+}
+
+std::vector<Rule> rules_of_periodic_sides() {
+    return {
+        rule("a periodic side", "an open side", "this version does not have both",
+             BoundaryKind::periodic,
+             [](const Scene& s) { return s.effects.are_periodic() && has_open(s); }),
+        rule("a periodic side", "walls or an open side opposite (left, right)",
+             "box.left.kind and box.right.kind must both be \"periodic\", or neither",
+             {"box.left.kind", "box.right.kind"},
+             [](const Scene& s) { return is_half_periodic(s, 0); }),
+        rule("a periodic side", "walls or an open side opposite (bottom, top)",
+             "box.bottom.kind and box.top.kind must both be \"periodic\", or neither",
+             {"box.bottom.kind", "box.top.kind"},
+             [](const Scene& s) { return is_half_periodic(s, 2); }),
+    };
+}
+
+/// Holds for sheared sides, too.
+void check_periodic_box(const Check& check) {
+    const Scene& scene = check.scene;
+    const Periods periods = scene.effects.periods(scene.box);
+    const double period = periods.shortest();
+    if (!periods.are_any() || period >= 4 * scene.radius * (1 + 1e-6)) return;
+    check.refuse({side_key(periods.x == period ? 0 : 2, "kind")},
+                 fmt::format("a box of side {} is too small to be periodic: up to two diameters "
+                             "({}) a disc could touch another one on both sides at once",
+                             period, 4 * scene.radius));
+}
+
+} // namespace
+
+namespace boundaries {
+
+BoundaryDeclaration periodic() {
+    return {.kind = BoundaryKind::periodic,
+            .help = "in pairs, the box repeats itself",
+            .rules = rules_of_periodic_sides(),
+            .check_room = check_periodic_box,
+            .summary = [](const Boundary&, std::string_view name) {
+                return fmt::format("{} side periodic", name);
+            }};
+}
+
+} // namespace boundaries
+
+} // namespace carrom

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A periodic side with images that move. Its rate, and what it does not go with, are those of the
+// flow (scene/effects/shear.cpp), because both sides share them.
+#include "scene/boundaries/boundary.hpp"
+
+namespace carrom::boundaries {
+
+BoundaryDeclaration sheared() {
+    return {.kind = BoundaryKind::sheared,
+            .help = "bottom and top, periodic with images that move",
+            .summary = [](const Boundary&, std::string_view name) {
+                return fmt::format("{} side sheared", name);
+            }};
+}
+
+} // namespace carrom::boundaries

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A wall at rest.
+#include "scene/boundaries/boundary.hpp"
+
+namespace carrom::boundaries {
+
+BoundaryDeclaration wall() {
+    return {.kind = BoundaryKind::wall,
+            .help = "at rest",
+            .has_restitution = true,
+            .summary = [](const Boundary& side, std::string_view name) {
+                return fmt::format("{} wall{}", name, loss_text(side));
+            }};
+}
+
+} // namespace carrom::boundaries

@@ -1,0 +1,88 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# docs/examples/boundary_kind.patch adds a kind of side, a wall that runs along itself like a belt,
+# in at most eight files.
+#
+#   boundary_kind.sh                    does it still apply?
+#   boundary_kind.sh CMAKE OPTION...    builds a copy of the tree with it, and runs that
+. "$CARROM_SOURCE_DIR/tests/system/common.sh"
+change=$CARROM_SOURCE_DIR/docs/examples/boundary_kind.patch
+printed=(keys conflicts) # pages of the reference that the program prints
+
+n_files=$(($(grep -c '^+++ ' "$change") + ${#printed[@]}))
+[ "$n_files" -le 8 ] || complain "it touches $n_files files, not eight at most"
+check_patch "$change"
+[ $# -gt 0 ] || finish
+[ "$n_failures" -eq 0 ] || finish
+
+build_copy_with "$change" "$@"
+for page in "${printed[@]}"; do
+    words=(keys)
+    [ "$page" = keys ] || words+=("--$page")
+    "$CARROM_PROGRAM" "${words[@]}" | diff "$CARROM_SOURCE_DIR/docs/reference/$page.md" - >"$page.diff"
+    grep '^>' "$page.diff" | grep -q belt || complain "$page.md has no belt"
+    grep '^>' "$page.diff" | grep -qv belt && complain "other lines of $page.md change"
+done
+
+# One disc between two belts. A contact with a belt of speed u turns v_x into 2 u - v_x and v_y into
+# -v_y. From (5, 5) with (0.2, -1) the disc meets the bottom at step 4 and the top at step 13, where
+# v_x becomes 0.4 and then -0.6. So at step 20 it is at x = 5 + 0.8 + 3.6 - 4.2 and y = 2.5.
+cat >one.toml <<'END_OF_SCENE'
+[box]
+size = 10
+left.kind = "periodic"
+right.kind = "periodic"
+bottom = { kind = "belt", belt_speed = 0.3 }
+top = { kind = "belt", belt_speed = -0.1 }
+[discs]
+radius = 0.5
+list = [[5, 5, 0.2, -1]]
+[time]
+steps = 20
+END_OF_SCENE
+# A gas between a belt and a belt at rest, which gives no energy.
+gas_scene 40 400 0.3 0.5 60 >gas.toml
+cat >>gas.toml <<'END_OF_SCENE'
+[box.bottom]
+kind = "belt"
+belt_speed = 0.2
+[box.left]
+kind = "belt"
+belt_speed = 0
+[output]
+checkpoint.every_steps = 25
+END_OF_SCENE
+
+for method in time-stepped event-driven; do
+    options=(--quiet --set "time.method=$method")
+    run 1 run one.toml "${options[@]}" --check -o "disc_$method"
+    expect_code 0 "$method: one disc"
+    "$CARROM_PROGRAM" convert "disc_$method"/checkpoints/*20.h5 --to csv >disc.csv
+    awk -F, 'function near(a, b) { return a - b < 1e-12 && b - a < 1e-12 }
+        NR == 1 { for (k = 1; k <= NF; ++k) column[$k] = k }
+        NR == 2 { good = near($column["x"], 5.2) && near($column["y"], 2.5) &&
+                         near($column["vx"], -0.6) && near($column["vy"], -1) }
+        END { exit !good }' disc.csv || complain "$method: $(tail -n 1 disc.csv)"
+
+    run 1 run gas.toml "${options[@]}" --check -o "one_$method"
+    expect_code 0 "$method on 1 rank"
+    hash=$(json_value "one_$method/report.json" state_hash)
+    grep -q 'bottom belt of speed 0.2' "one_$method/report.json" || complain 'the report has no belt'
+    run 3 run gas.toml "${options[@]}" --check -o "three_$method"
+    expect_code 0 "$method on 3 ranks"
+    run 3 run --restart "one_$method/checkpoints/checkpoint-000000000050.h5" --quiet \
+        -o "again_$method"
+    expect_code 0 "$method on 3 ranks, from a checkpoint of 1"
+    for folder in "three_$method" "again_$method"; do
+        [ "$(json_value "$folder/report.json" state_hash)" = "$hash" ] ||
+            complain "$folder: another state hash"
+    done
+    # The self-check holds the energy of all discs to 1e-12 where both belts are at rest.
+    run 2 run gas.toml "${options[@]}" --set box.bottom.belt_speed=0 --check -o "rest_$method"
+    expect_code 0 "$method: belts at rest"
+done
+
+run 1 run gas.toml --quiet --set box.left.kind=wall -o wrong
+expect_code 2 'a speed of a belt for another wall'
+expect_told "'box.left.belt_speed' has no meaning without box.left.kind = \"belt\"" 'a wrong scene'
+finish
